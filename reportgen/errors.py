@@ -1,0 +1,62 @@
+"""Faults as values: where they are, what they are, and what would help.
+
+A reader of input collects `Problem`s instead of stopping at the first one; `ReportgenError` carries
+all of them to whoever called.  Words stay out of this module: `message` is already in the language
+asked for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Mark:
+    """A place in a file; `line` and `column` count from 1."""
+
+    file: str
+    line: int = 1
+    column: int = 1
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One fault of an input file: `FILE:LINE:COLUMN: error[code]: message` and an optional hint."""
+
+    code: str
+    message: str
+    mark: Mark
+    hint: str | None = None
+
+    def __str__(self) -> str:
+        line = f"{self.mark}: error[{self.code}]: {self.message}"
+        return f"{line}\n    hint: {self.hint}" if self.hint else line
+
+
+class ReportgenError(Exception):
+    """Base of everything this package raises on purpose; `exit_code` is what the command line ends with."""
+
+    exit_code = 1
+
+
+class AssignmentError(ReportgenError):
+    """An input file is at fault; `problems` are all its faults, in the order of the file."""
+
+    def __init__(self, problems: list[Problem]) -> None:
+        self.problems = tuple(sorted(problems, key=lambda problem: problem.mark))
+        super().__init__("\n".join(str(problem) for problem in self.problems))
+
+
+class TemplateError(ReportgenError):
+    """A template of words is at fault; the message names its file and line."""
+
+    exit_code = 1
+
+
+class TypesetterError(ReportgenError):
+    """The typesetter is missing or failed; nothing the assignment can mend."""
+
+    exit_code = 3
