@@ -1,0 +1,3 @@
+"""The one place that joins assignment, machine, mechanism and cycle: Assignment → Analysis."""
+
+from __future__ import annotations
