@@ -28,7 +28,7 @@ class Guide:
 
 @dataclass(frozen=True, slots=True)
 class Crank:
-    """The rotating driver: link 1 turns about the ground point `centre`; `pin` is the end that its frame points to."""
+    """The rotating driver: link 1 turns about the ground point `centre`; its frame points to `pin`."""
 
     centre: str
     pin: str
@@ -37,7 +37,7 @@ class Crank:
 
 @dataclass(frozen=True, slots=True)
 class SlidingDriver:
-    """The sliding driver: link 1 moves along `guide`; its point `pin` is at the guide's `at` plus s·e^{i angle}."""
+    """The sliding driver: link 1 moves along `guide`, its `pin` at the guide's `at` plus s·e^{i angle}."""
 
     pin: str
     guide: Guide
