@@ -218,6 +218,17 @@ def circle_circle(c1: Value, r1: Value, c2: Value, r2: Value, sign: Value) -> Va
     return c1 + (c2 - c1) / span * (along + 1j * sign * across)
 
 
+def quotient(a: Value, b: Value) -> Value:
+    """a / b, and 0 where b is nothing: the arm of a force that is not there."""
+    b = np.asarray(b)
+    return np.where(b == 0, 0.0, a / np.where(b == 0, 1.0, b))
+
+
+def if_zero(a: Value, b: Value) -> Value:
+    """b where a is nothing, 0 elsewhere: the couple that remains when its force vanishes."""
+    return np.where(np.asarray(a) == 0, b, 0.0)
+
+
 FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "sin": np.sin,
     "cos": np.cos,
@@ -241,6 +252,8 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "min": np.minimum,
     "max": np.maximum,
     "mean": np.mean,
+    "quotient": quotient,
+    "if_zero": if_zero,
 }
 """What a `Call` may name.  sin, cos and tan take radians; a `Number` in degrees converts itself."""
 

@@ -47,3 +47,12 @@ def significant_decimals(value: float, digits: int) -> int:
     if value == 0 or not math.isfinite(value):
         return 0
     return digits - 1 - math.floor(math.log10(abs(value)))
+
+
+def nice_up(value: float, series: tuple[float, ...] = (1, 2, 2.5, 4, 5)) -> float:
+    """The smallest series·10ⁿ that is not below `value`; raises `ValueError` unless value > 0."""
+    if not value > 0:
+        raise ValueError("a scale needs a positive size")
+    decade = math.floor(math.log10(value))
+    choices = (float(f"{step}e{power}") for power in (decade, decade + 1) for step in series)
+    return next(choice for choice in choices if choice >= value * (1 - 1e-12))

@@ -1,0 +1,291 @@
+"""Named numbers and their definitions.
+
+A `Family` is one quantity at all positions: an array with one definition.  A `Quantity` is the family
+at one position.  Definitions are expressions over other families, so the ledger evaluates itself
+(`Ledger.evaluate`), tells what depends on what (`refs`), and prints its own worked lines (`Ledger.chain`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from reportgen.notation.expressions import (
+    Call,
+    Chain,
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Product,
+    Ref,
+    Sum,
+    Symbol,
+    as_expression,
+    evaluate,
+    rebuild,
+    refs,
+    walk,
+)
+from reportgen.notation.symbols import KINDS, Kind
+
+ZERO = 1e-9
+"""A value below this share of its own scale is nothing: it prints as 0."""
+
+CONSTRUCTIONS = frozenset(
+    {"meet", "circle_line", "circle_circle", "abs", "cis", "turned", "arg", "re", "im", "cross", "dot"}
+    | {"mean", "quotient", "if_zero", "sign"}
+)
+"""Calls that stand for drawing and measuring: a definition with one of them is not printed as a formula."""
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """One quantity at all positions.
+
+    `values` are SI (complex for a point or vector of the plane), one per position or a single one.
+    `definition` is None for given data.  `exact` data print as they were given.  An `arm` is a signed
+    length printed by its size, its sign going to the term it stands in; an `optional` term is left out
+    of a sum where it is nothing.  `scale` is the size below which, times 1e-9, a value is nothing.  A
+    `hidden` family serves a construction and is never printed.
+    """
+
+    id: str
+    symbol: Symbol
+    kind: str
+    values: np.ndarray
+    definition: Expression | None = None
+    exact: bool = False
+    arm: bool = False
+    optional: bool = False
+    scale: float = 0.0
+    hidden: bool = False
+
+    @property
+    def how(self) -> Kind:
+        return KINDS[self.kind]
+
+    @property
+    def is_plane(self) -> bool:
+        """Whether its values are points or vectors of the plane, which are drawn and not printed."""
+        return bool(np.iscomplexobj(self.values))
+
+    @property
+    def constructed(self) -> bool:
+        """Whether a drawing gives it: it is measured, not computed by a printed formula."""
+        return self.definition is not None and any(
+            isinstance(part, Call) and part.name in CONSTRUCTIONS for part in walk(self.definition)
+        )
+
+    def at(self, position: int | None) -> Any:
+        """Its SI value at a position counted from 1; nothing is exactly 0."""
+        value = self.values[0 if len(self.values) == 1 or position is None else position - 1]
+        return value * 0 if abs(value) < ZERO * self.scale else value
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A family at one position, as printed: `value` in `unit` with `decimals`."""
+
+    id: str
+    position: int | None
+    symbol: Symbol
+    unit: str
+    value: float
+    decimals: int | None
+    definition: Expression | None
+
+    @property
+    def number(self) -> Number:
+        return Number(self.value, self.decimals, self.unit)
+
+
+class Builder:
+    """Collects families in the order of their definition and evaluates each as it comes."""
+
+    def __init__(self, positions: int) -> None:
+        self.positions = positions
+        self.families: dict[str, Family] = {}
+        self._values: dict[str, np.ndarray] = {}
+
+    def __contains__(self, id: str) -> bool:
+        return id in self.families
+
+    def __getitem__(self, id: str) -> Family:
+        return self.families[id]
+
+    def value(self, id: str) -> np.ndarray:
+        return self._values[id]
+
+    def give(self, id: str, symbol: Symbol, kind: str, value: Any, exact: bool = True, **traits: Any) -> str:
+        """Enter given data (SI): a number, or one per position."""
+        return self._enter(Family(id, symbol, kind, np.atleast_1d(np.asarray(value)), exact=exact, **traits))
+
+    def define(
+        self, id: str, symbol: Symbol, kind: str, definition: Expression | float | str, **traits: Any
+    ) -> str:
+        """Enter a quantity defined by earlier ones; raises `KeyError` if one of them is missing."""
+        expression = as_expression(definition)
+        with np.errstate(all="ignore"):
+            values = np.atleast_1d(np.asarray(evaluate(expression, self._values)))
+        return self._enter(Family(id, symbol, kind, values, expression, **traits))
+
+    def construct(self, id: str, definition: Expression | str) -> str:
+        """Enter a point or vector of a drawing, which has no printed symbol of its own."""
+        return self.define(id, Symbol(id), "ratio", definition, hidden=True)
+
+    def _enter(self, family: Family) -> str:
+        if family.id in self.families:
+            raise ValueError(f"quantity {family.id} is defined twice")
+        if len(family.values) not in (1, self.positions):
+            raise ValueError(f"quantity {family.id} has {len(family.values)} values")
+        self.families[family.id] = family
+        self._values[family.id] = family.values
+        return family.id
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """All families of a report, how finely each is printed, and what could not be made to recompute."""
+
+    families: Mapping[str, Family]
+    decimals: Mapping[str, int | None]
+    positions: int
+    cancellations: tuple[str, ...] = ()
+    units: Mapping[str, str] = field(default_factory=dict)
+    """Units whose printed form depends on the language, e.g. rpm."""
+
+    def __contains__(self, id: str) -> bool:
+        return id in self.families
+
+    def __getitem__(self, id: str) -> Family:
+        return self.families[id]
+
+    def quantity(self, id: str, position: int | None = None) -> Quantity:
+        """One number as printed.  Raises `KeyError` for an unknown id."""
+        family = self.families[id]
+        how = family.how
+        value = float(family.at(position).real) / how.scale
+        decimals = self.decimals[id] if value else None
+        return Quantity(
+            id,
+            None if len(family.values) == 1 else position,
+            family.symbol,
+            self.units.get(how.unit, how.unit),
+            value if decimals is not None else float(f"{value:.12g}"),
+            decimals,
+            family.definition,
+        )
+
+    def number(self, id: str, position: int | None = None, *, size: bool = False) -> Number:
+        """The printed number of a quantity with its unit; `size` leaves its sign away."""
+        number = self.quantity(id, position).number
+        return Number(abs(number.value), number.decimals, number.unit) if size else number
+
+    def symbol(self, id: str) -> Symbol:
+        return self.families[id].symbol
+
+    def chain(self, id: str, position: int | None = None, note: str = "") -> Chain:
+        """The worked line: symbol = formula = numbers put in = result with its unit.
+
+        A quantity that is given or measured on a drawing has no formula: symbol = value.
+        """
+        family = self.families[id]
+        result = self.number(id, position)
+        if family.arm:
+            result = Number(abs(result.value), result.decimals, result.unit)
+        if family.definition is None or family.constructed:
+            return Chain((family.symbol, result), note)
+        shown = self._signs_out(family.definition, position)
+        formula = _replace(shown, lambda ref: self.symbol(ref.id))
+        numbers = _replace(shown, lambda ref: self._bare(ref.id, position))
+        parts: list[Expression] = [family.symbol, formula]
+        if numbers != formula and not (isinstance(numbers, Number) and numbers.shown == result.shown):
+            parts.append(numbers)
+        return Chain((*parts, result), note)
+
+    def _bare(self, id: str, position: int | None) -> Number:
+        """A number inside a line, without its unit (but degrees keep theirs)."""
+        number = self.number(id, position, size=self.families[id].arm)
+        return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
+
+    def _signs_out(self, node: Expression, position: int | None) -> Expression:
+        """The definition as it stands at one position: signs of arms before their terms, nothings left out."""
+        match node:
+            case Sum(terms):
+                kept = [
+                    self._signs_out(term, position) for term in terms if not self._is_nothing(term, position)
+                ]
+                if not kept:
+                    return Number(0.0)
+                return kept[0] if len(kept) == 1 else Sum(tuple(kept))
+            case Negative(of):
+                inner = self._signs_out(of, position)
+                if isinstance(inner, Sum):
+                    return Sum(tuple(_negated(term) for term in inner.terms))
+                return _negated(inner)
+            case Product(factors):
+                minus = sum(
+                    isinstance(factor, Ref)
+                    and self.families[factor.id].arm
+                    and float(self.families[factor.id].at(position).real) < 0
+                    for factor in factors
+                )
+                product = Product(tuple(self._signs_out(factor, position) for factor in factors))
+                return Negative(product) if minus % 2 else product
+            case _:
+                return rebuild(node, lambda child: self._signs_out(child, position))
+
+    def _is_nothing(self, term: Expression, position: int | None) -> bool:
+        return any(
+            self.families[id].optional and self.families[id].at(position) == 0 for id in refs(term)
+        )
+
+    def evaluate(self, changes: Mapping[str, Any] | None = None) -> dict[str, np.ndarray]:
+        """All values again from given data and definitions, with some of them replaced.
+
+        `changes` maps ids to SI values (a number or one per position); whatever depends on them follows.
+        """
+        values: dict[str, np.ndarray] = {}
+        for id, family in self.families.items():
+            if changes is not None and id in changes:
+                values[id] = np.atleast_1d(np.asarray(changes[id]))
+            elif family.definition is None:
+                values[id] = family.values
+            else:
+                with np.errstate(all="ignore"):
+                    values[id] = np.atleast_1d(np.asarray(evaluate(family.definition, values)))
+        return values
+
+    def ancestors(self, id: str) -> tuple[str, ...]:
+        """Every quantity that one stands on, directly or through others, nearest first."""
+        found: dict[str, None] = {}
+        waiting = list(_definition_refs(self.families[id]))
+        while waiting:
+            current = waiting.pop(0)
+            if current not in found:
+                found[current] = None
+                waiting.extend(_definition_refs(self.families[current]))
+        return tuple(found)
+
+
+def _definition_refs(family: Family) -> Iterable[str]:
+    return () if family.definition is None else refs(family.definition)
+
+
+def _negated(node: Expression) -> Expression:
+    return node.of if isinstance(node, Negative) else Negative(node)
+
+
+def _replace(node: Expression, change: Any) -> Expression:
+    """`substitute`, simplifying what only a definition needs: a factor 1, a double minus, a fraction of a minus."""
+    if isinstance(node, Ref):
+        result: Expression = change(node)
+        return result
+    node = rebuild(node, lambda child: _replace(child, change))
+    if isinstance(node, Fraction) and isinstance(node.top, Negative):
+        return Negative(Fraction(node.top.of, node.bottom))
+    return node

@@ -1,0 +1,141 @@
+"""How many decimals each quantity is printed with, so that every printed line recomputes.
+
+For a printed line ŷ = f(x̂₁, x̂₂, …) with half-units uᵢ of the last printed digits, the input error that a
+reader's calculator sees is Σ|∂f/∂xᵢ| uᵢ.  Decimals are chosen so that this stays within u_y at every
+position: inputs get one more decimal, the largest contribution first, up to six significant
+figures; where that is not enough the result gets one fewer.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+
+import numpy as np
+
+from reportgen.ledger.core import Family
+from reportgen.notation.expressions import evaluate, refs
+from reportgen.notation.symbols import MAX_DIGITS
+
+LEAST_DIGITS = 3
+"""A family's largest value keeps at least these; a line that needs fewer is a listed cancellation."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Line:
+    id: str
+    inputs: tuple[str, ...]
+    slopes: np.ndarray
+    """|∂f/∂xᵢ| in printed units, [inputs, positions]."""
+
+
+def _largest(family: Family) -> float:
+    finite = np.abs(family.values[np.isfinite(family.values)]) / family.how.scale
+    return float(finite.max()) if finite.size else 0.0
+
+
+def _digits_to_decimals(family: Family, digits: int) -> int:
+    largest = _largest(family)
+    if largest == 0:
+        return max(digits - 1, 0) if family.how.decimals is None else family.how.decimals
+    return digits - 1 - math.floor(math.log10(largest) + 1e-12)
+
+
+def _is_short(family: Family) -> bool:
+    """Whether one value serves all positions and has few enough digits to be printed as it is (0.171 m)."""
+    if len(family.values) > 1 or family.definition is None:
+        return False
+    value = float(family.values[0].real) / family.how.scale
+    return abs(float(f"{value:.{MAX_DIGITS - 1}g}") - value) <= 1e-12 * abs(value)
+
+
+def _shown_decimals(family: Family) -> int:
+    value = float(family.values[0].real) / family.how.scale
+    return -int(Decimal(f"{value:.12g}").normalize().as_tuple().exponent)
+
+
+def _slopes(family: Family, inputs: tuple[str, ...], families: Mapping[str, Family]) -> np.ndarray:
+    """|∂f/∂xᵢ| by central differences, both sides in printed units."""
+    assert family.definition is not None
+    values = {id: families[id].values for id in inputs}
+    rows = []
+    for id in inputs:
+        source = families[id]
+        step = 1e-6 * max(_largest(source) * source.how.scale, 1e-30)
+        with np.errstate(all="ignore"):
+            up = evaluate(family.definition, values | {id: source.values + step})
+            down = evaluate(family.definition, values | {id: source.values - step})
+        slope = np.abs(np.asarray(up) - down) / (2 * step) * source.how.scale / family.how.scale
+        rows.append(np.broadcast_to(np.nan_to_num(slope, posinf=0.0), np.broadcast_shapes(slope.shape, (1,))))
+    width = max((row.size for row in rows), default=1)
+    return np.array([np.broadcast_to(row, (width,)) for row in rows])
+
+
+def choose(
+    families: Mapping[str, Family], alike: tuple[tuple[str, str], ...] = ()
+) -> tuple[dict[str, int | None], tuple[str, ...]]:
+    """Decimals for every family (None: exact) and the ids of lines that cannot be made to recompute.
+
+    Pairs `alike` are two ways to one number and are printed with the decimals of the coarser.
+    """
+    decimals: dict[str, int | None] = {}
+    ceiling: dict[str, int] = {}
+    floor: dict[str, int] = {}
+    for id, family in families.items():
+        if family.exact or family.is_plane or family.hidden or _is_short(family):
+            decimals[id] = None
+            continue
+        most = _digits_to_decimals(family, MAX_DIGITS)
+        aim = family.how.decimals
+        wanted = aim if aim is not None else _digits_to_decimals(family, family.how.digits)
+        ceiling[id], floor[id] = most, min(_digits_to_decimals(family, LEAST_DIGITS), wanted)
+        decimals[id] = max(min(wanted, most), 0)
+        ceiling[id] = max(ceiling[id], 0)
+
+    lines = [
+        _Line(id, inputs, _slopes(family, inputs, families))
+        for id, family in families.items()
+        if family.definition is not None and not (family.constructed or family.is_plane or family.hidden)
+        for inputs in (refs(family.definition),)
+        if inputs and not any(families[name].is_plane for name in inputs)
+    ]
+
+    def half_unit(id: str) -> float:
+        digits = decimals[id]
+        return 0.0 if digits is None else 0.5 * 10.0**-digits
+
+    def allowed(id: str) -> float:
+        """A result printed as it is (0.171 m) is read to its own last digit."""
+        return half_unit(id) if decimals[id] is not None else 0.5 * 10.0 ** -_shown_decimals(families[id])
+
+    cancellations: dict[str, None] = {}
+    settled = False
+    while not settled:
+        settled = True
+        for line in reversed(lines):
+            while True:
+                shares = line.slopes * np.array([[half_unit(id)] for id in line.inputs])
+                worst = int(shares.sum(axis=0).argmax())
+                if shares[:, worst].sum() <= allowed(line.id) * (1 + 1e-9) or line.id in cancellations:
+                    break
+                raisable = [
+                    (shares[index, worst], id)
+                    for index, id in enumerate(line.inputs)
+                    if (digits := decimals[id]) is not None and digits < ceiling[id]
+                ]
+                settled = False
+                if raisable and max(raisable)[0] > 0:
+                    chosen = max(raisable)[1]
+                    decimals[chosen] = (decimals[chosen] or 0) + 1
+                elif (own := decimals[line.id]) is not None and own > max(floor[line.id], 0):
+                    decimals[line.id] = ceiling[line.id] = own - 1
+                else:
+                    cancellations[line.id] = None
+    for pair in alike:
+        known = [digits for id in pair if (digits := decimals.get(id)) is not None]
+        for id in pair:
+            if decimals.get(id) is not None:
+                decimals[id] = min(known)
+    return decimals, tuple(cancellations)

@@ -1,0 +1,90 @@
+"""Analysis → Ledger: enters everything in the order in which a report derives it, then chooses decimals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.analysis import Analysis
+from reportgen.catalogue.machine import Item
+from reportgen.ledger import forces, kinematics, precision
+from reportgen.ledger.core import Builder, Ledger
+from reportgen.ledger.forces import Polygon
+from reportgen.notation.expressions import Symbol, call, divide, multiply, subtract
+
+
+@dataclass(frozen=True)
+class Books:
+    """The ledger of a report and how its force plans are laid out."""
+
+    ledger: Ledger
+    polygons: tuple[Polygon, ...]
+
+
+def enter(b: Builder, items: Iterable[Item]) -> None:
+    """Enter a machine's own items."""
+    for item in items:
+        if item.definition is None:
+            b.give(item.id, item.symbol, item.kind, item.value, **({"exact": True} | dict(item.traits)))
+        else:
+            b.define(item.id, item.symbol, item.kind, item.definition, **item.traits)
+
+
+def keep(analysis: Analysis, units: Mapping[str, str] | None = None) -> Books:
+    """The books of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures."""
+    machine = analysis.machine
+    b = Builder(machine.positions)
+    b.give("phi.1", Symbol("φ", "1"), "angle", machine.angles(analysis.cycle_angle))
+    enter(b, machine.given)
+    kinematics.describe(b, machine.linkage, machine.turn)
+    enter(b, machine.formulas)
+    polygons: tuple[Polygon, ...] = ()
+    if analysis.loads:
+        _masses(b, analysis)
+        _gas(b, analysis)
+        gas = {
+            name: (state.piston.link, state.piston.pin, state.piston.inward) for name, state in analysis.gas.items()
+        }
+        polygons = forces.describe(b, machine.linkage, machine.turn, gas)
+        _cycle(b, analysis)
+    decimals, cancellations = precision.choose(b.families, (("M.eq", "M.vw"),) if "M.eq" in b else ())
+    return Books(Ledger(b.families, decimals, machine.positions, cancellations, units or {}), polygons)
+
+
+def _masses(b: Builder, analysis: Analysis) -> None:
+    """Mass m = G/g where the weight is given, weight G = m g where the mass is."""
+    for body in analysis.machine.linkage.inertias:
+        link = str(body.link)
+        if body.mass > 0 and f"G{link}" in b and f"m.{link}" not in b:
+            b.define(f"m.{link}", Symbol("m", link), "mass", divide(f"G{link}", "g"))
+        elif f"m.{link}" in b and f"G{link}" not in b:
+            b.define(f"G{link}", Symbol("G", link), "weight", multiply(f"m.{link}", "g"))
+
+
+def _gas(b: Builder, analysis: Analysis) -> None:
+    """s/H and pressure read from the diagram, gas force P = p F."""
+    for name, state in analysis.gas.items():
+        link = str(state.piston.link)
+        b.give(f"s.{link}", Symbol("s", link), "length", state.fraction * state.piston.stroke, exact=False)
+        b.give(f"p.{link}", Symbol("p", link), "pressure", state.pressure, exact=False)
+        b.define(name, Symbol("P", link), "force", multiply(f"p.{link}", "F"))
+
+
+def _cycle(b: Builder, analysis: Analysis) -> None:
+    """Mean, extremes, power and energy of the cycle."""
+    summary = analysis.summary
+    torque = {"kind": "torque", "exact": False}
+    size = float(np.nanmax(np.abs(analysis.torque)))
+    b.define("M.difference", Symbol("ΔM", "cb"), "torque", call("abs", subtract("M.eq", "M.vw")), scale=size)
+    b.define("M.mean.positions", Symbol("M", "N"), "torque", call("mean", "M.eq"))
+    b.give("M.mean", Symbol("M", "m"), value=summary.mean_torque, **torque)
+    b.give("M.least", Symbol("M", "min"), value=summary.extremes[0][1], **torque)
+    b.give("M.greatest", Symbol("M", "max"), value=summary.extremes[1][1], **torque)
+    b.give("W", Symbol("W"), "work", summary.work, exact=False)
+    b.define("power", Symbol("N"), "power", multiply(call("abs", "M.mean"), "omega.1"))
+    turns = 2 * analysis.machine.turns
+    b.define(
+        "M.energy", Symbol("M", "W"), "torque", divide("W", multiply(float(turns), Symbol("π", value=np.pi)))
+    )
