@@ -1,0 +1,267 @@
+"""The Jinja half of prose: a template becomes Markdown in which every value is a token.
+
+Two things are never mixed: what the author of a template wrote and what was put into it.  Static text
+is enclosed in marks that also carry its file and line; whatever `{{ … }}` emits goes to a side list
+and leaves a token behind.  Both survive macros, `{% set %}` blocks, `~` and filters, because a string
+made of them still says which part of it is which, and all the rest is a user's text.  The marks hold a
+number drawn anew in every process, so that no text can imitate them; it never reaches the result.
+"""
+
+from __future__ import annotations
+
+import re
+import secrets
+import traceback
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from jinja2 import (
+    Environment,
+    FileSystemLoader,
+    StrictUndefined,
+    TemplateNotFound,
+    TemplateSyntaxError,
+    Undefined,
+)
+from jinja2.ext import Extension
+from jinja2.lexer import Token, TokenStream
+from jinja2.runtime import Context
+from jinja2.utils import pass_context
+
+from reportgen.document.tree import BlankLine, Block, Inline, InlineMath, Reference, Text, Value
+from reportgen.errors import ReportgenError, TemplateError
+from reportgen.notation.expressions import Expression, Number
+from reportgen.notation.numbers import MINUS
+
+_SECRET = str(secrets.randbelow(10**18)).zfill(18)
+_PRIVATE = re.compile("[\ue000-\ue004]")
+_PIECE = re.compile(
+    f"\ue000{_SECRET}:(?P<value>\\d+)\ue001"
+    f"|\ue002{_SECRET}:(?P<line>\\d+):(?P<file>[^\ue003]*)\ue003(?P<static>[^\ue004]*)\ue004"
+)
+TOKEN = re.compile(f"\ue000{_SECRET}:(\\d+)\ue001")
+"""A value's token in the Markdown text; its group is the index of the value."""
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """Names the section whose heading it ends."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Unnumbered:
+    """Keeps the section whose heading it ends out of the count."""
+
+
+Emitted = Inline | Block | Key | Unnumbered
+Place = tuple[str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Rendered:
+    """Markdown with tokens: `values` and their `places` by index, `lines` the origin of every line."""
+
+    text: str
+    values: Sequence[Emitted]
+    places: Mapping[int, Place]
+    lines: Sequence[Place]
+
+
+_values: ContextVar[list[Emitted]] = ContextVar("values")
+"""What the templates being rendered have emitted so far."""
+
+
+def environment(directories: Sequence[Path]) -> Environment:
+    """The Jinja environment whose templates are found in `directories`, the first of a name wins."""
+    result = Environment(
+        loader=FileSystemLoader(directories),
+        extensions=[_Provenance],
+        undefined=StrictUndefined,
+        finalize=_finalize,
+        autoescape=False,
+        auto_reload=False,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    result.filters["join"] = _join
+    result.globals.update(ref=_ref, key=_key, unnumbered=Unnumbered, blank=_blank)
+    return result
+
+
+def render(environment: Environment, name: str, names: Mapping[str, object]) -> Rendered:
+    """The template `name` with `names` filled in; raises `TemplateError` with file and line on any fault."""
+    values: list[Emitted] = []
+    outer = _values.set(values)
+    try:
+        output = environment.get_template(name).render(names)
+    except TemplateSyntaxError as error:
+        raise TemplateError(f"{error.filename or error.name}:{error.lineno}: {error.message}") from error
+    except TemplateNotFound as error:
+        file, line = _origin(error, name)
+        raise TemplateError(f"{file}:{line}: there is no template {error.name}") from error
+    except ReportgenError:
+        raise
+    except Exception as error:
+        file, line = _origin(error, name)
+        raise TemplateError(f"{file}:{line}: {type(error).__name__}: {error}") from error
+    finally:
+        _values.reset(outer)
+    return _assemble(output, name, values)
+
+
+def excerpt(fragment: str) -> Rendered:
+    """A string made in the template being rendered (by a macro, `caller()` or `{% set %}`), ready to be read.
+
+    Plain text in it stays text.
+    """
+    return _assemble(_emit(fragment), "", _values.get())
+
+
+# --- what a template may emit ---------------------------------------------------------------------
+
+
+@pass_context  # keeps Jinja from folding constants, which would fill the side list while compiling
+def _finalize(context: Context, value: object) -> str:
+    return _emit(value)
+
+
+def _emit(value: object) -> str:
+    """The text that stands for a value in the Markdown; raises `TypeError` for what has no place in words."""
+    match value:
+        case Undefined():
+            return str(value)  # raises, naming what is undefined
+        case str():
+            return _emit_text(value)
+        case bool() | float() | None:
+            raise TypeError(f"{value!r} has no place in words; a number needs its decimals")
+        case int():
+            return _store(Text(str(value).replace("-", MINUS)))
+        case Number():
+            return _store(Value(value))
+    if isinstance(value, Expression):
+        return _store(InlineMath(value))
+    if isinstance(value, Emitted):
+        return _store(value)
+    if isinstance(value, Iterable) and not isinstance(value, Mapping):
+        return "".join(map(_emit, value))
+    raise TypeError(f"a {type(value).__name__} has no place in words")
+
+
+def _emit_text(text: str) -> str:
+    """Marked parts of a string as they are, all between them as plain text."""
+    result, end = [], 0
+    for piece in _PIECE.finditer(text):
+        result += [_store_text(text[end : piece.start()]), piece.group()]
+        end = piece.end()
+    return "".join([*result, _store_text(text[end:])])
+
+
+def _store_text(text: str) -> str:
+    if _SECRET in text:
+        raise ValueError("a filter has cut a piece of the template in two")
+    return _store(Text(text)) if text else ""
+
+
+def _store(value: Emitted) -> str:
+    values = _values.get()
+    values.append(value)
+    return f"\ue000{_SECRET}:{len(values) - 1}\ue001"
+
+
+def _join(values: Iterable[object], separator: str = "") -> str:
+    """Strings joined to a string; anything else to be printed side by side, separated alike."""
+    parts = list(values)
+    if all(isinstance(part, (str, int)) for part in parts):
+        return separator.join(map(str, parts))
+    return _emit(separator).join(map(_emit, parts))
+
+
+def _ref(key: str) -> Reference:
+    return Reference(_plain(key))
+
+
+def _key(name: str) -> Key:
+    return Key(_plain(name))
+
+
+def _blank(label: str = "") -> BlankLine:
+    return BlankLine(_plain(label))
+
+
+def _plain(text: str) -> str:
+    if not isinstance(text, str) or _SECRET in text:
+        raise TypeError("a plain string is wanted here")
+    return text
+
+
+# --- where things come from -----------------------------------------------------------------------
+
+
+class _Provenance(Extension):
+    """Encloses static text in its marks, and marks the line of every `{{`."""
+
+    def filter_stream(self, stream: TokenStream) -> Iterator[Token]:
+        file = stream.filename or stream.name or ""
+        for token in stream:
+            if token.type == "data":
+                if _PRIVATE.search(token.value):
+                    raise TemplateSyntaxError("private-use characters", token.lineno, stream.name, file)
+                yield _static(token.lineno, file, token.value)
+            else:
+                if token.type == "variable_begin":
+                    yield _static(token.lineno, file, "")
+                yield token
+
+
+def _static(line: int, file: str, text: str) -> Token:
+    return Token(line, "data", f"\ue002{_SECRET}:{line}:{file}\ue003{text}\ue004")
+
+
+@dataclass(slots=True)
+class _Lines:
+    """The text so far and the origin of each of its lines."""
+
+    text: list[str] = field(default_factory=list)
+    lines: list[Place] = field(default_factory=list)
+    fresh: bool = True
+
+    def add(self, static: str, file: str, line: int) -> None:
+        if self.fresh:
+            self.lines[-1:] = [(file, line)]
+        count = static.count("\n")
+        self.lines += [(file, line + 1 + i) for i in range(count)]
+        if static:
+            self.fresh = static.endswith("\n")
+        self.text.append(static)
+
+
+def _assemble(output: str, name: str, values: Sequence[Emitted]) -> Rendered:
+    """The output without the marks of static text, and from them the origin of every line and token."""
+    so_far, places = _Lines(lines=[(name, 1)]), {}
+    place, end = (name, 1), 0
+    for piece in _PIECE.finditer(output):
+        if piece.start() != end:
+            break
+        end = piece.end()
+        if piece["value"]:
+            places[int(piece["value"])] = place
+            so_far.text.append(piece.group())
+            so_far.fresh = False
+        else:
+            line, static = int(piece["line"]), piece["static"]
+            so_far.add(static, piece["file"], line)
+            place = piece["file"], line + static.count("\n")
+    if end != len(output):
+        raise TemplateError(f"{place[0]}:{place[1]}: a filter has cut a piece of the template in two")
+    return Rendered("".join(so_far.text), values, places, so_far.lines)
+
+
+def _origin(error: Exception, name: str) -> Place:
+    """The innermost line of a template that an exception passed through; Jinja puts them in the traceback."""
+    frames = traceback.extract_tb(error.__traceback__)
+    places = [(frame.filename, frame.lineno or 1) for frame in frames if frame.filename.endswith(".md")]
+    return places[-1] if places else (name, 1)

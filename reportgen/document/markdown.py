@@ -1,0 +1,197 @@
+"""The Markdown half of prose: rendered text becomes blocks of the tree.
+
+The vocabulary is small on purpose: headings to level 4, paragraphs, emphasis, strong, line breaks,
+lists and page breaks (`---`).  Everything else has its own block, made by a function.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from typing import cast, get_args
+
+from markdown_it import MarkdownIt
+from markdown_it.tree import SyntaxTreeNode
+
+from reportgen.document.fragments import TOKEN, Emitted, Key, Rendered, Unnumbered
+from reportgen.document.tree import (
+    Block,
+    Emph,
+    Inline,
+    Inlines,
+    LineBreak,
+    List,
+    PageBreak,
+    Paragraph,
+    Section,
+    Strong,
+    Text,
+)
+from reportgen.errors import TemplateError
+
+_BLOCKS = get_args(Block)
+_DEEPEST = 4
+
+_UNKNOWN = {
+    "code_inline": "inline code",
+    "fence": "a code block",
+    "link": "a link",
+    "image": "an image",
+    "html_inline": "HTML",
+    "html_block": "HTML",
+    "blockquote": "a quotation",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """A value and the index of its token."""
+
+    value: Emitted
+    index: int
+
+
+_Item = str | Inline | _Piece
+"""Of a line being read: static text, an inline made of markup, or what a token stands for."""
+
+
+def blocks(rendered: Rendered) -> tuple[Block, ...]:
+    """The blocks of a rendered template; raises `TemplateError` for what is not in the vocabulary."""
+    root = SyntaxTreeNode(_parser().parse(rendered.text))
+    return tuple(_Reader(rendered).blocks(root))
+
+
+def inlines(rendered: Rendered) -> Inlines:
+    """The inlines of a rendered piece of one paragraph; raises `TemplateError` for anything else."""
+    match blocks(rendered):
+        case ():
+            return ()
+        case (Paragraph(inlines=line),):
+            return line
+    file, line_number = rendered.lines[0]
+    raise TemplateError(f"{file}:{line_number}: one line of words is wanted here")
+
+
+@cache
+def _parser() -> MarkdownIt:
+    # HTML, links and the like are recognised, to be refused; what would change or swallow plainly
+    # typed text (indented code, underlined headings, link definitions, entities) is not.
+    parser = MarkdownIt("commonmark", {"html": True, "typographer": False, "linkify": False})
+    return parser.disable(["code", "lheading", "reference", "entity"])
+
+
+@dataclass(frozen=True, slots=True)
+class _Reader:
+    rendered: Rendered
+
+    # --- blocks
+
+    def blocks(self, parent: SyntaxTreeNode) -> Iterator[Block]:
+        for node in parent.children:
+            match node.type:
+                case "paragraph":
+                    yield from self.paragraph(node)
+                case "heading":
+                    yield self.section(node)
+                case "bullet_list" | "ordered_list":
+                    items = tuple(tuple(self.blocks(item)) for item in node.children)
+                    yield List(items, node.type == "ordered_list", int(node.attrs.get("start", 1)))
+                case "hr":
+                    yield PageBreak()
+                case other:
+                    raise self.fault(node, f"{_UNKNOWN.get(other, other)} is not in the vocabulary")
+
+    def paragraph(self, node: SyntaxTreeNode) -> Iterator[Block]:
+        items = self.items(node)
+        solid = [item for item in items if not (isinstance(item, str) and item.isspace())]
+        if solid and all(isinstance(item, _Piece) and isinstance(item.value, _BLOCKS) for item in solid):
+            yield from (cast(Block, item.value) for item in solid if isinstance(item, _Piece))
+        else:
+            yield Paragraph(self.inlines(items))
+
+    def section(self, node: SyntaxTreeNode) -> Section:
+        level = int(node.tag[1:])
+        if level > _DEEPEST:
+            raise self.fault(node, f"a heading of level {level}; the deepest is {_DEEPEST}")
+        items, key, numbered = self.items(node), "", True
+        while items:
+            match items[-1]:
+                case _Piece(Key(name)):
+                    key = name
+                case _Piece(Unnumbered()):
+                    numbered = False
+                case str(text) if text.isspace():
+                    pass
+                case _:
+                    break
+            items.pop()
+        if items and isinstance(items[-1], str):
+            items[-1] = items[-1].rstrip()
+        return Section(level, self.inlines(items), key, numbered)
+
+    # --- inlines
+
+    def inlines(self, items: list[_Item]) -> Inlines:
+        return tuple(self.inline(item) for item in items)
+
+    def inline(self, item: _Item) -> Inline:
+        match item:
+            case str(text):
+                return Text(text)
+            case _Piece(Key() | Unnumbered() as marker, index):
+                name = type(marker).__name__.lower()
+                raise self.fault_at(index, f"{name}(…) belongs at the end of a heading")
+            case _Piece(value, index):
+                if isinstance(value, _BLOCKS):
+                    raise self.fault_at(index, f"a {type(value).__name__} stands within running text")
+                return cast(Inline, value)
+        return item
+
+    def items(self, node: SyntaxTreeNode) -> list[_Item]:
+        """What the line of a paragraph, heading or emphasis consists of."""
+        result: list[_Item] = []
+        text = ""
+        for child in node.children[0].children if node.type in ("paragraph", "heading") else node.children:
+            match child.type:
+                case "text":
+                    text += child.content
+                    continue
+                case "softbreak":
+                    text += " "
+                    continue
+            result += self.pieces(text)
+            text = ""
+            match child.type:
+                case "em":
+                    result.append(Emph(self.inlines(self.items(child))))
+                case "strong":
+                    result.append(Strong(self.inlines(self.items(child))))
+                case "hardbreak":
+                    result.append(LineBreak())
+                case other:
+                    raise self.fault(child, f"{_UNKNOWN.get(other, other)} is not in the vocabulary")
+        return result + self.pieces(text)
+
+    def pieces(self, text: str) -> list[_Item]:
+        """Text cut at its tokens."""
+        result: list[_Item] = []
+        for i, part in enumerate(TOKEN.split(text)):
+            if i % 2:
+                result.append(_Piece(self.rendered.values[int(part)], int(part)))
+            elif part:
+                result.append(part)
+        return result
+
+    # --- faults
+
+    def fault(self, node: SyntaxTreeNode, message: str) -> TemplateError:
+        at: SyntaxTreeNode | None = node
+        while at is not None and at.map is None:
+            at = at.parent
+        file, line = self.rendered.lines[at.map[0] if at is not None and at.map is not None else 0]
+        return TemplateError(f"{file}:{line}: {message}")
+
+    def fault_at(self, index: int, message: str) -> TemplateError:
+        file, line = self.rendered.places[index]
+        return TemplateError(f"{file}:{line}: {message}")

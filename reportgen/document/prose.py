@@ -1,0 +1,77 @@
+"""Words: templates of plain Markdown with Jinja names, rendered to blocks of the tree."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from reportgen.document.tree import Block, Inlines
+from reportgen.errors import TemplateError
+from reportgen.notation.numbers import Language
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+
+def template_root() -> Path:
+    """The directory of all templates: inside the installed package, or beside it in a checkout."""
+    package = Path(__file__).resolve().parent.parent
+    for directory in (package / "templates", package.parent / "templates"):
+        if directory.is_dir():
+            return directory
+    raise TemplateError(f"{package / 'templates'}: the templates are missing")
+
+
+def search_path(
+    language: Language, kind: str = "", school: str = "", root: Path | None = None
+) -> tuple[Path, ...]:
+    """Where a template of words is looked for, the first found wins.
+
+    A school's own words, then those of one kind of machine, then those common to all.
+    """
+    root = root or template_root()
+    return (
+        *((root / school / language,) if school else ()),
+        *((root / language / kind,) if kind else ()),
+        root / language,
+    )
+
+
+class Prose:
+    """Renders the templates found in `directories`; one object serves a whole report.
+
+    Every template may call `ref(key)`, `key(name)` and `unnumbered()` (at the end of a heading),
+    `blank(label)`, and `inlines(words)` for what a macro or a `{% set %}` block made.
+    """
+
+    def __init__(self, directories: tuple[Path, ...]) -> None:
+        self.directories = directories
+
+    def render(self, name: str, names: Mapping[str, object]) -> tuple[Block, ...]:
+        """The blocks of the template `name` ("foreword.md") with `names` filled in.
+
+        Strings appear as they are, expressions as formulas, numbers with their unit, inlines and blocks
+        as themselves, sequences item by item.  Raises `TemplateError` (`file:line: message`) on any fault.
+        """
+        from reportgen.document import fragments, markdown
+
+        return markdown.blocks(fragments.render(self._environment, name, names))
+
+    def inlines(self, words: str) -> Inlines:
+        """What a macro, `caller()` or a `{% set %}` block made, as inlines: a caption written in a template.
+
+        For functions called by a template while it is rendered; a plain string becomes plain text.
+        """
+        from reportgen.document import fragments, markdown
+
+        return markdown.inlines(fragments.excerpt(words))
+
+    @cached_property
+    def _environment(self) -> Environment:
+        from reportgen.document import fragments
+
+        result = fragments.environment(self.directories)
+        result.globals["inlines"] = self.inlines
+        return result
