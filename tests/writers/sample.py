@@ -386,7 +386,7 @@ def blocks() -> tuple[Block, ...]:
             key="fig:plans",
             number="2.1",
         ),
-        Plate(star(250, 24), (420.0, 297.0), text("Họa đồ lớn"), key="plate", number="2.2"),
+        Plate(star(240, 24), (420.0, 297.0), text("Họa đồ lớn"), key="plate", number="2.2"),
         Section(1, text("Kết luận"), numbered=False, key="end"),
         Paragraph((Text("Xem "), Reference("end", "Kết luận"), Text(" và "), Reference("plate", "2.2"))),
     )

@@ -1,0 +1,103 @@
+"""Scene → Typst: its own primitives at true size, labels set in the report's fonts.
+
+The short names (`S`, `L`, `A`, …) are defined once, in the frame that the writer puts before the report.
+"""
+
+from __future__ import annotations
+
+from reportgen.figures.scene import (
+    Arc,
+    Arrow,
+    Circle,
+    Hatch,
+    Item,
+    Label,
+    Line,
+    Polyline,
+    Scene,
+    Stroke,
+)
+from reportgen.notation.numbers import Language
+from reportgen.paint.geometry import Triangle, arc_with_head, arrow_head, clip_hatch
+from reportgen.writers.typst_math import literal, math
+
+ANCHORS = {
+    "center": "center+horizon",
+    "left": "left+horizon",
+    "right": "right+horizon",
+    "top": "center+top",
+    "bottom": "center+bottom",
+    "top-left": "left+top",
+    "top-right": "right+top",
+    "bottom-left": "left+bottom",
+    "bottom-right": "right+bottom",
+}
+
+
+def paint(scene: Scene, language: Language) -> str:
+    """A Typst code expression that draws the scene in a box of `scene.width` × `scene.height` mm."""
+    strokes = dict.fromkeys(
+        item.stroke for item in scene.items if not isinstance(item, Label) and item.stroke is not None
+    )
+    pens = {stroke: f"p{index}" for index, stroke in enumerate(strokes)}
+    lines = [f"let {name}={_pen(stroke)}" for stroke, name in pens.items()]
+    lines += [line for item in scene.items for line in _item(item, scene.height, pens, language)]
+    return f"S({_mm(scene.width)},{_mm(scene.height)},{{" + "\n".join(lines) + "})"
+
+
+def _item(item: Item, height: float, pens: dict[Stroke, str], language: Language) -> list[str]:
+    """The calls that draw an item; y is turned over here, once for all."""
+
+    def at(*points: complex) -> str:
+        return ",".join(f"{_mm(point.real)},{_mm(height - point.imag)}" for point in points)
+
+    def head(triangle: Triangle | None, stroke: Stroke) -> list[str]:
+        return [f"G({_colour(stroke.colour)},{at(*triangle)})"] if triangle else []
+
+    match item:
+        case Line(start, end, stroke):
+            return [f"L({pens[stroke]},{at(start, end)})"]
+        case Arrow(start, end, stroke, length):
+            shaft_end, triangle = arrow_head(start, end, length)
+            return [f"L({pens[stroke]},{at(start, shaft_end)})", *head(triangle, stroke)]
+        case Circle(centre, radius, outline, fill):
+            corner = at(complex(centre.real - radius, centre.imag + radius))
+            return [f"O({_pen_name(outline, pens)},{_colour(fill)},{corner},{_mm(radius)})"]
+        case Arc(stroke=stroke):
+            curves, triangle = arc_with_head(item)
+            cubics = ",".join(at(*curve[1:]) for curve in curves)
+            return [f"B({pens[stroke]},{at(curves[0][0])},{cubics})", *head(triangle, stroke)]
+        case Polyline(points, outline, closed, fill):
+            name = "C" if closed else "Y"
+            return [f"{name}({_pen_name(outline, pens)},{_colour(fill)},{at(*points)})"] if points else []
+        case Hatch(points, spacing, stroke):
+            strokes = clip_hatch(points, spacing)
+            ends = ",".join(at(*segment) for segment in strokes)
+            return [f"H({pens[stroke]},{ends})"] if strokes else []
+        case Label():
+            return [_label(item, at(item.at), language)]
+
+
+def _label(label: Label, at: str, language: Language) -> str:
+    content = label.content
+    body = literal(content) if isinstance(content, str) else f"${math(content, language)}$"
+    options = (",turn:true" if label.turn else "") + (",paper:true" if label.background else "")
+    return f"T({at},{ANCHORS[label.anchor]},{label.size:g}pt,{body}{options})"
+
+
+def _pen(stroke: Stroke) -> str:
+    dash = "".join(f"{_mm(length)}mm," for length in stroke.dash)
+    return f"P({_mm(stroke.width)},{_colour(stroke.colour)},{f'({dash})' if dash else 'none'})"
+
+
+def _pen_name(stroke: Stroke | None, pens: dict[Stroke, str]) -> str:
+    return "none" if stroke is None else pens[stroke]
+
+
+def _colour(colour: str | None) -> str:
+    return "none" if colour is None else f"rgb({literal(colour)})"
+
+
+def _mm(length: float) -> str:
+    """A length to a thousandth of a millimetre, in the fewest digits."""
+    return f"{round(length, 3) + 0.0:.3f}".rstrip("0").rstrip(".")

@@ -1,0 +1,279 @@
+"""Document → Typst source → PDF, by the typesetter that comes embedded in its Python package.
+
+The source is one self-standing file: the frame `templates/frames/typst/report.typ`, which holds the
+look and defines short names, then the report as calls of these names, a block a line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from pathlib import Path
+
+from reportgen.document.tree import (
+    BlankLine,
+    Block,
+    Cell,
+    Contents,
+    Cover,
+    Document,
+    Emph,
+    Equation,
+    Figure,
+    Inline,
+    InlineMath,
+    LineBreak,
+    List,
+    PageBreak,
+    Paragraph,
+    Plate,
+    Reference,
+    Section,
+    Strong,
+    Table,
+    Text,
+    Value,
+    Words,
+)
+from reportgen.errors import TypesetterError
+from reportgen.figures.scene import Scene
+from reportgen.notation.expressions import Chain, Expression, VectorEquation
+from reportgen.notation.numbers import Language
+from reportgen.paint.typst import paint
+from reportgen.writers.typst_math import literal, math, note, pieces, quantity, signed, symbol
+
+TEXT_WIDTH = 160.0
+"""Of the A4 text block, mm."""
+SCENE_GAP = 4.0
+"""Between scenes side by side, mm."""
+LIST_INDENT = 12.0
+"""What a list takes from the width of its items at most, mm."""
+WHOLE_TABLE = 12
+"""A table of at most so many rows is kept on one page."""
+
+
+def render(document: Document) -> bytes:
+    """The PDF of a document; raises `TypesetterError`."""
+    return compile(write(document))
+
+
+def compile(source: str) -> bytes:
+    """The PDF of a Typst source, byte for byte the same from run to run.
+
+    Raises `TypesetterError` with the message's first lines.
+    """
+    try:
+        import typst
+    except ImportError as error:
+        raise TypesetterError("typst is not installed: pip install typst") from error
+    try:
+        return bytes(typst.compile(source.encode(), ignore_system_fonts=True))
+    except typst.TypstError as error:
+        lines = str(getattr(error, "message", error)).splitlines()
+        raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
+
+
+def write(document: Document) -> str:
+    """The complete Typst source of a document; it needs no other file.
+
+    Raises `TypesetterError` if the frame is missing.
+    """
+    opening = ", ".join(
+        (
+            f"title: {literal(document.title)}",
+            f"author: {literal(document.author)}",
+            f"lang: {literal(document.language)}",
+            f"header: {_array(map(literal, document.header))}",
+            f"footer: {_array(map(literal, document.footer))}",
+        )
+    )
+    body = _Blocks(document.language, document.words).write(document.blocks)
+    return f"{_frame()}\n#show: report.with({opening})\n\n{body}\n"
+
+
+def _frame() -> str:
+    """The frame's source: from the installed package, or beside it in a checkout."""
+    package = Path(__file__).parents[1]
+    for folder in (package, package.parent):
+        path = folder / "templates" / "frames" / "typst" / "report.typ"
+        if path.is_file():
+            return path.read_text(encoding="utf-8")
+    raise TypesetterError("the frame templates/frames/typst/report.typ is missing")
+
+
+def _array(items: Iterable[str]) -> str:
+    """An array of Typst; the closing comma makes one of a single item, too."""
+    return "(" + "".join(f"{item}," for item in items) + ")"
+
+
+class _Blocks:
+    """Writes blocks in one language; `room` is the width that lists leave for equations, in mm."""
+
+    def __init__(self, language: Language, words: Words, room: float = TEXT_WIDTH) -> None:
+        self.language = language
+        self.words = words
+        self.room = room
+
+    def write(self, blocks: Sequence[Block]) -> str:
+        lines = []
+        run_in = ""
+        for block, following in pairwise((*blocks, None)):
+            if block is None:
+                continue
+            if isinstance(block, Section) and block.level > 3:
+                run_in = self.run_in(block)
+                if not isinstance(following, Paragraph):
+                    lines.append(run_in)
+                    run_in = ""
+                continue
+            lines.append(run_in + self.block(block))
+            run_in = ""
+        return "\n\n".join(lines)
+
+    def block(self, block: Block) -> str:
+        match block:
+            case Section(level, title, key, _, number):
+                return f"#N({level},{literal(number)},{self.content(title)})" + _label(key)
+            case Paragraph(inlines, align):
+                body = self.inlines(inlines)
+                return f"#align({align})[{body}]" if align else body
+            case List():
+                return self.items(block)
+            case Equation():
+                return self.equation(block)
+            case Table():
+                return self.table(block)
+            case Figure(scenes, _, key):
+                rows = (_array(map(self.scene, row)) for row in in_rows(scenes))
+                return f"#F({self.caption(self.words.figure, block)},\n{','.join(rows)})" + _label(key)
+            case Plate(scene, (width, height), _, key):
+                label = self.caption(self.words.figure, block)
+                drawing = paint(scene, self.language)
+                return f"#plate({width:g},{height:g},{label},\n{drawing})" + _label(key)
+            case Cover(institution, title, subtitle, fields, foot):
+                lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
+                pairs = _array(f"({literal(label)},{literal(value)})" for label, value in fields)
+                return f"#cover({','.join(lines)},{pairs},{literal(foot)})"
+            case Contents(title):
+                return f"#contents({literal(title)})"
+            case BlankLine(label):
+                return f"#blank({literal(label)})"
+            case PageBreak():
+                return "#pagebreak(weak: true)"
+
+    # --- inlines ----------------------------------------------------------------------------------
+
+    def inlines(self, inlines: Sequence[Inline]) -> str:
+        return "".join(map(self.inline, inlines))
+
+    def content(self, inlines: Sequence[Inline]) -> str:
+        return f"[{self.inlines(inlines)}]"
+
+    def inline(self, inline: Inline) -> str:
+        match inline:
+            case Text(text):
+                return f"#{literal(text)}"
+            case Emph(of):
+                return f"#emph{self.content(of)}"
+            case Strong(of):
+                return f"#strong{self.content(of)}"
+            case InlineMath(expression):
+                return f"${math(expression, self.language)}$"
+            case Value(number):
+                return f"#{literal(quantity(number, self.language))}"
+            case Reference(key, text):
+                return f"#link(label({literal(key)}),{literal(text)})"
+            case LineBreak():
+                return "#linebreak()"
+
+    def run_in(self, section: Section) -> str:
+        number = f"#{literal(section.number)}#h(0.5em)" if section.number else ""
+        return f"#strong[{number}{self.inlines(section.title)}]{_label(section.key)}#h(0.6em)"
+
+    # --- blocks -----------------------------------------------------------------------------------
+
+    def items(self, block: List) -> str:
+        inner = _Blocks(self.language, self.words, self.room - LIST_INDENT)
+        name = f"enum(start:{block.start}," if block.ordered else "list("
+        return f"#{name}{','.join(f'[{inner.write(item)}]' for item in block.items)})"
+
+    def equation(self, equation: Equation) -> str:
+        """Rows in one block each, but a vector equation as a grid of its own; the number on the last."""
+        groups: list[list[Expression]] = []
+        for row in equation.rows:
+            grid = isinstance(row, VectorEquation)
+            if groups and not grid and not isinstance(groups[-1][-1], VectorEquation):
+                groups[-1].append(row)
+            else:
+                groups.append([row])
+        lines = []
+        for index, group in enumerate(groups):
+            number = literal(equation.number if index == len(groups) - 1 else "")
+            first = group[0]
+            if isinstance(first, VectorEquation):
+                lines.append(f"#V({number},{self.room:g},{self.vector_equation(first)})")
+            else:
+                rows = ",".join(_array(self.row(row)) for row in group)
+                lines.append(f"#E({number},{self.room:g},{rows})")
+        return "\n".join(lines) + _label(equation.key)
+
+    def row(self, row: Expression) -> list[str]:
+        """A displayed row: the parts between "=", each in the pieces between which it may break."""
+        parts = row.parts if isinstance(row, Chain) else (row,)
+        printed = [pieces(part, self.language) for part in parts]
+        if isinstance(row, Chain):
+            printed[-1][-1] += note(row)
+        return [_array(f"${piece}$" for piece in part) for part in printed]
+
+    def vector_equation(self, equation: VectorEquation) -> str:
+        terms = []
+        for side, of_side in enumerate(equation.sides):
+            for sign, term in signed(side, of_side):
+                known = (*term.known, *("",) * (len(equation.rows) - len(term.known)))
+                entries = map(self.known, known[: len(equation.rows)])
+                terms.append(_array((f"${sign}$", f"${symbol(term.symbol)}$", *entries)))
+        return ",".join((_array(map(literal, equation.rows)), *terms))
+
+    def known(self, entry: Expression | str | None) -> str:
+        if entry is None:
+            return literal("?")
+        return literal(entry) if isinstance(entry, str) else f"${math(entry, self.language)}$"
+
+    def table(self, table: Table) -> str:
+        label = self.caption(self.words.table, table) if table.caption or table.number else "none,none"
+        columns = _array(f"{column.width:g}" for column in table.columns)
+        aligns = _array(column.align for column in table.columns)
+        head = _array(_array(self.cell(cell, "U") for cell in row) for row in table.head)
+        rows = ",\n".join(_array(self.cell(cell, "X") for cell in row) for row in table.rows)
+        whole = str(len(table.rows) <= WHOLE_TABLE).lower()
+        return f"#R({label},{columns},{aligns},{head},{whole},\n{rows})" + _label(table.key)
+
+    def cell(self, cell: Cell, spanned: str) -> str:
+        body = self.content(cell.inlines)
+        return f"{spanned}({cell.span},{body})" if cell.span > 1 else body
+
+    def scene(self, scene: Scene) -> str:
+        return f"({paint(scene, self.language)},{literal(scene.title)})"
+
+    def caption(self, word: str, block: Table | Figure | Plate) -> str:
+        """The two arguments of a caption: its label, and what it says."""
+        return f"{literal(f'{word} {block.number}'.strip())},{self.content(block.caption)}"
+
+
+def in_rows(scenes: Sequence[Scene], room: float = TEXT_WIDTH) -> list[list[Scene]]:
+    """Scenes in rows as they fit side by side into `room` mm, in order."""
+    rows: list[list[Scene]] = []
+    used = 0.0
+    for scene in scenes:
+        if rows and used + SCENE_GAP + scene.width <= room:
+            rows[-1].append(scene)
+            used += SCENE_GAP + scene.width
+        else:
+            rows.append([scene])
+            used = scene.width
+    return rows
+
+
+def _label(key: str) -> str:
+    """An anchor behind the block before it, for links to `key`."""
+    return f"#label({literal(key)})" if key else ""
