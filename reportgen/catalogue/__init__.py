@@ -1,0 +1,73 @@
+"""The machines the house knows: one module each, imported when its kind is asked for.
+
+A module gives `KIND` (its name in a file), `TITLES` (a line each language), `TURNS` of the driver in a
+cycle, the models `Parameters` and, if it has one, `Indicator`, and `CHECKS`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from reportgen.assignment import reading
+from reportgen.assignment.common import Assignment, Kind, file_model
+from reportgen.assignment.messages import templates_folder
+from reportgen.errors import Problem
+from reportgen.notation.numbers import Language
+
+MODULES: Mapping[str, str] = {"engine-twin": "engine_twin"}
+"""Module of this package by kind; a new machine adds its line here and nowhere else."""
+
+
+def module(kind: str) -> ModuleType:
+    """The module of a kind; raises `KeyError` for a kind nobody knows."""
+    return import_module(f"{__name__}.{MODULES[kind]}")
+
+
+def kind(name: str) -> Kind:
+    """What the reader of assignment files must know of a kind; raises `KeyError`."""
+    machine = module(name)
+    return Kind(
+        machine.KIND, machine.Parameters, getattr(machine, "Indicator", None), machine.TURNS, machine.CHECKS
+    )
+
+
+KINDS = reading.Kinds(tuple(MODULES), kind)
+
+
+def titles(language: Language) -> dict[str, str]:
+    """Each kind with its line of description."""
+    return {name: str(module(name).TITLES[language]) for name in MODULES}
+
+
+def load(path: Path, language: Language | None = None) -> Assignment:
+    """The assignment of a file; raises `AssignmentError` with all its faults."""
+    return reading.load(path, KINDS, language)
+
+
+def check(path: Path, language: Language | None = None) -> list[Problem]:
+    """All faults of a file, none if it is in order."""
+    return reading.check(path, KINDS, language)
+
+
+def sample(name: str, language: Language) -> str:
+    """The commented assignment file to fill in of a kind; raises `KeyError`."""
+    file = f"{module(name).KIND}.yaml"
+    return (templates_folder() / language / "new" / file).read_text(encoding="utf-8")
+
+
+def schema() -> dict[str, Any]:
+    """JSON Schema (2020-12) of an assignment file of any kind."""
+    kinds = {name: file_model(kind(name)).model_json_schema(by_alias=True) for name in MODULES}
+    definitions: dict[str, Any] = {}
+    for one in kinds.values():
+        definitions |= one.pop("$defs", {})
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "reportgen assignment",
+        "oneOf": list(kinds.values()),
+        "$defs": definitions,
+    }

@@ -1,0 +1,174 @@
+"""The part of an assignment file that every kind of machine shares, and the assignment read from it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, create_model
+
+from reportgen.assignment.faults import Finding
+from reportgen.assignment.fields import Angle, Date, Line, Whole, WorkedPositions, quantity
+from reportgen.notation.numbers import Language
+from reportgen.units import Given
+
+FEWEST_POSITIONS, MOST_POSITIONS = 4, 360
+Count = Annotated[int, Whole(FEWEST_POSITIONS, MOST_POSITIONS)]
+
+
+class Part(BaseModel):
+    """A section of the file: frozen, its keys known."""
+
+    model_config = ConfigDict(
+        extra="forbid", frozen=True, populate_by_name=True, arbitrary_types_allowed=True
+    )
+
+
+class Student(Part):
+    """Who hands the report in; what is missing is a blank line to fill in."""
+
+    name: Line | None = None
+    id: Line | None = None
+    class_: Line | None = Field(default=None, alias="class")
+    section: Line | None = None
+    email: Line | None = None
+
+
+class Report(Part):
+    """The report's language, cover and the positions written out in full (None: all)."""
+
+    language: Language = "vi"
+    university: Line | None = None
+    faculty: Line | None = None
+    department: Line | None = None
+    course: Line | None = None
+    student: Student = Student()
+    supervisor: Line | None = None
+    place: Line | None = None
+    date: Date | None = None
+    worked_positions: Annotated[tuple[int, ...] | None, WorkedPositions()] = (2,)
+
+
+class Positions(Part):
+    """How many positions a turn has, which way the driver goes and where it starts.
+
+    `start` is the driver's angle from +x; None is the natural start of the kind.
+    """
+
+    count: Count = 8
+    direction: Literal["anticlockwise", "clockwise"] = "anticlockwise"
+    start: Angle | None = None
+
+    @property
+    def sign(self) -> int:
+        """+1 anticlockwise, −1 clockwise."""
+        return 1 if self.direction == "anticlockwise" else -1
+
+
+class Drawing(Part):
+    """Lengths on paper that were asked for; what is None is chosen."""
+
+    crank: Annotated[Given, quantity("mm", least=10, most=150)] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Draft:
+    """An assignment while it is checked: plain content, and the sections that are in order by themselves."""
+
+    raw: Mapping[str, Any]
+    sections: Mapping[str, Any]
+
+
+Check = Callable[[Draft], Iterator[Finding]]
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """What the reader must know of a kind of machine.
+
+    `turns` of the driver make a cycle; `indicator` is the type of the section of that name, None for a
+    machine that has none; `checks` look at what no single value shows.
+    """
+
+    name: str
+    parameters: type[Part]
+    indicator: Any = None
+    turns: int = 1
+    checks: tuple[Check, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """An assignment file in order: text kept as typed, quantities in SI beside what was typed.
+
+    `parameters` and `indicator` are models of the kind's own; `turns` of the driver make a cycle;
+    `id` is the stem of the file.
+    """
+
+    kind: str
+    variant: str
+    report: Report
+    positions: Positions
+    drawing: Drawing
+    parameters: Any
+    indicator: Any
+    source: Path
+    id: str
+    turns: int = 1
+
+    @property
+    def language(self) -> Language:
+        return self.report.language
+
+    @property
+    def cycle_positions(self) -> int:
+        """Positions of a whole cycle: N, or 2N for four strokes."""
+        return self.positions.count * self.turns
+
+    @property
+    def worked_positions(self) -> tuple[int, ...]:
+        """Numbers, 1…`cycle_positions`, of the positions written out in full."""
+        worked = self.report.worked_positions
+        return tuple(range(1, self.cycle_positions + 1)) if worked is None else worked
+
+    def with_positions(self, count: int) -> Assignment:
+        """The same with `count` positions a turn; worked positions beyond the new cycle are dropped.
+
+        Raises `ValueError` for a count outside 4…360.
+        """
+        if not FEWEST_POSITIONS <= count <= MOST_POSITIONS:
+            raise ValueError(f"{count} positions")
+        worked = self.report.worked_positions
+        kept = None if worked is None else tuple(n for n in worked if n <= count * self.turns) or (2,)
+        return replace(
+            self,
+            positions=self.positions.model_copy(update={"count": count}),
+            report=self.report.model_copy(update={"worked_positions": kept}),
+        )
+
+    def with_language(self, language: Language) -> Assignment:
+        """The same, reported in another language."""
+        return replace(self, report=self.report.model_copy(update={"language": language}))
+
+
+def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
+    """Keys of the file beside `kind`: type and default (`...`: required); None gives the common ones."""
+    common: dict[str, tuple[Any, Any]] = {
+        "variant": (Line, ""),
+        "report": (Report, Report()),
+        "positions": (Positions, Positions()),
+        "drawing": (Drawing, Drawing()),
+    }
+    if kind is None:
+        return common
+    indicator = {"indicator": (kind.indicator, ...)} if kind.indicator is not None else {}
+    return {**common, "parameters": (kind.parameters, ...), **indicator}
+
+
+def file_model(kind: Kind) -> type[Part]:
+    """The model of a whole file of one kind, for its JSON Schema."""
+    name = "".join(word.title() for word in kind.name.split("-"))
+    fields: dict[str, Any] = {"kind": (Literal[kind.name], ...), **sections(kind)}
+    return create_model(f"{name}File", __base__=Part, **fields)

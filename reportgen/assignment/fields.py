@@ -1,0 +1,268 @@
+"""What may stand behind a key: one small reader per kind of value, with its part of the JSON Schema.
+
+A reader is pydantic metadata: `Length = Annotated[Given, Quantity("mm", above=0, below=100)]`.  It gets
+the text of the file and gives a value or raises a `PydanticCustomError` that carries a message's code.
+"""
+
+from __future__ import annotations
+
+import datetime
+import math
+import re
+import unicodedata
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import PydanticCustomError, core_schema
+
+from reportgen.units import NUMBER, Given, QuantityFault, read_quantity, read_ratio, read_unit
+
+LONGEST_TEXT = 300
+MOST_WORKED = 720
+_FORBIDDEN = {"Cc", "Cs", "Co", "Zl", "Zp"}
+_UNIT_PATTERN = r"[A-Za-zµ°][^,]*"
+_INTEGER = re.compile(r"[+-]?[0-9]{1,9}")
+
+
+def fault(code: str, **arguments: str) -> PydanticCustomError:
+    """The fault `code` of the message table, as pydantic carries it."""
+    return PydanticCustomError("fault", "{code}", {"code": code, **arguments})
+
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """Base of the readers: `read` makes a value of what stands in the file, `schema` describes the latter."""
+
+    def read(self, value: object) -> Any:
+        raise fault("wrong-type", expected="text")
+
+    def schema(self) -> dict[str, Any]:
+        return {}
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(
+        self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        return self.schema()
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """Where a number may lie; `above` and `below` are open ends, `least` and `most` closed ones."""
+
+    above: float = -math.inf
+    below: float = math.inf
+    least: float = -math.inf
+    most: float = math.inf
+
+    def __contains__(self, value: float) -> bool:
+        return self.above < value < self.below and self.least <= value <= self.most
+
+    def __str__(self) -> str:
+        low = f"> {self.above:g}" if self.above > -math.inf else f"≥ {self.least:g}"
+        high = f"< {self.below:g}" if self.below < math.inf else f"≤ {self.most:g}"
+        return f"{low}, {high}"
+
+    def schema(self) -> dict[str, float]:
+        ends = {
+            "exclusiveMinimum": self.above,
+            "exclusiveMaximum": self.below,
+            "minimum": self.least,
+            "maximum": self.most,
+        }
+        return {key: end for key, end in ends.items() if math.isfinite(end)}
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity(Reader):
+    """A number with a unit of the dimension of `unit`, its value in `unit` within `interval`."""
+
+    unit: str
+    interval: Interval = Interval()
+
+    def read(self, value: object) -> Given:
+        given = _measured(lambda text: read_quantity(text, self.unit), value)
+        size = given.si / read_unit(self.unit, self.unit)
+        if size not in self.interval:
+            raise fault("out-of-range", text=given.text, range=f"{self.interval} ({self.unit})")
+        return given
+
+    def schema(self) -> dict[str, Any]:
+        return {
+            "type": "string",
+            "pattern": rf"^\s*{NUMBER}\s*{_UNIT_PATTERN}$",
+            "examples": [f"1 {self.unit}"],
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class UnitOf(Reader):
+    """The name of a unit of the dimension of `unit`: one of it, as a `Given`."""
+
+    unit: str
+
+    def read(self, value: object) -> Given:
+        def one(text: str) -> Given:
+            return Given(read_unit(text, self.unit), 1.0, text.strip(), text)
+
+        return _measured(one, value)
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "string", "pattern": f"^{_UNIT_PATTERN}$", "examples": [self.unit]}
+
+
+@dataclass(frozen=True, slots=True)
+class Ratio(Reader):
+    """A pure number, `0.35` or `1/3.6`; with `inverse`, 1 and more is taken for the inverse ratio."""
+
+    interval: Interval = Interval()
+    inverse: str = ""
+
+    def read(self, value: object) -> Given:
+        given = _measured(read_ratio, value)
+        if given.si in self.interval:
+            return given
+        hint = {}
+        if self.inverse and given.si >= 1:
+            turned = 2 <= given.si <= 10 and "/" not in given.text
+            hint = {"hint": self.inverse, "turned": f"1/{given.text.strip()}" if turned else "1/3.6"}
+        raise fault("out-of-range", text=given.text, range=str(self.interval), **hint)
+
+    def schema(self) -> dict[str, Any]:
+        number = {"type": "number", **self.interval.schema()}
+        return {"anyOf": [number, {"type": "string", "pattern": rf"^\s*{NUMBER}\s*(/\s*{NUMBER}\s*)?$"}]}
+
+
+@dataclass(frozen=True, slots=True)
+class Decimal(Reader):
+    """A pure number of a table: no unit, no fraction."""
+
+    interval: Interval = Interval()
+
+    def read(self, value: object) -> float:
+        given = _measured(lambda text: read_ratio(text, fractions=False), value)
+        if given.si not in self.interval:
+            raise fault("out-of-range", text=given.text, range=str(self.interval))
+        return given.si
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "number", **self.interval.schema()}
+
+
+@dataclass(frozen=True, slots=True)
+class Whole(Reader):
+    """A whole number from `least` to `most`."""
+
+    least: int
+    most: int
+
+    def read(self, value: object) -> int:
+        text = _text(value, "whole number")
+        if not _INTEGER.fullmatch(text.strip()):
+            raise fault("wrong-type", expected="whole number", text=text)
+        if not self.least <= int(text) <= self.most:
+            raise fault("out-of-range", text=text, range=f"≥ {self.least}, ≤ {self.most}")
+        return int(text)
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "integer", "minimum": self.least, "maximum": self.most}
+
+
+@dataclass(frozen=True, slots=True)
+class Text(Reader):
+    """One line of text, kept exactly as typed."""
+
+    def read(self, value: object) -> str:
+        text = _text(value, "text")
+        if len(text) > LONGEST_TEXT:
+            raise fault("text-too-long", largest=str(LONGEST_TEXT))
+        if any(unicodedata.category(character) in _FORBIDDEN for character in text):
+            raise fault("control-character")
+        return text
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": ["string", "number", "boolean", "null"], "maxLength": LONGEST_TEXT}
+
+
+@dataclass(frozen=True, slots=True)
+class Day(Reader):
+    """A date, `2011-03-24`."""
+
+    def read(self, value: object) -> datetime.date:
+        text = _text(value, "date")
+        try:
+            if re.fullmatch(r"[0-9]{4}-[0-9]{2}-[0-9]{2}", text.strip()):
+                return datetime.date.fromisoformat(text.strip())
+        except ValueError:
+            pass
+        raise fault("date", text=text)
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": ["string", "null"], "pattern": "^[0-9]{4}-[0-9]{2}-[0-9]{2}$", "format": "date"}
+
+
+@dataclass(frozen=True, slots=True)
+class WorkedPositions(Reader):
+    """Positions to write out in full: a list of numbers from 1, or "all" (None)."""
+
+    def read(self, value: object) -> tuple[int, ...] | None:
+        if value == "all":
+            return None
+        if not isinstance(value, list):
+            raise fault("wrong-type", expected="list", text=str(value))
+        if not 1 <= len(value) <= MOST_WORKED:
+            raise fault("length", least="1", most=str(MOST_WORKED))
+        numbers = tuple(Whole(1, MOST_WORKED).read(item) for item in value)
+        if len(set(numbers)) < len(numbers):
+            raise fault("repeated", text=next(str(n) for n in numbers if numbers.count(n) > 1))
+        return numbers
+
+    def schema(self) -> dict[str, Any]:
+        item = Whole(1, MOST_WORKED).schema()
+        return {
+            "anyOf": [{"const": "all"}, {"type": "array", "items": item, "minItems": 1, "uniqueItems": True}]
+        }
+
+
+def _text(value: object, expected: str) -> str:
+    if not isinstance(value, str):
+        raise fault("wrong-type", expected=expected)
+    return value
+
+
+def _measured(read: Callable[[str], Given], value: object) -> Given:
+    text = _text(value, "number")
+    try:
+        return read(text)
+    except QuantityFault as problem:
+        raise fault(problem.code, **problem.arguments) from None
+
+
+def quantity(unit: str, **ends: float) -> Quantity:
+    """A `Quantity` with its interval written in place: `quantity("mm", above=0, below=1e5)`."""
+    return Quantity(unit, Interval(**ends))
+
+
+Line = Annotated[str, Text()]
+Date = Annotated[datetime.date, Day()]
+Length = Annotated[Given, quantity("mm", above=0, below=1e5)]
+Angle = Annotated[Given, quantity("deg", least=-360, most=360)]
+CycleAngle = Annotated[Given, quantity("deg", least=0, most=720)]
+RotationalSpeed = Annotated[Given, quantity("rpm", above=0, most=1e5)]
+AngularVelocity = Annotated[Given, quantity("rad/s", above=0, most=1e5)]
+Weight = Annotated[Given, quantity("N", least=0, most=1e7)]
+Mass = Annotated[Given, quantity("kg", least=0, most=1e6)]
+MomentOfInertia = Annotated[Given, quantity("kg m2", least=0, most=1e7)]
+Acceleration = Annotated[Given, quantity("m/s2", above=0, most=100)]
+Pressure = Annotated[Given, quantity("N/cm2", least=0, most=1e5)]
+RodRatio = Annotated[Given, Ratio(Interval(above=0, below=1), inverse="inverse-ratio")]
+Share = Annotated[Given, Ratio(Interval(least=0, most=1))]
+PressureUnit = Annotated[Given, UnitOf("N/cm2")]
+Fraction = Annotated[float, Decimal(Interval(least=0, most=1))]
+PressureValue = Annotated[float, Decimal(Interval(least=-1e9, most=1e9))]

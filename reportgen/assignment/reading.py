@@ -1,0 +1,238 @@
+"""A file becomes an `Assignment`, or all its faults at once: nodes → sections → checks → words."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
+from pydantic_core import ErrorDetails
+
+from reportgen.assignment import checks
+from reportgen.assignment.common import Assignment, Draft, Kind, sections
+from reportgen.assignment.faults import Fault, Finding, Where
+from reportgen.assignment.messages import as_problem
+from reportgen.assignment.source import List, Node, Scalar, Source, Table, plain, read_source
+from reportgen.errors import AssignmentError, Mark, Problem
+from reportgen.notation.numbers import Language
+
+DEFAULT_LANGUAGE: Language = "vi"
+
+
+@dataclass(frozen=True, slots=True)
+class Kinds:
+    """The kinds a file may name: `find` gives what the reader must know of one of `names`."""
+
+    names: Sequence[str]
+    find: Callable[[str], Kind]
+
+
+def load(path: Path, kinds: Kinds, language: Language | None = None) -> Assignment:
+    """The assignment of a file; `language` overrides that of its report.
+
+    Raises `AssignmentError` with every fault of the file.
+    """
+    source = read_source(path)
+    assignment, faults = _read(source, path, kinds)
+    if assignment is None:
+        raise AssignmentError(_in_words(source, faults, language))
+    return assignment.with_language(language) if language else assignment
+
+
+def check(path: Path, kinds: Kinds, language: Language | None = None) -> list[Problem]:
+    """All faults of a file in its order; none if it can be loaded."""
+    try:
+        load(path, kinds, language)
+    except AssignmentError as fault:
+        return list(fault.problems)
+    return []
+
+
+def _read(source: Source, path: Path, kinds: Kinds) -> tuple[Assignment | None, list[Fault]]:
+    faults = list(source.faults)
+    top = source.top
+    if not isinstance(top, Table):
+        if top is not None and not faults:
+            faults.append(Fault("wrong-type", top.mark, {"expected": "mapping"}))
+        return None, faults
+    raw: dict[str, Any] = plain(top)
+    name = raw.get("kind")
+    kind = kinds.find(name) if isinstance(name, str) and name in kinds.names else None
+    findings, draft = _sections(raw, kind)
+    if kind is None:
+        findings.insert(0, _no_kind(name, kinds))
+    else:
+        for one in (checks.worked_positions(kind.turns), *kind.checks):
+            findings += one(draft)
+    faults += [_placed(finding, top) for finding in findings]
+    if faults or kind is None:
+        return None, faults
+    return Assignment(kind.name, **_filled(draft), source=path, id=path.stem, turns=kind.turns), []
+
+
+def _filled(draft: Draft) -> dict[str, Any]:
+    return {"indicator": None, **draft.sections}
+
+
+def _no_kind(name: object, kinds: Kinds) -> Finding:
+    if name is None:
+        return Finding("missing-key", ("kind",), {"key": "kind"})
+    if not isinstance(name, str):
+        return Finding("wrong-type", ("kind",), {"expected": "text"})
+    return Finding("unknown-kind", ("kind",), {"text": name, "known": ", ".join(kinds.names)})
+
+
+def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Draft]:
+    """Reads each section by itself, so that the checks can look at those in order whatever the others are."""
+    known = sections(kind)
+    findings: list[Finding] = []
+    valid: dict[str, Any] = {}
+    for key in raw.keys() - known.keys() - {"kind"}:
+        # Of an unknown kind the own sections are unknown too: the kind is the fault, not they.
+        if kind is not None or key not in {"parameters", "indicator"}:
+            findings.append(_unknown((key,), ["kind", *known]))
+    for key, (type_, default) in known.items():
+        if key in raw:
+            valid[key], found = _section(key, type_, raw[key])
+            findings += found
+        elif default is ...:
+            findings.append(Finding("missing-key", (key,), {"key": key}))
+        else:
+            valid[key] = default
+    return findings, Draft(raw, {key: value for key, value in valid.items() if value is not None})
+
+
+def _section(key: str, type_: Any, content: Any) -> tuple[Any, list[Finding]]:
+    """The section's value (None if it has none) and its faults; unknown keys alone do not spoil the value."""
+    adapter: TypeAdapter[Any] = TypeAdapter(type_)
+    try:
+        return adapter.validate_python(content), []
+    except ValidationError as error:
+        details = error.errors(include_url=False)
+    schema = adapter.json_schema() if any(one["type"] == "extra_forbidden" for one in details) else {}
+    findings = [_finding(key, detail, content, schema) for detail in details]
+    if all(detail["type"] == "extra_forbidden" for detail in details):
+        places = [finding.where[1:] for finding in findings]
+        return adapter.validate_python(_without(content, places)), findings
+    return None, findings
+
+
+def _finding(key: str, detail: ErrorDetails, content: Any, schema: dict[str, Any]) -> Finding:
+    """A fault of pydantic's as a finding; its own types of fault get our codes."""
+    where = (key, *_real(detail["loc"], content))
+    context = detail.get("ctx", {})
+    match detail["type"]:
+        case "fault":
+            arguments = {name: str(value) for name, value in context.items() if name != "code"}
+            return Finding(str(context["code"]), where, arguments)
+        case "missing":
+            return Finding("missing-key", where, {"key": str(where[-1])})
+        case "union_tag_not_found":
+            name = str(context["discriminator"]).strip("'")
+            return Finding("missing-key", (*where, name), {"key": name})
+        case "extra_forbidden":
+            return _unknown(where, _keys_at(schema, where[1:-1]))
+        case "literal_error" | "union_tag_invalid":
+            tag = str(context.get("discriminator", "")).strip("'")
+            allowed = str(context.get("expected", context.get("expected_tags"))).replace(" or ", ", ")
+            place = (*where, tag) if tag else where
+            return Finding("choice", place, {"allowed": allowed.replace("'", "")})
+        case "too_short" | "too_long":
+            bounds = {"least": str(context.get("min_length", 1)), "most": str(context.get("max_length", "…"))}
+            return Finding("length", where, bounds)
+        case kind:
+            expected = "list" if kind in {"list_type", "tuple_type"} else "mapping"
+            return Finding("wrong-type", where, {"expected": expected})
+
+
+def _unknown(where: Where, known: Sequence[str]) -> Finding:
+    key = str(where[-1])
+    close = difflib.get_close_matches(key, known, n=1, cutoff=0.6) or [
+        name for name in known if name.lower() == key.lower()
+    ]
+    hint = {"close": close[0]} if close else {"known": ", ".join(known)}
+    return Finding("unknown-key", where, {"key": key, **hint}, at="key")
+
+
+def _real(location: Where, content: Any) -> Iterator[str | int]:
+    """The steps that stand in the file: pydantic also names the member of a union that it chose."""
+    for number, step in enumerate(location):
+        last = number == len(location) - 1
+        if isinstance(content, dict):
+            if step in content:
+                content = content[step]
+            elif not last:
+                continue
+        elif isinstance(content, list) and isinstance(step, int):
+            content = content[step]
+        yield step
+
+
+def _without(content: Any, places: Sequence[Where]) -> Any:
+    """The content without the keys at `places`."""
+    if not isinstance(content, dict):
+        return content
+    first = {place[0] for place in places if len(place) == 1}
+    return {
+        key: _without(value, [place[1:] for place in places if place[0] == key and len(place) > 1])
+        for key, value in content.items()
+        if key not in first
+    }
+
+
+def _keys_at(schema: dict[str, Any], where: Where) -> list[str]:
+    """Keys that a JSON Schema allows at a place; of alternatives, all their keys."""
+    level = [schema]
+    for step in (*where, None):
+        opened: list[dict[str, Any]] = []
+        for one in level:
+            opened += _opened(one, schema)
+        if step is None:
+            return list(dict.fromkeys(name for one in opened for name in one.get("properties", {})))
+        level = [one["properties"][step] for one in opened if step in one.get("properties", {})]
+    return []
+
+
+def _opened(one: dict[str, Any], schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    if "$ref" in one:
+        yield from _opened(schema["$defs"][one["$ref"].rsplit("/", 1)[-1]], schema)
+    alternatives = [*one.get("oneOf", ()), *one.get("anyOf", ())]
+    for alternative in alternatives:
+        yield from _opened(alternative, schema)
+    if not alternatives:
+        yield one
+
+
+def _placed(finding: Finding, top: Table) -> Fault:
+    """The finding with its mark; what is missing stands at the key it is missing under."""
+    node: Node = top
+    key_mark = top.mark
+    for step in finding.where:
+        entry = node.find(step) if isinstance(node, Table) else None
+        if entry is not None:
+            key, node = entry
+            key_mark = key.mark
+            continue
+        if isinstance(node, List) and isinstance(step, int) and step < len(node.items):
+            node = node.items[step]
+            key_mark = node.mark
+            continue
+        return Fault(finding.code, key_mark, finding.arguments)
+    unwritten = isinstance(node, Scalar) and node.null
+    mark: Mark = key_mark if finding.at == "key" or unwritten else node.mark
+    return Fault(finding.code, mark, finding.arguments)
+
+
+def _in_words(source: Source, faults: list[Fault], language: Language | None) -> list[Problem]:
+    spoken = language or _language_of(source)
+    return [as_problem(fault, spoken) for fault in faults]
+
+
+def _language_of(source: Source) -> Language:
+    """The language a faulty file asks for; also of one whose syntax is wrong, as far as a line shows it."""
+    found = re.search(r"^\s+language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
+    return "en" if found and found[1] == "en" else DEFAULT_LANGUAGE

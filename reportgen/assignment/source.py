@@ -1,0 +1,230 @@
+"""The text of a YAML file as nodes that know where they stand.
+
+Nothing is constructed: a scalar stays the text that was typed, so `2011-03-24`, `1/3.6` and `no` reach
+their readers unharmed.  What the language offers beyond mappings, lists and scalars (tags, anchors,
+aliases) is a fault here, and no text, however hostile, takes more than its size in memory.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from reportgen.assignment.faults import Fault
+from reportgen.errors import Mark
+
+LARGEST = 1_000_000
+DEEPEST = 12
+_NULL = {"", "~", "null", "Null", "NULL"}
+_SYNTAX = (
+    ("mapping values are not allowed", "syntax-colon"),
+    ("expected ',' or", "syntax-bracket"),
+    ("unexpected end of stream", "syntax-quote"),
+    ("could not find expected ':'", "syntax-key"),
+    ("expected <block end>", "syntax-indent"),
+    ("single document", "syntax-document"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """A piece of text; `null` when nothing was written."""
+
+    text: str
+    mark: Mark
+    null: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class List:
+    items: tuple[Node, ...]
+    mark: Mark
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A mapping: its entries in the order of the file, each key once."""
+
+    entries: tuple[tuple[Scalar, Node], ...]
+    mark: Mark
+
+    def find(self, key: object) -> tuple[Scalar, Node] | None:
+        return next((entry for entry in self.entries if entry[0].text == key), None)
+
+
+Node = Scalar | List | Table
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A file as read: its top node (None when there is none to speak of) and the faults met on the way."""
+
+    file: str
+    text: str = ""
+    top: Node | None = None
+    faults: tuple[Fault, ...] = ()
+
+
+def read_source(path: Path) -> Source:
+    """The nodes of a file; every fault of its bytes and syntax is in `faults`, none is raised."""
+    file = str(path)
+    start = Mark(file)
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(LARGEST + 1)
+    except OSError as fault:
+        return Source(file, faults=(Fault("unreadable", start, {"reason": type(fault).__name__}),))
+    if len(data) > LARGEST:
+        return Source(file, faults=(Fault("too-large", start, {"largest": str(LARGEST // 1000)}),))
+    if b"\0" in data:
+        return Source(file, faults=(Fault("binary", _mark_in(data, data.index(b"\0"), file)),))
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as fault:
+        return Source(file, faults=(Fault("encoding", _mark_in(data, fault.start, file)),))
+    return read_text(text, file)
+
+
+def read_text(text: str, file: str = "") -> Source:
+    """As `read_source`, for text already at hand."""
+    tabs = tuple(_tabs(text, file))
+    if tabs:
+        return Source(file, text, faults=tabs)
+    loader = _Loader(text, file)
+    try:
+        root = loader.get_single_node()
+    except yaml.MarkedYAMLError as fault:
+        return Source(file, text, faults=(*loader.faults, _syntax(fault, file)))
+    except yaml.reader.ReaderError as fault:
+        mark = _mark_in(text[: fault.position].encode(), len(text[: fault.position].encode()), file)
+        return Source(file, text, faults=(Fault("control-character", mark),))
+    except ValueError:
+        # A number in an escape or a directive that Python refuses to read.
+        return Source(file, text, faults=(*loader.faults, Fault("syntax", loader.here())))
+    finally:
+        loader.dispose()
+    if root is None:
+        return Source(file, text, faults=(*loader.faults, Fault("empty", Mark(file))))
+    faults = [*loader.faults]
+    top = _node(root, file, faults)
+    if isinstance(top, Scalar) and top.null:
+        faults.append(Fault("empty", Mark(file)))
+    return Source(file, text, top, tuple(faults))
+
+
+def plain(node: Node) -> Any:
+    """Nodes as dict, list and str; a key without a value is left out, an empty list item is None."""
+    match node:
+        case Scalar(text, null=null):
+            return None if null else text
+        case List(items):
+            return [plain(item) for item in items]
+        case Table(entries):
+            return {key.text: plain(value) for key, value in entries if not _is_null(value)}
+
+
+def words_of(path: Path) -> Mapping[str, Any]:
+    """A trusted file of the package (messages and the like) as plain dicts; raises `ValueError`."""
+    source = read_source(path)
+    if source.faults or not isinstance(source.top, Table):
+        raise ValueError(f"{path}: {[fault.code for fault in source.faults]}")
+    content = plain(source.top)
+    assert isinstance(content, dict)
+    return content
+
+
+class _Loader(yaml.SafeLoader):
+    """The safe loader, composing only, with tags, anchors, aliases and endless nesting refused."""
+
+    def __init__(self, text: str, file: str) -> None:
+        super().__init__(text)
+        self.file = file
+        self.faults: list[Fault] = []
+        self.depth = 0
+
+    def here(self) -> Mark:
+        return Mark(self.file, self.line + 1, self.column + 1)
+
+    def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
+        parser: Any = self  # whose methods the stubs leave without types
+        event = parser.peek_event()
+        mark = Mark(self.file, event.start_mark.line + 1, event.start_mark.column + 1)
+        if isinstance(event, yaml.AliasEvent):
+            parser.get_event()
+            self.faults.append(Fault("alias", mark))
+            return yaml.ScalarNode("tag:yaml.org,2002:null", "", event.start_mark, event.end_mark)
+        if getattr(event, "anchor", None):
+            self.faults.append(Fault("alias", mark))
+            self.anchors.pop(event.anchor, None)
+        if getattr(event, "tag", None):
+            self.faults.append(Fault("tag", mark, {"tag": str(event.tag)}))
+        self.depth += 1
+        if self.depth > DEEPEST:
+            raise yaml.composer.ComposerError(None, None, "too deep", event.start_mark)
+        node = super().compose_node(parent, index)
+        self.depth -= 1
+        return node
+
+
+def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
+    mark = Mark(file, node.start_mark.line + 1, node.start_mark.column + 1)
+    if isinstance(node, yaml.SequenceNode):
+        return List(tuple(_node(item, file, faults) for item in node.value), mark)
+    if isinstance(node, yaml.MappingNode):
+        return Table(tuple(_entries(node, file, faults)), mark)
+    style = getattr(node, "style", None)
+    if style is None and "\t" in node.value:
+        faults.append(Fault("tab", mark))
+    return Scalar(node.value, mark, null=style is None and node.value in _NULL)
+
+
+def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator[tuple[Scalar, Node]]:
+    """The entries of a mapping; a key met again is a fault and is left out."""
+    seen: dict[str, Mark] = {}
+    for key_node, value_node in node.value:
+        key, value = _node(key_node, file, faults), _node(value_node, file, faults)
+        if not isinstance(key, Scalar):
+            faults.append(Fault("wrong-type", key.mark, {"expected": "text"}))
+            continue
+        name = unicodedata.normalize("NFC", key.text)
+        if name in seen:
+            faults.append(Fault("duplicate-key", key.mark, {"key": key.text, "line": str(seen[name].line)}))
+            continue
+        seen[name] = key.mark
+        yield Scalar(name, key.mark), value
+
+
+def _is_null(node: Node) -> bool:
+    return isinstance(node, Scalar) and node.null
+
+
+def _tabs(text: str, file: str) -> Iterator[Fault]:
+    """Tabs that stand where YAML wants blanks: in front of a line or right after a key."""
+    for number, line in enumerate(re.split(r"\r\n|\r|\n", text), start=1):
+        if match := re.match(r" *(?:[\w.-]+:)?(\t)", line):
+            yield Fault("tab", Mark(file, number, match.start(1) + 1))
+
+
+def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:
+    place = fault.problem_mark or fault.context_mark
+    mark = Mark(file, place.line + 1, place.column + 1) if place else Mark(file)
+    problem = f"{fault.context or ''} {fault.problem or ''}"
+    if "too deep" in problem:
+        return Fault("too-deep", mark, {"deepest": str(DEEPEST)})
+    if "'\\t'" in problem:
+        return Fault("tab", mark)
+    hint = next((key for words, key in _SYNTAX if words in problem), "syntax")
+    return Fault("syntax", mark, {"hint": hint})
+
+
+def _mark_in(data: bytes, offset: int, file: str) -> Mark:
+    """The place of a byte; columns count characters."""
+    before = data[:offset]
+    start = before.rfind(b"\n") + 1
+    return Mark(file, before.count(b"\n") + 1, len(before[start:].decode("utf-8", "replace")) + 1)

@@ -1,0 +1,160 @@
+"""Quantities at the edge: text with a unit becomes a number in SI, and keeps what was typed.
+
+pint knows the units; since it takes 0.3 s to import, the few spellings nearly every file uses are also
+kept in `PLAIN`, which a test holds equal to pint.  Angles are a dimension of their own here, so that a
+bare `60` is no angle and `Hz` is no rotational speed.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+Dimension = tuple[tuple[str, float], ...]
+"""Powers of the SI base units by name, sorted: ((“kilogram”, 1), (“meter”, 1), (“second”, −2))."""
+
+_LENGTH: Dimension = (("meter", 1),)
+_ANGLE: Dimension = (("radian", 1),)
+_SPEED: Dimension = (("radian", 1), ("second", -1))
+_MASS: Dimension = (("kilogram", 1),)
+_FORCE: Dimension = (("kilogram", 1), ("meter", 1), ("second", -2))
+_PRESSURE: Dimension = (("kilogram", 1), ("meter", -1), ("second", -2))
+_INERTIA: Dimension = (("kilogram", 1), ("meter", 2))
+_ACCELERATION: Dimension = (("meter", 1), ("second", -2))
+
+PLAIN: Mapping[str, tuple[float, Dimension]] = {
+    "m": (1.0, _LENGTH),
+    "cm": (1e-2, _LENGTH),
+    "mm": (1e-3, _LENGTH),
+    "deg": (math.pi / 180, _ANGLE),
+    "rad": (1.0, _ANGLE),
+    "rpm": (math.pi / 30, _SPEED),
+    "rad/s": (1.0, _SPEED),
+    "kg": (1.0, _MASS),
+    "N": (1.0, _FORCE),
+    "kN": (1e3, _FORCE),
+    "Pa": (1.0, _PRESSURE),
+    "MPa": (1e6, _PRESSURE),
+    "bar": (1e5, _PRESSURE),
+    "N/cm2": (1e4, _PRESSURE),
+    "kg m2": (1.0, _INERTIA),
+    "m/s2": (1.0, _ACCELERATION),
+}
+"""SI factor and dimension of the commonest spellings."""
+
+NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+UNIT = r"[A-Za-zµμ°Ω][A-Za-z0-9µμ°Ω²³⁴⁻¹ */^()·⋅.+-]*"
+
+_QUANTITY = re.compile(rf"({NUMBER})\s*({UNIT})?")
+_RATIO = re.compile(rf"({NUMBER})\s*(?:/\s*({NUMBER}))?")
+_COMMA = re.compile(r"([+-]?[0-9]+),([0-9].*)", re.DOTALL)
+_NOT_FINITE = re.compile(r"[+-]?\.?(?:inf|infinity|nan)\b.*", re.IGNORECASE | re.DOTALL)
+_LONGEST = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A quantity as it was given: `si` for computing; `value`, `unit` and `text` as typed."""
+
+    si: float
+    value: float
+    unit: str = ""
+    text: str = ""
+
+
+class QuantityFault(ValueError):
+    """Text that is no quantity of the kind asked for; `code` and `arguments` name a message."""
+
+    def __init__(self, code: str, **arguments: str) -> None:
+        super().__init__(code)
+        self.code = code
+        self.arguments = arguments
+
+
+def read_number(text: str) -> float:
+    """A finite number; raises `QuantityFault` (decimal-comma, not-finite, unexpected-unit, not-a-number)."""
+    return read_ratio(text, fractions=False).si
+
+
+def read_ratio(text: str, *, fractions: bool = True) -> Given:
+    """A number without unit, `0.35` or (with `fractions`) `1/3.6`; raises `QuantityFault`."""
+    cleaned = _cleaned(text)
+    match = _RATIO.fullmatch(cleaned)
+    if match is None or (match[2] and not fractions):
+        if _QUANTITY.fullmatch(cleaned):
+            raise QuantityFault("unexpected-unit", text=text)
+        raise QuantityFault("not-a-number", text=text)
+    bottom = float(match[2]) if match[2] else 1.0
+    value = float(match[1]) / bottom if bottom else math.inf
+    if not math.isfinite(value):
+        raise QuantityFault("not-finite", text=text)
+    return Given(value, value, "", text)
+
+
+def read_quantity(text: str, unit: str) -> Given:
+    """A quantity of the dimension of `unit`; raises `QuantityFault` (also missing-, wrong-, unknown-unit)."""
+    cleaned = _cleaned(text)
+    match = _QUANTITY.fullmatch(cleaned)
+    if match is None:
+        raise QuantityFault("not-a-number", text=text)
+    if not match[2]:
+        raise QuantityFault("missing-unit", text=text, unit=unit)
+    value, factor = float(match[1]), read_unit(match[2], unit)
+    if not math.isfinite(value * factor):
+        raise QuantityFault("not-finite", text=text)
+    return Given(value * factor, value, match[2], text)
+
+
+def read_unit(text: str, unit: str) -> float:
+    """The SI factor of a unit of the same dimension as `unit`; raises `QuantityFault`."""
+    try:
+        factor, dimension = scale(text.strip())
+    except ValueError:
+        raise QuantityFault("unknown-unit", given=text, unit=unit) from None
+    if dimension != scale(unit)[1]:
+        raise QuantityFault("wrong-unit", given=text, unit=unit)
+    return factor
+
+
+def scale(unit: str) -> tuple[float, Dimension]:
+    """SI factor and dimension of a unit's text; raises `ValueError` for one that nobody knows."""
+    return PLAIN[unit] if unit in PLAIN else scale_by_pint(unit)
+
+
+@cache
+def scale_by_pint(unit: str) -> tuple[float, Dimension]:
+    """As `scale`, always by pint; `m2`, `m²`, `kg·m2` and `kg.m2` are understood."""
+    if not re.fullmatch(UNIT, unit) or len(unit) > _LONGEST or re.search(r"[0-9]{2}", unit):
+        raise ValueError(unit)
+    spelled = re.sub(r"(?<=[A-Za-z)])\s*[.·⋅]\s*(?=[A-Za-z(])", " ", unit)
+    spelled = re.sub(r"(?<=[A-Za-zµμΩ])(?=[+-]?[0-9])", "**", spelled)
+    registry = _registry()
+    try:
+        factor, base = registry.get_base_units(registry.parse_units(spelled))
+    # pint's parser answers nonsense with whatever breaks first: syntax, assertion, type, undefined unit.
+    except Exception:
+        raise ValueError(unit) from None
+    return float(factor), tuple(sorted((str(name), float(power)) for name, power in base._units.items()))
+
+
+@cache
+def _registry() -> Any:
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def _cleaned(text: str) -> str:
+    """The text without outer blanks, its minus sign plain; raises for what can be no number at all."""
+    cleaned = text.strip().replace("\N{MINUS SIGN}", "-")
+    if len(cleaned) > _LONGEST:
+        raise QuantityFault("not-a-number", text=text)
+    if match := _COMMA.fullmatch(cleaned):
+        raise QuantityFault("decimal-comma", text=text, fixed=f"{match[1]}.{match[2]}")
+    if _NOT_FINITE.fullmatch(cleaned):
+        raise QuantityFault("not-finite", text=text)
+    return cleaned
