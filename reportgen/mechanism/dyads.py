@@ -13,10 +13,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.mechanism.plane import Complexes, Floats, cross, dot, solve2, unit
-from reportgen.mechanism.structure import Dyad
+from reportgen.mechanism.structure import Dyad, DyadKind
 
 TOUCHING = 1e-13
 """A square root of minus this, relative, is a flat position met exactly, not an unreachable one."""
+
+COINCIDENT = 1e-9
+"""Points nearer than this, relative to their distance from the origin, give no direction."""
+
+RODS: Mapping[DyadKind, int] = {"RRR": 2, "RRP": 1, "RPR": 0, "PRP": 0, "RPP": 0}
+"""How many of a kind's `lengths` are lengths of rods."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,8 +89,11 @@ def carried(base: PointMotion, link: LinkMotion, p: Complexes) -> PointMotion:
 def assemble(dyad: Dyad, start: End, end: End, sign: Floats) -> Assembled:
     """The group on its two ends; `sign` [N] is its orientation.
 
-    Raises `TypeError` when an end is a guide where the kind has a revolute joint, or the reverse.
+    Raises `TypeError` when an end is a guide where the kind has a revolute joint, or the reverse, and
+    `ValueError` for a rod without length.
     """
+    if min(dyad.lengths[: RODS[dyad.kind]], default=1.0) <= 0:
+        raise ValueError(f"dyad {dyad.links}: a rod must have a length")
     match dyad.kind, start, end:
         case "RRR", PointMotion(), PointMotion():
             return _rrr(dyad, start, end, sign)
@@ -149,6 +158,8 @@ def _rpr(dyad: Dyad, p: PointMotion, t: PointMotion, sign: Floats) -> Assembled:
     """v_P = v_T + iω TP + ṡ u, a_P = a_T + (iε − ω²) TP + 2iωṡ u + s̈ u."""
     offset = dyad.lengths[1]
     r = p.p - t.p
+    # A pin met by its own slider's centre leaves the direction to rounding.
+    r = np.where(np.abs(r) > COINCIDENT * (np.abs(p.p) + np.abs(t.p)), r, np.nan)
     s = sign * _root(np.abs(r) ** 2 - offset**2, np.abs(r))
     with np.errstate(divide="ignore", invalid="ignore"):
         u = unit(np.angle(r / (s + 1j * offset)))

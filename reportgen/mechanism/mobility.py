@@ -80,8 +80,17 @@ def owners(linkage: Linkage) -> Mapping[str, int]:
 
 
 def joints(linkage: Linkage) -> tuple[Joint, ...]:
-    """All joints in the order of assembly: the driver's, then start, inner and end of every dyad."""
+    """All joints in the order of assembly: the driver's, then start, inner and end of every dyad.
+
+    Raises `ValueError` for a dyad that hangs on the `middle` of an RPR: that point of the guide link
+    changes from moment to moment, so no pin can be there (the slider's own pin can be named instead).
+    """
     owner = owners(linkage)
+    passing = {dyad.middle for dyad in linkage.dyads if dyad.kind == "RPR"}
+    for dyad in linkage.dyads:
+        for end in (dyad.start, dyad.end):
+            if end in passing:
+                raise ValueError(f"dyad {dyad.links} cannot hang on {end}, which slides along its link")
     driver = linkage.driver
     first = (
         Joint("R", (GROUND, DRIVER), driver.centre)

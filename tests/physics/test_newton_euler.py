@@ -1,0 +1,203 @@
+"""The whole analysis against an independent solve with constraint Jacobian and multipliers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import linkages as made
+import newton_euler as ne
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+from reportgen.mechanism.forces import Forces, solve_forces
+from reportgen.mechanism.loads import Load, inertia_loads, weights
+from reportgen.mechanism.motion import Motion, solve_motion
+from reportgen.mechanism.power import virtual_work_torque
+from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+
+AGREEMENT = 1e-9
+"""Of each quantity's greatest size over the positions compared."""
+CONDITION = 1e3
+"""Greatest condition number of the constraint Jacobian (lengths near 1 m): beyond it a position counts as
+near-singular.  Accelerations and forces then hold ε·10³·10³ = 2e-10 of their greatest."""
+
+quick = settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+
+Given = list[tuple[int, complex, complex, float]]
+Change = Callable[[Linkage, Motion], tuple[Motion, tuple[Load, ...]]]
+
+
+def plainly(linkage: Linkage, motion: Motion) -> tuple[Motion, tuple[Load, ...]]:
+    return motion, inertia_loads(linkage, motion)
+
+
+def disagreement(
+    linkage: Linkage,
+    motion: Motion,
+    given_loads: Given,
+    change: Change = plainly,
+    change_forces: Callable[[Forces], Forces] = lambda forces: forces,
+) -> dict[str, float] | None:
+    """Largest difference of each sort of quantity from the witness, over its own maximum.
+
+    None when no position is well conditioned.  `change` and `change_forces` put faults in.
+    """
+    motion, inertia = change(linkage, motion)
+    given_arrays = made.as_loads(given_loads, motion)
+    forces = change_forces(
+        solve_forces(linkage, motion, (*given_arrays, *weights(linkage, motion), *inertia))
+    )
+    bodies, joints = made.bodies(linkage), made.joints(linkage)
+    keys = made.reaction_keys(linkage)
+    pairs: dict[str, list[tuple[complex, complex]]] = {}
+    for k in np.flatnonzero(motion.reachable):
+        pose = {
+            link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k]))
+            for link in linkage.links
+        }
+        by_weight = [
+            (body.link, body.mass * linkage.gravity, complex(motion.points[body.centre].p[k]), 0.0)
+            for body in linkage.inertias
+        ]
+        answer = ne.solve(
+            bodies,
+            joints,
+            isinstance(linkage.driver, Crank),
+            motion.rate,
+            pose,
+            given_loads + by_weight,
+            CONDITION,
+        )
+        if answer is None:
+            continue
+
+        def note(name: str, ours: complex, theirs: complex) -> None:
+            pairs.setdefault(name, []).append((complex(ours), complex(theirs)))
+
+        note("residual", answer.residual + 1.0, 1.0)
+        for link in linkage.links:
+            ours, origin = motion.links[link], motion.origins[link]
+            note("v", origin.v[k], answer.velocity[link][0])
+            note("ω", ours.omega[k], answer.velocity[link][1])
+            note("a", origin.a[k], answer.acceleration[link][0])
+            note("ε", ours.epsilon[k], answer.acceleration[link][1])
+        for key, (force, couple) in zip(keys, answer.wrenches, strict=True):
+            note("R", forces.reactions[key].force[k], force)
+            note("moment", forces.reactions[key].moment[k], couple)
+        note("effort", forces.torque[k], answer.effort)
+    if not pairs:
+        return None
+    # What is nothing by the linkage's nature (ε of a sliding link, say) is read against the size that
+    # such a quantity has in a linkage of about 1 m; a couple against the largest force at 1 m as well.
+    rate = abs(motion.rate)
+    floor = {"residual": 1.0, "v": rate, "ω": rate, "a": rate**2, "ε": rate**2, "R": 1.0, "effort": 1.0}
+    floor["moment"] = max(abs(theirs) for _, theirs in pairs["R"])
+    return {
+        name: max(abs(ours - theirs) for ours, theirs in found)
+        / max(floor[name], *(abs(theirs) for _, theirs in found))
+        for name, found in pairs.items()
+    }
+
+
+def prove(linkage: Linkage, rate: float, given_loads: Given) -> None:
+    driver = made.REFERENCE + np.array([-0.11, -0.04, 0.0, 0.03, 0.09])
+    motion = solve_motion(linkage, driver, rate)
+    found = disagreement(linkage, motion, given_loads)
+    assume(found is not None)
+    assert found is not None
+    assert max(found.values()) < AGREEMENT, found
+
+
+@pytest.mark.parametrize("sliding", [False, True], ids=["crank", "slide"])
+@pytest.mark.parametrize("kind", made.KINDS)
+@quick
+@given(data=st.data())
+def test_every_kind(kind: made.DyadKind, sliding: bool, data: st.DataObject) -> None:
+    linkage = data.draw(made.linkages((kind,), sliding))
+    prove(linkage, data.draw(made.RATE), data.draw(made.applied(linkage)))
+
+
+@settings(quick, max_examples=100)
+@given(data=st.data())
+def test_chains_of_three_groups(data: st.DataObject) -> None:
+    kinds = tuple(data.draw(st.lists(st.sampled_from(made.KINDS), min_size=3, max_size=3)))
+    linkage = data.draw(made.linkages(kinds, data.draw(st.booleans())))
+    prove(linkage, data.draw(made.RATE), data.draw(made.applied(linkage)))
+
+
+# --- the proof notices faults ------------------------------------------------------------------------
+
+
+@pytest.fixture
+def engine() -> Linkage:
+    """An offset slider-crank with a coupler-driven rocker: nothing in it is nothing by symmetry."""
+    return Linkage(
+        {"O": 0, "E": 1.2 + 0.5j},
+        Crank("O", "A", 0.3),
+        (
+            Dyad("RRP", (2, 3), "A", "B", Guide(-0.1j, 0.0), (0.9, 0.0)),
+            Dyad("RRR", (4, 5), "S2", "D", "E", (0.7, 0.6)),
+        ),
+        (LinkPoint("S2", 2, 0.4 + 0.1j), LinkPoint("S4", 4, 0.3), LinkPoint("S5", 5, 0.2 + 0.1j)),
+        (
+            Inertia(2, "S2", 2.0, 0.1),
+            Inertia(3, "B", 1.0),
+            Inertia(4, "S4", 1.5, 0.06),
+            Inertia(5, "S5", 1.0, 0.04),
+        ),
+    )
+
+
+TURN = np.linspace(0, 2 * math.pi, 8, endpoint=False) + 0.1
+
+
+def test_the_proof_passes_without_a_fault(engine: Linkage) -> None:
+    found = disagreement(engine, solve_motion(engine, TURN, -9.0), [(3, -80 + 0j, 0.5 - 0.1j, 0.0)])
+    assert found is not None
+    assert max(found.values()) < AGREEMENT
+
+
+def wrong_moment(linkage: Linkage, motion: Motion) -> tuple[Motion, tuple[Load, ...]]:
+    turned = replace(linkage, inertias=tuple(replace(body, moment=-body.moment) for body in linkage.inertias))
+    return motion, inertia_loads(turned, motion)
+
+
+def wrong_epsilon(linkage: Linkage, motion: Motion) -> tuple[Motion, tuple[Load, ...]]:
+    links = {number: replace(link, epsilon=-link.epsilon) for number, link in motion.links.items()}
+    motion = replace(motion, links=links)
+    return motion, inertia_loads(linkage, motion)
+
+
+def wrong_inertia(linkage: Linkage, motion: Motion) -> tuple[Motion, tuple[Load, ...]]:
+    return motion, tuple(replace(load, force=-load.force) for load in inertia_loads(linkage, motion))
+
+
+@pytest.mark.parametrize("fault", [wrong_moment, wrong_epsilon, wrong_inertia])
+def test_the_proof_fails_on_a_wrong_sign_of_inertia(engine: Linkage, fault: Change) -> None:
+    found = disagreement(engine, solve_motion(engine, TURN, -9.0), [], fault)
+    assert found is not None
+    assert found["R"] > 1e3 * AGREEMENT
+    assert found["effort"] > 1e3 * AGREEMENT
+
+
+@pytest.mark.parametrize("key", ["R01", "R12", "R23", "R03", "R24", "R45", "R05"])
+def test_the_proof_fails_on_a_wrong_sign_of_any_reaction(engine: Linkage, key: str) -> None:
+    def fault(forces: Forces) -> Forces:
+        wrong = replace(forces.reactions[key], force=-forces.reactions[key].force)
+        return replace(forces, reactions={**forces.reactions, key: wrong})
+
+    found = disagreement(engine, solve_motion(engine, TURN, -9.0), [], plainly, fault)
+    assert found is not None
+    assert found["R"] > 1e3 * AGREEMENT
+
+
+def test_both_torques_fail_to_agree_on_a_wrong_sign_of_epsilon(engine: Linkage) -> None:
+    motion = solve_motion(engine, TURN, -9.0)
+    _, inertia = wrong_epsilon(engine, motion)
+    right = virtual_work_torque(engine, motion, inertia_loads(engine, motion))
+    wrong = solve_forces(engine, motion, inertia).torque
+    assert np.abs(right - wrong).max() > 1e-3 * np.abs(right).max()
