@@ -1,0 +1,220 @@
+"""Expressions → LaTeX mathematics, without the dollar signs."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from reportgen.errors import TypesetterError
+from reportgen.notation.expressions import (
+    Call,
+    Chain,
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Ref,
+    Root,
+    Sum,
+    Symbol,
+    Term,
+    VectorEquation,
+    walk,
+)
+from reportgen.notation.numbers import MINUS, Language, write
+from reportgen.writers.brackets import ATOM, MARKED, PRIMES, PRODUCT, QUOTIENT, level
+from reportgen.writers.latex_text import MATHEMATICAL, escape
+
+NAMED = {
+    "sin": r"\sin",
+    "cos": r"\cos",
+    "tan": r"\tan",
+    "arcsin": r"\arcsin",
+    "arccos": r"\arccos",
+    "arctan": r"\arctan",
+    "min": r"\min",
+    "max": r"\max",
+    "arg": r"\arg",
+}
+"""Functions that TeX knows by name; any other prints its own name upright."""
+
+
+def mathematics(node: Expression, language: Language) -> str:
+    """The formula of an expression; sums and chains carry the places where a line may break.
+
+    Raises `TypesetterError` for a reference nobody substituted or a character the fonts do not have.
+    """
+    match node:
+        case Symbol():
+            return _symbol(node)
+        case Number(value, decimals, unit):
+            return _digits(write(value, decimals, language)) + _unit(unit)
+        case Ref(id):
+            raise TypesetterError(f"quantity {id!r} came to the page without its symbol or value")
+        case Sum(terms):
+            return _sum(terms, language)
+        case Product(factors):
+            return r" \dotbreak\cdot ".join(_tight(factor, PRODUCT, language) for factor in factors)
+        case Negative(of):
+            return f"-{_tight(of, PRODUCT, language)}"
+        case Fraction(top, bottom):
+            return rf"\frac{{{mathematics(top, language)}}}{{{mathematics(bottom, language)}}}"
+        case Power(base, exponent):
+            return _power(base, mathematics(exponent, language), language)
+        case Root(of):
+            return rf"\sqrt{{{mathematics(of, language)}}}"
+        case Call():
+            return _call(node, "", language)
+        case Chain(parts, note):
+            printed = r" \relbreak= ".join(mathematics(part, language) for part in parts)
+            return printed + (rf" \relbreak\quad\text{{({escape(note)})}}" if note else "")
+        case VectorEquation():
+            return _vector_equation(node, language)
+
+
+def aligned(node: Expression, language: Language) -> tuple[str, str]:
+    """A displayed line cut at its first relation: what stands left of it, and the rest."""
+    if isinstance(node, Chain) and len(node.parts) > 1:
+        return (
+            mathematics(node.parts[0], language),
+            r" \relbreak= " + mathematics(Chain(node.parts[1:], node.note), language),
+        )
+    return "", mathematics(node, language)
+
+
+# --- atoms ----------------------------------------------------------------------------------------
+
+
+def _symbol(symbol: Symbol) -> str:
+    letters = symbol.base.rstrip("".join(PRIMES))
+    primes = symbol.base[len(letters) :]
+    base = letters if len(letters) == 1 and _is_mathematical(letters) else _word(letters, "it")
+    if symbol.over == "vector":
+        base = rf"\vec{{{base}}}" if len(letters) == 1 else rf"\overrightarrow{{{base}}}"
+    elif symbol.over == "segment":
+        base = rf"\overline{{{base}}}"
+    below = f"_{{{_word(symbol.sub)}}}" if symbol.sub else ""
+    above = f"^{{{_word(primes + symbol.sup)}}}" if primes or symbol.sup else ""
+    return base + below + above
+
+
+def _is_mathematical(text: str) -> bool:
+    return all(char in MATHEMATICAL or (char.isascii() and char.isalnum()) for char in text)
+
+
+def _word(text: str, shape: Literal["rm", "it"] = "rm") -> str:
+    """A run of letters in one alphabet of TeX; whatever else a writer put there is set as text."""
+    if text.isdigit() and text.isascii():
+        return text
+    primes = {"′": r"\prime", "″": r"\prime\prime"}
+    if text and all(char in primes for char in text):
+        return "".join(primes[char] for char in text)
+    if _is_mathematical(text):
+        return rf"\math{shape}{{{text}}}"
+    return rf"\text{{\text{'it' if shape == 'it' else 'up'}{{{escape(text)}}}}}"
+
+
+def _digits(text: str) -> str:
+    """Digits in mathematics: no gap after the decimal comma, a true minus sign."""
+    if not any(char.isdigit() for char in text):
+        return rf"\text{{{escape(text)}}}"
+    return text.replace(",", "{,}").replace(MINUS, "-")
+
+
+def _unit(unit: str) -> str:
+    gap = "" if unit in ("", "°", "%") else r"\,"
+    return rf"{gap}\text{{{escape(unit)}}}" if unit else ""
+
+
+# --- operations -----------------------------------------------------------------------------------
+
+
+def _tight(node: Expression, least: int, language: Language) -> str:
+    """The node, in parentheses if it is looser than `least`."""
+    return mathematics(node, language) if level(node) >= least else _parentheses(node, language)
+
+
+def _parentheses(node: Expression, language: Language) -> str:
+    inner = mathematics(node, language)
+    if any(isinstance(part, (Fraction, Root)) for part in walk(node)):
+        return rf"\mathopen{{}}\left({inner}\right)"
+    return f"({inner})"
+
+
+def _sum(terms: tuple[Expression, ...], language: Language) -> str:
+    printed = [mathematics(terms[0], language)] if terms else []
+    for term in terms[1:]:
+        if isinstance(term, Negative):
+            printed.append(r"\binbreak- " + _tight(term.of, PRODUCT, language))
+        else:
+            printed.append(r"\binbreak+ " + _tight(term, PRODUCT, language))
+    return " ".join(printed)
+
+
+def _power(base: Expression, exponent: str, language: Language) -> str:
+    if isinstance(base, Call) and base.name in NAMED:
+        return _call(base, f"^{{{exponent}}}", language)
+    return f"{_tight(base, ATOM, language)}^{{{exponent}}}"
+
+
+def _call(node: Call, exponent: str, language: Language) -> str:
+    match node.name, node.arguments:
+        case "abs", (argument,):
+            return rf"\left|{mathematics(argument, language)}\right|"
+        case "cross", (left, right):
+            return rf"{_tight(left, QUOTIENT, language)} \times {_tight(right, QUOTIENT, language)}"
+        case "dot", (left, right):
+            return rf"{_tight(left, QUOTIENT, language)} \cdot {_tight(right, QUOTIENT, language)}"
+        case name, (argument,) if name in NAMED and level(argument) >= MARKED:
+            return f"{NAMED[name]}{exponent} {mathematics(argument, language)}"
+        case name, (argument,):
+            return f"{_function(name)}{exponent}{_parentheses(argument, language)}"
+        case name, arguments:
+            mark = "; " if language == "vi" else ", "
+            inner = mark.join(mathematics(argument, language) for argument in arguments)
+            return f"{_function(name)}{exponent}({inner})"
+
+
+def _function(name: str) -> str:
+    return NAMED.get(name) or rf"\operatorname{{{escape(name)}}}"
+
+
+# --- vector equations -----------------------------------------------------------------------------
+
+
+def _vector_equation(equation: VectorEquation, language: Language) -> str:
+    """A grid: the terms on top, under each a row of what is known of it, "?" where nothing is."""
+    terms = [term for side in equation.sides for term in side]
+    symbols = [
+        f"{_sign(term, number, index)}&{_symbol(term.symbol)}"
+        for number, side in enumerate(equation.sides)
+        for index, term in enumerate(side)
+    ]
+    lines = [_grid_line("", symbols)]
+    rule = rf"\cline{{2-{2 * len(terms) + 1}}}" if equation.rows else ""
+    for row, name in enumerate(equation.rows):
+        entries = (term.known[row] if row < len(term.known) else "" for term in terms)
+        lines.append(_grid_line(escape(name), [f"&{_known(entry, language)}" for entry in entries]))
+    head, *known = lines
+    grid = "".join([head, *(r"\\" + (rule if index == 0 else "") + line for index, line in enumerate(known))])
+    return rf"\begin{{vectorgrid}}{{{len(terms)}}}{grid}\end{{vectorgrid}}"
+
+
+def _sign(term: Term, side: int, index: int) -> str:
+    """What stands before a term: the relation at the head of a later side, else its sign."""
+    minus = "-" if term.sign < 0 else ""
+    if index:
+        return minus or "+"
+    return "=" + minus if side else minus
+
+
+def _grid_line(name: str, entries: list[str]) -> str:
+    return (rf"\rowname{{{name}}}" if name else "") + "&" + "&".join(entries)
+
+
+def _known(entry: Expression | str | None, language: Language) -> str:
+    if entry is None:
+        return r"\known{?}"
+    inner = escape(entry) if isinstance(entry, str) else f"${mathematics(entry, language)}$"
+    return rf"\known{{{inner}}}"

@@ -1,0 +1,134 @@
+"""LaTeX source → PDF: runs pdflatex in a directory of its own, as often as the page numbers need.
+
+The run may read and write that directory only, starts no other program, and stops at the first error
+or at the time limit.  The same source gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from reportgen.errors import TypesetterError
+
+INSTALL = (
+    "apt-get install --no-install-recommends "
+    "texlive-latex-base texlive-latex-recommended texlive-lang-other lmodern"
+)
+"""The one command that installs all this writer needs, on Debian and its kin."""
+
+MAX_PASSES = 4
+REPORTED_EXCESS = 1.0
+"""Points by which a box may stand out before it counts as overfull."""
+
+_COMMAND = (
+    "pdflatex",
+    "-halt-on-error",
+    "-interaction=nonstopmode",
+    "-file-line-error",
+    "-no-shell-escape",
+    "-no-mktex=tfm",
+    "-no-mktex=pk",
+    "report.tex",
+)
+_ENVIRONMENT = {
+    # "p": neither parent directories nor absolute paths outside TeX's own trees.
+    "openin_any": "p",
+    "openout_any": "p",
+    "SOURCE_DATE_EPOCH": "0",
+    "FORCE_SOURCE_DATE": "1",
+    # A message of the log on one line, so that it can be read back.
+    "max_print_line": "1000",
+    "error_line": "254",
+    "half_error_line": "238",
+}
+_OVERFULL = re.compile(r"^Overfull \\[hv]box \((?P<excess>[\d.]+)pt too (?:wide|high)\).*$", re.MULTILINE)
+_MISSING = re.compile(
+    r"File [`'][^']+' not found|Font \S+ (?:at \S+ )?not loadable|Encoding scheme [^\n]* unknown"
+    r"|can't find file|Metric \(TFM\) file not found|pdfTeX error[^\n]*(?:font|cannot open)",
+)
+_ERROR = re.compile(r"^(?:!|\S+:\d+:) ", re.MULTILINE)
+
+
+@dataclass(frozen=True, slots=True)
+class Compiled:
+    """A finished PDF, the passes it took, and the log's lines about boxes more than 1 pt too large."""
+
+    pdf: bytes
+    passes: int
+    overfull: tuple[str, ...]
+
+
+def compile(source: str, timeout: float = 120.0) -> Compiled:
+    """Typeset a whole document; passes end when the auxiliary file no longer changes.
+
+    Raises `TypesetterError` if pdflatex or one of its packages is missing (with the command that
+    installs them), if TeX stops at an error (with the first lines of the log that say why), if it
+    runs longer than `timeout` seconds, or if the page numbers do not settle.
+    """
+    program = shutil.which(_COMMAND[0])
+    if program is None:
+        raise TypesetterError(f"the LaTeX engine needs pdflatex; install it with\n    {INSTALL}")
+    with tempfile.TemporaryDirectory(prefix="reportgen-") as name:
+        directory = Path(name)
+        (directory / "report.tex").write_text(source, encoding="utf-8")
+        auxiliary = b""
+        for passes in range(1, MAX_PASSES + 1):
+            _run(program, directory, timeout)
+            latest = (directory / "report.aux").read_bytes()
+            if latest == auxiliary or b"\\newlabel" not in latest:
+                log = _log(directory)
+                return Compiled((directory / "report.pdf").read_bytes(), passes, overfull(log))
+            auxiliary = latest
+    raise TypesetterError(f"the page numbers did not settle within {MAX_PASSES} passes of pdflatex")
+
+
+def overfull(log: str) -> tuple[str, ...]:
+    """The lines of a log about boxes that stand out by more than 1 pt."""
+    return tuple(
+        match.group() for match in _OVERFULL.finditer(log) if float(match["excess"]) > REPORTED_EXCESS
+    )
+
+
+def _run(program: str, directory: Path, timeout: float) -> None:
+    try:
+        done = subprocess.run(
+            (program, *_COMMAND[1:]),
+            cwd=directory,
+            env={**os.environ, **_ENVIRONMENT},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            timeout=timeout,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        raise TypesetterError(f"pdflatex was stopped after {timeout:g} s") from None
+    except OSError as error:
+        raise TypesetterError(f"pdflatex could not be started: {error}") from error
+    if done.returncode != 0:
+        raise TypesetterError(_reason(_log(directory)))
+
+
+def _log(directory: Path) -> str:
+    try:
+        return (directory / "report.log").read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return ""
+
+
+def _reason(log: str) -> str:
+    """What went wrong, from the log: a missing package with the remedy, else the first error's lines."""
+    found = _ERROR.search(log)
+    if found is None:
+        return "pdflatex failed and left no message"
+    lines = [line for line in log[found.start() :].splitlines()[:8] if line.strip()]
+    message = "\n".join(lines[:5])
+    if _MISSING.search(message):
+        return f"a part of LaTeX is missing ({lines[0].strip()}); install it with\n    {INSTALL}"
+    return f"pdflatex failed:\n{message}"
