@@ -11,7 +11,9 @@ from typing import Literal
 
 from reportgen.notation.expressions import Expression
 
-Anchor = Literal["center", "left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right"]
+Anchor = Literal[
+    "center", "left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right"
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +56,10 @@ class Circle:
 
 @dataclass(frozen=True, slots=True)
 class Arc:
-    """From `start` to `stop` (radians, anticlockwise when stop > start); `head` > 0 puts an arrow tip at the stop."""
+    """From `start` to `stop` (radians, anticlockwise when stop > start).
+
+    A `head` > 0 puts an arrow tip at the stop.
+    """
 
     centre: complex
     radius: float

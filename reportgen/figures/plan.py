@@ -1,0 +1,231 @@
+"""Velocity and acceleration plans: vectors from a pole, in mm, true to scale; also their stages.
+
+A plan is plain data; whoever makes it has already divided by μ.  The same drawing serves force polygons.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from reportgen.figures.draft import Draft, finish
+from reportgen.figures.geometry import bounds, clusters, unit
+from reportgen.figures.inset import Tiny, insets
+from reportgen.figures.labels import Content, Request, label
+from reportgen.figures.scale import NOTHING, TINY
+from reportgen.figures.scene import Arrow, Circle, Item, Line, Scene, Stroke
+from reportgen.figures.style import (
+    CONSTRUCTION,
+    FOUND,
+    HEAD,
+    KNOWN,
+    LABEL,
+    NEW,
+    OLD,
+    RELATIVE,
+    SMALL,
+)
+
+Style = Literal["known", "relative", "found"]
+PENS: dict[Style, Stroke] = {"known": KNOWN, "relative": RELATIVE, "found": FOUND}
+
+SAME = 0.05
+"""Points nearer than this (mm) are one point for the eye and share a label joined by ≡."""
+CROWDED = 1.2
+"""Points nearer than this share a label joined by commas; an inset tells them apart."""
+BEYOND = 6.0
+"""How far (mm) an auxiliary direction goes on beyond its ends."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlanVector:
+    """An arrow of a plan, in mm; `name` names it for whoever measures, `label` prints beside it."""
+
+    name: str
+    start: complex
+    end: complex
+    style: Style = "known"
+    label: Content | None = None
+    stage: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class PlanPoint:
+    """A named point of a plan: the pole, the end of a vector, a vertex."""
+
+    label: Content
+    at: complex
+    stage: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class PlanLine:
+    """An auxiliary direction drawn from `start` through `end` and a little on."""
+
+    start: complex
+    end: complex
+    stage: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """Vectors, named points and auxiliary directions in mm; `points[0]` is the pole where there is one.
+
+    `scale` is printed below, e.g. μ_v = 0.2189 m/(s·mm); `pole` marks the first point by a small circle.
+    """
+
+    vectors: tuple[PlanVector, ...]
+    points: tuple[PlanPoint, ...] = ()
+    lines: tuple[PlanLine, ...] = ()
+    scale: Content | None = None
+    pole: bool = True
+
+    @property
+    def size(self) -> float:
+        """The longest vector, mm."""
+        return max((abs(v.end - v.start) for v in self.vectors), default=0.0)
+
+    @property
+    def last_stage(self) -> int:
+        numbers = [v.stage for v in self.vectors] + [p.stage for p in self.points]
+        return max(numbers + [k.stage for k in self.lines], default=0)
+
+    def drawn(self) -> tuple[PlanVector, ...]:
+        """The vectors that are something: not below 1e-9 of the longest."""
+        return tuple(v for v in self.vectors if abs(v.end - v.start) > NOTHING * self.size)
+
+    def scaled(self, factor: complex) -> Plan:
+        """The plan enlarged or reduced, for panels that are not to scale; turned by a complex factor."""
+        return replace(
+            self,
+            vectors=tuple(replace(v, start=v.start * factor, end=v.end * factor) for v in self.vectors),
+            points=tuple(replace(p, at=p.at * factor) for p in self.points),
+            lines=tuple(replace(k, start=k.start * factor, end=k.end * factor) for k in self.lines),
+        )
+
+    def until(self, stage: int) -> Plan:
+        """Only what is drawn up to a stage."""
+        return replace(
+            self,
+            vectors=tuple(v for v in self.vectors if v.stage <= stage),
+            points=tuple(p for p in self.points if p.stage <= stage),
+            lines=tuple(k for k in self.lines if k.stage <= stage),
+        )
+
+
+def plan(drawing: Plan, *, title: str = "", notes: Sequence[Content] = (), enlarge: bool = True) -> Scene:
+    """The scene of a plan in true size, vectors under 3 mm repeated in enlarged insets."""
+    vectors = drawing.drawn()
+    draft = Draft((*_lines(drawing), *_arrows(vectors), *_marks(drawing)), _labels(drawing, vectors, LABEL))
+    if enlarge:
+        draft += insets(_tiny(drawing, vectors), [(v.start, v.end) for v in vectors], draft)
+    written = (*notes, *((drawing.scale,) if drawing.scale is not None else ()))
+    return finish(draft, notes=written, title=title)
+
+
+def stages(drawing: Plan, factor: float = 1.0, titles: Sequence[str] = ()) -> tuple[Scene, ...]:
+    """Panels of the construction: stage after stage, what is new in blue, on paper of one size."""
+    whole = drawing.scaled(factor)
+    corner = bounds((*_lines(whole), *_arrows(whole.drawn())))
+    pad = complex(4, 4)
+    panels = []
+    for stage in range(whole.last_stage + 1):
+        part = whole.until(stage)
+        vectors = tuple(v for v in whole.drawn() if v.stage <= stage)
+        items = (
+            *_lines(part, stage),
+            *(Arrow(v.start, v.end, NEW if v.stage == stage else OLD, HEAD, v.name) for v in vectors),
+            *_marks(part),
+        )
+        title = titles[stage] if stage < len(titles) else f"{chr(ord('a') + stage)})"
+        draft = Draft(items, _labels(part, vectors, SMALL))
+        panels.append(finish(draft, title=title, margin=2.0, frame=(corner[0] - pad, corner[1] + pad)))
+    return _alike(panels)
+
+
+def _alike(panels: Sequence[Scene]) -> tuple[Scene, ...]:
+    """All panels on paper as large as the largest."""
+    width = max(panel.width for panel in panels)
+    height = max(panel.height for panel in panels)
+    return tuple(replace(panel, width=width, height=height) for panel in panels)
+
+
+def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
+    result: list[Item] = []
+    for line in drawing.lines:
+        new = stage is not None and line.stage == stage
+        pen = replace(CONSTRUCTION, width=0.18, colour=NEW.colour) if new else CONSTRUCTION
+        on = unit(line.end - line.start)
+        result.append(Line(line.start, line.end + BEYOND * on, pen))
+    return result
+
+
+def _arrows(vectors: Sequence[PlanVector]) -> list[Item]:
+    return [Arrow(v.start, v.end, PENS[v.style], HEAD, v.name) for v in vectors]
+
+
+def _marks(drawing: Plan) -> list[Item]:
+    if not (drawing.pole and drawing.points):
+        return []
+    return [Circle(drawing.points[0].at, 0.7, Stroke(0.25), "#ffffff")]
+
+
+def _labels(drawing: Plan, vectors: Sequence[PlanVector], size: float) -> tuple[Request, ...]:
+    """One label per point of the eye, and those of the vectors beside their middles."""
+    requests = []
+    for group in clusters([p.at for p in drawing.points], CROWDED):
+        members = [drawing.points[i] for i in group]
+        at = members[0].at
+        gap = 1.1 if drawing.pole and 0 in group else 0.7
+        requests.append(label(at, *joined(members), prefer=_outward(at, vectors), gap=gap, size=size))
+    for vector in vectors:
+        if vector.label is None or abs(vector.end - vector.start) < TINY:
+            continue
+        requests.append(beside(vector.start, vector.end, vector.label, size))
+    return tuple(requests)
+
+
+def beside(start: complex, end: complex, content: Content, size: float = LABEL) -> Request:
+    """A label for an arrow: beside its middle, else beside its thirds."""
+    way = end - start
+    across = cmath.phase(way) + math.pi / 2
+    places = [start + way * share for share in (0.5, 0.64, 0.36, 0.76, 0.24, 0.88, 0.12)]
+    return label(places[0], content, prefer=(across, across - math.pi), also=places[1:], size=size)
+
+
+def joined(points: Sequence[PlanPoint]) -> list[Content]:
+    """The names of points that one label stands for: a ≡ b where they coincide, else a, b."""
+    parts: list[Content] = []
+    for n, point in enumerate(points):
+        if any(point.label == earlier.label for earlier in points[:n]):
+            continue
+        if parts:
+            parts.append(" ≡ " if abs(point.at - points[0].at) < SAME else ", ")
+        parts.append(point.label)
+    return parts
+
+
+def _outward(at: complex, vectors: Sequence[PlanVector]) -> tuple[float, ...]:
+    """The direction away from the vectors that meet in a point: where its name reads best."""
+    pull = 0j
+    for vector in vectors:
+        for here, there in ((vector.start, vector.end), (vector.end, vector.start)):
+            if abs(here - at) < CROWDED and abs(there - here) > CROWDED:
+                pull += unit(there - here)
+    return (cmath.phase(-pull),) if abs(pull) > 0.2 else ()
+
+
+def _tiny(drawing: Plan, vectors: Sequence[PlanVector]) -> list[Tiny]:
+    """The vectors under 3 mm with the names of their ends."""
+
+    def names(at: complex) -> tuple[Content, ...]:
+        return tuple(joined([p for p in drawing.points if abs(p.at - at) < SAME]))
+
+    return [
+        Tiny(v.start, v.end, PENS[v.style], v.name, v.label, names(v.start), names(v.end))
+        for v in vectors
+        if abs(v.end - v.start) < TINY
+    ]
