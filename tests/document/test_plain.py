@@ -1,0 +1,78 @@
+"""Formulas, numbers and blocks as plain text."""
+
+from __future__ import annotations
+
+import pytest
+
+from reportgen.document.plain import formula, plain, text_of
+from reportgen.document.tree import (
+    BlankLine,
+    Contents,
+    Cover,
+    Document,
+    InlineMath,
+    LineBreak,
+    PageBreak,
+    Text,
+    Value,
+    Words,
+)
+from reportgen.notation.expressions import (
+    PI,
+    Chain,
+    Expression,
+    Negative,
+    Number,
+    Root,
+    Symbol,
+    Term,
+    VectorEquation,
+    add,
+    call,
+    divide,
+    multiply,
+    negative,
+    power,
+    subtract,
+)
+
+A, B, C = Symbol("a"), Symbol("b", "2"), Symbol("c", "BA", "n")
+
+
+@pytest.mark.parametrize(
+    ("expression", "text"),
+    [
+        (C, "c_BA^n"),
+        (add(A, negative(B), Number(-2.0)), "a − b_2 + (−2)"),
+        (subtract(A, add(B, C)), "a − (b_2 + c_BA^n)"),
+        (multiply(A, add(B, C), Number(3.0)), "a·(b_2 + c_BA^n)·3"),
+        (divide(multiply(A, B), multiply(B, C)), "a·b_2/(b_2·c_BA^n)"),
+        (divide(A, divide(B, C)), "a/(b_2/c_BA^n)"),
+        (power(negative(A), 2), "(−a)^2"),
+        (negative(add(A, B)), "−(a + b_2)"),
+        (Root(add(A, PI)), "√(a + π)"),
+        (call("arctan2", A, B), "arctan2(a; b_2)"),
+        (Chain((A, Number(0.0, 2, "m/s")), "dead centre"), "a = 0,00 m/s (dead centre)"),
+        (Negative(Number(12.345, 2, "°")), "−12,35°"),
+        (
+            VectorEquation(((Term(A, ("x", A)),), (Term(B, (None,)), Term(C, (), -1))), ("line", "size")),
+            "a = b_2 − c_BA^n\nline: x | ? | \nsize: a |  | ",
+        ),
+    ],
+)
+def test_a_formula_reads_without_ambiguity(expression: Expression, text: str) -> None:
+    assert formula(expression, "vi") == text
+
+
+def test_inlines_read_as_one_line() -> None:
+    line = (Text("v"), LineBreak(), InlineMath(A), Text(" = "), Value(Number(-0.5, 1, "mm")))
+    assert plain(line, "en") == "v a = −0.5 mm"
+
+
+def test_the_front_matter_is_text_too() -> None:
+    cover = Cover(("University",), ("Title",), ("Sub",), (("Student", "N"), ("Class", "")), "Place, 2011")
+    blocks = (cover, Contents("Contents"), PageBreak(), BlankLine("Name"))
+    document = Document("en", "T", "A", ("", ""), ("", ""), Words("F", "T", "C", "p"), blocks)
+    assert text_of(document).splitlines() == [
+        *("University", "Title", "Sub", "Student: N", "Class: …", "Place, 2011", "Contents", "Name …"),
+    ]
