@@ -208,8 +208,9 @@ class _Provenance(Extension):
         file = stream.filename or stream.name or ""
         for token in stream:
             if token.type == "data":
-                if _PRIVATE.search(token.value):
-                    raise TemplateSyntaxError("private-use characters", token.lineno, stream.name, file)
+                if found := _PRIVATE.search(token.value):
+                    line = token.lineno + token.value.count("\n", 0, found.start())
+                    raise TemplateSyntaxError("private-use characters", line, stream.name, file)
                 yield _static(token.lineno, file, token.value)
             else:
                 if token.type == "variable_begin":

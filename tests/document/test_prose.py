@@ -1,0 +1,260 @@
+"""Words to blocks: what a template says, what a value can never say, and where a fault is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from reportgen.document.prose import Prose, search_path, template_root
+from reportgen.document.tree import (
+    BlankLine,
+    Block,
+    Emph,
+    Equation,
+    Inline,
+    InlineMath,
+    LineBreak,
+    List,
+    PageBreak,
+    Paragraph,
+    Reference,
+    Section,
+    Strong,
+    Table,
+    Text,
+    Value,
+)
+from reportgen.errors import TemplateError
+from reportgen.notation.expressions import Number, Symbol
+
+V_B = Symbol("v", "B")
+SPEED = Number(15.708, 2, "m/s")
+HOSTILE = "A_B & 100% #1 $x$ \\input{…} *y* {{ 7*7 }} {% if %} `c` [a](b) <b> \n# x\n\n- y\n---\n    z"
+
+NAMES: Mapping[str, object] = {
+    "vB": V_B,
+    "speed": SPEED,
+    "user": HOSTILE,
+    "k": 4,
+    "equation": Equation((V_B,), "eq.vb"),
+    "table": lambda caption: Table((), (), (), caption),
+    "nothing": (),
+    "both": (Text("a"), Strong((Text("b"),))),
+    "two": [Equation((V_B,)), PageBreak()],
+}
+
+Render = Callable[[str], tuple[Block, ...]]
+
+
+@pytest.fixture
+def render(tmp_path: Path) -> Render:
+    (tmp_path / "macros.md").write_text(
+        "{% macro speed_of(point) %}*speed* of {{ point }}{% endmacro %}\n"
+        "{% macro pages(n) %}\n\nOne.\n\nTwo: {{ n }}.\n\n{% endmacro %}\n",
+        encoding="utf-8",
+    )
+
+    def rendered(template: str) -> tuple[Block, ...]:
+        (tmp_path / "page.md").write_text(template, encoding="utf-8")
+        return Prose((tmp_path,)).render("page.md", NAMES)
+
+    return rendered
+
+
+def says(*inlines: str | Inline) -> Paragraph:
+    return Paragraph(tuple(Text(part) if isinstance(part, str) else part for part in inlines))
+
+
+@pytest.mark.parametrize(
+    ("template", "expected"),
+    [
+        ('Một câu – “thử” … "x" -- y & z.', [says('Một câu – “thử” … "x" -- y & z.')]),
+        ("two\nlines\n\n    indented", [says("two lines"), says("indented")]),
+        ("under\n---\nover", [says("under"), PageBreak(), says("over")]),
+        ("a\\\nb", [says("a", LineBreak(), "b")]),
+        ("*e* **s *both***", [says(Emph((Text("e"),)), " ", Strong((Text("s "), Emph((Text("both"),)))))]),
+        (r"\*plain\* &amp; [x]: y", [says("*plain* &amp; [x]: y")]),
+        ("## A *b*", [Section(2, (Text("A "), Emph((Text("b"),))))]),
+        ('# A {{ key("s.a") }}', [Section(1, (Text("A"),), "s.a")]),
+        ('# A {{ unnumbered() }}{{ key("s") }}', [Section(1, (Text("A"),), "s", numbered=False)]),
+        ("### {{ vB }}", [Section(3, (InlineMath(V_B),))]),
+        ("- a\n- b\n\n  c", [List(((says("a"),), (says("b"), says("c"))))]),
+        ("3. a\n   - b\n4. c", [List(((says("a"), List(((says("b"),),))), (says("c"),)), True, 3)]),
+    ],
+)
+def test_markdown_becomes_the_tree(render: Render, template: str, expected: list[Block]) -> None:
+    assert render(template) == tuple(expected)
+
+
+@pytest.mark.parametrize(
+    ("template", "expected"),
+    [
+        ("{{ vB }} = {{ speed }}", [says(InlineMath(V_B), " = ", Value(SPEED))]),
+        ("**{{ k }}**{{ -3 }}", [says(Strong((Text("4"),)), Text("−3"))]),
+        ("see {{ ref('eq.' ~ k) }}", [says("see ", Reference("eq.4"))]),
+        ("{{ both }}!{{ nothing }}", [says(Text("a"), Strong((Text("b"),)), "!")]),
+        ("{{ '*constant*' }}", [says("*constant*")]),
+        ("{{ [vB, vB] | join(', ') }}", [says(InlineMath(V_B), ", ", InlineMath(V_B))]),
+        ("{{ ['*', k] | join('-') }}", [says("*-4")]),
+        ("{{ '1' }}. x", [says("1", ". x")]),
+        ("{{ equation }}\n {{ blank('Name') }}", [Equation((V_B,), "eq.vb"), BlankLine("Name")]),
+        ("{{ two }}", [Equation((V_B,)), PageBreak()]),
+        ("- {{ equation }}\n- b", [List(((Equation((V_B,), "eq.vb"),), (says("b"),)))]),
+        (
+            "{% for i in range(2) %}\n- {{ vB }} {{ i }}\n{% endfor %}",
+            [List(tuple((says(InlineMath(V_B), " ", Text(str(i))),) for i in range(2)))],
+        ),
+        (
+            "{% import 'macros.md' as m %}\nThe {{ m.speed_of('*B*') }}.",
+            [says("The ", Emph((Text("speed"),)), " of ", Text("*B*"), ".")],
+        ),
+        (
+            "{% import 'macros.md' as m %}\n{{ m.pages(vB) }}",
+            [says("One."), says("Two: ", InlineMath(V_B), ".")],
+        ),
+        (
+            "{% set x %}*em* {{ vB }}{% endset %}\n{{ x ~ '*no*' }}{{ x }}",
+            [
+                says(
+                    *(Emph((Text("em"),)), " ", InlineMath(V_B), Text("*no*")),
+                    *(Emph((Text("em"),)), " ", InlineMath(V_B)),
+                )
+            ],
+        ),
+        (
+            "{% call table_of() %}*plan* {{ k }}{% endcall %}",
+            [Table((), (), (), (Emph((Text("plan"),)), Text(" "), Text("4")))],
+        ),
+        ("{% raw %}{{ x }}{% endraw %}", [says("{{ x }}")]),
+    ],
+)
+def test_values_become_inlines_and_blocks(render: Render, template: str, expected: list[Block]) -> None:
+    preface = "{% macro table_of() %}{{ table(inlines(caller())) }}{% endmacro %}\n"
+    assert render(preface + template) == tuple(expected)
+
+
+@pytest.mark.parametrize(
+    "template",
+    [
+        "{{ user }}",
+        "{{ [user] | join('') }}",
+        "{% for line in [user] %}{{ line }}{% endfor %}",
+        "{% macro m(x) %}{{ x }}{% endmacro %}{{ m(m(user)) }}",
+        "{% macro m() %}{% endmacro %}{{ m() ~ user }}",
+        "{% macro m() %}{% endmacro %}{{ m() + user }}",
+        "{% set x %}{{ user }}{% endset %}{{ x }}",
+        "{% set x %}{% endset %}{{ [x, user] | join('') }}",
+    ],
+)
+def test_a_hostile_text_stays_text_by_any_way(render: Render, template: str) -> None:
+    assert render(template) == (says(HOSTILE),)
+
+
+def one_item(templates: Path) -> Prose:
+    (templates / "one.md").write_text("- *x* {{ user }}y\n", encoding="utf-8")
+    return Prose((templates,))
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=200, deadline=None)
+@given(user=st.text(min_size=1) | st.text(st.characters(categories=("Co", "Nd", "Cc", "Zs"))).filter(bool))
+def test_any_text_survives_as_one_inline(tmp_path: Path, user: str) -> None:
+    """Any string at all, private-use characters among them, arrives unchanged as exactly one Text."""
+    blocks = one_item(tmp_path).render("one.md", {"user": user})
+    assert blocks == (List(((says(Emph((Text("x"),)), " ", Text(user), "y"),),)),)
+
+
+def test_a_text_cannot_imitate_a_token(render: Render, tmp_path: Path) -> None:
+    forged = "\ue0000\ue001 \ue000:0\ue001 \ue002*x*\ue003*y*\ue004"
+    assert one_item(tmp_path).render("one.md", {"user": forged}) == (
+        List(((says(Emph((Text("x"),)), " ", Text(forged), "y"),),)),
+    )
+    with pytest.raises(TemplateError, match=r"page\.md:2: private-use"):
+        render("a\nb \ue000")
+
+
+@pytest.mark.parametrize(
+    ("template", "line", "words"),
+    [
+        ("a\n\n{{ nope }}", 3, "'nope' is undefined"),
+        ("a\n{% if nope %}x{% endif %}", 2, "'nope' is undefined"),
+        ("a\n{{ vB.nope }}", 2, "nope"),
+        ("a\n\n{% if %}", 3, "Expected an expression"),
+        ("a\n{% for i in [1] %}\n", 2, "Unexpected end of template"),
+        ("a\n{{ k | nope }}", 2, "nope"),
+        ("a\n{{ {}['x'].y }}", 2, "x"),
+        ("a\n\n{{ table() }}", 3, "TypeError"),
+        ("a\n{{ broken('b') }}", 2, "'broken' is undefined"),
+        ("\n{{ 1.5 }}", 2, "1.5 has no place in words"),
+        ("\n{{ none }}", 2, "None has no place in words"),
+        ("\n{{ true }}", 2, "True has no place in words"),
+        ("\n{{ {'a': 1} }}", 2, "dict has no place in words"),
+        ("\n{{ table }}", 2, "function has no place in words"),
+        ("a\nb\nc {{ equation }}\nd", 3, "Equation stands within running text"),
+        ("a\n\n*{{ equation }}*", 3, "Equation stands within running text"),
+        ("# A {{ equation }}", 1, "Equation stands within running text"),
+        ("{% for i in [1, 2] %}\nx\n\ny {{ blank() }}\n{% endfor %}", 4, "BlankLine stands within"),
+        ("a\n{{ key('x') }}", 2, "end of a heading"),
+        ("# {{ key('x') }} a", 1, "end of a heading"),
+        ("{% macro m() %}x{% endmacro %}\n{{ ref(m()) }}", 2, "plain string"),
+        ("a\n\nb `code`", 3, "inline code"),
+        ("a\n\n[b](c)", 3, "a link"),
+        ("a\n\n<http://c.d>", 3, "a link"),
+        ("a\n\n![b](c)", 3, "an image"),
+        ("a\n\nb <i>c</i>", 3, "HTML"),
+        ("a\n\n<div>\n</div>", 3, "HTML"),
+        ("a\n\n```\nb\n```", 3, "a code block"),
+        ("a\n\n> b", 3, "a quotation"),
+        ("a\n\n- b\n- c `d`", 4, "inline code"),
+        ("{% for i in [1, 2] %}\n- a\n{% endfor %}\n\nb `d`", 5, "inline code"),
+        ("a\n\n##### b", 3, "level 5"),
+        ("a\n{% include 'none.md' %}", 2, "no template none.md"),
+        ("a\n{% filter truncate(9) %}{{ k }} long enough to be cut{% endfilter %}", 2, "in two"),
+    ],
+)
+def test_a_fault_names_file_and_line(render: Render, template: str, line: int, words: str) -> None:
+    with pytest.raises(TemplateError) as caught:
+        render(template)
+    message = str(caught.value)
+    assert f"page.md:{line}: " in message
+    assert words in message
+
+
+def test_a_fault_in_a_called_function_is_placed_where_it_is_called(tmp_path: Path) -> None:
+    def broken(name: str) -> object:
+        return {"a": 1}[name]
+
+    (tmp_path / "page.md").write_text("\n\n{{ broken('b') }}", encoding="utf-8")
+    with pytest.raises(TemplateError, match=r"page\.md:3: KeyError: 'b'"):
+        Prose((tmp_path,)).render("page.md", {"broken": broken})
+    with pytest.raises(TemplateError, match="there is no template other"):
+        Prose((tmp_path,)).render("other.md", {})
+
+
+def test_a_function_may_render_another_template(tmp_path: Path) -> None:
+    """A rendering within a rendering keeps its values apart."""
+    (tmp_path / "outer.md").write_text("{{ 'a' }}\n\n{{ inner() }}\n\n{{ 'c' }}", encoding="utf-8")
+    (tmp_path / "inner.md").write_text("{{ 'b' }}", encoding="utf-8")
+    prose = Prose((tmp_path,))
+    blocks = prose.render("outer.md", {"inner": lambda: prose.render("inner.md", {})})
+    assert blocks == (says("a"), says("b"), says("c"))
+
+
+def test_the_nearest_words_win(tmp_path: Path) -> None:
+    """A school's section before the machine's, that before the common one; by file name."""
+    path = search_path("vi", kind="engine", school="school", root=tmp_path)
+    for directory, names in zip(path, ("a", "ab", "abc"), strict=True):
+        directory.mkdir(parents=True, exist_ok=True)
+        for name in names:
+            (directory / f"{name}.md").write_text(str(directory.relative_to(tmp_path)), encoding="utf-8")
+    prose = Prose(path)
+    found = [prose.render(f"{name}.md", {}) for name in "abc"]
+    assert found == [(says("school/vi"),), (says("vi/engine"),), (says("vi"),)]
+    assert search_path("en", root=tmp_path) == (tmp_path / "en",)
+
+
+def test_the_templates_are_found() -> None:
+    assert (template_root() / "vi").is_dir()
