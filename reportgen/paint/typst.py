@@ -6,6 +6,7 @@ The short names (`S`, `L`, `A`, …) are defined once, in the frame that the wri
 from __future__ import annotations
 
 from reportgen.figures.scene import (
+    Anchor,
     Arc,
     Arrow,
     Circle,
@@ -21,17 +22,18 @@ from reportgen.notation.numbers import Language
 from reportgen.paint.geometry import Triangle, arc_with_head, arrow_head, clip_hatch
 from reportgen.writers.typst_math import literal, math
 
-ANCHORS = {
-    "center": "center+horizon",
-    "left": "left+horizon",
-    "right": "right+horizon",
-    "top": "center+top",
-    "bottom": "center+bottom",
-    "top-left": "left+top",
-    "top-right": "right+top",
-    "bottom-left": "left+bottom",
-    "bottom-right": "right+bottom",
+ANCHORS: dict[Anchor, tuple[str, float, float]] = {
+    "center": ("center+horizon", 0.5, 0.5),
+    "left": ("left+horizon", 0.0, 0.5),
+    "right": ("right+horizon", 1.0, 0.5),
+    "top": ("center+top", 0.5, 0.0),
+    "bottom": ("center+bottom", 0.5, 1.0),
+    "top-left": ("left+top", 0.0, 0.0),
+    "top-right": ("right+top", 1.0, 0.0),
+    "bottom-left": ("left+bottom", 0.0, 1.0),
+    "bottom-right": ("right+bottom", 1.0, 1.0),
 }
+"""Typst's alignment, and the share of the sheet's width and height (from the top) that it measures from."""
 
 
 def paint(scene: Scene, language: Language) -> str:
@@ -41,15 +43,15 @@ def paint(scene: Scene, language: Language) -> str:
     )
     pens = {stroke: f"p{index}" for index, stroke in enumerate(strokes)}
     lines = [f"let {name}={_pen(stroke)}" for stroke, name in pens.items()]
-    lines += [line for item in scene.items for line in _item(item, scene.height, pens, language)]
+    lines += [line for item in scene.items for line in _item(item, scene, pens, language)]
     return f"S({_mm(scene.width)},{_mm(scene.height)},{{" + "\n".join(lines) + "})"
 
 
-def _item(item: Item, height: float, pens: dict[Stroke, str], language: Language) -> list[str]:
+def _item(item: Item, scene: Scene, pens: dict[Stroke, str], language: Language) -> list[str]:
     """The calls that draw an item; y is turned over here, once for all."""
 
     def at(*points: complex) -> str:
-        return ",".join(f"{_mm(point.real)},{_mm(height - point.imag)}" for point in points)
+        return ",".join(f"{_mm(point.real)},{_mm(scene.height - point.imag)}" for point in points)
 
     def head(triangle: Triangle | None, stroke: Stroke) -> list[str]:
         return [f"G({_colour(stroke.colour)},{at(*triangle)})"] if triangle else []
@@ -75,14 +77,17 @@ def _item(item: Item, height: float, pens: dict[Stroke, str], language: Language
             ends = ",".join(at(*segment) for segment in strokes)
             return [f"H({pens[stroke]},{ends})"] if strokes else []
         case Label():
-            return [_label(item, at(item.at), language)]
+            return [_label(item, scene, language)]
 
 
-def _label(label: Label, at: str, language: Language) -> str:
+def _label(label: Label, scene: Scene, language: Language) -> str:
     content = label.content
     body = literal(content) if isinstance(content, str) else f"${math(content, language)}$"
     options = (",turn:true" if label.turn else "") + (",paper:true" if label.background else "")
-    return f"T({at},{ANCHORS[label.anchor]},{label.size:g}pt,{body}{options})"
+    anchor, across, down = ANCHORS[label.anchor]
+    x = _mm(label.at.real - across * scene.width)
+    y = _mm((1 - down) * scene.height - label.at.imag)
+    return f"T({anchor},{x},{y},{label.size:g}pt,{body}{options})"
 
 
 def _pen(stroke: Stroke) -> str:

@@ -48,6 +48,8 @@ SCENE_GAP = 4.0
 """Between scenes side by side, mm."""
 LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
+FLOATING = 80.0
+"""A figure taller than this lets the text run on before it where the page is nearly full, mm."""
 WHOLE_TABLE = 12
 """A table of at most so many rows is kept on one page."""
 
@@ -144,12 +146,17 @@ class _Blocks:
             case Table():
                 return self.table(block)
             case Figure(scenes, _, key):
-                rows = (_array(map(self.scene, row)) for row in in_rows(scenes))
-                return f"#F({self.caption(self.words.figure, block)},\n{','.join(rows)})" + _label(key)
+                rows = in_rows(scenes)
+                drawings = ",".join(_array(map(self.scene, row)) for row in rows)
+                # Only a single row can float, and only outside of lists.
+                tall = len(rows) == 1 and max(scene.height for scene in rows[0]) > FLOATING
+                floating = str(tall and self.room == TEXT_WIDTH).lower()
+                label = self.caption(self.words.figure, block)
+                return f"#F({label},{floating},\n{drawings})" + _label(key)
             case Plate(scene, (width, height), _, key):
                 label = self.caption(self.words.figure, block)
                 drawing = paint(scene, self.language)
-                return f"#plate({width:g},{height:g},{label},\n{drawing})" + _label(key)
+                return f"#plate({width:g},{height:g},{scene.height:g},{label},\n{drawing})" + _label(key)
             case Cover(institution, title, subtitle, fields, foot):
                 lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
                 pairs = _array(f"({literal(label)},{literal(value)})" for label, value in fields)

@@ -38,8 +38,12 @@ def literal(text: str) -> str:
 
 def quantity(number: Number, language: Language) -> str:
     """The plain text of a number and its unit, with a narrow unbreakable space between."""
-    gap = "" if number.unit in ("", "°", "%") else "\N{NARROW NO-BREAK SPACE}"
+    gap = "\N{NARROW NO-BREAK SPACE}" if _spaced(number.unit) else ""
     return write(number.value, number.decimals, language) + gap + number.unit
+
+
+def _spaced(unit: str) -> bool:
+    return unit not in ("", "°", "%")
 
 
 def math(node: Expression, language: Language) -> str:
@@ -51,9 +55,8 @@ def math(node: Expression, language: Language) -> str:
         case Symbol():
             return symbol(node)
         case Number(value, decimals, unit):
-            gap = "" if unit in ("", "°", "%") else " thin"
-            digits = literal(write(value, decimals, language))
-            return digits + (f"{gap} {literal(unit)}" if unit else "")
+            digits = write(value, decimals, language)
+            return f"{literal(digits)} thin {literal(unit)}" if _spaced(unit) else literal(digits + unit)
         case Ref(id):
             raise TypesetterError(f"quantity {id!r} came to the page without its symbol or value")
         case Sum() | Product():

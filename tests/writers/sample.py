@@ -427,7 +427,8 @@ def report(pages: int = 54) -> Document:
             )
             row = velocity_equation() if line == 0 else wide_chain() if line == 1 else expressions()[-1]
             body.append(Equation((row,), key=f"e{index}-{line}", number=f"{index}.{line}"))
-        body.append(Figure((star(70, 8),), text("Họa đồ"), key=f"f{number}", number=number))
+        scene = star(120 if index % 3 == 0 else 70, 8)
+        body.append(Figure((scene,), text("Họa đồ"), key=f"f{number}", number=number))
         if index % 9 == 0:
             body.append(long_table(60, f"t{number}", number))
         elif index % 3 == 0:
