@@ -59,9 +59,9 @@ def build(
     ] = False,
 ) -> None:
     """Write the complete report of each FILE to DIR/<id>/report.pdf."""
+    _refuse_same_names(files, _language(lang))
     from reportgen import api
 
-    _refuse_same_names(files, _language(lang))
     code = 0
     for file in files:
         with _outcome(lang) as outcome:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
+from statistics import mode
 from typing import Any
 
 from reportgen.assignment.common import Check, Draft
@@ -49,15 +50,19 @@ def one_of(section: str, *names: str, required: bool = True) -> Check:
 
 
 def same_length(section: str, key: str, rows: Sequence[str]) -> Check:
-    """Each of the rows has as many values as the list `key`."""
+    """The rows have as many values as the list `key`: those that differ from most of them are at fault."""
 
     def check(draft: Draft) -> Iterator[Finding]:
         content = draft.raw.get(section)
-        nodes = _list(content, key)
-        for row in rows:
-            values = _list(content, row)
-            if nodes is not None and values is not None and len(values) != len(nodes):
-                counts = {"key": row, "given": str(len(values)), "other": key, "wanted": str(len(nodes))}
+        found = {row: _list(content, row) for row in (key, *rows)}
+        lengths = {row: len(values) for row, values in found.items() if values is not None}
+        if not lengths:
+            return
+        wanted = mode(lengths.values())
+        other = next(row for row, length in lengths.items() if length == wanted)
+        for row, length in lengths.items():
+            if length != wanted:
+                counts = {"key": row, "given": str(length), "other": other, "wanted": str(wanted)}
                 yield Finding("row-length", (section, row), counts)
 
     return check

@@ -216,8 +216,10 @@ class WorkedPositions(Reader):
             return None
         if not isinstance(value, list):
             raise fault("wrong-type", expected="list", text=str(value))
-        if not 1 <= len(value) <= MOST_WORKED:
-            raise fault("length", least="1", most=str(MOST_WORKED))
+        if not value:
+            raise fault("too-few", least="1")
+        if len(value) > MOST_WORKED:
+            raise fault("too-many", most=str(MOST_WORKED))
         numbers = tuple(Whole(1, MOST_WORKED).read(item) for item in value)
         if len(set(numbers)) < len(numbers):
             raise fault("repeated", text=next(str(n) for n in numbers if numbers.count(n) > 1))

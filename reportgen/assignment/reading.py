@@ -67,8 +67,12 @@ def _read(source: Source, path: Path, kinds: Kinds) -> tuple[Assignment | None, 
         findings.insert(0, _no_kind(name, kinds))
     else:
         for one in (checks.worked_positions(kind.turns), *kind.checks):
-            findings += one(draft)
-    faults += [_placed(finding, top) for finding in findings]
+            told = {finding.where for finding in findings}
+            findings += [finding for finding in one(draft) if finding.where not in told]
+    # What the source already refuses is not judged a second time.
+    refused = {fault.mark.line for fault in faults if fault.code in {"alias", "tag", "tab"}}
+    placed = [_placed(finding, top) for finding in findings]
+    faults += [fault for fault in placed if fault.mark.line not in refused]
     if faults or kind is None:
         return None, faults
     return Assignment(kind.name, **_filled(draft), source=path, id=path.stem, turns=kind.turns), []
@@ -112,13 +116,19 @@ def _section(key: str, type_: Any, content: Any) -> tuple[Any, list[Finding]]:
     try:
         return adapter.validate_python(content), []
     except ValidationError as error:
-        details = error.errors(include_url=False)
+        details = _telling(error.errors(include_url=False))
     schema = adapter.json_schema() if any(one["type"] == "extra_forbidden" for one in details) else {}
     findings = [_finding(key, detail, content, schema) for detail in details]
     if all(detail["type"] == "extra_forbidden" for detail in details):
         places = [finding.where[1:] for finding in findings]
         return adapter.validate_python(_without(content, places)), findings
     return None, findings
+
+
+def _telling(details: list[ErrorDetails]) -> list[ErrorDetails]:
+    """The faults without those of a list's length that only follow from the faults of its items."""
+    inner = {detail["loc"][:-1] for detail in details}
+    return [one for one in details if one["type"] != "too_short" or one["loc"] not in inner]
 
 
 def _finding(key: str, detail: ErrorDetails, content: Any, schema: dict[str, Any]) -> Finding:
@@ -141,9 +151,10 @@ def _finding(key: str, detail: ErrorDetails, content: Any, schema: dict[str, Any
             allowed = str(context.get("expected", context.get("expected_tags"))).replace(" or ", ", ")
             place = (*where, tag) if tag else where
             return Finding("choice", place, {"allowed": allowed.replace("'", "")})
-        case "too_short" | "too_long":
-            bounds = {"least": str(context.get("min_length", 1)), "most": str(context.get("max_length", "…"))}
-            return Finding("length", where, bounds)
+        case "too_short":
+            return Finding("too-few", where, {"least": str(context["min_length"])})
+        case "too_long":
+            return Finding("too-many", where, {"most": str(context["max_length"])})
         case kind:
             expected = "list" if kind in {"list_type", "tuple_type"} else "mapping"
             return Finding("wrong-type", where, {"expected": expected})

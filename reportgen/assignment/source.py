@@ -96,14 +96,15 @@ def read_text(text: str, file: str = "") -> Source:
     tabs = tuple(_tabs(text, file))
     if tabs:
         return Source(file, text, faults=tabs)
-    loader = _Loader(text, file)
+    try:
+        loader = _Loader(text, file)
+    except yaml.reader.ReaderError as fault:
+        before = text[: fault.position].encode()
+        return Source(file, text, faults=(Fault("control-character", _mark_in(before, len(before), file)),))
     try:
         root = loader.get_single_node()
     except yaml.MarkedYAMLError as fault:
         return Source(file, text, faults=(*loader.faults, _syntax(fault, file)))
-    except yaml.reader.ReaderError as fault:
-        mark = _mark_in(text[: fault.position].encode(), len(text[: fault.position].encode()), file)
-        return Source(file, text, faults=(Fault("control-character", mark),))
     except ValueError:
         # A number in an escape or a directive that Python refuses to read.
         return Source(file, text, faults=(*loader.faults, Fault("syntax", loader.here())))
@@ -154,11 +155,12 @@ class _Loader(yaml.SafeLoader):
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
         parser: Any = self  # whose methods the stubs leave without types
         event = parser.peek_event()
+        ends = event.start_mark, event.end_mark
         mark = Mark(self.file, event.start_mark.line + 1, event.start_mark.column + 1)
         if isinstance(event, yaml.AliasEvent):
             parser.get_event()
             self.faults.append(Fault("alias", mark))
-            return yaml.ScalarNode("tag:yaml.org,2002:null", "", event.start_mark, event.end_mark)
+            return yaml.ScalarNode("tag:yaml.org,2002:null", "", *ends)
         if getattr(event, "anchor", None):
             self.faults.append(Fault("alias", mark))
             self.anchors.pop(event.anchor, None)

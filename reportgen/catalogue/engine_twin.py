@@ -5,14 +5,16 @@ Ground 0, crank 1, rods 2 (AB) and 4 (CD), pistons 3 (at B) and 5 (at D).
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
+import numpy as np
 from pydantic import Field
 
 from reportgen.assignment import checks
-from reportgen.assignment.common import Draft, Part, Positions
+from reportgen.assignment.common import Assignment, Draft, Part, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import (
     Acceleration,
@@ -31,7 +33,11 @@ from reportgen.assignment.fields import (
     Share,
     Weight,
 )
-from reportgen.cycle.indicator import STROKES, Stroke, stroke_at
+from reportgen.catalogue import crank_slider
+from reportgen.catalogue.machine import Item, Machine, Piston, ratio_item, speed_items
+from reportgen.cycle.indicator import STROKES, AngleIndicator, Stroke, StrokeIndicator, stroke_at
+from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+from reportgen.notation.expressions import PI, Ref, Symbol, divide, multiply, power
 from reportgen.units import Given
 
 KIND = "engine-twin"
@@ -103,7 +109,7 @@ class _Indicator(Part):
     unit: PressureUnit
     reference: Literal["gauge", "absolute"] = "gauge"
     ambient: Pressure = Given(101325.0, 10.1325, "N/cm2", "10.1325 N/cm2")
-    firing: tuple[Stroke, Stroke] | None = None
+    firing: Annotated[tuple[Stroke, ...], Field(min_length=2, max_length=2)] | None = None
 
     def gauge(self, row: tuple[float, ...]) -> tuple[float, ...]:
         """Pressures of the table as gauge pressures (Pa)."""
@@ -143,7 +149,7 @@ def phases(
 
 def _possible_phases(
     crank_angle: float, positions: Positions
-) -> dict[tuple[Stroke, Stroke], tuple[float, float]]:
+) -> dict[tuple[Stroke, ...], tuple[float, float]]:
     """Strokes in which pistons 3 and 5 may leave position 1, the default first, and their cycle angles there.
 
     Each piston may be a whole turn further on in its cycle than the crank shows.
@@ -151,7 +157,7 @@ def _possible_phases(
     start = 0.0
     if positions.start is not None:
         start = positions.sign * (positions.start.si - TOP_OF_PISTON_3) % (2 * math.pi)
-    possible: dict[tuple[Stroke, Stroke], tuple[float, float]] = {}
+    possible: dict[tuple[Stroke, ...], tuple[float, float]] = {}
     for first in (start, start + 2 * math.pi):
         for second in (first + crank_angle, first + crank_angle + 2 * math.pi):
             pair = STROKES[int(stroke_at(first))], STROKES[int(stroke_at(second))]
@@ -184,3 +190,167 @@ CHECKS = (
     checks.increasing("indicator", "angle", 0, 720, "deg"),
     _check_firing,
 )
+
+
+# --- the machine ----------------------------------------------------------------------------------
+
+OUTLINE = (
+    "given",
+    "contents",
+    "foreword",
+    "structure",
+    "motion",
+    "synthesis",
+    "positions",
+    "velocity",
+    "acceleration",
+    "cycle",
+    "loads",
+    "groups",
+    "crank",
+    "conclusion",
+    "references",
+    "checks",
+)
+CRANK_DRAWN = 0.05
+"""Drawn length of the crank (m on paper) when none is asked for."""
+
+
+def machine(assignment: Assignment) -> Machine:
+    """The engine of an assignment: linkage, gas, quantities of its own and the report's outline."""
+    given: Parameters = assignment.parameters
+    positions = assignment.positions
+    radius, rod, turn = given.H.si / 2, given.rod_length, positions.sign
+    along = given.s.si * rod
+    up = TOP_OF_PISTON_3
+    second_pin = radius * cmath.exp(1j * turn * given.crank_angle.si)
+    linkage = Linkage(
+        ground={"O1": 0j},
+        driver=Crank("O1", "A", radius),
+        dyads=(
+            Dyad("RRP", (2, 3), "A", "B", Guide(0j, up), (rod, 0.0)),
+            Dyad("RRP", (4, 5), "C", "D", Guide(0j, up), (rod, 0.0)),
+        ),
+        points=(
+            LinkPoint("C", 1, second_pin),
+            LinkPoint("S2", 2, along + 0j),
+            LinkPoint("S4", 4, along + 0j),
+        ),
+        inertias=(
+            Inertia(2, "S2", given.mass(2), given.moment(2)),
+            Inertia(3, "B", given.mass(3)),
+            Inertia(4, "S4", given.mass(4), given.moment(4)),
+            Inertia(5, "D", given.mass(5)),
+        ),
+        gravity=-1j * given.g.si,
+    )
+    table = gas_table(assignment.indicator)
+    both = phases(given, assignment.indicator, positions)
+    pistons = tuple(
+        Piston(
+            link,
+            link - 1,
+            pin,
+            crank_pin,
+            top=1j * (rod + radius),
+            bottom=1j * (rod - radius),
+            top_angle=0.0,
+            bottom_angle=math.pi,
+            phase=phase,
+            inward=-1j,
+            bore=given.D.si,
+            indicator=table,
+        )
+        for link, pin, crank_pin, phase in zip((3, 5), "BD", "AC", both, strict=True)
+    )
+    steps = np.arange(positions.count * TURNS) * (2 * math.pi / positions.count)
+    formulas = tuple(
+        item
+        for piston in pistons
+        for item in crank_slider.formulas(
+            piston.rod,
+            piston.link,
+            piston.crank_pin,
+            piston.pin,
+            f"S{piston.rod}",
+            np.mod(piston.phase + steps + 1e-12, 2 * math.pi) - 1e-12,
+        )
+    )
+    return Machine(
+        kind=KIND,
+        linkage=linkage,
+        start=up if positions.start is None else positions.start.si,
+        turn=turn,
+        speed=given.speed,
+        count=positions.count,
+        turns=TURNS,
+        given=_items(given, assignment.drawing.crank),
+        formulas=formulas,
+        outline=OUTLINE,
+        pistons=pistons,
+        paths=("S2", "S4"),
+        compared=crank_slider.compared(pistons),
+    )
+
+
+def gas_table(diagram: IndicatorByStroke | IndicatorByCrankAngle) -> StrokeIndicator | AngleIndicator:
+    """The indicator diagram in gauge pressures (Pa)."""
+    if isinstance(diagram, IndicatorByStroke):
+        rows = (diagram.gauge(getattr(diagram, stroke)) for stroke in STROKES)
+        return StrokeIndicator(diagram.s, *rows)
+    return AngleIndicator(tuple(angle.si for angle in diagram.angle), diagram.gauge(diagram.p))
+
+
+def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
+    """Given data and the synthesis R = H/2, L = R/λ, mass centres, masses and moments of inertia."""
+    items = [
+        Item("H", Symbol("H"), "length", given.H.si),
+        ratio_item("lambda", Symbol("λ"), given.lambda_),
+        Item("D", Symbol("D"), "diameter", given.D.si),
+        Item("s", Symbol("s"), "ratio", given.s.si),
+        Item("g", Symbol("g"), "gravity", given.g.si),
+        Item("crank.angle", Symbol("δ"), "angle", given.crank_angle.si),
+        *speed_items(given.n, given.omega1),
+        Item("R", Symbol("R"), "length", definition=divide("H", 2)),
+        Item("L", Symbol("L"), "length", definition=divide("R", "lambda")),
+        *(Item(f"l.{arm}", Symbol("l", arm), "length", definition=Ref("R")) for arm in ("O1A", "O1C")),
+        *(Item(f"l.{rod}", Symbol("l", rod), "length", definition=Ref("L")) for rod in ("AB", "CD")),
+        *(
+            Item(f"l.{arm}", Symbol("l", arm), "length", definition=multiply("s", "L"))
+            for arm in ("AS2", "CS4")
+        ),
+        Item("drawn.O1A", Symbol("O₁A", over="segment"), "segment", crank.si if crank else CRANK_DRAWN),
+        Item("F", Symbol("F"), "area", definition=divide(multiply(PI, power("D", 2)), 4)),
+    ]
+    for link in (2, 3, 4, 5):
+        items += _mass_items(given, link)
+    for rod in (2, 4):
+        symbol, typed = Symbol("J", f"S{rod}"), getattr(given, f"J{rod}")
+        if typed is not None:
+            items.append(Item(f"J.{rod}", symbol, "moment of inertia", typed.si))
+        elif rod == 4 and given.J2 is not None:
+            items.append(Item("J.4", symbol, "moment of inertia", definition=Ref("J.2")))
+        else:
+            by_length = divide(multiply(f"m.{rod}", power("L", 2)), 12)
+            items.append(Item(f"J.{rod}", symbol, "moment of inertia", definition=by_length))
+    return tuple(items)
+
+
+def _mass_items(given: Parameters, link: int) -> tuple[Item, ...]:
+    """Weight and mass of a link: one as typed, or as that of the other cylinder, the other from it."""
+    weight, mass = getattr(given, f"G{link}"), getattr(given, f"m{link}")
+    if weight is None and mass is None:
+        twin = link - 2
+        by_weight = getattr(given, f"G{twin}") is not None
+        first = (
+            Item(f"G{link}", Symbol("G", str(link)), "weight", definition=Ref(f"G{twin}"))
+            if by_weight
+            else Item(f"m.{link}", Symbol("m", str(link)), "mass", definition=Ref(f"m.{twin}"))
+        )
+    elif weight is not None:
+        by_weight, first = True, Item(f"G{link}", Symbol("G", str(link)), "weight", weight.si)
+    else:
+        by_weight, first = False, Item(f"m.{link}", Symbol("m", str(link)), "mass", mass.si)
+    if by_weight:
+        return first, Item(f"m.{link}", Symbol("m", str(link)), "mass", definition=divide(f"G{link}", "g"))
+    return first, Item(f"G{link}", Symbol("G", str(link)), "weight", definition=multiply(f"m.{link}", "g"))
