@@ -116,9 +116,13 @@ def render(environment: Environment, name: str, names: Mapping[str, object]) -> 
 def excerpt(fragment: str) -> Rendered:
     """A string made in the template being rendered (by a macro, `caller()` or `{% set %}`), ready to be read.
 
-    Plain text in it stays text.
+    Plain text in it stays text; outside a rendering there is nothing else.
     """
-    return _assemble(_emit(fragment), "", _values.get())
+    outer = _values.set(_values.get([]))
+    try:
+        return _assemble(_emit(fragment), "", _values.get())
+    finally:
+        _values.reset(outer)
 
 
 # --- what a template may emit ---------------------------------------------------------------------

@@ -1,47 +1,47 @@
-"""Short words (of captions, of directions) from `words.yaml`, by dotted key."""
+"""Short words (of captions, of directions) from `words.yaml`, as nested tables."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import MappingProxyType
+from typing import Any
 
 from reportgen.errors import Mark, TemplateError
 
 FILE = "words.yaml"
 
 
-def load_words(directories: Sequence[Path]) -> Mapping[str, str]:
-    """All words of the `words.yaml` in `directories` (see `prose.search_path`), the first of a key wins.
+def load_words(directories: Sequence[Path]) -> Mapping[str, Any]:
+    """All words found in `directories` (`prose.search_path`): tables of tables, lists and words.
 
-    Nested tables give dotted keys: `figure: {plan: …}` is "figure.plan".  Raises `TemplateError` with file
-    and line for what is not a word, and where no directory has the file.
+    A file nearer on the search path need only hold the words it changes.  Raises `TemplateError` with
+    file and line for what cannot be read, and where no directory has the file.
     """
     files = [path for directory in directories if (path := directory / FILE).is_file()]
     if not files:
         raise TemplateError(f"{directories[-1] / FILE}: the file is missing")
-    words: dict[str, str] = {}
+    words: Mapping[str, Any] = {}
     for path in reversed(files):
-        words.update(_read(path))
-    return MappingProxyType(words)
+        words = _over(words, _read(path))
+    return words
 
 
-def _read(path: Path) -> dict[str, str]:
-    from reportgen.assignment.source import Node, Scalar, Table, read_source
+def _read(path: Path) -> Mapping[str, Any]:
+    from reportgen.assignment.source import Table, plain, read_source
 
     source = read_source(path)
     if source.faults:
         raise TemplateError("\n".join(f"{fault.mark}: {fault.code}" for fault in source.faults))
+    if not isinstance(source.top, Table):
+        raise TemplateError(f"{Mark(str(path))}: a table of words is wanted here")
+    content: Mapping[str, Any] = plain(source.top)
+    return content
 
-    def entries(node: Node | None, prefix: str) -> Iterator[tuple[str, str]]:
-        match node:
-            case Table(pairs):
-                for key, value in pairs:
-                    yield from entries(value, f"{prefix}.{key.text}" if prefix else key.text)
-            case Scalar(text, null=False) if prefix:
-                yield prefix, text
-            case _:
-                mark = node.mark if node else Mark(source.file)
-                raise TemplateError(f"{mark}: {prefix or 'this'} is not a word")
 
-    return dict(entries(source.top, ""))
+def _over(below: Mapping[str, Any], above: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Both tables in one; where both have a word, the one `above`."""
+    result = dict(below)
+    for key, value in above.items():
+        both_tables = isinstance(value, Mapping) and isinstance(below.get(key), Mapping)
+        result[key] = _over(below[key], value) if both_tables else value
+    return result

@@ -243,6 +243,16 @@ def test_a_function_may_render_another_template(tmp_path: Path) -> None:
     assert blocks == (says("a"), says("b"), says("c"))
 
 
+def test_a_plain_string_is_a_caption_too(tmp_path: Path) -> None:
+    assert Prose((tmp_path,)).inlines(HOSTILE) == (Text(HOSTILE),)
+    assert Prose((tmp_path,)).inlines("") == ()
+
+
+def test_a_caption_is_one_line(render: Render) -> None:
+    with pytest.raises(TemplateError, match=r"page\.md:\d: one line of words is wanted"):
+        render("{% set x %}a\n\nb{% endset %}\n{{ inlines(x) }}")
+
+
 def test_the_nearest_words_win(tmp_path: Path) -> None:
     """A school's section before the machine's, that before the common one; by file name."""
     path = search_path("vi", kind="engine", school="school", root=tmp_path)
