@@ -20,6 +20,9 @@ from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.plane import Complexes, Floats, cross, dot
 from reportgen.mechanism.structure import DRIVER, GROUND, Dyad, Linkage
 
+NOTHING = 1e-12
+"""A force across a guide below this part of the group's largest is rounding."""
+
 
 @dataclass(frozen=True, slots=True)
 class Reaction:
@@ -73,13 +76,17 @@ def solve_forces(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> For
     listed = joints(linkage)
     for dyad in reversed(linkage.dyads):
         own = tuple(joint for joint in listed if joint.group == dyad.links)
-        for joint, wrench in zip(own, _balance(dyad, own, motion, carried), strict=True):
-            _enter(reactions, joint, wrench, motion)
+        wrenches = _balance(dyad, own, motion, carried)
+        largest = max(
+            float(np.max(np.abs(wrench.force), initial=0.0, where=motion.reachable)) for wrench in wrenches
+        )
+        for joint, wrench in zip(own, wrenches, strict=True):
+            _enter(reactions, joint, wrench, motion, NOTHING * largest)
             source = joint.links[0]
             if source not in dyad.links and source != GROUND:
                 carried[source].append(_Wrench(-wrench.force, wrench.point, -wrench.couple))
     ground, torque = _drive(listed[0], motion, carried[DRIVER])
-    _enter(reactions, listed[0], ground, motion)
+    _enter(reactions, listed[0], ground, motion, 0.0)
     return Forces(reactions, torque)
 
 
@@ -136,8 +143,10 @@ def _components(wrench: _Wrench, pole: Complexes, length: float, sense: float) -
     return np.stack((force.real, force.imag, sense * wrench.moment(pole) / length))
 
 
-def _enter(reactions: dict[str, Reaction], joint: Joint, wrench: _Wrench, motion: Motion) -> None:
-    """List a joint's reaction in both directions."""
+def _enter(
+    reactions: dict[str, Reaction], joint: Joint, wrench: _Wrench, motion: Motion, nothing: float
+) -> None:
+    """List a joint's reaction in both directions; a force up to `nothing` has no line of action."""
     source, target = joint.links
     point = wrench.point
     moment = np.broadcast_to(np.asarray(wrench.couple, dtype=np.float64), point.shape)
@@ -145,7 +154,7 @@ def _enter(reactions: dict[str, Reaction], joint: Joint, wrench: _Wrench, motion
         d = motion.slides[joint.links].direction
         across = cross(d, wrench.force)
         with np.errstate(divide="ignore", invalid="ignore"):
-            offset = moment / np.where(np.abs(across) > 0, across, np.nan)
+            offset = moment / np.where(np.abs(across) > nothing, across, np.nan)
         point = np.where(moment == 0, point, point + d * offset)
     reactions[reaction_name(source, target)] = Reaction(wrench.force, point, moment)
     reactions[reaction_name(target, source)] = Reaction(-wrench.force, point, -moment)

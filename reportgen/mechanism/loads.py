@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.mechanism.motion import Motion
-from reportgen.mechanism.plane import Complexes, Floats, cross
+from reportgen.mechanism.plane import Complexes, Floats, cross, solve2
 from reportgen.mechanism.structure import Linkage
 
 
@@ -85,8 +85,5 @@ def percussion_meeting(a: Complexes, s: Complexes, a_a: Complexes, a_s: Complexe
     lines meet in Q; nan where they are parallel.  a, s in m, a_a, a_s in m/s².
     """
     k = s + (s - a) / np.abs(s - a) * l_sk
-    turning = a_s - a_a
-    area = cross(a_a, turning)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        along = cross(k - s, turning) / np.where(np.abs(area) > 0, area, np.nan)
+    along, _ = solve2(a_a, a_a - a_s, k - s)
     return s + along * a_a

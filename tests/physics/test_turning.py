@@ -374,3 +374,13 @@ def test_mean_over_a_function_with_a_jump() -> None:
     # ∫₀² f with f = e^x below 1 and 5 above: (e − 1 + 5)/2.
     mean = mean_over(lambda x: np.where(x < 1, np.exp(x), 5.0), [1.0], 0.0, 2.0)
     assert mean == pytest.approx((math.e + 4) / 2, rel=1e-13)
+
+
+def test_lines_that_do_not_meet_give_no_point_of_percussion() -> None:
+    # At a dead centre of a central slider-crank a_A and a_SA lie along one line.
+    linkage = MACHINES["twin"]
+    motion = solve_motion(linkage, math.pi / 2 + np.array([0.0, math.pi]), OMEGA)
+    a, b = motion.points["A"], motion.points["B"]
+    s = a.p + 0.35 * (b.p - a.p)
+    a_s = a.a + 0.35 * (b.a - a.a)
+    assert np.isnan(percussion_meeting(a.p, s, a.a, a_s, 0.1)).all()
