@@ -247,7 +247,7 @@ def star(size: float = 40.0, rays: int = 12, title: str = "") -> Scene:
     """Arrows to all sides from the middle, each with its label, for measuring."""
     middle = complex(size / 2, size / 2)
     ends = [
-        middle + size * (0.2 + 0.02 * ray) * cmath.exp(2j * math.pi * ray / rays + 0.1j)
+        middle + size * (0.18 + 0.25 * ray / rays) * cmath.exp(2j * math.pi * ray / rays + 0.1j)
         for ray in range(rays)
     ]
     items: list[Item] = [Arrow(middle, end, Stroke(0.25), name=f"pb{ray}") for ray, end in enumerate(ends)]

@@ -14,7 +14,20 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reportgen.document.tree import Document, Equation, Figure, InlineMath, Paragraph, Section, Text
+from reportgen.document.tree import (
+    Column,
+    Cover,
+    Document,
+    Equation,
+    Figure,
+    InlineMath,
+    List,
+    Paragraph,
+    Reference,
+    Section,
+    Table,
+    Text,
+)
 from reportgen.errors import TypesetterError
 from reportgen.figures.scene import Arc, Arrow, Label, Line, Polyline, Scene, Stroke
 from reportgen.notation.expressions import (
@@ -163,6 +176,47 @@ def test_literals_read_back(text: str) -> None:
     written = literal(text)
     assert re.fullmatch(r'"(?:[^"\\]|\\.)*"', written, re.DOTALL)
     assert re.sub(r"\\(.)", r"\1", written[1:-1]) == text
+
+
+def test_the_cover_says_everything_as_typed() -> None:
+    text = r"A_B & 100% #1 $x$ \input{…} *y*"
+    (page,) = opened(typst.render(document(Cover((text,) * 2, (text,) * 2, (text,), ((text, text),), text))))
+    assert plain(page.get_text()).count(plain(text)) == 8
+    assert "Trang" not in page.get_text()
+
+
+def test_what_is_empty_stays_quiet() -> None:
+    blocks = (
+        Paragraph(()),
+        Table((Column(30),), (), ()),
+        Figure(()),
+        List(((),)),
+        Equation(()),
+        Cover((), (), (), (), ""),
+        Figure(
+            (Scene(10, 10, (Polyline((1j,)), Arrow(1j, 1j), Arc(5j, 0, 0, 1), Arc(5j, 2, 1, 1, head=2))),)
+        ),
+    )
+    assert opened(typst.render(document(*blocks))).page_count <= 3
+    assert opened(typst.render(document())).page_count == 1
+
+
+def test_a_run_in_heading_stands_in_the_line_of_its_paragraph() -> None:
+    printed = text_of(
+        Section(4, (Text("Nhận xét."),), key="k"), Paragraph((Text("Đúng, xem "), Reference("k", "đây")))
+    )
+    assert printed == "Nhận xét. Đúng, xem đây"
+
+
+def test_figures_wider_than_a_row_go_on_below() -> None:
+    scenes = [Scene(width, 10) for width in (100, 56, 60, 100, 160)]
+    assert [[scene.width for scene in row] for row in typst.in_rows(scenes)] == [
+        [100, 56],
+        [60],
+        [100],
+        [160],
+    ]
+    assert typst.in_rows(scenes[:2] * 2) == [scenes[:2]] * 2
 
 
 # --- expressions ----------------------------------------------------------------------------------
