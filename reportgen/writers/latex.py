@@ -136,8 +136,10 @@ class _Writer:
         self.document = document
         self.language = document.language
         self.entries = {id(entry.section): entry for entry in _entries(document.blocks)}
-        keys = (getattr(block, "key", "") for block in document.blocks)
-        self.places: Mapping[str, str] = {key: f"k{index}" for index, key in enumerate(keys) if key}
+        self.places: Mapping[str, str] = {
+            **{key: f"k{index}" for index, key in enumerate(_keys(document.blocks))},
+            **{entry.section.key: entry.place for entry in self.entries.values() if entry.section.key},
+        }
 
     def body(self) -> str:
         return self.blocks(self.document.blocks)
@@ -201,7 +203,7 @@ class _Writer:
         from pylatex import Center, FlushRight, NoEscape
 
         environment = Center if align == "center" else FlushRight
-        return str(environment(data=NoEscape(source.replace(r"\newline ", r"\\ "))).dumps())
+        return str(environment(data=NoEscape(source.replace(r"\newline ", r"\\[0pt] "))).dumps())
 
     # --- structure --------------------------------------------------------------------------------
 
@@ -232,9 +234,9 @@ class _Writer:
 
         environment = Itemize()
         for number, item in enumerate(block.items, block.start):
-            label = f"{number}." if block.ordered else None
-            environment.append(Command("item", options=label) if label else Command("item"))
-            environment.append(NoEscape(self.blocks(item).strip()))
+            environment.append(Command("item", options=f"{number}." if block.ordered else None))
+            # A text that begins with a bracket is no option of the command before it.
+            environment.append(NoEscape(r"\relax " + self.blocks(item).strip()))
         return str(environment.dumps())
 
     def cover(self, cover: Cover) -> str:
@@ -262,7 +264,7 @@ class _Writer:
 
     def equation(self, equation: Equation) -> str:
         place = rf"\place{{{self.places[equation.key]}}}" if equation.key else ""
-        number = f"{place}({escape(equation.number)})" if equation.number else place
+        number = place + (f"({escape(equation.number)})" if equation.number else "")
         rows = []
         for index, row in enumerate(equation.rows):
             macro = "L" if index == len(equation.rows) - 1 else "R"
@@ -276,7 +278,8 @@ class _Writer:
         place = rf"\place{{{self.places[block.key]}}}" if block.key else ""
         if not (block.caption or block.number):
             return place
-        return _command("captiontext", escape(word), escape(block.number), self.inlines(block.caption), place)
+        label = f"{word} {block.number}".strip() + ("." if block.caption else "")
+        return _command("captiontext", place, escape(label), self.inlines(block.caption))
 
     def table(self, table: Table) -> str:
         from pylatex import LongTable, NoEscape
@@ -286,14 +289,14 @@ class _Writer:
         caption = self.caption(self.document.words.table, table)
         head = self.table_head(table)
         if caption:
-            title = rf"\multicolumn{{{len(table.columns)}}}{{c}}{{\tablecaption{{{caption}}}}}\\*"
+            title = rf"\multicolumn{{{len(table.columns)}}}{{c}}{{\tablecaption{{{caption}}}}}\\*[0pt]"
             environment.append(NoEscape(title))
         environment.append(NoEscape(head + r"\endfirsthead"))
         environment.append(NoEscape(head + r"\endhead"))
         environment.append(NoEscape(r"\bottomrule\endfoot"))
         unbroken = len(table.rows) <= UNBROKEN_ROWS
         for index, row in enumerate(table.rows):
-            end = r"\\*"
+            end = r"\\*[0pt]"
             if index < len(table.rows) - 1:
                 # The first and the last row never stand alone on a page.
                 together = unbroken or index in (0, len(table.rows) - 2)
@@ -302,9 +305,10 @@ class _Writer:
         return f"{{\\tablesize\n{environment.dumps()}\n}}"
 
     def table_head(self, table: Table) -> str:
-        lines = [r"\toprule"]
+        # Every option is written out: a cell's text may begin with a bracket.
+        lines = [r"\toprule[\heavyrulewidth]"]
         for index, row in enumerate(table.head):
-            lines.append(self.table_row(row, table.columns, head=True) + r"\\*")
+            lines.append(self.table_row(row, table.columns, head=True) + r"\\*[0pt]")
             if index < len(table.head) - 1:
                 lines.append(_rules_below(row))
         lines.append(r"\midrule" if table.head else "")
@@ -337,6 +341,18 @@ class _Writer:
     def scene(self, scene: Scene) -> str:
         painted = paint(scene, self.language)
         return _command("titledscene", painted, escape(scene.title)) if scene.title else painted
+
+
+def _keys(blocks: Sequence[Block]) -> Iterator[str]:
+    """What blocks, and those inside lists, are called by references."""
+    for block in blocks:
+        match block:
+            case List(items):
+                for item in items:
+                    yield from _keys(item)
+            case Section() | Equation() | Table() | Figure() | Plate():
+                if block.key:
+                    yield block.key
 
 
 def _scene_rows(scenes: Sequence[Scene]) -> Iterator[list[Scene]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 from reportgen.errors import TypesetterError
@@ -39,6 +40,12 @@ NAMED = {
 }
 """Functions that TeX knows by name; any other prints its own name upright."""
 
+SignedTerm = tuple[str, Term]
+"""A term of a vector equation behind what is printed before it."""
+
+NARROW_TERMS = 5
+"""A vector equation of at most so many terms fits any line."""
+
 
 def mathematics(node: Expression, language: Language) -> str:
     """The formula of an expression; sums and chains carry the places where a line may break.
@@ -70,11 +77,16 @@ def mathematics(node: Expression, language: Language) -> str:
             printed = r" \relbreak= ".join(mathematics(part, language) for part in parts)
             return printed + (rf" \relbreak\quad\text{{({escape(note)})}}" if note else "")
         case VectorEquation():
-            return _vector_equation(node, language)
+            return " ".join(f"{sign} {_symbol(term.symbol)}" for sign, term in _signed(node))
 
 
 def aligned(node: Expression, language: Language) -> tuple[str, str]:
-    """A displayed line cut at its first relation: what stands left of it, and the rest."""
+    """A displayed line cut at its first relation: what stands left of it, and the rest.
+
+    A vector equation is a grid and not cut.  Raises `TypesetterError` as `mathematics` does.
+    """
+    if isinstance(node, VectorEquation):
+        return "", _vector_equation(_signed(node), node.rows, language)
     if isinstance(node, Chain) and len(node.parts) > 1:
         return (
             mathematics(node.parts[0], language),
@@ -183,34 +195,37 @@ def _function(name: str) -> str:
 # --- vector equations -----------------------------------------------------------------------------
 
 
-def _vector_equation(equation: VectorEquation, language: Language) -> str:
-    """A grid: the terms on top, under each a row of what is known of it, "?" where nothing is."""
-    terms = [term for side in equation.sides for term in side]
-    symbols = [
-        f"{_sign(term, number, index)}&{_symbol(term.symbol)}"
-        for number, side in enumerate(equation.sides)
-        for index, term in enumerate(side)
-    ]
-    lines = [_grid_line("", symbols)]
-    rule = rf"\cline{{2-{2 * len(terms) + 1}}}" if equation.rows else ""
-    for row, name in enumerate(equation.rows):
-        entries = (term.known[row] if row < len(term.known) else "" for term in terms)
-        lines.append(_grid_line(escape(name), [f"&{_known(entry, language)}" for entry in entries]))
-    head, *known = lines
-    grid = "".join([head, *(r"\\" + (rule if index == 0 else "") + line for index, line in enumerate(known))])
-    return rf"\begin{{vectorgrid}}{{{len(terms)}}}{grid}\end{{vectorgrid}}"
+def _vector_equation(terms: Sequence[SignedTerm], rows: Sequence[str], language: Language) -> str:
+    """A grid, and, should that be too wide for the line, two storeys of half the terms each."""
+    whole = _grid(terms, rows, language)
+    if len(terms) <= NARROW_TERMS:
+        return whole
+    half = (len(terms) + 1) // 2
+    upper, lower = (_vector_equation(part, rows, language) for part in (terms[:half], terms[half:]))
+    return rf"\fitting{{{whole}}}{{\storeys{{{upper}}}{{{lower}}}}}"
 
 
-def _sign(term: Term, side: int, index: int) -> str:
-    """What stands before a term: the relation at the head of a later side, else its sign."""
-    minus = "-" if term.sign < 0 else ""
-    if index:
-        return minus or "+"
-    return "=" + minus if side else minus
+def _grid(terms: Sequence[SignedTerm], rows: Sequence[str], language: Language) -> str:
+    """Terms on top, under each a row of what is known of it, "?" where nothing is."""
+    lines = ["&" + "&".join(f"{sign}&{_symbol(term.symbol)}" for sign, term in terms)]
+    for row, name in enumerate(rows):
+        entries = (term.known[row] if row < len(term.known) else "" for _, term in terms)
+        known = "&".join(f"&{_known(entry, language)}" for entry in entries)
+        lines.append(rf"\rowname{{{escape(name)}}}&{known}")
+    if rows:
+        lines[1] = rf"\cline{{2-{2 * len(terms) + 1}}}{lines[1]}"
+    body = r"\\".join(lines)
+    return rf"\begin{{vectorgrid}}{{{len(terms)}}}{body}\end{{vectorgrid}}"
 
 
-def _grid_line(name: str, entries: list[str]) -> str:
-    return (rf"\rowname{{{name}}}" if name else "") + "&" + "&".join(entries)
+def _signed(equation: VectorEquation) -> list[SignedTerm]:
+    """Every term behind what stands before it: the relation at the head of a later side, else its sign."""
+    signed = []
+    for side, terms in enumerate(equation.sides):
+        for index, term in enumerate(terms):
+            sign = "-" if term.sign < 0 else "+" if index else ""
+            signed.append(("=" + sign if side and not index else sign, term))
+    return signed
 
 
 def _known(entry: Expression | str | None, language: Language) -> str:

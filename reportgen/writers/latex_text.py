@@ -6,6 +6,7 @@ mathematical fonts.  A character that none of them has is refused before TeX run
 
 from __future__ import annotations
 
+import re
 import unicodedata
 
 from reportgen.errors import TypesetterError
@@ -27,10 +28,11 @@ SPECIAL = {
     '"': r"\textquotedbl{}",
     "'": r"\textquotesingle{}",
     "`": r"\textasciigrave{}",
-    "-": "-{}",
-    ",": ",{}",
 }
-"""ASCII marks that TeX would take for commands, or join into ligatures (-- ,,)."""
+"""ASCII marks that TeX would take for commands or for other signs."""
+
+_LIGATURES = re.compile(r"([-,])(?=\1)")
+"""Marks that fonts would join into one sign: -- ,,"""
 
 MATHEMATICAL = {
     "α": r"\alpha", "β": r"\beta", "γ": r"\gamma", "δ": r"\delta", "ε": r"\varepsilon", "ζ": r"\zeta",
@@ -86,7 +88,8 @@ def escape(text: str) -> str:
 
     Raises `TypesetterError` naming the first character that the fonts do not have.
     """
-    return "".join(map(_character, unicodedata.normalize("NFC", text)))
+    source = "".join(map(_character, unicodedata.normalize("NFC", text)))
+    return _LIGATURES.sub(r"\1{}", source)
 
 
 def _character(char: str) -> str:

@@ -10,7 +10,20 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.document.tree import Block, Document, Equation, Figure, Paragraph, Section, Text
+from reportgen.document.tree import (
+    Block,
+    Column,
+    Document,
+    Equation,
+    Figure,
+    LineBreak,
+    List,
+    Paragraph,
+    Reference,
+    Section,
+    Table,
+    Text,
+)
 from reportgen.errors import TypesetterError
 from reportgen.figures.scene import Arc, Arrow, Circle, Hatch, Label, Line, Polyline, Scene, Stroke
 from reportgen.notation.expressions import (
@@ -21,6 +34,8 @@ from reportgen.notation.expressions import (
     Ref,
     Sum,
     Symbol,
+    Term,
+    VectorEquation,
     divide,
     multiply,
     negative,
@@ -206,12 +221,57 @@ def test_contents_give_true_pages_and_links(compiled: pdflatex.Compiled) -> None
     pages = opened(compiled.pdf)
     outline = {title: page for _, title, page in pages.get_toc()}
     contents = pages[1].get_text()
-    for title in ("Lời nói đầu", "Kết luận"):
-        page = outline[title]
+    for title in ("Lời nói đầu", "Mọi biểu thức", "Kết luận"):
+        (page,) = (page for words, page in outline.items() if words.endswith(title))
         assert title in pages[page - 1].get_text()
-        assert re.search(rf"{title}[ .\n]*{page}\b", contents)
+        assert re.search(rf"{title}[ .\n]*{page}\b", contents), title
     targets = {link.get("page") for link in pages[1].get_links()}
     assert outline["Kết luận"] - 1 in targets
+
+
+@needs_tex
+def test_references_lead_to_their_blocks(compiled: pdflatex.Compiled) -> None:
+    pages = opened(compiled.pdf)
+    cases = (("Theo (1.1) và", "(1.1)"), ("Xem Kết luận", "Kết luận"), ("Xem Kết luận", "Hình 2.2."))
+    for words, target in cases:
+        (page,) = (page for page in pages if words in page.get_text())
+        reached = [pages[link["page"]].get_text() for link in page.get_links()]
+        assert any(target in text for text in reached), target
+
+
+@needs_tex
+def test_blocks_inside_a_list_and_texts_that_look_like_options() -> None:
+    inner = Equation((sample.expressions()[-1], sample.wide_chain()), key="inner", number="9.9")
+    bare = replace(inner, key="")
+    items = List(((Paragraph((Text("[f] xem "), Reference("inner", "(9.9)"))), inner), (List(((bare,),)),)))
+    table = Table((Column(30), Column(30)), (sample.cells("[g]", "*"),), (sample.cells("*[h]", "[2mm]"),) * 2)
+    centred = Paragraph((Text("trên"), LineBreak(), Text("[k] dưới")), "center")
+    source = latex.write(document(items, table, centred))
+    done = latex.compile(source)
+    assert done.overfull == ()
+    text = folded(opened(done.pdf)[0].get_text())
+    for words in ("[f] xem (9.9)", "[g]", "*[h]", "[2mm]", "[k] dưới"):
+        assert folded(words) in text
+
+
+@needs_tex
+def test_wide_rows_break_and_stay_inside_the_margins() -> None:
+    chain = sample.wide_chain()
+    many = VectorEquation(
+        (tuple(Term(sample.vector("R", f"{index}"), ("∥ AB và CD", None)) for index in range(12)),),
+        ("phương", "độ lớn"),
+    )
+    long = Chain((Sum(chain.parts), Symbol("M")))
+    rows: tuple[Expression, ...] = (chain, long, Product(chain.parts * 3), many)
+    done = latex.compile(latex.write(document(*(Equation((row,), number="1.1") for row in rows))))
+    assert done.overfull == ()
+    page = opened(done.pdf)[0]
+    right = page.rect.width - 20 * POINTS_PER_MM
+    # A number ends at the margin, but for the side bearing of its parenthesis.
+    assert [place.x1 for place in page.search_for("(1.1)")] == pytest.approx([right] * 4, abs=0.5)
+    # Broken lines begin with the relation or the sign, never end with it.
+    lines = [line for line in page.get_text().splitlines() if line.strip()]
+    assert not any(line.rstrip().endswith(("=", "+")) for line in lines)
 
 
 @needs_tex
