@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reportgen.catalogue.machine import Item
+from reportgen.catalogue.machine import Item, Piston
 from reportgen.notation.expressions import (
     Expression,
     Root,
@@ -42,7 +42,7 @@ def formulas(
     rest = subtract(1.0, divide(along, length))
     x_of_s, y_of_s = f"f.x.{centre}", f"f.y.{centre}"
     return (
-        Item(phi, Symbol("φ", number), "angle", value=angle),
+        Item(phi, Symbol("φ", number), "angle", angle, traits={"exact": _is_round(angle), "scale": 1.0}),
         item(beta, Symbol("β", link), "angle", call("arcsin", multiply("lambda", call("sin", phi))), 1.0),
         item(
             f"x.{slider}",
@@ -155,4 +155,26 @@ def formulas(
             "acceleration",
             Root(add(power(f"{x_of_s}.a", 2.0), power(f"{y_of_s}.a", 2.0))),
         ),
+    )
+
+
+def _is_round(angle: np.ndarray) -> bool:
+    """Whether all angles are whole hundredths of a degree, to be printed as they are."""
+    hundredths = np.degrees(angle) * 100
+    return bool(np.allclose(hundredths, np.round(hundredths), rtol=0, atol=1e-7))
+
+
+def compared(pistons: tuple[Piston, ...]) -> tuple[tuple[str, str], ...]:
+    """Plan quantities and the closed formulas that must give the same sizes."""
+    return tuple(
+        (plan, f"f.{plan}")
+        for piston in pistons
+        for plan in (
+            f"v.{piston.pin}",
+            f"omega.{piston.rod}",
+            f"v.S{piston.rod}",
+            f"a.{piston.pin}",
+            f"eps.{piston.rod}",
+            f"a.S{piston.rod}",
+        )
     )

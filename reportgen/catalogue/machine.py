@@ -14,7 +14,8 @@ import numpy as np
 
 from reportgen.cycle.indicator import Indicator
 from reportgen.mechanism.structure import Linkage
-from reportgen.notation.expressions import Expression, Symbol
+from reportgen.notation.expressions import PI, Expression, Symbol, divide, multiply
+from reportgen.units import Given
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +34,7 @@ class Item:
 class Piston:
     """A piston and the gas on it.
 
-    `pin` is its point; `top` and `bottom` are the pin's places at the dead centres; `tops` and `bottoms`
+    `pin` is its point and `crank_pin` the other end of its rod; `top` and `bottom` are the pin's places at the dead centres; `tops` and `bottoms`
     the driver angles there (one turn, in the direction of rotation, from the top).  `phase` is its cycle
     angle at position 1, from its top dead centre at the start of intake.  A positive pressure pushes it
     along `inward`.
@@ -42,6 +43,7 @@ class Piston:
     link: int
     rod: int
     pin: str
+    crank_pin: str
     top: complex
     bottom: complex
     top_angle: float
@@ -99,3 +101,24 @@ class Machine:
     def angles(self, cycle_angle: np.ndarray) -> np.ndarray:
         """Driver angles at the given cycle angles."""
         return self.start + self.turn * cycle_angle
+
+
+def ratio_item(id: str, symbol: Symbol, given: Given) -> Item:
+    """A ratio as typed: `1/3.6` is worked out on the page, `0.35` is given."""
+    top, slash, bottom = given.text.partition("/")
+    if slash:
+        return Item(id, symbol, "ratio", definition=divide(float(top), float(bottom)))
+    return Item(id, symbol, "ratio", given.si)
+
+
+def speed_items(n: Given | None, omega: Given | None) -> tuple[Item, ...]:
+    """The driver's angular velocity ω₁ (its size): given, or ω₁ = 2πn/60 from the speed in rpm."""
+    symbol = Symbol("ω", "1")
+    if n is None:
+        assert omega is not None, "a file without speed is refused by the kind's checks"
+        return (Item("omega.1", symbol, "angular velocity", omega.si),)
+    rpm = n.value if n.unit == "rpm" else n.si * 30 / np.pi
+    return (
+        Item("n", Symbol("n"), "speed of rotation", rpm),
+        Item("omega.1", symbol, "angular velocity", definition=divide(multiply(2, PI, "n"), 60)),
+    )

@@ -86,6 +86,7 @@ def environment(directories: Sequence[Path]) -> Environment:
         auto_reload=False,
         trim_blocks=True,
         lstrip_blocks=True,
+        keep_trailing_newline=True,
     )
     result.filters["join"] = _join
     result.globals.update(ref=_ref, key=_key, unnumbered=Unnumbered, blank=_blank)

@@ -37,7 +37,7 @@ ZERO = 1e-9
 
 CONSTRUCTIONS = frozenset(
     {"meet", "circle_line", "circle_circle", "abs", "cis", "turned", "arg", "re", "im", "cross", "dot"}
-    | {"mean", "quotient", "if_zero", "sign"}
+    | {"mean", "quotient", "if_zero", "sign", "heading"}
 )
 """Calls that stand for drawing and measuring: a definition with one of them is not printed as a formula."""
 

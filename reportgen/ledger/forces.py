@@ -101,6 +101,8 @@ def enter_loads(b: Builder, linkage: Linkage, gas: Mapping[str, tuple[int, str, 
                 scale=body.moment * float(b.value("omega.1")[0]) ** 2,
             )
             b.construct(f"couple.{name}", negative(multiply(f"J.{link}", f"turn.eps.{link}")))
+            if body.mass > 0:
+                _line_of_action(b, linkage, link, centre)
         loads.append(LoadOn(name, link, centre, inertial=True))
     for name, (link, place, sense) in gas.items():
         b.give(f"sense.{name}", Symbol(name), "ratio", complex(sense))
@@ -108,6 +110,21 @@ def enter_loads(b: Builder, linkage: Linkage, gas: Mapping[str, tuple[int, str, 
         loads.append(LoadOn(name, link, place))
     order = {kind: rank for rank, kind in enumerate(("Pqt", "P", "G"))}
     return tuple(sorted(loads, key=lambda load: (load.link, order[load.name.rstrip("0123456789")])))
+
+
+def _line_of_action(b: Builder, linkage: Linkage, link: int, centre: str) -> None:
+    """How far the one inertia force passes from S, e = M/P, and the centre of percussion, l_SK = J/(m l_AS)."""
+    name = f"Pqt{link}"
+    b.define(f"e.{name}", Symbol("e", f"qt{link}"), "length", divide(f"M.{name}", name), scale=1e-3)
+    start = next((dyad.start for dyad in linkage.dyads if dyad.links[0] == link), None)
+    arm = f"l.{start}{centre}"
+    if arm in b and float(b.value(arm)[0]) > 0:
+        b.define(
+            f"l.{centre}K{link}",
+            Symbol("l", f"{centre}K{link}"),
+            "length",
+            divide(f"J.{link}", multiply(f"m.{link}", arm)),
+        )
 
 
 def _centre(linkage: Linkage) -> str:
@@ -304,6 +321,7 @@ def _read(
     )
     b.define(id, symbol, "force", multiply(mu, segment), scale=scale)
     b.construct(f"F.{name}", multiply(mu, along))
+    b.define(f"dir.{name}", Symbol("α", symbol.sub), "angle", call("heading", f"F.{name}"), scale=1.0)
 
 
 def crank(b: Builder, linkage: Linkage, turn: int, loads: tuple[LoadOn, ...]) -> Polygon:

@@ -268,6 +268,8 @@ def _absolute(b: Builder, what: str, name: str) -> None:
     )
     kind = "velocity" if what == "v" else "acceleration"
     b.define(f"{what}.{name}", _sized(what, name), kind, multiply(f"mu.{what}", segment), scale=scale)
+    plan = f"plan.{what}.{image(name)}"
+    b.define(f"dir.{what}.{name}", Symbol("α", f"{what}{name}"), "angle", call("heading", plan), scale=1.0)
 
 
 def _images(b: Builder, linkage: Linkage, what: str, link: int, start: str, middle: str) -> None:

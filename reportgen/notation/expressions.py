@@ -229,6 +229,11 @@ def if_zero(a: Value, b: Value) -> Value:
     return np.where(np.asarray(a) == 0, b, 0.0)
 
 
+def heading(vector: Value) -> Value:
+    """A vector's direction from +x, in [0, 2π); rounding just below a full turn counts as 0."""
+    return np.mod(np.angle(vector) + 1e-12, 2 * np.pi) - 1e-12
+
+
 FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "sin": np.sin,
     "cos": np.cos,
@@ -242,6 +247,7 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "re": np.real,
     "im": np.imag,
     "arg": np.angle,
+    "heading": heading,
     "cis": lambda angle: np.exp(1j * np.asarray(angle)),
     "cross": cross,
     "dot": dot,

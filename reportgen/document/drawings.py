@@ -1,0 +1,224 @@
+"""The report's figures by name: what of the ledger each one shows.
+
+Numbers come from the ledger's plans (metres on paper → mm); how things are drawn is `reportgen.figures`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from reportgen.assignment import Assignment
+from reportgen.document.facts import Facts
+from reportgen.document.views import GroupView
+from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
+from reportgen.figures.scene import Scene
+from reportgen.ledger.core import Ledger
+from reportgen.ledger.forces import Polygon
+from reportgen.notation import symbols
+from reportgen.notation.expressions import Chain, Symbol
+
+MM = 1e3
+HALF = 0.5
+"""Stages are drawn at half the size of the plan, with twice its scale."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """The scenes of a figure; `paper` (mm) asks for a page of its own."""
+
+    scenes: tuple[Scene, ...]
+    paper: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class Drawings:
+    """The figures of one report; `plates` are the positions whose plans are drawn."""
+
+    assignment: Assignment
+    facts: Facts
+    words: Mapping[str, Any]
+    plates: tuple[int, ...]
+
+    @property
+    def ledger(self) -> Ledger:
+        return self.facts.ledger
+
+    def draw(self, name: str, *arguments: Any) -> Drawn:
+        """A figure by the name templates use; raises `KeyError` for a name nobody draws."""
+        figures: dict[str, Callable[..., Drawn]] = {
+            "velocity": self.velocity,
+            "velocity-stages": self.velocity_stages,
+            "velocity-plates": self.velocity_plates,
+            "acceleration": self.acceleration,
+            "acceleration-stages": self.acceleration_stages,
+            "acceleration-plates": self.acceleration_plates,
+            "forces": self.forces,
+            "force-plates": self.force_plates,
+        }
+        return figures[name](*arguments)
+
+    # --- plans of velocity and acceleration
+
+    def velocity(self, k: int) -> Drawn:
+        return Drawn((plan(self.velocity_plan(k)),))
+
+    def acceleration(self, k: int) -> Drawn:
+        return Drawn((plan(self.acceleration_plan(k)),))
+
+    def velocity_stages(self, k: int) -> Drawn:
+        return self._stages(self.velocity_plan(k), "mu.v")
+
+    def acceleration_stages(self, k: int) -> Drawn:
+        return self._stages(self.acceleration_plan(k), "mu.a")
+
+    def _stages(self, drawing: Plan, scale: str) -> Drawn:
+        return Drawn(stages(drawing, HALF))
+
+    def velocity_plates(self) -> Drawn:
+        return self._plates(self.velocity_plan)
+
+    def acceleration_plates(self) -> Drawn:
+        return self._plates(self.acceleration_plan)
+
+    def _plates(self, drawing: Callable[[int], Plan]) -> Drawn:
+        count = self.facts.analysis.machine.count
+        kept = sorted({(k - 1) % count + 1 for k in self.plates})
+        return Drawn(tuple(plan(drawing(k), title=self.at_position(k)) for k in kept))
+
+    def at_position(self, k: int) -> str:
+        return f"{self.words['table']['position']} {k}"
+
+    def velocity_plan(self, k: int) -> Plan:
+        """The velocity plan at a position, in mm, its stages in the order of construction."""
+        return self._plan("v", "p", k)
+
+    def acceleration_plan(self, k: int) -> Plan:
+        """The acceleration plan at a position, in mm."""
+        return self._plan("a", "π", k)
+
+    def _plan(self, what: str, pole: str, k: int) -> Plan:
+        sketch = _Sketch(self.ledger, what, k)
+        driver = self.facts.driver
+        places = [driver.pin, *(place.name for place in driver.others)]
+        carried = {name: sketch.at(name) for name in places}
+        stage = 0
+        drawn: set[str] = set()
+        for group in self.facts.groups:
+            if group.P in carried and group.P not in drawn:
+                sketch.vector(group.P, 0j, carried[group.P], "known", what, group.P, stage)
+                drawn.add(group.P)
+            stage = sketch.group(group, stage) + 1
+        return sketch.finish(pole, self.scale(f"mu.{what}"))
+
+    def scale(self, id: str) -> Chain:
+        """A scale as a figure prints it: μ_v = 0.2189 m/(s·mm)."""
+        return Chain((self.ledger.symbol(id), self.ledger.number(id)))
+
+    # --- force plans
+
+    def forces(self, k: int, group: GroupView) -> Drawn:
+        assert group.polygon is not None
+        return Drawn((plan(self.force_plan(group.polygon, k)),))
+
+    def force_plates(self, group: GroupView) -> Drawn:
+        polygon = group.polygon
+        assert polygon is not None
+        return Drawn(
+            tuple(plan(self.force_plan(polygon, k), title=self.at_position(k)) for k in self.plates)
+        )
+
+    def force_plan(self, polygon: Polygon, k: int) -> Plan:
+        """A force plan in mm: known sides one by one, then what closing it gives, then what is read from it."""
+
+        def corner(letter: str) -> complex:
+            return complex(self.ledger[f"plan.R{polygon.name}.{letter}"].at(k)) * MM
+
+        known = sum(not side.unknown for side in polygon.sides)
+        vectors, points = [], [PlanPoint(Symbol(polygon.sides[0].start), corner(polygon.sides[0].start))]
+        for number, side in enumerate(polygon.sides):
+            stage = known if side.unknown else number
+            style: Style = "found" if side.unknown else "known"
+            vectors.append(
+                PlanVector(
+                    side.start + side.end,
+                    corner(side.start),
+                    corner(side.end),
+                    style,
+                    self._force(side.name),
+                    stage,
+                )
+            )
+            if side.end != polygon.sides[0].start and not any(point.label == Symbol(side.end) for point in points):
+                points.append(PlanPoint(Symbol(side.end), corner(side.end), stage))
+        vectors += [
+            PlanVector(
+                read.start + read.end,
+                corner(read.start),
+                corner(read.end),
+                "relative",
+                self._force(read.name),
+                known + 1,
+            )
+            for read in polygon.reads
+        ]
+        return Plan(tuple(vectors), tuple(points), (), self.scale(f"mu.R{polygon.name}"), pole=False)
+
+    def _force(self, name: str) -> Symbol:
+        known = name in self.ledger
+        return symbols.vector(self.ledger.symbol(name if known else f"R.{name.removeprefix('R')}"))
+
+
+class _Sketch:
+    """A velocity or acceleration plan while its vectors are collected."""
+
+    def __init__(self, ledger: Ledger, what: str, position: int) -> None:
+        self.ledger, self.what, self.k = ledger, what, position
+        self.vectors: list[PlanVector] = []
+        self.points: list[PlanPoint] = []
+        self.lines: list[PlanLine] = []
+
+    def at(self, name: str) -> complex:
+        return complex(self.ledger[f"plan.{self.what}.{name.lower()}"].at(self.k)) * MM
+
+    def vector(
+        self, name: str, start: complex, end: complex, style: Style, base: str, sub: str, stage: int, sup: str = ""
+    ) -> None:
+        label = Symbol(base, sub, sup, "vector")
+        self.vectors.append(PlanVector(name, start, end, style, label, stage))
+        if style != "relative":
+            self.point(name, end, stage)
+
+    def point(self, name: str, at: complex, stage: int) -> None:
+        self.points.append(PlanPoint(symbols.on_plan(name, self.what == "a"), at, stage))
+
+    def group(self, group: GroupView, stage: int) -> int:
+        """Enter a group's construction after the stage that shows its outer pin; gives its last stage."""
+        start, end = self.at(group.P), self.at(group.Q)
+        if self.what == "a":
+            normal = complex(self.ledger[f"plan.a.n.{group.relative}"].at(self.k)) * MM
+            stage += 1
+            self.vector(f"n{group.relative}", start, normal, "relative", "a", group.relative, stage, "n")
+            self.points.append(PlanPoint(Symbol("n", group.relative), normal, stage))
+            start = normal
+        self.lines.append(PlanLine(start, end, stage + 1))
+        self.lines.append(PlanLine(0j, end, stage + 2))
+        sup = "τ" if self.what == "a" else ""
+        self.vector(group.relative, start, end, "relative", self.what, group.relative, stage + 2, sup)
+        self.vector(group.Q, 0j, end, "found", self.what, group.Q, stage + 2)
+        stage += 2
+        if group.points:
+            stage += 1
+            for place in group.points:
+                self.vector(place.name, 0j, self.at(place.name), "found", self.what, place.name, stage)
+        return stage
+
+    def finish(self, pole: str, scale: Chain) -> Plan:
+        first = PlanPoint(Symbol(pole), 0j)
+        return Plan(tuple(self.vectors), (first, *self.points), tuple(self.lines), scale)
+
+
+def positions_kept(plates: Sequence[int], count: int) -> list[int]:
+    """The positions of one turn that stand for the cycle's positions in `plates`."""
+    return sorted({(k - 1) % count + 1 for k in plates})

@@ -1,0 +1,328 @@
+"""What templates may say: lines, numbers, equations and tables, all taken from the ledger.
+
+A `Voice` is bound to one report; its public methods are the functions that templates call.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from reportgen.document.prose import Prose
+from reportgen.document.tree import (
+    Cell,
+    Column,
+    Equation,
+    Inline,
+    InlineMath,
+    Inlines,
+    Table,
+    Text,
+    Value,
+)
+from reportgen.document.views import GroupView
+from reportgen.ledger.core import Ledger
+from reportgen.notation import symbols
+from reportgen.notation.expressions import (
+    Chain,
+    Expression,
+    Number,
+    Symbol,
+    Term,
+    VectorEquation,
+    multiply,
+)
+from reportgen.notation.expressions import Fraction as FractionOf
+from reportgen.notation.expressions import Power as PowerOf
+
+TEXT_WIDTH = 160.0
+FIRST_COLUMN = 16.0
+WIDEST_COLUMN = 26.0
+
+
+@dataclass(frozen=True)
+class Voice:
+    """The functions of one report's templates."""
+
+    ledger: Ledger
+    prose: Prose
+    words: Mapping[str, Any]
+
+    # --- numbers and symbols
+
+    def symbol(self, id: str) -> Symbol:
+        """The symbol of a quantity."""
+        return self.ledger.symbol(id)
+
+    def value(self, id: str, position: int | None = None, size: bool = False) -> Value:
+        """A quantity's number with its unit; `size` leaves its sign away."""
+        return Value(self.ledger.number(id, position, size=size))
+
+    def point(self, name: str) -> Symbol:
+        """The symbol of a point, e.g. S with a lowered 2."""
+        return symbols.point(name)
+
+    def points(self, names: Iterable[str]) -> tuple[Inline, ...]:
+        """Symbols of points, side by side with commas."""
+        result: list[Inline] = []
+        for name in names:
+            result += [Text(", ")] if result else []
+            result.append(InlineMath(symbols.point(name)))
+        return tuple(result)
+
+    def image(self, name: str, prime: bool = False) -> Symbol:
+        """The image of a point on a plan."""
+        return symbols.on_plan(name, prime)
+
+    def letters(self, base: str, sub: str | int = "", sup: str = "") -> Symbol:
+        """Any symbol."""
+        return Symbol(base, str(sub), sup)
+
+    def vector(self, base: str, sub: str | int = "", sup: str = "") -> Symbol:
+        """Any symbol under an arrow."""
+        return Symbol(base, str(sub), sup, "vector")
+
+    # --- lines
+
+    def line(self, id: str, position: int | None = None, note: str = "", key: str = "") -> Equation:
+        """One worked line: symbol = formula = numbers = result."""
+        return self.lines([id], position, note, key)
+
+    def lines(
+        self, ids: Sequence[str], position: int | None = None, note: str = "", key: str = ""
+    ) -> Equation:
+        """Several worked lines, aligned."""
+        return Equation(tuple(self.chain(id, position, note) for id in ids), key)
+
+    def chain(self, id: str, position: int | None = None, note: str = "") -> Chain:
+        """A worked line as an expression; a nothing gets its reason."""
+        chain = self.ledger.chain(id, position, note)
+        result = chain.parts[-1]
+        if not note and isinstance(result, Number) and result.value == 0 and self.ledger[id].definition:
+            return Chain((chain.parts[0], result), self.reason(id))
+        return chain
+
+    def reason(self, id: str) -> str:
+        """Why a quantity is nothing, in words, by the pattern its id fits; "" where none fits."""
+        return next(
+            (str(reason) for pattern, reason in self.words["zero"].items() if re.fullmatch(str(pattern), id)), ""
+        )
+
+    def equal(self, *parts: Expression | str, key: str = "") -> Equation:
+        """Expressions joined by "="; a string names a quantity by its symbol."""
+        shown = tuple(self.symbol(part) if isinstance(part, str) else part for part in parts)
+        return Equation((Chain(shown),), key)
+
+    def ratio(self, top: Expression | str, bottom: Expression | str) -> Expression:
+        """A fraction; strings name quantities by their symbols."""
+        return FractionOf(
+            self.symbol(top) if isinstance(top, str) else top,
+            self.symbol(bottom) if isinstance(bottom, str) else bottom,
+        )
+
+    # --- vector equations
+
+    def velocity_equation(self, group: GroupView, key: str = "") -> Equation:
+        """v_Q = v_P + v_QP with what is known of each vector."""
+        words = self.words["vector"]
+        return Equation(
+            (
+                VectorEquation(
+                    (
+                        (self._term("v", group.Q, "", words["along_guide"], None, None),),
+                        (
+                            self._known(group, "v"),
+                            self._term("v", group.relative, "", f"⊥ {group.rod}", None, None),
+                        ),
+                    ),
+                    tuple(words["rows"]),
+                ),
+            ),
+            key,
+        )
+
+    def acceleration_equation(self, group: GroupView, key: str = "") -> Equation:
+        """a_Q = a_P + aⁿ_QP + aᵗ_QP with what is known of each vector."""
+        words = self.words["vector"]
+        relative = group.relative
+        square = FractionOf(
+            PowerOf(self.symbol(f"v.{relative}"), Number(2)), self.symbol(f"l.{group.rod}")
+        )
+        return Equation(
+            (
+                VectorEquation(
+                    (
+                        (self._term("a", group.Q, "", words["along_guide"], None, None),),
+                        (
+                            self._known(group, "a"),
+                            self._term("a", relative, "n", f"∥ {group.rod}", f"{group.Q} → {group.P}", square),
+                            self._term("a", relative, "τ", f"⊥ {group.rod}", None, None),
+                        ),
+                    ),
+                    tuple(words["rows"]),
+                ),
+            ),
+            key,
+        )
+
+    def force_equation(self, group: GroupView, key: str = "") -> Equation:
+        """The equilibrium of a group's two links; only the two reactions that close the plan are unknown."""
+        assert group.polygon is not None
+        words = self.words["vector"]
+        terms = []
+        for side in group.polygon.sides:
+            symbol = self.force_symbol(side.name)
+            if side.unknown:
+                direction = f"∥ {group.rod}" if side.name.endswith(".n") else words["across_guide"]
+                known: tuple[Expression | str | None, ...] = (direction, None)
+            elif side.name.endswith(".t"):
+                known = (f"⊥ {group.rod}", words["computed"])
+            else:
+                known = (words["given"], words["given"])
+            terms.append(Term(symbols.vector(symbol), known))
+        zero = Term(Symbol("0", over="vector"), ("", ""))
+        return Equation((VectorEquation((tuple(terms), (zero,)), tuple(words["force_rows"])),), key)
+
+    def driver_equation(self, polygon: Any, key: str = "") -> Equation:
+        """The equilibrium of forces on the driver."""
+        words = self.words["vector"]
+        terms = tuple(
+            Term(
+                symbols.vector(self.force_symbol(side.name)),
+                (None, None) if side.unknown else (words["given"], words["given"]),
+            )
+            for side in polygon.sides
+        )
+        zero = Term(Symbol("0", over="vector"), ("", ""))
+        return Equation((VectorEquation((terms, (zero,)), tuple(words["force_rows"])),), key)
+
+    def force_symbol(self, name: str) -> Symbol:
+        """The symbol of a force of a plan: of a load by its own id, of a reaction R12, R12.t by its joint."""
+        if name in self.ledger:
+            return self.symbol(name)
+        return self.symbol(f"R.{name.removeprefix('R')}")
+
+    def _term(
+        self, base: str, sub: str, sup: str, *known: Expression | str | None
+    ) -> Term:
+        return Term(Symbol(base, sub, sup, "vector"), known)
+
+    def _known(self, group: GroupView, what: str) -> Term:
+        """The vector of the outer pin: on the crank with its direction and size, else known from before."""
+        words = self.words["vector"]
+        if group.carrier != 1:
+            return self._term(what, group.P, "", words["given"], words["given"], words["given"])
+        centre = next(id for id in self.ledger.families if id.startswith("drawn.")).removeprefix("drawn.")
+        arm = f"{_centre(centre)}{group.P}"
+        length = self.symbol(f"l.{arm}")
+        omega = self.symbol("omega.1")
+        if what == "v":
+            size: Expression = multiply(omega, length)
+            return self._term("v", group.P, "", f"⊥ {arm}", words["with_crank"], size)
+        size = multiply(PowerOf(omega, Number(2)), length)
+        return self._term("a", group.P, "", f"∥ {arm}", f"{group.P} → {_centre(centre)}", size)
+
+    # --- tables
+
+    def cell(self, content: object) -> Cell:
+        """A table cell from text, a symbol, a number or inlines."""
+        return Cell(_inlines(content))
+
+    def table(
+        self,
+        key: str,
+        caption: str,
+        ids: Sequence[str],
+        positions: Iterable[int],
+        first: str | None = None,
+    ) -> Table:
+        """A table of quantities (columns) at positions (rows); the head shows symbol and unit."""
+        width = min((TEXT_WIDTH - FIRST_COLUMN) / len(ids), WIDEST_COLUMN)
+        columns = (Column(FIRST_COLUMN), *(Column(width) for _ in ids))
+        title = self.words["table"]["position"] if first is None else first
+        head = (
+            (self.cell(title), *(self.cell(self.symbol(id)) for id in ids)),
+            (Cell(), *(self.cell(self.unit(id)) for id in ids)),
+        )
+        rows = tuple(
+            (self.cell(str(k)), *(self.cell(self.bare(id, k)) for id in ids)) for k in positions
+        )
+        return Table(columns, head, rows, self.prose.inlines(caption), key)
+
+    def list_table(
+        self, key: str, caption: str, head: Sequence[object], rows: Iterable[Sequence[object]], widths: Sequence[float]
+    ) -> Table:
+        """A free table: cells are texts, symbols, numbers or inlines; widths in mm, left-aligned where wide."""
+        return Table(
+            tuple(Column(width, "left" if width >= 45 else "center") for width in widths),
+            (tuple(self.cell(content) for content in head),),
+            tuple(tuple(self.cell(content) for content in row) for row in rows),
+            self.prose.inlines(caption),
+            key,
+        )
+
+    def quantity_table(
+        self, key: str, caption: str, ids: Sequence[str], names: Mapping[str, str], position: int | None = None
+    ) -> Table:
+        """A table with one quantity a row: what it is, its symbol, its value."""
+        heads = self.words["table"]
+        return self.list_table(
+            key,
+            caption,
+            (heads["quantity"], heads["symbol"], heads["value"]),
+            ((names[id], self.symbol(id), self.value(id, position)) for id in ids),
+            (92.0, 28.0, 40.0),
+        )
+
+    def unit(self, id: str) -> str:
+        """A quantity's printed unit."""
+        unit = self.ledger[id].how.unit
+        return self.ledger.units.get(unit, unit)
+
+    def bare(self, id: str, position: int | None) -> Inlines:
+        """A number without its unit, a dash for what does not exist."""
+        number = self.ledger.number(id, position, size=self.ledger[id].arm)
+        if number.value != number.value:
+            return (Text("–"),)
+        return (Value(Number(number.value, number.decimals, "")),)
+
+    def direction(self, id: str, position: int | None) -> str:
+        """The sense of a rotation in words; a dash where there is none."""
+        value = self.ledger.number(id, position).value
+        words = self.words["sense"]
+        return str(words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"])
+
+    def functions(self) -> dict[str, Callable[..., Any]]:
+        """The names under which templates call this voice."""
+        names = (
+            "symbol value point points image letters vector line lines reason equal ratio velocity_equation "
+            "acceleration_equation force_equation driver_equation force_symbol table list_table quantity_table "
+            "unit direction chain bare"
+        )
+        return {name: getattr(self, name) for name in names.split()}
+
+
+def _centre(arm: str) -> str:
+    """The first point of a length's name: O1 of O1A, A of AB."""
+    match = re.match(r"[A-Z]\d*", arm)
+    assert match is not None
+    return match.group()
+
+
+def _inlines(content: object) -> Inlines:
+    match content:
+        case str():
+            return (Text(content),) if content else ()
+        case Number():
+            return (Value(content),)
+        case Symbol() | Chain():
+            return (InlineMath(content),)
+        case tuple():
+            return tuple(inline for part in content for inline in _inlines(part))
+        case Text() | Value() | InlineMath():
+            return (content,)
+    if isinstance(content, Expression):
+        return (InlineMath(content),)
+    raise TypeError(f"a {type(content).__name__} has no place in a table")
