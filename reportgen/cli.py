@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import io
 import json
-import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -104,9 +103,9 @@ def solve(
 @app.command()
 def check(files: Files, lang: LangOption = None) -> None:
     """Validate each FILE; silent when all is well."""
-    from reportgen import catalogue
+    from reportgen import api
 
-    problems = [problem for file in files for problem in catalogue.check(file, _language(lang))]
+    problems = [problem for file in files for problem in api.check(file, _language(lang))]
     for problem in problems:
         print(problem, file=sys.stderr)
     raise typer.Exit(AT_FAULT if problems else 0)
@@ -210,15 +209,12 @@ def _refuse_same_names(files: list[Path], language: Language | None) -> None:
 
 def _write(path: Path, text: str) -> None:
     """To standard output for `-`; else to the file, which is replaced only once all is written."""
+    from reportgen import api
+
     if str(path) == "-":
         sys.stdout.write(text)
-        return
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
+    else:
+        api.replace(path, text.encode())
 
 
 def main() -> None:

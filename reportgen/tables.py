@@ -12,6 +12,10 @@ from reportgen.notation.numbers import Language, significant_decimals, write
 
 DIGITS = 5
 MOST_DECIMALS = 4
+LEAD = 2
+MOST_COLUMNS = 7
+WORDS = frozenset({"position", "crank_angle", "equilibrium", "virtual_work"})
+"""Headings that are words of a language; the others are symbols."""
 
 Row = dict[str, float | None]
 
@@ -21,17 +25,24 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    console = Console()
+    # Numbers are never cut to the width of a terminal; `MOST_COLUMNS` keeps the tables within most.
+    console = Console(width=500)
     for name, rows in tables(results["positions"]).items():
-        table = Table(title=word(name, language), title_justify="left", title_style="bold")
-        for heading in rows[0]:
-            known = heading in {"position", "crank_angle", "cycle_angle", "equilibrium", "virtual_work"}
-            table.add_column(word(heading, language) if known else heading, justify="right", no_wrap=True)
-        for cells in zip(*(_column(rows, heading, language) for heading in rows[0]), strict=True):
-            table.add_row(*cells)
-        # A pipe has no width: columns must not be cut to a terminal's that is not there.
-        console.print(table, width=None if console.is_terminal else 400)
-        console.print()
+        for headings in _split(rows[0]):
+            table = Table(title=word(name, language), title_justify="left", title_style="bold")
+            for heading in headings:
+                text = word(heading, language) if heading in WORDS else heading
+                table.add_column(text, justify="right", no_wrap=True)
+            for cells in zip(*(_column(rows, heading, language) for heading in headings), strict=True):
+                table.add_row(*cells)
+            console.print(table)
+            console.print()
+
+
+def _split(row: Row) -> list[list[str]]:
+    """Headings of the tables side by side that a row is split into, each with the position and its angle."""
+    lead, others = list(row)[:LEAD], list(row)[LEAD:]
+    return [[*lead, *others[at : at + MOST_COLUMNS]] for at in range(0, len(others), MOST_COLUMNS)]
 
 
 def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]]:
@@ -42,8 +53,7 @@ def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]
             continue
         lead: Row = {
             "position": position["number"],
-            "crank_angle": math.degrees(position["crank_angle"]),
-            "cycle_angle": math.degrees(position["cycle_angle"]),
+            "crank_angle": round(math.degrees(position["crank_angle"]), 6) % 360,
         }
         points, links = position["points"], position["links"]
         rows: dict[str, Row] = {
@@ -54,13 +64,29 @@ def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]
                 for symbol, quantity in (("ω", "omega"), ("ε", "epsilon"))
                 for name, link in links.items()
             },
-            "reactions": {name: _size(vector) for name, vector in position.get("reactions", {}).items()},
+            "loads": {name: _size(load) for name, load in position.get("loads", {}).items()},
+            "reactions": _once({name: _size(force) for name, force in position.get("reactions", {}).items()}),
             "torque": dict(position.get("balancing_torque", {})),
         }
         for name, row in rows.items():
             if row:
                 found[name].append(lead | row)
-    return dict(found)
+    return {name: _moving(rows) for name, rows in found.items()}
+
+
+def _once(reactions: Row) -> Row:
+    """Each pair R_ij, R_ji once: their sizes are the same."""
+    shown: Row = {}
+    for name, size in reactions.items():
+        if f"{name[0]}{name[:0:-1]}" not in shown:
+            shown[name] = size
+    return shown
+
+
+def _moving(rows: list[Row]) -> list[Row]:
+    """The rows without the columns that are nothing throughout (a slider's angular velocity)."""
+    kept = [key for key in rows[0] if any(row.get(key) for row in rows) or key in WORDS]
+    return [{key: row.get(key) for key in kept} for row in rows]
 
 
 def _size(vector: Any) -> float | None:
