@@ -152,7 +152,7 @@ class _Blocks:
                 tall = len(rows) == 1 and max(scene.height for scene in rows[0]) > FLOATING
                 floating = str(tall and self.room == TEXT_WIDTH).lower()
                 label = self.caption(self.words.figure, block)
-                return f"#F({label},{floating},\n{drawings})" + _label(key)
+                return f"#place.flush()#F({literal(key)},{label},{floating},\n{drawings})"
             case Plate(scene, (width, height), _, key):
                 label = self.caption(self.words.figure, block)
                 drawing = paint(scene, self.language)
