@@ -39,7 +39,7 @@ def one_of(section: str, *names: str, required: bool = True) -> Check:
         content = draft.raw.get(section)
         if not isinstance(content, dict):
             return
-        given = [name for name in content if name in names]
+        given = [name for name, value in content.items() if name in names and value is not None]
         if len(given) > 1:
             first, second = given[:2]
             yield Finding("both-given", (section, second), {"first": first, "second": second}, at="key")

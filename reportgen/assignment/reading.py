@@ -100,7 +100,7 @@ def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Dr
         if kind is not None or key not in {"parameters", "indicator"}:
             findings.append(_unknown((key,), ["kind", *known]))
     for key, (type_, default) in known.items():
-        if key in raw:
+        if raw.get(key) is not None:
             valid[key], found = _section(key, type_, raw[key])
             findings += found
         elif default is ...:

@@ -21,6 +21,7 @@ from reportgen.errors import Mark
 
 LARGEST = 1_000_000
 DEEPEST = 12
+MOST_KEYS = 200
 _NULL = {"", "~", "null", "Null", "NULL"}
 _SYNTAX = (
     ("mapping values are not allowed", "syntax-colon"),
@@ -120,14 +121,14 @@ def read_text(text: str, file: str = "") -> Source:
 
 
 def plain(node: Node) -> Any:
-    """Nodes as dict, list and str; a key without a value is left out, an empty list item is None."""
+    """Nodes as dict, list and str; what was left empty is None."""
     match node:
         case Scalar(text, null=null):
             return None if null else text
         case List(items):
             return [plain(item) for item in items]
         case Table(entries):
-            return {key.text: plain(value) for key, value in entries if not _is_null(value)}
+            return {key.text: plain(value) for key, value in entries}
 
 
 def words_of(path: Path) -> Mapping[str, Any]:
@@ -189,6 +190,12 @@ def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
 def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator[tuple[Scalar, Node]]:
     """The entries of a mapping; a key met again is a fault and is left out."""
     seen: dict[str, Mark] = {}
+    if len(node.value) > MOST_KEYS:
+        place = node.value[MOST_KEYS][0].start_mark
+        faults.append(
+            Fault("too-many", Mark(file, place.line + 1, place.column + 1), {"most": str(MOST_KEYS)})
+        )
+        return
     for key_node, value_node in node.value:
         key, value = _node(key_node, file, faults), _node(value_node, file, faults)
         if not isinstance(key, Scalar):
@@ -200,10 +207,6 @@ def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator
             continue
         seen[name] = key.mark
         yield Scalar(name, key.mark), value
-
-
-def _is_null(node: Node) -> bool:
-    return isinstance(node, Scalar) and node.null
 
 
 def _tabs(text: str, file: str) -> Iterator[Fault]:

@@ -14,12 +14,18 @@ from reportgen.document.facts import Facts
 from reportgen.document.views import GroupView
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
 from reportgen.figures.scene import Scene
+from reportgen.figures.sheet import sheets
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces import Polygon
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Chain, Symbol
 
 MM = 1e3
+A3 = (420.0, 297.0)
+SHEET = (390.0, 240.0)
+"""What of an A3 page (landscape) a plate may fill."""
+TEXT_BLOCK = (160.0, 225.0)
+"""What of an A4 page a figure may fill with its caption."""
 HALF = 0.5
 """Stages are drawn at half the size of the plan, with twice its scale."""
 
@@ -85,7 +91,14 @@ class Drawings:
     def _plates(self, drawing: Callable[[int], Plan]) -> Drawn:
         count = self.facts.analysis.machine.count
         kept = sorted({(k - 1) % count + 1 for k in self.plates})
-        return Drawn(tuple(plan(drawing(k), title=self.at_position(k)) for k in kept))
+        return self._laid_out([plan(drawing(k), title=self.at_position(k)) for k in kept])
+
+    def _laid_out(self, scenes: Sequence[Scene]) -> Drawn:
+        """Scenes that fit one text block as a figure; more of them on A3 sheets."""
+        on_page = sheets(scenes, *TEXT_BLOCK)
+        if len(on_page) == 1 and on_page[0].width <= TEXT_BLOCK[0] and on_page[0].height <= TEXT_BLOCK[1]:
+            return Drawn(on_page)
+        return Drawn(sheets(scenes, *SHEET), A3)
 
     def at_position(self, k: int) -> str:
         return f"{self.words['table']['position']} {k}"
@@ -125,9 +138,7 @@ class Drawings:
     def force_plates(self, group: GroupView) -> Drawn:
         polygon = group.polygon
         assert polygon is not None
-        return Drawn(
-            tuple(plan(self.force_plan(polygon, k), title=self.at_position(k)) for k in self.plates)
-        )
+        return self._laid_out([plan(self.force_plan(polygon, k), title=self.at_position(k)) for k in self.plates])
 
     def force_plan(self, polygon: Polygon, k: int) -> Plan:
         """A force plan in mm: known sides one by one, then what closing it gives, then what is read from it."""

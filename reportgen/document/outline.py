@@ -64,7 +64,7 @@ def compose(assignment: Assignment, analysis: Analysis, books: Books, title: str
             f"{words['cover']['title']} – {title}",
             report.student.name or "",
             (words["header"].format(course=course), _variant(assignment, words)),
-            (report.university or "", words["document"]["page"]),
+            ("", words["document"]["page"]),
             Words(**words["document"]),
             tuple(blocks),
         )
@@ -231,9 +231,19 @@ def _references(keys: Iterator[str]) -> tuple[Any, ...]:
 
 def _figure(
     voice: Voice, drawings: Drawings, name: str, key: str, caption: str, *arguments: Any
-) -> Figure | Plate:
+) -> tuple[Figure | Plate, ...]:
+    """A figure's block, or one for each of its plates; the key names the first."""
     drawn = drawings.draw(name, *arguments)
     inlines = voice.prose.inlines(caption)
-    if drawn.paper is not None:
-        return Plate(drawn.scenes[0], drawn.paper, inlines, key)
-    return Figure(drawn.scenes, inlines, key)
+    if drawn.paper is None:
+        return (Figure(drawn.scenes, inlines, key),)
+    count = len(drawn.scenes)
+    return tuple(
+        Plate(
+            scene,
+            drawn.paper,
+            inlines if count == 1 else (*inlines, Text(f" ({index}/{count})")),
+            key if index == 1 else f"{key}.{index}",
+        )
+        for index, scene in enumerate(drawn.scenes, start=1)
+    )

@@ -16,7 +16,17 @@ from reportgen.document.tree import Cell, Column, InlineMath, Table, Text, Value
 from reportgen.document.voice import FIRST_COLUMN, TEXT_WIDTH, Voice
 from reportgen.mechanism.mobility import mobility
 from reportgen.notation import symbols
-from reportgen.notation.expressions import Chain, Fraction, Number, Product, Sum, Symbol, multiply, subtract
+from reportgen.notation.expressions import (
+    Chain,
+    Fraction,
+    Number,
+    Power,
+    Product,
+    Sum,
+    Symbol,
+    multiply,
+    subtract,
+)
 
 MOST_COLUMNS = 9
 
@@ -319,5 +329,4 @@ def _scientific(value: float) -> tuple[Any, ...]:
     if value == 0:
         return (Value(Number(0.0)),)
     exponent = math.ceil(math.log10(value))
-    raised = str(exponent).replace("-", "⁻").translate(str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹"))
-    return (Text(f"< 10{raised}"),)
+    return (Text("< "), InlineMath(Power(Number(10), Number(exponent))))

@@ -40,6 +40,8 @@ from reportgen.notation.expressions import Power as PowerOf
 TEXT_WIDTH = 160.0
 FIRST_COLUMN = 16.0
 WIDEST_COLUMN = 26.0
+LONG_WORDS = 10
+"""A column with a text this long is one of words and set flush left."""
 
 
 @dataclass(frozen=True)
@@ -254,11 +256,13 @@ class Voice:
     def list_table(
         self, key: str, caption: str, head: Sequence[object], rows: Iterable[Sequence[object]], widths: Sequence[float]
     ) -> Table:
-        """A free table: cells are texts, symbols, numbers or inlines; widths in mm, left-aligned where wide."""
+        """A free table: cells are texts, symbols, numbers or inlines; widths in mm; columns of words flush left."""
+        body = [tuple(row) for row in rows]
+        words = [any(isinstance(row[i], str) and len(row[i]) >= LONG_WORDS for row in body) for i in range(len(widths))]
         return Table(
-            tuple(Column(width, "left" if width >= 45 else "center") for width in widths),
+            tuple(Column(width, "left" if wordy else "center") for width, wordy in zip(widths, words, strict=True)),
             (tuple(self.cell(content) for content in head),),
-            tuple(tuple(self.cell(content) for content in row) for row in rows),
+            tuple(tuple(self.cell(content) for content in row) for row in body),
             self.prose.inlines(caption),
             key,
         )

@@ -15,8 +15,8 @@ import numpy as np
 
 from reportgen.figures.geometry import Complexes, Flags, Floats, corners, frame, overlap, segments
 from reportgen.figures.metrics import Box, box
-from reportgen.figures.scene import Item, Label, Line, Scene
-from reportgen.figures.style import LABEL, LEADER
+from reportgen.figures.scene import Circle, Item, Label, Line, Scene
+from reportgen.figures.style import LABEL, LEADER, THIN
 from reportgen.notation.expressions import Expression
 
 Content = Expression | str
@@ -37,7 +37,7 @@ class Request:
 
     `at` is the point it belongs to, `also` further points it may stand at as well (places along an
     arrow); `prefer` are directions in radians, any where empty; `gap` is the distance in mm kept from
-    the point itself (the radius of the circle drawn there).
+    the point itself (the radius of the circle drawn there).  A `ring` goes round a link's number.
     """
 
     at: complex
@@ -46,6 +46,7 @@ class Request:
     gap: float = 0.6
     size: float = LABEL
     also: tuple[complex, ...] = ()
+    ring: bool = False
 
 
 def label(
@@ -55,9 +56,10 @@ def label(
     gap: float = 0.6,
     size: float = LABEL,
     also: Sequence[complex] = (),
+    ring: bool = False,
 ) -> Request:
     """A request, written short."""
-    return Request(at, parts, tuple(prefer), gap, size, tuple(also))
+    return Request(at, parts, tuple(prefer), gap, size, tuple(also), ring)
 
 
 def row(at: complex, parts: Sequence[Content], size: float) -> tuple[Label, ...]:
@@ -105,6 +107,8 @@ def place(items: Sequence[Item], requests: Sequence[Request]) -> tuple[Item, ...
         else:
             centre, tie = _away(request, spot.half, strokes, taken, ties)
         labels: tuple[Item, ...] = row(centre, request.parts, request.size)
+        if request.ring:
+            labels = (Circle(centre, spot.half.real, THIN), *labels)
         if tie:
             ties.append(tie)
             labels = (Line(*tie, LEADER), *labels)
@@ -115,7 +119,8 @@ def place(items: Sequence[Item], requests: Sequence[Request]) -> tuple[Item, ...
 
 def _half(request: Request) -> complex:
     total = _around([box(part, request.size) for part in request.parts])
-    return complex(total.width, total.height + total.depth) / 2
+    half = complex(total.width, total.height + total.depth) / 2
+    return (abs(half) + 0.4) * (1 + 1j) if request.ring else half
 
 
 def _ring(half: complex, distances: Floats) -> Complexes:

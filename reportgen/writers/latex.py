@@ -240,13 +240,13 @@ class _Writer:
         return str(environment.dumps())
 
     def cover(self, cover: Cover) -> str:
-        institution = [escape(line.upper()) for line in cover.institution]
+        institution = [escape(line) for line in cover.institution]
         lines = [
             _command("coverinstitution", rf"\textbf{{{line}}}" if index else line)
             for index, line in enumerate(institution)
         ]
         lines += [r"\coverrule", r"\vfill"]
-        lines += (_command("covertitle", escape(line.upper())) for line in cover.title)
+        lines += (_command("covertitle", escape(line)) for line in cover.title)
         lines.append(r"\vskip5mm")
         lines += (_command("coversubtitle", escape(line)) for line in cover.subtitle)
         lines.append(r"\vfill")

@@ -1,0 +1,40 @@
+"""Separated links with all that acts on them: loads, reactions, couples, and the arms of moments."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from reportgen.figures.actions import ArmOf, Couple, Force, couples, forces
+from reportgen.figures.draft import finish
+from reportgen.figures.labels import Content
+from reportgen.figures.scene import Scene
+from reportgen.figures.scheme import Looks, mechanism
+from reportgen.figures.skeleton import skeleton
+from reportgen.mechanism.motion import Motion
+from reportgen.mechanism.structure import Linkage
+
+
+def bodies(
+    linkage: Linkage,
+    motion: Motion,
+    index: int,
+    scale: float,
+    links: Sequence[int],
+    acting: Sequence[Force] = (),
+    *,
+    arms: Sequence[ArmOf] = (),
+    turning: Sequence[Couple] = (),
+    looks: Looks | None = None,
+    notes: Sequence[Content] = (),
+    title: str = "",
+) -> Scene:
+    """The chosen links at position `index`, true to `scale` (mm per m), with forces of schematic length.
+
+    Points of forces, couples and moments are in mm of the plan: metres times `scale`, about the
+    mechanism's origin.
+    """
+    looks = looks or Looks()
+    bones = skeleton(linkage, motion, index, scale)
+    draft = mechanism(bones, links, looks) + forces(acting, arms) + couples(turning)
+    written = (*notes, *((looks.scale,) if looks.scale is not None else ()))
+    return finish(draft, notes=written, title=title)

@@ -1,0 +1,236 @@
+"""Curves: quantities over the driver's angle, and the polar diagram of a load.
+
+matplotlib chooses the ticks and simplifies the paths; the typesetter draws and sets all text.  This is
+the only module that imports it, and only where a chart is drawn.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from reportgen.figures.draft import Draft, finish
+from reportgen.figures.geometry import clusters
+from reportgen.figures.labels import Content, Request, label
+from reportgen.figures.metrics import box
+from reportgen.figures.scale import nice
+from reportgen.figures.scene import Circle, Item, Label, Line, Polyline, Scene, Stroke
+from reportgen.figures.style import BLACK, BLUE, GRAY, PALE, PAPER, RED, SMALL
+from reportgen.notation.expressions import Number
+
+WIDTH, HEIGHT = 128.0, 62.0
+"""The area inside the axes, mm; with its text a chart is about 150 × 85 mm."""
+PENS = (
+    Stroke(0.4, BLUE),
+    Stroke(0.4, RED, (2.4, 0.9)),
+    Stroke(0.4, BLACK, (3.2, 0.8, 0.6, 0.8)),
+    Stroke(0.4, GRAY, (0.9, 0.7)),
+)
+"""One curve after the other, told apart by dashes as well as by colour."""
+GRID = Stroke(0.1, PALE)
+EDGE = Stroke(0.25)
+MARK = 0.75
+
+Vertices = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """One curve: x [K] and y [K], its label, and indices of the points that get a mark."""
+
+    label: Content
+    x: ArrayLike
+    y: ArrayLike
+    marks: tuple[int, ...] = ()
+    names: tuple[Content, ...] = field(default=())
+    """Labels of the marks, if they have any."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Window:
+    """Data ranges and the paper they are drawn on: x0…x1 over `width` mm, y0…y1 over `height` mm."""
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    width: float
+    height: float
+
+    def vertices(self, x: ArrayLike, y: ArrayLike) -> Vertices:
+        """Places on paper [K, 2]; a gap (nan) stays a gap."""
+        across = (np.asarray(x, dtype=np.float64) - self.x[0]) / (self.x[1] - self.x[0]) * self.width
+        up = (np.asarray(y, dtype=np.float64) - self.y[0]) / (self.y[1] - self.y[0]) * self.height
+        return np.column_stack((across, up))
+
+    def at(self, x: float, y: float) -> complex:
+        across, up = self.vertices([x], [y])[0]
+        return complex(across, up)
+
+
+def chart(
+    series: Sequence[Series],
+    x_label: Content,
+    y_label: Content,
+    *,
+    turn: bool = True,
+    levels: Sequence[tuple[float, Content]] = (),
+    notes: Sequence[Content] = (),
+    title: str = "",
+) -> Scene:
+    """Curves in one frame.  With `turn` x is an angle in degrees with ticks at multiples of 45 or 90.
+
+    `levels` are horizontal lines with a name, e.g. a mean.  Raises `ValueError` when nothing is finite.
+    """
+    window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn)
+    items = _frame(window, x_ticks, y_ticks, "°" if turn else "")
+    requests: list[Request] = []
+    for level, name in levels:
+        start, end = window.at(window.x[0], level), window.at(window.x[1], level)
+        items.append(Line(start, end, Stroke(0.25, BLACK, (4.0, 1.0, 0.8, 1.0))))
+        places = [start + (end - start) * share for share in (0.97, 0.9, 0.06, 0.5, 0.25, 0.75)]
+        requests.append(label(places[0], name, prefer=(math.pi / 2, -math.pi / 2), also=places[1:]))
+    for n, one in enumerate(series):
+        vertices = window.vertices(one.x, one.y)
+        pen = PENS[n % len(PENS)]
+        items += [Polyline(points, pen) for points in _paths(vertices)]
+        requests += _marked(one, vertices, pen, items)
+        if one.label and len(series) > 1:
+            places = _places(vertices)
+            requests.append(label(places[0], one.label, also=places[1:]))
+    items += _titles(window, x_label, y_label, items)
+    return finish(Draft(tuple(items), tuple(requests)), notes=notes, title=title, margin=1.5)
+
+
+def polar(
+    series: Series, unit: str, *, size: float = 110.0, notes: Sequence[Content] = (), title: str = ""
+) -> Scene:
+    """The hodograph of a vector (x, y) about the pole with equal scales, its marks numbered.
+
+    `unit` is printed at the ends of the axes' figures; `size` mm is the most the diagram takes either way.
+    """
+    x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
+    low, high = np.nanmin([0.0, *x, *y]), np.nanmax([0.0, *x, *y])
+    step = nice(float(high - low) / 6, (1, 2, 5))
+    (x0, x1), (y0, y1) = (_rounded(min(0.0, float(np.nanmin(v))), max(0.0, float(np.nanmax(v))), step) for v in (x, y))
+    per = size / max(x1 - x0, y1 - y0)
+    window = _Window((x0, x1), (y0, y1), (x1 - x0) * per, (y1 - y0) * per)
+    items: list[Item] = []
+    items += _frame(window, _steps(x0, x1, step), _steps(y0, y1, step), "")
+    pole = window.at(0.0, 0.0)
+    items += [Line(window.at(x0, 0), window.at(x1, 0), EDGE), Line(window.at(0, y0), window.at(0, y1), EDGE)]
+    vertices = window.vertices(x, y)
+    items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
+    requests = _marked(series, vertices, PENS[0], items)
+    items.append(Circle(pole, MARK, EDGE, PAPER))
+    items += _titles(window, unit, "", items)
+    return finish(Draft(tuple(items), tuple(requests)), notes=notes, title=title, margin=2.0)
+
+
+def _window(series: Sequence[Series], levels: Sequence[float], turn: bool) -> tuple[_Window, list[float], list[float]]:
+    """Ranges and ticks: whole multiples of 45 or 90 degrees across, matplotlib's choice upwards."""
+    from matplotlib.ticker import MaxNLocator, MultipleLocator
+
+    x = np.concatenate([np.asarray(one.x, dtype=np.float64) for one in series])
+    y = np.concatenate([*(np.asarray(one.y, dtype=np.float64) for one in series), np.asarray([0.0, *levels])])
+    if not (np.isfinite(x).any() and np.isfinite(y).any()):
+        raise ValueError("a chart needs finite values")
+    x0, x1 = float(np.nanmin(x)), float(np.nanmax(x))
+    y_ticks = [float(t) for t in MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(np.nanmin(y), np.nanmax(y))]
+    if turn:
+        locator = MultipleLocator(45 if x1 - x0 <= 450 else 90)
+        x_ticks = [float(t) for t in locator.tick_values(x0, x1) if x0 - 1e-6 <= t <= x1 + 1e-6]
+    else:
+        x_ticks = [float(t) for t in MaxNLocator(9).tick_values(x0, x1)]
+        x0, x1 = x_ticks[0], x_ticks[-1]
+    return _Window((x0, x1), (y_ticks[0], y_ticks[-1]), WIDTH, HEIGHT), x_ticks, y_ticks
+
+
+def _rounded(low: float, high: float, step: float) -> tuple[float, float]:
+    return math.floor(low / step + 1e-9) * step, math.ceil(high / step - 1e-9) * step
+
+
+def _steps(low: float, high: float, step: float) -> list[float]:
+    return [low + k * step for k in range(round((high - low) / step) + 1)]
+
+
+def _frame(window: _Window, x_ticks: Sequence[float], y_ticks: Sequence[float], unit: str) -> list[Item]:
+    """The frame with its grid and the figures at it; the line of y = 0 stands out."""
+    items: list[Item] = []
+    for tick in x_ticks:
+        foot = window.at(tick, window.y[0])
+        items.append(Line(foot, window.at(tick, window.y[1]), GRID))
+        items.append(Label(foot - 3.0j, _figure(tick, x_ticks, unit), "center", SMALL))
+    for tick in y_ticks:
+        left = window.at(window.x[0], tick)
+        zero = abs(tick) < 1e-12 * max(map(abs, window.y))
+        items.append(Line(left, window.at(window.x[1], tick), EDGE if zero else GRID))
+        items.append(Label(left - 1.5, _figure(tick, y_ticks, ""), "right", SMALL))
+    low, high = window.at(window.x[0], window.y[0]), window.at(window.x[1], window.y[1])
+    corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
+    items.append(Polyline(corners, EDGE, closed=True))
+    return items
+
+
+def _figure(tick: float, ticks: Sequence[float], unit: str) -> Number:
+    """A tick's number with as many decimals as the step between ticks needs."""
+    step = abs(ticks[1] - ticks[0]) if len(ticks) > 1 else 1.0
+    decimals = max(0, -math.floor(math.log10(step) + 1e-9))
+    if abs(step * 10**decimals - round(step * 10**decimals)) > 1e-6:
+        decimals += 1
+    return Number(tick, decimals, unit)
+
+
+def _titles(window: _Window, x_label: Content, y_label: Content, items: Sequence[Item]) -> list[Item]:
+    """The axes' names: below the middle and, turned, left of the widest figure."""
+    figures = [item for item in items if isinstance(item, Label) and item.anchor == "right"]
+    widest = max((box(item.content, item.size).width for item in figures), default=0.0)
+    titles: list[Item] = []
+    if x_label:
+        titles.append(Label(complex(window.width / 2, -8.5), x_label))
+    if y_label:
+        titles.append(Label(complex(-widest - 5.5, window.height / 2), y_label, turn=90))
+    return titles
+
+
+def _paths(vertices: Vertices) -> list[tuple[complex, ...]]:
+    """The curve on paper with points left out that lie within a fortieth of a millimetre, split at gaps."""
+    from matplotlib.path import Path
+
+    # matplotlib simplifies to a ninth of its own unit: that unit is made small enough here.
+    scale = 4.0
+    parts: list[list[complex]] = []
+    path = Path(vertices * scale)
+    path.simplify_threshold = 1 / 9
+    path.should_simplify = True
+    for corner, code in path.iter_segments(simplify=True, curves=False, remove_nans=True):
+        if code == Path.MOVETO:
+            parts.append([])
+        if code in (Path.MOVETO, Path.LINETO):
+            parts[-1].append(complex(corner[0], corner[1]) / scale)
+    return [tuple(part) for part in parts if len(part) > 1]
+
+
+def _marked(series: Series, vertices: Vertices, pen: Stroke, items: list[Item]) -> list[Request]:
+    """Circles at the marked points (added to the items) and requests for their names."""
+    where = [complex(*vertices[i]) for i in series.marks]
+    solid = Stroke(0.25, pen.colour)
+    items += [Circle(at, MARK, solid, PAPER) for at in where if np.isfinite(at)]
+    requests = []
+    named = [i for i in range(len(series.names)) if np.isfinite(where[i])]
+    for group in clusters([where[i] for i in named], 0.6):
+        parts: list[Content] = []
+        for i in group:
+            parts += [", ", series.names[named[i]]] if parts else [series.names[named[i]]]
+        requests.append(label(where[named[group[0]]], *parts, gap=MARK + 0.4, size=SMALL))
+    return requests
+
+
+def _places(vertices: Vertices) -> list[complex]:
+    """Places along a curve where its label may stand: the highest and lowest first, then all over."""
+    finite = vertices[np.isfinite(vertices).all(axis=1)]
+    spread = finite[np.linspace(0, len(finite) - 1, 17).astype(int)]
+    ends = finite[[int(finite[:, 1].argmax()), int(finite[:, 1].argmin())]]
+    return [complex(*p) for p in np.concatenate((ends, spread[1:-1]))]

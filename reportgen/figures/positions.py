@@ -1,0 +1,158 @@
+"""The position plan: all positions of a mechanism on one another, true to scale, with paths of points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from reportgen.figures import symbols
+from reportgen.figures.draft import Draft, finish
+from reportgen.figures.geometry import clusters
+from reportgen.figures.labels import Content, Request, label
+from reportgen.figures.scene import Circle, Item, Line, Polyline, Scene, Stroke
+from reportgen.figures.scheme import Looks
+from reportgen.figures.skeleton import Skeleton, skeleton
+from reportgen.figures.style import AXIS, BLUE, HEAVY, LABEL, PAPER, SMALL, THIN
+from reportgen.mechanism.motion import Motion
+from reportgen.mechanism.structure import GROUND, Crank, Linkage
+from reportgen.notation.expressions import Symbol
+
+TOGETHER = 0.3
+"""Points nearer than this (mm) share one label."""
+CROWDED = 24
+"""Above this number of positions only the emphasised one is numbered."""
+DOT = 0.55
+PATH = Stroke(0.25, BLUE)
+
+
+@dataclass(frozen=True, slots=True)
+class PositionPlan:
+    """What a position plan shows.
+
+    `numbered` are points labelled with each position's number (A₁ … A₈), `paths` points whose curves are
+    drawn from a dense motion, `emphasised` the index (from 0) of the position drawn heavy, if any;
+    `letters` replaces the letter that numbers a point (e.g. for a point O2).
+    """
+
+    numbered: tuple[str, ...]
+    paths: tuple[str, ...] = ()
+    emphasised: int | None = None
+    letters: Mapping[str, str] = field(default_factory=dict)
+
+
+def position_plan(
+    linkage: Linkage,
+    motion: Motion,
+    dense: Motion,
+    scale: float,
+    shows: PositionPlan,
+    looks: Looks | None = None,
+    *,
+    beside: Draft | None = None,
+    title: str = "",
+) -> Scene:
+    """The scene, `scale` mm of paper per m; `beside` (an indicator diagram in the same mm) joins it."""
+    looks = looks or Looks()
+    draft = positions(linkage, motion, dense, scale, shows, looks)
+    return finish(
+        draft + beside if beside else draft, notes=() if looks.scale is None else (looks.scale,), title=title
+    )
+
+
+def positions(
+    linkage: Linkage, motion: Motion, dense: Motion, scale: float, shows: PositionPlan, looks: Looks
+) -> Draft:
+    """The plan as a draft about the mechanism's own origin, so that other drawings can stand in line."""
+    count = len(motion.driver)
+    every = [skeleton(linkage, motion, k, scale) for k in range(count)]
+    reached = [bones for bones in every if bones.reached]
+    items: list[Item] = []
+    driver = linkage.driver
+    if isinstance(driver, Crank):
+        centre = every[0].points[driver.centre]
+        for radius in _radii(reached, driver.centre, shows.numbered):
+            items += symbols.path_circle(centre, radius)
+    items += [line for bones in reached[:1] for line in _axes(bones)]
+    for bones in reached:
+        items += _links(bones, THIN)
+    for name in shows.paths:
+        curve = dense.points[name].p[dense.reachable] * scale
+        items.append(Polyline(tuple(complex(p) for p in curve), PATH))
+    requests = [_path_name(name, dense, scale, looks) for name in shows.paths]
+    if shows.emphasised is not None and every[shows.emphasised].reached:
+        items += _links(every[shows.emphasised], HEAVY)
+    pivots = reached[0].pivots if reached else ()
+    for name in pivots:
+        items += symbols.pivot(reached[0].points[name])
+        requests.append(label(reached[0].points[name], looks.name(name), gap=symbols.JOINT + 0.4))
+    numbers = range(count) if count <= CROWDED else [k for k in (shows.emphasised,) if k is not None]
+    marks, names = _numbers(every, numbers, shows)
+    return Draft((*items, *marks), (*requests, *names))
+
+
+def _radii(reached: Sequence[Skeleton], centre: str, numbered: Sequence[str]) -> list[float]:
+    """Radii of the circles that numbered points describe about the driver's centre, each once."""
+    radii: list[float] = []
+    for name in numbered:
+        sizes = np.array([abs(bones.points[name] - bones.points[centre]) for bones in reached])
+        if sizes.size and np.ptp(sizes) < 1e-6 and not any(abs(r - sizes[0]) < 1e-3 for r in radii):
+            radii.append(float(sizes[0]))
+    return radii
+
+
+def _axes(bones: Skeleton) -> list[Item]:
+    """The axes of the ground guides, a little longer than the ways on them; one for ways in line."""
+    lines: list[Item] = []
+    for slide in bones.slides:
+        if slide.on == GROUND and abs(slide.high - slide.low) > 0:
+            on = (slide.high - slide.low) / abs(slide.high - slide.low) * 8
+            line = Line(slide.low - on, slide.high + on, AXIS)
+            if line not in lines:
+                lines.append(line)
+    return lines
+
+
+def _links(bones: Skeleton, pen: Stroke) -> list[Item]:
+    result: list[Item] = []
+    for names in bones.bars.values():
+        result += symbols.body([bones.points[name] for name in names], pen, None)
+    for slide in bones.slides:
+        if slide.on != GROUND:
+            result.append(Line(slide.low, slide.high, pen))
+    return result
+
+
+def _path_name(name: str, dense: Motion, scale: float, looks: Looks) -> Request:
+    """The name of a path, anywhere along it."""
+    curve = dense.points[name].p[dense.reachable] * scale
+    places = [complex(p) for p in curve[:: max(1, len(curve) // 16)]]
+    return label(places[0], looks.name(name), also=places[1:])
+
+
+def _numbers(
+    every: Sequence[Skeleton], numbers: Sequence[int] | range, shows: PositionPlan
+) -> tuple[list[Item], list[Request]]:
+    """Dots at the numbered positions and their names, one label for points that coincide."""
+    where: list[complex] = []
+    what: list[Content] = []
+    for name in shows.numbered:
+        letter = shows.letters.get(name, name.rstrip("0123456789"))
+        for k in numbers:
+            if every[k].reached:
+                where.append(every[k].points[name])
+                what.append(Symbol(letter, str(k + 1)))
+    middle = sum(where) / len(where) if where else 0j
+    items: list[Item] = []
+    requests: list[Request] = []
+    for group in clusters(where, TOGETHER):
+        at = where[group[0]]
+        parts: list[Content] = []
+        for i in group:
+            parts += [", ", what[i]] if parts else [what[i]]
+        items.append(Circle(at, DOT, Stroke(0.2), PAPER))
+        out = (float(np.angle(at - middle)),) if abs(at - middle) > 1 else ()
+        size = LABEL if len(group) < 3 else SMALL
+        requests.append(label(at, *parts, prefer=out, gap=DOT + 0.5, size=size))
+    return items, requests
