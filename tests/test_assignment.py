@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import copy
 import datetime
 import math
 import tempfile
@@ -235,6 +236,36 @@ def test_no_text_makes_a_traceback(edits: list[tuple[int, int, str]]) -> None:
         assert all(1 <= problem.mark.line <= lines and problem.mark.column >= 1 for problem in problems)
         if not problems:
             assert load(file).kind == "engine-twin"
+
+
+CONTENT = yaml.load(SAMPLE_TEXT, yaml.BaseLoader)
+ANYTHING = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.floats()
+    | st.text(max_size=5)
+    | st.sampled_from(["all", "1 mm", "0,5", "1/3"]),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=4), inner, max_size=3),
+    max_leaves=6,
+)
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    st.sampled_from(
+        [(one,) for one in CONTENT]
+        + [(one, two) for one in CONTENT for two in CONTENT[one] if isinstance(CONTENT[one], dict)]
+    ),
+    ANYTHING,
+)
+def test_no_content_makes_a_traceback(where: tuple[str, ...], value: object) -> None:
+    content = copy.deepcopy(CONTENT)
+    inner = content if len(where) == 1 else content[where[0]]
+    inner[where[-1]] = value
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "a.yaml"
+        file.write_bytes(yaml.safe_dump(content, allow_unicode=True).encode("utf-8", "replace"))
+        assert check(file) == [] or str(check(file)[0]).startswith(str(file))
 
 
 @settings(max_examples=100, deadline=None)

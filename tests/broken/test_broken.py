@@ -38,6 +38,10 @@ EDITS = [
     # keys
     ("unknown key", "  H: 95 mm", "  H: 95 mm\n  speed: 3", ["5:3 unknown-key"]),
     ("unknown section", "kind: engine-twin", "kind: engine-twin\nsize: 3", ["2:1 unknown-key"]),
+    ("unknown key without value", "  H: 95 mm", "  H: 95 mm\n  speed:", ["5:3 unknown-key"]),
+    ("unknown section without value", "kind: engine-twin", "kind: engine-twin\nsize:", ["2:1 unknown-key"]),
+    ("section without value", BASE[BASE.index("indicator") :], "indicator:", ["11:1 missing-key"]),
+    ("form of the table without value", "by: stroke", "by:", ["13:3 choice"]),
     ("unknown key in a row of keys", "{language: en}", "{language: en, tittle: x}", ["2:24 unknown-key"]),
     ("unknown key two levels down", "{language: en}", "{student: {nmae: x}}", ["2:20 unknown-key"]),
     ("unknown key of the indicator", "  by: stroke", "  by: stroke\n  p: [1]", ["14:3 unknown-key"]),
@@ -181,6 +185,8 @@ TEXTS: list[tuple[str, bytes, list[str]]] = [
     ("broken UTF-8", "variant: ph\xe9".encode("latin-1"), ["1:12 encoding"]),
     ("control character", b"kind: a\nvariant: \x07\n", ["2:10 control-character"]),
     ("absurd size", b"# " + b"x" * 1_000_000, ["1:1 too-large"]),
+    ("endless keys", b"".join(b"k%d: 1\n" % n for n in range(80_000)), ["1:1 missing-key", "201:1 too-many"]),
+    ("endless row", BASE.replace("[1, 1, 3.6]", str([1] * 2001)).encode(), ["18:12 too-many"]),
     ("endless nesting", b"a: " + b"[" * 5000, ["1:15 too-deep"]),
     ("endless mappings", b"{a: " * 5000, ["1:46 too-deep"]),
     (
