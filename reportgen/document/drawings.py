@@ -6,7 +6,7 @@ Numbers come from the ledger's plans (metres on paper → mm); how things are dr
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from reportgen.assignment import Assignment
@@ -22,7 +22,7 @@ from reportgen.notation.expressions import Chain, Symbol
 
 MM = 1e3
 A3 = (420.0, 297.0)
-SHEET = (390.0, 240.0)
+SHEET = (385.0, 232.0)
 """What of an A3 page (landscape) a plate may fill."""
 TEXT_BLOCK = (160.0, 225.0)
 """What of an A4 page a figure may fill with its caption."""
@@ -83,22 +83,23 @@ class Drawings:
         return Drawn(stages(drawing, HALF))
 
     def velocity_plates(self) -> Drawn:
-        return self._plates(self.velocity_plan)
+        return self._plates(self.velocity_plan, "mu.v")
 
     def acceleration_plates(self) -> Drawn:
-        return self._plates(self.acceleration_plan)
+        return self._plates(self.acceleration_plan, "mu.a")
 
-    def _plates(self, drawing: Callable[[int], Plan]) -> Drawn:
-        count = self.facts.analysis.machine.count
-        kept = sorted({(k - 1) % count + 1 for k in self.plates})
-        return self._laid_out([plan(drawing(k), title=self.at_position(k)) for k in kept])
+    def _plates(self, drawing: Callable[[int], Plan], scale: str) -> Drawn:
+        kept = positions_kept(self.plates, self.facts.analysis.machine.count)
+        return self._laid_out(drawing, kept, scale)
 
-    def _laid_out(self, scenes: Sequence[Scene]) -> Drawn:
-        """Scenes that fit one text block as a figure; more of them on A3 sheets."""
-        on_page = sheets(scenes, *TEXT_BLOCK)
+    def _laid_out(self, drawing: Callable[[int], Plan], positions: Sequence[int], scale: str) -> Drawn:
+        """Plans of one scale: as a figure if they fit one text block, else on A3 sheets."""
+        scenes = [plan(replace(drawing(k), scale=None), title=self.at_position(k)) for k in positions]
+        note = self.scale(scale)
+        on_page = sheets(scenes, *TEXT_BLOCK, note)
         if len(on_page) == 1 and on_page[0].width <= TEXT_BLOCK[0] and on_page[0].height <= TEXT_BLOCK[1]:
             return Drawn(on_page)
-        return Drawn(sheets(scenes, *SHEET), A3)
+        return Drawn(sheets(scenes, *SHEET, note), A3)
 
     def at_position(self, k: int) -> str:
         return f"{self.words['table']['position']} {k}"
@@ -138,7 +139,7 @@ class Drawings:
     def force_plates(self, group: GroupView) -> Drawn:
         polygon = group.polygon
         assert polygon is not None
-        return self._laid_out([plan(self.force_plan(polygon, k), title=self.at_position(k)) for k in self.plates])
+        return self._laid_out(lambda k: self.force_plan(polygon, k), self.plates, f"mu.R{polygon.name}")
 
     def force_plan(self, polygon: Polygon, k: int) -> Plan:
         """A force plan in mm: known sides one by one, then what closing it gives, then what is read from it."""

@@ -3,59 +3,82 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from reportgen.figures.geometry import moved
-from reportgen.figures.scene import Label, Scene
+from reportgen.figures.labels import Content
+from reportgen.figures.scene import Item, Label, Scene
 from reportgen.figures.style import LABEL
 
-TITLE_HEIGHT = 5.0
-GAP = 3.0
+TITLE_HEIGHT = 4.5
+NOTE_HEIGHT = 6.0
+TRIM = 3.5
+"""What of a drawing's white margin (mm, each side) its neighbours may use."""
 
 
-def sheets(scenes: Sequence[Scene], width: float, height: float) -> tuple[Scene, ...]:
+def sheets(
+    scenes: Sequence[Scene], width: float, height: float, note: Content | None = None
+) -> tuple[Scene, ...]:
     """The scenes in true size on as many sheets of `width` × `height` mm as they need.
 
-    Rows are filled in order and spread over the width; each scene's title stands below it.  A scene
-    larger than the sheet gets one of its own size.
+    Rows are filled in order and spread over the width; each scene's title stands below it and `note` (the
+    common scale) below all.  A scene larger than the sheet gets one of its own size.
     """
-    pages: list[list[_Row]] = [[]]
+    room = height - (NOTE_HEIGHT if note is not None else 0.0)
+    pages: list[list[_Row]] = []
     for row in _rows(scenes, width):
-        used = sum(other[1] for other in pages[-1])
-        if pages[-1] and used + row[1] > height:
+        if not pages or sum(other.height for other in pages[-1]) + row.height > room:
             pages.append([])
         pages[-1].append(row)
-    return tuple(_sheet(page, width) for page in pages if page)
+    return tuple(_sheet(page, width, note) for page in pages)
 
 
-_Row = tuple[list[Scene], float]
-"""Scenes side by side and the height they take with their titles."""
+@dataclass(frozen=True, slots=True)
+class _Row:
+    """Scenes side by side."""
+
+    scenes: tuple[Scene, ...]
+
+    @property
+    def width(self) -> float:
+        return sum(_wide(scene) for scene in self.scenes)
+
+    @property
+    def height(self) -> float:
+        return max(scene.height for scene in self.scenes) - 2 * TRIM + TITLE_HEIGHT
+
+
+def _wide(scene: Scene) -> float:
+    return scene.width - 2 * TRIM
 
 
 def _rows(scenes: Sequence[Scene], width: float) -> list[_Row]:
-    rows: list[list[Scene]] = []
+    rows: list[_Row] = []
     for scene in scenes:
-        taken = sum(other.width + GAP for other in rows[-1]) if rows else 0.0
-        if rows and taken + scene.width <= width:
-            rows[-1].append(scene)
+        if rows and rows[-1].width + _wide(scene) <= width:
+            rows[-1] = _Row((*rows[-1].scenes, scene))
         else:
-            rows.append([scene])
-    return [(row, max(scene.height for scene in row) + TITLE_HEIGHT + GAP) for row in rows]
+            rows.append(_Row((scene,)))
+    return rows
 
 
-def _sheet(rows: Sequence[_Row], width: float) -> Scene:
+def _sheet(rows: Sequence[_Row], width: float, note: Content | None) -> Scene:
     """One sheet, as high as its rows; scenes of a row stand on a common base line."""
-    wide = max(width, *(sum(scene.width for scene in row) for row, _ in rows))
-    height = sum(high for _, high in rows)
-    items = []
-    top = height
-    for row, high in rows:
-        base = top - high + TITLE_HEIGHT + GAP
-        space = (wide - sum(scene.width for scene in row)) / (len(row) + 1)
+    wide = max(width, *(row.width for row in rows))
+    foot = NOTE_HEIGHT if note is not None else 0.0
+    top = height = foot + sum(row.height for row in rows)
+    items: list[Item] = []
+    for row in rows:
+        top -= row.height
+        space = (wide - row.width) / (len(row.scenes) + 1)
         x = space
-        for scene in row:
-            items += [moved(item, complex(x, base)) for item in scene.items]
+        for scene in row.scenes:
+            corner = complex(x - TRIM, top + TITLE_HEIGHT - TRIM)
+            items += [moved(item, corner) for item in scene.items]
             if scene.title:
-                items.append(Label(complex(x + scene.width / 2, base - TITLE_HEIGHT / 2), scene.title, size=LABEL))
-            x += scene.width + space
-        top -= high
+                middle = complex(x + _wide(scene) / 2, top + TITLE_HEIGHT / 2)
+                items.append(Label(middle, scene.title, size=LABEL))
+            x += _wide(scene) + space
+    if note is not None:
+        items.append(Label(complex(wide / 2, NOTE_HEIGHT / 3), note, size=LABEL))
     return Scene(wide, height, tuple(items))
