@@ -62,7 +62,7 @@ def math(node: Expression, language: Language) -> str:
         case Sum() | Product():
             return " ".join(pieces(node, language))
         case Negative(of):
-            return f"− {_tight(of, PRODUCT, language)}"
+            return f"−{_tight(of, PRODUCT, language)}"
         case Fraction(top, bottom):
             return f"frac({math(top, language)}, {math(bottom, language)})"
         case Power(base, exponent):
@@ -91,7 +91,7 @@ def pieces(node: Expression, language: Language) -> list[str]:
             return [*printed[:1], *(f"dot.c {factor}" for factor in printed[1:])]
         case Negative(Product() as of):
             first, *others = pieces(of, language)
-            return [f"− {first}", *others]
+            return [f"−{first}", *others]
         case _:
             return [math(node, language)]
 
