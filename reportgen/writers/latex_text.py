@@ -55,7 +55,7 @@ MATHEMATICAL = {
 """Characters that the frame declares as this mathematics, in text and in formulas alike."""
 
 TEXTUAL = {
-    "°": r"\textdegree", "·": r"\textperiodcentered", "×": r"\texttimes", "÷": r"\textdiv",
+    "°": r"\textdegree", "·": r"\reportdot", "×": r"\texttimes", "÷": r"\textdiv",
     "±": r"\textpm", "¹": r"\textonesuperior", "²": r"\texttwosuperior", "³": r"\textthreesuperior",
     "½": r"\textonehalf", "¼": r"\textonequarter", "¾": r"\textthreequarters", "µ": r"\textmu",
     "§": r"\textsection", "¶": r"\textparagraph", "©": r"\textcopyright", "®": r"\textregistered",

@@ -18,6 +18,7 @@ from reportgen.document.tree import (
     Figure,
     LineBreak,
     List,
+    PageBreak,
     Paragraph,
     Reference,
     Section,
@@ -91,8 +92,8 @@ def test_text_reads_back_as_typed() -> None:
     hostile = (Paragraph((Text(sample.HOSTILE),)), Paragraph((Text(sample.VIETNAMESE),)))
     text = printed(*hostile)
     assert folded(sample.HOSTILE) in folded(text)
-    # The letters are single code points, not bases with accents.
-    assert "".join(sample.VIETNAMESE.split()) in "".join(text.split())
+    # The letters are single code points, not bases with accents, and the spaces between them are real.
+    assert sample.VIETNAMESE in " ".join(text.split())
 
 
 @needs_tex
@@ -199,7 +200,7 @@ def test_sample_has_no_overfull_box(compiled: pdflatex.Compiled) -> None:
 def test_every_block_prints(compiled: pdflatex.Compiled) -> None:
     text = folded("".join(page.get_text() for page in opened(compiled.pdf)))
     for words in (
-        "TRƯỜNG ĐẠI HỌC MẪU",
+        "Trường Đại học Mẫu",
         "Mã số: A_B-01 & 100%",
         "Mục lục",
         "1.1.1 Các bước dựng",
@@ -281,6 +282,24 @@ def test_long_table_repeats_its_head(compiled: pdflatex.Compiled) -> None:
 
 
 @needs_tex
+def test_no_row_stands_alone_and_no_colour_runs_on() -> None:
+    # Tables of many lengths, so that some end just where a page does.
+    tables = [sample.long_table(rows, f"t{rows}", "1.1") for rows in range(38, 46)]
+    blocks = (block for table in tables for block in (PageBreak(), table))
+    for page in opened(latex.render(document(*blocks))):
+        rows = re.findall(r"^(\d+) *$", page.get_text(), re.MULTILINE)
+        assert len(rows) != 1
+        colours = {
+            span["color"]
+            for block in page.get_text("dict")["blocks"]
+            for line in block["lines"]
+            for span in line["spans"]
+            if span["text"].strip()
+        }
+        assert colours == {0}
+
+
+@needs_tex
 def test_plate_has_its_own_paper(compiled: pdflatex.Compiled) -> None:
     papers = [page.rect for page in opened(compiled.pdf)]
     sizes = [(paper.width / POINTS_PER_MM, paper.height / POINTS_PER_MM) for paper in papers]
@@ -298,6 +317,15 @@ def test_nothing_stands_outside_the_margins(compiled: pdflatex.Compiled) -> None
             # Half a millimetre for the side bearings of glyphs.
             assert word[0] / POINTS_PER_MM > left - 0.5, word
             assert word[2] / POINTS_PER_MM < page.rect.width / POINTS_PER_MM - right + 0.5, word
+
+
+@needs_tex
+def test_english_reads_as_english() -> None:
+    row = Equation((Chain((Symbol("v"), Number(-1.25, 2, "m/s"))),))
+    english = replace(document(row), language="en", footer=("Theory of Machines", "Page"))
+    text = folded(opened(latex.render(english))[0].get_text())
+    assert "v=−1.25m/s" in text
+    assert "Page1" in text
 
 
 @needs_tex
