@@ -19,6 +19,9 @@ SHORTEST, STEP, LONGEST = 13.0, 6.5, 26.0
 ALIKE = math.radians(9)
 """Arrows of one point closer than this in direction would lie on each other."""
 COUPLE_RADIUS = 6.0
+LEAST_ARM = 0.5
+"""An arm shorter than this (mm) is not drawn: the force goes through the point."""
+TOGETHER = 0.3
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,21 +59,46 @@ def foot(about: complex, at: complex, direction: complex) -> complex:
     return at + u * ((about - at) * u.conjugate()).real
 
 
-def forces(items: Sequence[Force], arms: Sequence[ArmOf] = ()) -> Draft:
-    """Arrows with their labels and the arms to their lines; forces without direction are left out."""
+def forces(
+    items: Sequence[Force],
+    arms: Sequence[ArmOf] = (),
+    body: Sequence[tuple[complex, complex]] = (),
+) -> Draft:
+    """Arrows with their labels and the arms to their lines; forces without direction are left out.
+
+    A force that would lie along a bar of `body` from its end pushes from outside instead.
+    """
     acting = [force for force in items if abs(force.direction) > 0]
-    tips = _tips(acting)
     drawn: list[Item] = []
     requests: list[Request] = []
-    for force, tip in zip(acting, tips, strict=True):
-        drawn.append(Arrow(force.at, tip, ACTIVE if force.kind == "load" else REACTION, HEAD, force.id))
-        requests.append(_at_head(force.at, tip, force.label))
-    by_id = {force.id: (force, tip) for force, tip in zip(acting, tips, strict=True) if force.id}
+    shafts: dict[str, tuple[complex, complex]] = {}
+    for force, tip in zip(acting, _tips(acting), strict=True):
+        start, end = force.at, tip
+        if _along(force, body):
+            start, end = force.at - (tip - force.at), force.at
+        shafts[force.id] = start, end
+        drawn.append(Arrow(start, end, ACTIVE if force.kind == "load" else REACTION, HEAD, force.id))
+        requests.append(_named(start, end, force))
+    feet: dict[str, complex] = {}
     for arm in arms:
-        if arm.force in by_id:
-            part = _arm(arm, *by_id[arm.force])
-            drawn += part.items
-            requests += part.requests
+        if arm.force in shafts:
+            feet[arm.force] = foot(arm.about, *_point_and_way(shafts[arm.force]))
+    for arm in arms:
+        # Arms that coincide are one dimension with all their names.
+        if arm.force not in feet or abs(feet[arm.force] - arm.about) < LEAST_ARM:
+            continue
+        same = [
+            other
+            for other in arms
+            if other.force in feet
+            and abs(other.about - arm.about) < TOGETHER
+            and abs(feet[other.force] - feet[arm.force]) < TOGETHER
+        ]
+        drawn += _extension(feet[arm.force], shafts[arm.force])
+        if same[0] is arm:
+            u = _point_and_way(shafts[arm.force])[1]
+            drawn += _dimension(arm.about, feet[arm.force], u)
+            requests.append(_arm_names(arm.about, feet[arm.force], same))
     return Draft(tuple(drawn), tuple(requests))
 
 
@@ -103,36 +131,60 @@ def _tips(acting: Sequence[Force]) -> list[complex]:
     return tips
 
 
-def _at_head(start: complex, end: complex, content: Content) -> Request:
-    way = end - start
-    along, across = cmath.phase(way), cmath.phase(way) + math.pi / 2
-    places = [end - unit(way) * HEAD / 2, end - unit(way) * 2 * HEAD]
-    return label(end, content, prefer=(along, across, across + math.pi), also=places)
-
-
-def _arm(arm: ArmOf, force: Force, tip: complex) -> Draft:
-    """The arm's dimension line, the force's line drawn on to its foot, and the right angle there."""
-    base = foot(arm.about, force.at, force.direction)
-    reach = base - arm.about
-    if abs(reach) < 0.5:
-        return Draft()
+def _along(force: Force, body: Sequence[tuple[complex, complex]]) -> bool:
     u = unit(force.direction)
-    ends = sorted((force.at, tip, base), key=lambda p: ((p - force.at) * u.conjugate()).real)
-    beyond = 3.0 * u
-    items: list[Item] = []
-    if ends[0] == base:
-        items.append(Line(base - beyond, force.at, CONSTRUCTION))
-    elif ends[-1] == base:
-        items.append(Line(tip, base + beyond, CONSTRUCTION))
-    both = abs(reach) > 4 * DIMENSION_HEAD
-    items.append(Arrow(arm.about, base, DIMENSION, DIMENSION_HEAD))
-    if both:
-        middle = arm.about + reach / 2
-        items.append(Arrow(middle, arm.about, DIMENSION, DIMENSION_HEAD))
-    back, side = -unit(reach) * 1.4, u * 1.4
+    for bar in body:
+        for here, there in (bar, bar[::-1]):
+            if abs(here - force.at) < 1.0 and abs(cmath.phase(unit(there - here) / u)) < ALIKE:
+                return True
+    return False
+
+
+def _named(start: complex, end: complex, force: Force) -> Request:
+    """The name at the head, or at the tail of an arrow that pushes."""
+    u = unit(end - start)
+    along, across = cmath.phase(u), cmath.phase(u) + math.pi / 2
+    if end == force.at:
+        sides = (along + math.pi, across, across + math.pi)
+        return label(start, force.label, prefer=sides, also=(start + u * 3, start + u * 6))
+    places = (end - u * HEAD / 2, end - u * 2 * HEAD)
+    return label(end, force.label, prefer=(along, across, across + math.pi), also=places)
+
+
+def _point_and_way(shaft: tuple[complex, complex]) -> tuple[complex, complex]:
+    return shaft[0], shaft[1] - shaft[0]
+
+
+def _extension(base: complex, shaft: tuple[complex, complex]) -> list[Item]:
+    """The force's line drawn on from its arrow to the foot of the arm and a little beyond."""
+    start, way = _point_and_way(shaft)
+    u = unit(way)
+    along = ((base - start) * u.conjugate()).real
+    if along < 0:
+        return [Line(start, base - 3.0 * u, CONSTRUCTION)]
+    if along > abs(way):
+        return [Line(start + way, base + 3.0 * u, CONSTRUCTION)]
+    return []
+
+
+def _dimension(about: complex, base: complex, direction: complex) -> list[Item]:
+    """The arm with a head at each end where there is room, and the right angle at its foot."""
+    reach = base - about
+    items: list[Item] = [Arrow(about, base, DIMENSION, DIMENSION_HEAD)]
+    if abs(reach) > 4 * DIMENSION_HEAD:
+        items.append(Arrow(about + reach / 2, about, DIMENSION, DIMENSION_HEAD))
     if abs(reach) > 3:
+        back, side = -unit(reach) * 1.4, unit(direction) * 1.4
         items.append(Polyline((base + back, base + back + side, base + side), DIMENSION))
+    return items
+
+
+def _arm_names(about: complex, base: complex, arms: Sequence[ArmOf]) -> Request:
+    reach = base - about
     across = cmath.phase(reach) + math.pi / 2
-    places = [arm.about + reach * share for share in (0.5, 0.35, 0.65, 0.2, 0.8)]
-    request = label(places[0], arm.label, prefer=(across, across + math.pi), also=places[1:])
-    return Draft(tuple(items), (request,))
+    places = [about + reach * share for share in (0.5, 0.35, 0.65, 0.2, 0.8)]
+    parts: list[Content] = []
+    for arm in arms:
+        if arm.label not in parts:
+            parts += [", ", arm.label] if parts else [arm.label]
+    return label(places[0], *parts, prefer=(across, across + math.pi), also=places[1:])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import combinations
 
 from reportgen.figures.actions import ArmOf, Couple, Force, couples, forces
 from reportgen.figures.draft import finish
@@ -35,6 +36,8 @@ def bodies(
     """
     looks = looks or Looks()
     bones = skeleton(linkage, motion, index, scale)
-    draft = mechanism(bones, links, looks) + forces(acting, arms) + couples(turning)
+    ends = {link: [bones.points[name] for name in bones.bars.get(link, ())] for link in links}
+    bars = [(a, b) for joints in ends.values() for a, b in combinations(joints, 2)]
+    draft = mechanism(bones, links, looks) + forces(acting, arms, bars) + couples(turning)
     written = (*notes, *((looks.scale,) if looks.scale is not None else ()))
     return finish(draft, notes=written, title=title)

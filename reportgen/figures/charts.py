@@ -112,9 +112,8 @@ def polar(
     `unit` is printed at the ends of the axes' figures; `size` mm is the most the diagram takes either way.
     """
     x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
-    low, high = np.nanmin([0.0, *x, *y]), np.nanmax([0.0, *x, *y])
-    step = nice(float(high - low) / 6, (1, 2, 5))
-    (x0, x1), (y0, y1) = (_rounded(min(0.0, float(np.nanmin(v))), max(0.0, float(np.nanmax(v))), step) for v in (x, y))
+    step = nice(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / 6, (1, 2, 5))
+    (x0, x1), (y0, y1) = _rounded(x, step), _rounded(y, step)
     per = size / max(x1 - x0, y1 - y0)
     window = _Window((x0, x1), (y0, y1), (x1 - x0) * per, (y1 - y0) * per)
     items: list[Item] = []
@@ -129,16 +128,19 @@ def polar(
     return finish(Draft(tuple(items), tuple(requests)), notes=notes, title=title, margin=2.0)
 
 
-def _window(series: Sequence[Series], levels: Sequence[float], turn: bool) -> tuple[_Window, list[float], list[float]]:
+def _window(
+    series: Sequence[Series], levels: Sequence[float], turn: bool
+) -> tuple[_Window, list[float], list[float]]:
     """Ranges and ticks: whole multiples of 45 or 90 degrees across, matplotlib's choice upwards."""
     from matplotlib.ticker import MaxNLocator, MultipleLocator
 
     x = np.concatenate([np.asarray(one.x, dtype=np.float64) for one in series])
-    y = np.concatenate([*(np.asarray(one.y, dtype=np.float64) for one in series), np.asarray([0.0, *levels])])
+    y = np.concatenate([np.asarray(one.y, dtype=np.float64) for one in series] + [np.array([0.0, *levels])])
     if not (np.isfinite(x).any() and np.isfinite(y).any()):
         raise ValueError("a chart needs finite values")
     x0, x1 = float(np.nanmin(x)), float(np.nanmax(x))
-    y_ticks = [float(t) for t in MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(np.nanmin(y), np.nanmax(y))]
+    ticks = MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(np.nanmin(y), np.nanmax(y))
+    y_ticks = [float(t) for t in ticks]
     if turn:
         locator = MultipleLocator(45 if x1 - x0 <= 450 else 90)
         x_ticks = [float(t) for t in locator.tick_values(x0, x1) if x0 - 1e-6 <= t <= x1 + 1e-6]
@@ -148,8 +150,11 @@ def _window(series: Sequence[Series], levels: Sequence[float], turn: bool) -> tu
     return _Window((x0, x1), (y_ticks[0], y_ticks[-1]), WIDTH, HEIGHT), x_ticks, y_ticks
 
 
-def _rounded(low: float, high: float, step: float) -> tuple[float, float]:
-    return math.floor(low / step + 1e-9) * step, math.ceil(high / step - 1e-9) * step
+def _rounded(values: Vertices, step: float) -> tuple[float, float]:
+    """Whole steps around the values and 0; at least one."""
+    low, high = min(0.0, float(np.nanmin(values))), max(0.0, float(np.nanmax(values)))
+    first, last = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
+    return first * step, max(last, first + 1) * step
 
 
 def _steps(low: float, high: float, step: float) -> list[float]:

@@ -74,7 +74,7 @@ class Frame:
 def beside(
     top: complex, bottom: complex, side: complex, distance: float, highest: float, width: float = 80.0
 ) -> tuple[complex, complex, float]:
-    """The diagram's axis, `distance` mm to the side of the cylinder, and μ_p so that it is `width` mm wide."""
+    """The diagram's axis `distance` mm beside the cylinder, and the μ_p that makes it `width` mm wide."""
     away = unit(side) * distance
     return top + away, bottom + away, nice(highest / width)
 

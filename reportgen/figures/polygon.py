@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from reportgen.figures.labels import Content
-from reportgen.figures.plan import Plan, PlanPoint, PlanVector
+from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector
 from reportgen.figures.scale import NOTHING
 from reportgen.notation.expressions import Symbol
 
@@ -61,7 +61,8 @@ def letters(sides: Sequence[Side]) -> tuple[str, ...]:
 def force_polygon(
     sides: Sequence[Side], *, chords: Sequence[Chord] = (), scale: Content | None = None
 ) -> Plan:
-    """The polygon as a plan: known forces are its stages one by one, those found by closing the last two.
+    """The polygon as a plan: known forces are its first stages, then come the directions of the unknown
+    ones, the forces they cut off, and the chords.
 
     Draw it with `plan.plan` and `plan.stages`.  Raises `KeyError` for a chord between unknown vertices.
     """
@@ -70,7 +71,7 @@ def force_polygon(
     vectors, marks = [], [PlanPoint(Symbol(names[0]), points[0])]
     for n, side in enumerate(sides):
         # Whatever closes the polygon appears at once: one of its ends is found together with the other.
-        stage = known if side.found else n
+        stage = known + 1 if side.found else n
         vectors.append(
             PlanVector(
                 side.name or names[n] + names[n + 1],
@@ -82,11 +83,15 @@ def force_polygon(
             )
         )
         marks.append(PlanPoint(Symbol(names[n + 1]), points[n + 1], stage))
+    found = [n for n, side in enumerate(sides) if side.found]
+    ways = [(points[n], points[n + 1]) if n == found[0] else (points[n + 1], points[n]) for n in found]
+    size = max((abs(side.vector) for side in sides), default=0.0)
+    lines = tuple(PlanLine(a, b, known) for a, b in ways if abs(b - a) > NOTHING * size)
     where = dict(zip(names, points, strict=True))
     where[names[0]] = points[0]
     for chord in chords:
         name = chord.name or chord.start + chord.end
         vectors.append(
-            PlanVector(name, where[chord.start], where[chord.end], "relative", chord.label, known + 1)
+            PlanVector(name, where[chord.start], where[chord.end], "relative", chord.label, known + 2)
         )
-    return Plan(tuple(vectors), tuple(marks), (), scale, pole=False)
+    return Plan(tuple(vectors), tuple(marks), lines, scale, pole=False)

@@ -162,8 +162,7 @@ def _body_points(bones: Skeleton, link: int) -> list[complex]:
 
 def _on_block(bones: Skeleton, name: str, shown: Sequence[int]) -> bool:
     """Whether a joint is the middle of a block that is shown."""
-    at = bones.points[name]
-    return any(s.link in shown and s.turns and abs(s.at - at) < 1e-6 for s in bones.slides)
+    return any(slide.name == name and slide.link in shown and slide.turns for slide in bones.slides)
 
 
 def _pin(bones: Skeleton, name: str, standing: bool) -> tuple[Item, ...]:

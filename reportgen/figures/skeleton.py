@@ -14,9 +14,10 @@ from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, Guide, Li
 
 @dataclass(frozen=True, slots=True)
 class Slide:
-    """A block of link `link` at `at` on a guide of link `on` that runs along `angle` from `low` to `high`."""
+    """A block of `link` at its point `name` on a guide of link `on`, along `angle` from `low` to `high`."""
 
     link: int
+    name: str
     on: int
     at: complex
     angle: float
@@ -132,7 +133,7 @@ def _on_guide(
     p = motion.points[name].p
     low, high = _stretch(index, scale, p, origin + guide.at * turned, direction)
     angle = float(carrier[index]) + guide.angle
-    return Slide(link, guide.link, complex(p[index]) * scale, angle, low, high, turns)
+    return Slide(link, name, guide.link, complex(p[index]) * scale, angle, low, high, turns)
 
 
 def _on_link(motion: Motion, index: int, scale: float, dyad: Dyad, start: str) -> Slide:
@@ -144,4 +145,4 @@ def _on_link(motion: Motion, index: int, scale: float, dyad: Dyad, start: str) -
     if dyad.kind == "RPR":
         base = base + 1j * dyad.lengths[1] * direction
     low, high = _stretch(index, scale, p, base, direction)
-    return Slide(i, j, complex(p[index]) * scale, float(angle[index]), low, high, True)
+    return Slide(i, start, j, complex(p[index]) * scale, float(angle[index]), low, high, True)

@@ -75,11 +75,14 @@ def sine_drive() -> Linkage:
 
 
 def elliptic_drive() -> Linkage:
-    """A rod through a swinging guide onto a fixed one: the two-slide group PRP."""
+    """Two blocks pinned together, one in the coupler of a parallel crank, one in the frame: PRP."""
     return Linkage(
-        ground={"O1": 0j},
+        ground={"O1": 0j, "O3": 0.2 + 0j},
         driver=Crank("O1", "A", 0.08),
-        dyads=(Dyad("PRP", (2, 3), Guide(0j, 0.0, link=1), "P", Guide(0.12 + 0j, math.pi / 2)),),
+        dyads=(
+            Dyad("RRR", (2, 3), "A", "B", "O3", (0.2, 0.081)),
+            Dyad("PRP", (4, 5), Guide(0.03j, 0.0, link=2), "P", Guide(0.1 + 0j, math.pi / 2)),
+        ),
     )
 
 
