@@ -41,7 +41,7 @@ class Engine(StrEnum):
 
 
 File = Annotated[Path, typer.Argument(metavar="FILE", help="Assignment file.", show_default=False)]
-Files = Annotated[list[Path], typer.Argument(metavar="FILE...", help="Assignment files.", show_default=False)]
+Files = Annotated[list[Path], typer.Argument(metavar="FILE", help="Assignment files.", show_default=False)]
 LangOption = Annotated[
     Lang | None, typer.Option("--lang", help="Language, instead of the file's own.", show_default=False)
 ]

@@ -58,6 +58,12 @@ def test_faults_speak_the_language_of_the_file(faulty: Path) -> None:
     assert "thiếu đơn vị" in reportgen("check", faulty).stderr
 
 
+def test_a_file_of_wrong_syntax_still_tells_its_language(tmp_path: Path) -> None:
+    file = tmp_path / "a.yaml"
+    file.write_text("report: {language: en}\nkind: [\n", encoding="utf-8")
+    assert reportgen("check", file).stderr.startswith(f"{file}:3:1: error[syntax]: this is no valid YAML")
+
+
 def test_a_missing_file_is_a_fault_of_input(tmp_path: Path) -> None:
     done = reportgen("check", "none.yaml", cwd=tmp_path)
     assert done.returncode == 1

@@ -245,5 +245,5 @@ def _in_words(source: Source, faults: list[Fault], language: Language | None) ->
 
 def _language_of(source: Source) -> Language:
     """The language a faulty file asks for; also of one whose syntax is wrong, as far as a line shows it."""
-    found = re.search(r"^\s+language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
+    found = re.search(r"^[^#\n]*[\s{]language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
     return "en" if found and found[1] == "en" else DEFAULT_LANGUAGE

@@ -26,6 +26,7 @@ _NULL = {"", "~", "null", "Null", "NULL"}
 _SYNTAX = (
     ("mapping values are not allowed", "syntax-colon"),
     ("expected ',' or", "syntax-bracket"),
+    ("expected the node content", "syntax-bracket"),
     ("unexpected end of stream", "syntax-quote"),
     ("could not find expected ':'", "syntax-key"),
     ("expected <block end>", "syntax-indent"),
