@@ -8,9 +8,7 @@ numbers wait for a second pass.
 from __future__ import annotations
 
 import hashlib
-import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -18,8 +16,6 @@ from reportgen.document.prose import template_root
 from reportgen.document.tree import (
     BlankLine,
     Block,
-    Cell,
-    Column,
     Contents,
     Cover,
     Document,
@@ -44,6 +40,8 @@ from reportgen.document.tree import (
 from reportgen.figures.scene import Scene
 from reportgen.paint.tex import paint
 from reportgen.writers.latex_math import aligned, mathematics
+from reportgen.writers.latex_outline import entries_of, hexadecimal, keys_of, plain
+from reportgen.writers.latex_table import table
 from reportgen.writers.latex_text import declarations, escape
 from reportgen.writers.pdflatex import Compiled, compile, overfull
 
@@ -52,15 +50,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Compiled", "compile", "overfull", "render", "write"]
 
-CONTENTS_LEVEL = 3
-"""The deepest level of heading that the contents and the outline list."""
-
 TEXT_WIDTH = 160
 SCENE_GAP = 4
 """Millimetres: the width of the text block, and between scenes of a row."""
-
-UNBROKEN_ROWS = 12
-"""A table of at most so many rows stays on one page."""
 
 
 def write(document: Document) -> str:
@@ -70,8 +62,8 @@ def write(document: Document) -> str:
     """
     body = _Writer(document).body()
     return _frame().render(
-        title=_hexadecimal(document.title),
-        author=_hexadecimal(document.author),
+        title=hexadecimal(document.title),
+        author=hexadecimal(document.author),
         identity=hashlib.sha256(body.encode()).hexdigest()[:32],
         language=document.language,
         header=[escape(text) for text in document.header],
@@ -108,25 +100,11 @@ def _frame() -> Template:
     return environment.get_template("report.tex.j2")
 
 
-def _hexadecimal(text: str) -> str:
-    """A text as a PDF string's content in UTF-16, in hexadecimal digits."""
-    return "FEFF" + unicodedata.normalize("NFC", text).encode("utf-16-be").hex().upper()
-
-
 def _command(name: str, *arguments: str) -> str:
     from pylatex import Command, NoEscape
 
     source: str = Command(name, arguments=[NoEscape(argument) for argument in arguments]).dumps()
     return source
-
-
-@dataclass(frozen=True, slots=True)
-class _Entry:
-    """A heading as contents and outline need it; `below` counts the headings directly under it."""
-
-    section: Section
-    place: str
-    below: int
 
 
 class _Writer:
@@ -135,9 +113,9 @@ class _Writer:
     def __init__(self, document: Document) -> None:
         self.document = document
         self.language = document.language
-        self.entries = {id(entry.section): entry for entry in _entries(document.blocks)}
+        self.entries = {id(entry.section): entry for entry in entries_of(document.blocks)}
         self.places: Mapping[str, str] = {
-            **{key: f"k{index}" for index, key in enumerate(_keys(document.blocks))},
+            **{key: f"k{index}" for index, key in enumerate(keys_of(document.blocks))},
             **{entry.section.key: entry.place for entry in self.entries.values() if entry.section.key},
         }
 
@@ -213,8 +191,8 @@ class _Writer:
         title = self.title(section)
         marks = rf"\place{{{place}}}" if place else ""
         if entry:
-            plain = f"{section.number} {_plain(section.title)}".strip()
-            marks += _command("outlineentry", place, str(-entry.below), _hexadecimal(plain))
+            words = f"{section.number} {plain(section.title)}".strip()
+            marks += _command("outlineentry", place, str(-entry.below), hexadecimal(words))
         return _command("heading", str(section.level), marks, title)
 
     def title(self, section: Section) -> str:
@@ -281,54 +259,8 @@ class _Writer:
         label = f"{word} {block.number}".strip() + ("." if block.caption else "")
         return _command("captiontext", place, escape(label), self.inlines(block.caption))
 
-    def table(self, table: Table) -> str:
-        from pylatex import LongTable, NoEscape
-
-        columns = "".join(_column(column.width, column.align) for column in table.columns)
-        environment = LongTable(NoEscape(columns), width=len(table.columns))
-        caption = self.caption(self.document.words.table, table)
-        head = self.table_head(table)
-        if caption:
-            title = rf"\multicolumn{{{len(table.columns)}}}{{c}}{{\tablecaption{{{caption}}}}}\\*[0pt]"
-            environment.append(NoEscape(title))
-        environment.append(NoEscape(head + r"\endfirsthead"))
-        environment.append(NoEscape(head + r"\endhead"))
-        environment.append(NoEscape(r"\bottomrule\endfoot"))
-        unbroken = len(table.rows) <= UNBROKEN_ROWS
-        for index, row in enumerate(table.rows):
-            end = r"\\*[0pt]"
-            if index < len(table.rows) - 1:
-                # The first and the last row never stand alone on a page.
-                together = unbroken or index in (0, len(table.rows) - 2)
-                end += _command("rowrule", str(len(table.columns)), "10000" if together else "0")
-            environment.append(NoEscape(self.table_row(row, table.columns) + end))
-        return f"{{\\tablesize\n{environment.dumps()}\n}}"
-
-    def table_head(self, table: Table) -> str:
-        # Every option is written out: a cell's text may begin with a bracket.
-        lines = [r"\toprule[\heavyrulewidth]"]
-        for index, row in enumerate(table.head):
-            lines.append(self.table_row(row, table.columns, head=True) + r"\\*[0pt]")
-            if index < len(table.head) - 1:
-                lines.append(_rules_below(row))
-        lines.append(r"\midrule" if table.head else "")
-        return "\n".join(lines) + "\n"
-
-    def table_row(self, row: Sequence[Cell], columns: Sequence[Column], head: bool = False) -> str:
-        from pylatex import MultiColumn, NoEscape
-
-        printed, at = [], 0
-        for cell in row:
-            source = self.inlines(cell.inlines)
-            covered = columns[at : at + cell.span]
-            if cell.span > 1 or (head and covered and covered[0].align != "center"):
-                align = "center" if head else covered[0].align
-                width = sum(column.width for column in covered)
-                spec = NoEscape(_column(width, align))
-                source = MultiColumn(cell.span, align=spec, data=NoEscape(source)).dumps()
-            printed.append(source)
-            at += cell.span
-        return " & ".join(printed)
+    def table(self, block: Table) -> str:
+        return table(block, self.caption(self.document.words.table, block), self.inlines)
 
     def figure(self, figure: Figure) -> str:
         rows = "\n\\scenebreak\n".join(
@@ -343,18 +275,6 @@ class _Writer:
         return _command("titledscene", painted, escape(scene.title)) if scene.title else painted
 
 
-def _keys(blocks: Sequence[Block]) -> Iterator[str]:
-    """What blocks, and those inside lists, are called by references."""
-    for block in blocks:
-        match block:
-            case List(items):
-                for item in items:
-                    yield from _keys(item)
-            case Section() | Equation() | Table() | Figure() | Plate():
-                if block.key:
-                    yield block.key
-
-
 def _scene_rows(scenes: Sequence[Scene]) -> Iterator[list[Scene]]:
     """The scenes in rows, each as full as the text block allows."""
     row: list[Scene] = []
@@ -365,46 +285,3 @@ def _scene_rows(scenes: Sequence[Scene]) -> Iterator[list[Scene]]:
         row.append(scene)
     if row:
         yield row
-
-
-def _column(width: float, align: str) -> str:
-    return f"{align[0].upper()}{{{width:g}mm}}"
-
-
-def _rules_below(row: Sequence[Cell]) -> str:
-    """A thin rule under every cell of a head row that stands over several columns."""
-    rules, at = [], 1
-    for cell in row:
-        if cell.span > 1:
-            rules.append(rf"\cmidrule(lr){{{at}-{at + cell.span - 1}}}")
-        at += cell.span
-    return "".join(rules)
-
-
-def _entries(blocks: Sequence[Block]) -> Iterator[_Entry]:
-    """The headings that contents and outline list, in order."""
-    sections = [block for block in blocks if isinstance(block, Section) and block.level <= CONTENTS_LEVEL]
-    for index, section in enumerate(sections):
-        below = 0
-        for later in sections[index + 1 :]:
-            if later.level <= section.level:
-                break
-            below += later.level == section.level + 1
-        yield _Entry(section, f"s{index}", below)
-
-
-def _plain(inlines: Inlines) -> str:
-    """The words of a title for the outline, which knows no formulas."""
-    words = []
-    for inline in inlines:
-        match inline:
-            case Text(text) | Reference(text=text):
-                words.append(text)
-            case Emph(of) | Strong(of):
-                words.append(_plain(of))
-            case InlineMath(expression):
-                base, sub = getattr(expression, "base", ""), getattr(expression, "sub", "")
-                words.append(f"{base}{sub}")
-            case _:
-                words.append(" ")
-    return "".join(words)
