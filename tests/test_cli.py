@@ -43,6 +43,19 @@ def test_check_is_silent_when_all_is_well() -> None:
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
+def test_check_and_help_leave_heavy_libraries_alone() -> None:
+    """They answer at once: pint alone takes longer to import than all of `check`."""
+    script = (
+        "import sys\nfrom pathlib import Path\nimport reportgen.cli, reportgen.api\n"
+        f"assert reportgen.api.check(Path({str(SAMPLE)!r})) == []\n"
+        "print(*{'pint', 'matplotlib', 'pylatex', 'typst', 'jinja2'} & set(sys.modules))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == ""
+
+
 def test_check_prints_all_faults_with_hints(faulty: Path) -> None:
     done = reportgen("check", faulty, SAMPLE, "--lang", "en")
     assert (done.returncode, done.stdout) == (1, "")

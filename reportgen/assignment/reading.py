@@ -178,7 +178,7 @@ def _real(location: Where, content: Any) -> Iterator[str | int]:
                 content = content[step]
             elif not last:
                 continue
-        elif isinstance(content, list) and isinstance(step, int):
+        elif isinstance(content, list) and isinstance(step, int) and step < len(content):
             content = content[step]
         yield step
 
