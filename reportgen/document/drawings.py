@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from reportgen.assignment import Assignment
 from reportgen.document.facts import Facts
+from reportgen.document.pictures import TEXT_BLOCK, Drawn, Pictures
 from reportgen.document.views import GroupView
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
 from reportgen.figures.scene import Scene
@@ -24,18 +26,8 @@ MM = 1e3
 A3 = (420.0, 297.0)
 SHEET = (385.0, 232.0)
 """What of an A3 page (landscape) a plate may fill."""
-TEXT_BLOCK = (160.0, 225.0)
-"""What of an A4 page a figure may fill with its caption."""
 HALF = 0.5
 """Stages are drawn at half the size of the plan, with twice its scale."""
-
-
-@dataclass(frozen=True, slots=True)
-class Drawn:
-    """The scenes of a figure; `paper` (mm) asks for a page of its own."""
-
-    scenes: tuple[Scene, ...]
-    paper: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -62,8 +54,13 @@ class Drawings:
             "acceleration-plates": self.acceleration_plates,
             "forces": self.forces,
             "force-plates": self.force_plates,
+            **self.pictures.figures,
         }
         return figures[name](*arguments)
+
+    @cached_property
+    def pictures(self) -> Pictures:
+        return Pictures(self.facts, self.words, self.velocity_plan)
 
     # --- plans of velocity and acceleration
 
@@ -94,7 +91,7 @@ class Drawings:
 
     def _laid_out(self, drawing: Callable[[int], Plan], positions: Sequence[int], scale: str) -> Drawn:
         """Plans of one scale: as a figure if they fit one text block, else on A3 sheets."""
-        scenes = [plan(replace(drawing(k), scale=None), title=self.at_position(k)) for k in positions]
+        scenes = [plan(replace(drawing(k), scale=None, lines=()), title=self.at_position(k)) for k in positions]
         note = self.scale(scale)
         on_page = sheets(scenes, *TEXT_BLOCK, note)
         if len(on_page) == 1 and on_page[0].width <= TEXT_BLOCK[0] and on_page[0].height <= TEXT_BLOCK[1]:

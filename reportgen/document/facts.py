@@ -31,6 +31,7 @@ class Facts:
     books: Books
     groups: tuple[GroupView, ...]
     driver: DriverView
+    worked: tuple[int, ...]
 
     @property
     def ledger(self) -> Ledger:

@@ -45,7 +45,9 @@ def compose(assignment: Assignment, analysis: Analysis, books: Books, title: str
     language = assignment.language
     words = load_words(search_path(language, analysis.machine.kind))
     prose = Prose(search_path(language, analysis.machine.kind))
-    facts = Facts(analysis, books, groups(analysis, books.polygons), driver(analysis))
+    facts = Facts(
+        analysis, books, groups(analysis, books.polygons), driver(analysis), assignment.worked_positions
+    )
     voice = Voice(books.ledger, prose, words)
     tables = Tables(assignment, facts, voice)
     drawings = Drawings(assignment, facts, words, plates_for(assignment))

@@ -1,0 +1,462 @@
+"""Figures of the mechanism itself and of its course over a turn: scheme, positions, bodies, lever, curves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from reportgen.analysis import FULL_TURN, Analysis, analyse
+from reportgen.cycle.indicator import StrokeIndicator
+from reportgen.document.facts import Facts
+from reportgen.document.views import GroupView
+from reportgen.figures import charts, indicator
+from reportgen.figures.actions import ArmOf, Couple, Force
+from reportgen.figures.bodies import bodies
+from reportgen.figures.draft import Draft
+from reportgen.figures.lever import lever
+from reportgen.figures.plan import Plan
+from reportgen.figures.positions import PositionPlan, position_plan
+from reportgen.figures.scene import Scene
+from reportgen.figures.scheme import Looks, groups, scheme
+from reportgen.ledger.core import Ledger
+from reportgen.mechanism.loads import Load, as_single_force
+from reportgen.mechanism.motion import Motion, solve_motion
+from reportgen.mechanism.structure import DRIVER
+from reportgen.notation import symbols
+from reportgen.notation.expressions import Chain, Number, Symbol
+
+MM = 1e3
+A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)
+TEXT_BLOCK = (160.0, 225.0)
+"""What of an A4 page a figure may fill with its caption."""
+WHITE = (40.0, 64.0)
+"""What of a plate's page (mm) its margins, header and caption take."""
+SCHEME_BOX = (120.0, 130.0)
+DENSE = 361
+SHOWN_AT = 1
+"""The position (from 0) at which schemes are drawn: the first one away from the start."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """The scenes of a figure; `paper` (mm) asks for a page of its own."""
+
+    scenes: tuple[Scene, ...]
+    paper: tuple[float, float] | None = None
+
+
+def on_paper(scene: Scene) -> Drawn:
+    """A scene in the text if it fits there in true size, else on a page large enough for it."""
+    if scene.width <= TEXT_BLOCK[0] and scene.height <= TEXT_BLOCK[1]:
+        return Drawn((scene,))
+    for paper in (A3_ACROSS, A3_UPRIGHT):
+        if scene.width <= paper[0] - WHITE[0] and scene.height <= paper[1] - WHITE[1]:
+            return Drawn((scene,), paper)
+    return Drawn((scene,), (max(scene.width + WHITE[0], 297.0), max(scene.height + WHITE[1], 210.0)))
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """The drawings of one report that show the machine; `velocity_plan` gives the plan the lever is made of."""
+
+    facts: Facts
+    words: Mapping[str, Any]
+    velocity_plan: Callable[[int], Plan]
+
+    @property
+    def figures(self) -> dict[str, Callable[..., Drawn]]:
+        return {
+            "scheme": self.scheme,
+            "groups": self.groups,
+            "positions": self.positions,
+            "indicator": self.indicator,
+            "bodies": self.bodies,
+            "crank": self.crank,
+            "lever": self.lever,
+            "motion": self.motion,
+            "torque": self.torque,
+            "polar": self.polar,
+        }
+
+    @property
+    def ledger(self) -> Ledger:
+        return self.facts.ledger
+
+    @property
+    def analysis(self) -> Analysis:
+        return self.facts.analysis
+
+    @property
+    def scale(self) -> float:
+        """mm of paper for a metre, of drawings to μ_l."""
+        return MM / float(self.ledger.families["mu.l"].values[0])
+
+    def length_scale(self, factor: float = 1.0) -> Chain:
+        """μ_l as printed below a figure; a figure drawn smaller by `factor` has a scale that much larger."""
+        number = self.ledger.number("mu.l")
+        return Chain((self.ledger.symbol("mu.l"), _short(replace(number, value=number.value / factor))))
+
+    def looks(self, scale: float, factor: float = 1.0) -> Looks:
+        """Pistons with their bore, mass centres, the figure's scale."""
+        machine = self.analysis.machine
+        blocks = {
+            piston.link: (min(0.6 * piston.bore * scale, 24.0), min(piston.bore * scale, 40.0) * 0.5)
+            for piston in machine.pistons
+        }
+        names = {*self.analysis.motion.points}
+        jointed = {group.Q for group in self.facts.groups} | {group.P for group in self.facts.groups}
+        centres = tuple(
+            body.centre for body in machine.linkage.inertias if body.centre in names and body.centre not in jointed
+        )
+        return Looks(blocks=blocks, centres=centres, scale=self.length_scale(factor))
+
+    # --- the mechanism
+
+    def scheme(self) -> Drawn:
+        machine, motion = self.analysis.machine, self.analysis.motion
+        factor = self._reduction()
+        scale = self.scale * factor
+        return Drawn((scheme(machine.linkage, motion, SHOWN_AT, scale, self.looks(scale, factor)),))
+
+    def groups(self) -> Drawn:
+        machine, motion = self.analysis.machine, self.analysis.motion
+        factor = self._reduction()
+        scale = self.scale * factor
+        words = self.words["figure"]
+        titles = (
+            words["driver"],
+            *(words["group"].format(i=group.i, j=group.j) for group in self.facts.groups),
+        )
+        looks = replace(self.looks(scale, factor), scale=None)
+        return Drawn(groups(machine.linkage, motion, SHOWN_AT, scale, looks, titles))
+
+    def _reduction(self) -> float:
+        """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
+        points = [point.p[SHOWN_AT] for point in self.analysis.motion.points.values()]
+        size = np.array(points)[np.isfinite(points)] * self.scale
+        needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
+        return 1.0 / float(next(step for step in (1, 2, 2.5, 4, 5, 10, 20, 25, 40, 50, 100, 1000) if step >= needed))
+
+    @cached_property
+    def dense(self) -> Motion:
+        """The motion over one turn, finely."""
+        machine = self.analysis.machine
+        angles = machine.angles(np.linspace(0.0, FULL_TURN, DENSE))
+        return solve_motion(machine.linkage, angles, machine.turn * machine.speed)
+
+    @cached_property
+    def one_turn(self) -> Motion:
+        """The motion at the numbered positions of one turn."""
+        machine = self.analysis.machine
+        angles = machine.angles(np.arange(machine.count) * (FULL_TURN / machine.count))
+        return solve_motion(machine.linkage, angles, machine.turn * machine.speed)
+
+    def positions(self) -> Drawn:
+        return on_paper(self._position_plan(None))
+
+    def _position_plan(self, beside: Draft | None) -> Scene:
+        machine = self.analysis.machine
+        numbered = [self.facts.driver.pin, *(place.name for place in self.facts.driver.others)]
+        numbered += [group.Q for group in self.facts.groups]
+        shows = PositionPlan(tuple(numbered), machine.paths if beside is None else (), self._first_worked())
+        looks = replace(self.looks(self.scale), blocks={}, centres=())
+        return position_plan(machine.linkage, self.one_turn, self.dense, self.scale, shows, looks, beside=beside)
+
+    def _first_worked(self) -> int:
+        return (self.facts.worked[0] - 1) % self.analysis.machine.count
+
+    # --- the gas
+
+    def indicator(self) -> Drawn:
+        """The diagram in line with the first piston's stroke, every piston's positions read from it."""
+        machine = self.analysis.machine
+        first = machine.pistons[0]
+        table = first.indicator
+        unit, scale = 1e4, self.scale
+        top, bottom = first.top * scale, first.bottom * scale
+        highest = max(float(np.max(gas.pressure)) for gas in self.analysis.gas.values())
+        highest = max(highest, _highest(first.indicator)) / unit
+        side = -1j * (bottom - top) / abs(bottom - top) * -1
+        start, end, mu = indicator.beside(top, bottom, side, 75.0, highest)
+        symbol = Symbol("μ", "p")
+        frame = indicator.Frame(
+            start,
+            end,
+            side,
+            mu,
+            self.words["figure"]["pressure"],
+            Chain((symbol, _short(Number(mu, 6, "N/(cm²·mm)")))),
+        )
+        branches = [
+            indicator.Branch(name, x, tuple(p / unit for p in pressures))
+            for name, x, pressures in _branches(table, self._angles_to_fractions(first), self.words["strokes"])
+        ]
+        readings = [
+            indicator.Reading(
+                Symbol(str(k + 1), "" if len(machine.pistons) == 1 else f"({gas.piston.link})"),
+                float(gas.fraction[k]),
+                float(gas.pressure[k]) / unit,
+                first.top * scale + (bottom - top) * float(gas.fraction[k]),
+            )
+            for gas in self.analysis.gas.values()
+            for k in range(machine.positions)
+        ]
+        return on_paper(self._position_plan(indicator.indicator(frame, branches, readings)))
+
+    def _angles_to_fractions(self, piston: Any) -> Callable[[np.ndarray], np.ndarray]:
+        machine = self.analysis.machine
+
+        def fractions(angle: np.ndarray) -> np.ndarray:
+            along = (piston.bottom - piston.top) / piston.stroke**2
+            motion = solve_motion(machine.linkage, machine.angles(angle - piston.phase), machine.speed)
+            return np.asarray(np.real(np.conj(along) * (motion.points[piston.pin].p - piston.top)))
+
+        return fractions
+
+    # --- forces
+
+    def bodies(self, k: int, group: GroupView) -> Drawn:
+        """The group with all its forces, then its first link with the arms of the moments."""
+        machine, motion, scale = self.analysis.machine, self.analysis.motion, self.scale
+        names = self.words["figure"]
+        looks = replace(self.looks(scale), scale=None)
+        joint = [self._reaction(f"R{group.guide}", f"R.{group.guide}", group.Q, k)]
+        outer = [
+            self._component(f"R{group.outer}.t", f"R.{group.outer}.t", group.P, k),
+            self._component(f"R{group.outer}.n", f"R.{group.outer}.n", group.P, k),
+        ]
+        whole = bodies(
+            machine.linkage,
+            motion,
+            k - 1,
+            scale,
+            (group.i, group.j),
+            [*self._loads((group.i, group.j), k), *outer, *joint],
+            looks=looks,
+            title=names["group"].format(i=group.i, j=group.j),
+        )
+        about = complex(motion.points[group.Q].p[k - 1]) * scale
+        arms = [
+            ArmOf(self.ledger.symbol(id), about, id.split(".")[1])
+            for id in self.facts.arm_ids(group)
+            if not self.facts.zero(id, k)
+        ]
+        inner = self._reaction(f"R{group.inner}", f"R.{group.inner}", group.Q, k)
+        alone = bodies(
+            machine.linkage,
+            motion,
+            k - 1,
+            scale,
+            (group.i,),
+            [*self._loads((group.i,), k), *outer, inner],
+            arms=arms,
+            turning=self._couples((group.i,), k),
+            looks=replace(looks, scale=self.length_scale()),
+            title=f"{names['link']} {group.i}",
+        )
+        return Drawn((whole, alone))
+
+    def crank(self, k: int) -> Drawn:
+        """The driver with the reactions on it and their arms about its centre."""
+        machine, motion, scale = self.analysis.machine, self.analysis.motion, self.scale
+        centre = self.facts.driver.centre
+        about = complex(motion.points[centre].p[k - 1]) * scale
+        polygon = self.facts.driver_polygon
+        acting, arms = self._loads((DRIVER,), k), []
+        for side in polygon.sides:
+            if side.name.startswith("R") and not side.unknown:
+                acting.append(self._reaction(side.name, f"R.{side.name[1:]}", self._pin_of(side.name), k))
+        acting.append(self._reaction("R01", "R.01", centre, k))
+        for id in self.facts.crank_lines[:-1]:
+            arms.append(ArmOf(self.ledger.symbol(id), about, id.split(".")[1]))
+        turning = (Couple(self.ledger.symbol("M.eq"), about, float(np.sign(self.analysis.torque[k - 1]))),)
+        looks = replace(self.looks(scale), centres=())
+        return Drawn(
+            (
+                bodies(
+                    machine.linkage,
+                    motion,
+                    k - 1,
+                    scale,
+                    (DRIVER,),
+                    acting,
+                    arms=arms,
+                    turning=turning,
+                    looks=looks,
+                ),
+            )
+        )
+
+    def _pin_of(self, reaction: str) -> str:
+        """The pin of the crank at which a group's reaction acts."""
+        link = reaction.removeprefix("R")[: -len(str(DRIVER))]
+        return next(group.P for group in self.facts.groups if str(group.i) == link)
+
+    def _reaction(self, name: str, id: str, place: str, k: int) -> Force:
+        at = complex(self.analysis.motion.points[place].p[k - 1]) * self.scale
+        symbol = symbols.vector(self.ledger.symbol(id))
+        return Force(symbol, at, complex(self.ledger[f"F.{name}"].at(k)), "reaction", name)
+
+    def _component(self, name: str, id: str, place: str, k: int) -> Force:
+        return self._reaction(name, id, place, k)
+
+    def _loads(self, links: Sequence[int], k: int) -> list[Force]:
+        """Loads on links; a force with a couple acts at the one point where it alone does both."""
+        result = []
+        for load in self.analysis.loads:
+            force = complex(load.force[k - 1])
+            if load.link not in links or load.name not in self.ledger or self.facts.zero(load.name, k):
+                continue
+            at = self._acts_at(load, k)
+            result.append(Force(symbols.vector(self.ledger.symbol(load.name)), at * self.scale, force, "load", load.name))
+        return result
+
+    def _acts_at(self, load: Load, k: int) -> complex:
+        single = complex(as_single_force(load)[k - 1])
+        return single if np.isfinite(single) else complex(load.point[k - 1])
+
+    def _couples(self, links: Sequence[int], k: int) -> list[Couple]:
+        """Couples whose force is nothing."""
+        return [
+            Couple(self.ledger.symbol(f"M.{load.name}"), complex(load.point[k - 1]) * self.scale, float(load.couple[k - 1]))
+            for load in self.analysis.loads
+            if load.link in links and load.couple[k - 1] != 0 and self.facts.zero(load.name, k)
+        ]
+
+    def lever(self, k: int) -> Drawn:
+        """The velocity plan turned clockwise by 90°, every load at its image, arms about the pole."""
+        motion, index = self.analysis.motion, k - 1
+        # Turned clockwise, the moment of a force about the pole has the sign of its power.
+        per = -1j * MM / float(self.ledger.families["mu.v"].values[0])
+        acting, arms = [], []
+        for load in self.analysis.loads:
+            if load.name not in self.ledger or self.facts.zero(load.name, k):
+                continue
+            at = np.full(motion.driver.shape, self._acts_at(load, k))
+            image = complex(motion.of(load.link, at).v[index]) * per
+            symbol = symbols.vector(self.ledger.symbol(load.name))
+            acting.append(Force(symbol, image, complex(load.force[index]), "load", load.name))
+            if not self.facts.zero(f"h.{load.name}.p", k):
+                arms.append(ArmOf(self.ledger.symbol(f"h.{load.name}.p"), 0j, load.name))
+        drawing = self.velocity_plan(k)
+        scale = Chain((self.ledger.symbol("mu.v"), self.ledger.number("mu.v")))
+        return on_paper(lever(drawing, acting, arms, sense=-1, notes=(scale,)))
+
+    # --- curves
+
+    @cached_property
+    def dense_cycle(self) -> Analysis:
+        """The whole analysis over the cycle, finely, the numbered positions among the samples."""
+        machine = self.analysis.machine
+        step = max(1, 360 // machine.count)
+        return analyse(machine, np.arange(machine.positions * step + 1) * (FULL_TURN / machine.count / step))
+
+    @property
+    def _marks(self) -> tuple[int, ...]:
+        machine = self.analysis.machine
+        step = max(1, 360 // machine.count)
+        return tuple(range(0, machine.positions * step, step))
+
+    def motion(self) -> Drawn:
+        machine = self.analysis.machine
+        names = self.words["figure"]
+        fine = self.dense_cycle
+        step = max(1, 360 // machine.count)
+        count = machine.count * step + 1
+        degrees = np.degrees(fine.cycle_angle[:count])
+        marks = self._marks[: machine.count]
+        along = {group.Q: np.exp(1j * _guide_angle(self.analysis, group)) for group in self.facts.groups}
+        motion = fine.motion
+
+        def curves(label: str, of: Callable[[GroupView], tuple[Symbol, np.ndarray]]) -> Scene:
+            series = []
+            for group in self.facts.groups:
+                symbol, values = of(group)
+                series.append(charts.Series(symbol, degrees, values[:count], marks))
+            return charts.chart(series, names["angle"], label)
+
+        return Drawn(
+            (
+                curves(
+                    names["velocity"],
+                    lambda g: (Symbol("v", g.Q), np.real(np.conj(along[g.Q]) * motion.points[g.Q].v)),
+                ),
+                curves(
+                    names["acceleration"],
+                    lambda g: (Symbol("a", g.Q), np.real(np.conj(along[g.Q]) * motion.points[g.Q].a)),
+                ),
+                curves(names["omega"], lambda g: (Symbol("ω", str(g.i)), motion.links[g.i].omega)),
+                curves(names["epsilon"], lambda g: (Symbol("ε", str(g.i)), motion.links[g.i].epsilon)),
+            )
+        )
+
+    def torque(self) -> Drawn:
+        fine = self.dense_cycle
+        names = self.words["figure"]
+        degrees = np.degrees(fine.cycle_angle)
+        curve = charts.Series(self.ledger.symbol("M.eq"), degrees, fine.torque, self._marks)
+        mean = self.ledger.number("M.mean").value
+        return Drawn(
+            (
+                charts.chart(
+                    (curve,),
+                    names["cycle_angle"],
+                    names["torque"],
+                    levels=((mean, self.ledger.symbol("M.mean")),),
+                ),
+            )
+        )
+
+    def polar(self) -> Drawn:
+        """The load of each crank pin in axes that turn with the crank, its radius upwards."""
+        fine, machine = self.dense_cycle, self.analysis.machine
+        step = max(1, 360 // machine.count)
+        scenes = []
+        for side in self.facts.driver_polygon.sides:
+            if side.unknown or not side.name.startswith("R"):
+                continue
+            pin = self._pin_of(side.name)
+            radius = fine.motion.points[pin].p - fine.motion.points[self.facts.driver.centre].p
+            load = fine.forces.reactions[side.name].force * np.conj(radius / np.abs(radius)) * 1j
+            numbers = tuple(str(k + 1) for k in range(machine.positions))
+            marks = tuple(range(0, machine.positions * step, step))
+            series = charts.Series(
+                symbols.vector(self.ledger.symbol(f"R.{side.name[1:]}")), load.real, load.imag, marks, numbers
+            )
+            scenes.append(charts.polar(series, "N", title=f"{self.words['figure']['pin']} {pin}"))
+        return Drawn(tuple(scenes))
+
+
+def _guide_angle(analysis: Analysis, group: GroupView) -> float:
+    """The direction in which a slider's course counts: away from the crank along its guide."""
+    angle = analysis.motion.links[group.j].angle
+    return float(angle[0])
+
+
+def _highest(table: Any) -> float:
+    rows = table.rows if isinstance(table, StrokeIndicator) else (table.pressures,)
+    return max(max(row) for row in rows)
+
+
+def _branches(
+    table: Any, fractions: Callable[[np.ndarray], np.ndarray], names: Sequence[str]
+) -> list[tuple[str, tuple[float, ...], tuple[float, ...]]]:
+    """Each stroke's line over s/H; a table by crank angle is carried over by the motion of the piston."""
+    if isinstance(table, StrokeIndicator):
+        return [(name, table.fractions, row) for name, row in zip(names, table.rows, strict=True)]
+    result = []
+    for number, name in enumerate(names):
+        angle = np.linspace(number * np.pi, (number + 1) * np.pi, 91)
+        pressure = np.interp(angle, table.angles, table.pressures)
+        result.append((name, tuple(map(float, fractions(angle))), tuple(map(float, pressure))))
+    return result
+
+
+def _short(number: Number) -> Number:
+    """The number as it is if it has few digits, else with the decimals it came with."""
+    tidy = float(f"{number.value:.6g}")
+    return replace(number, value=tidy, decimals=None)
