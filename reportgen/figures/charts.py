@@ -135,9 +135,10 @@ def _window(
     from matplotlib.ticker import MaxNLocator, MultipleLocator
 
     x = np.concatenate([np.asarray(one.x, dtype=np.float64) for one in series])
-    y = np.concatenate([np.asarray(one.y, dtype=np.float64) for one in series] + [np.array([0.0, *levels])])
-    if not (np.isfinite(x).any() and np.isfinite(y).any()):
+    values = np.concatenate([np.asarray(one.y, dtype=np.float64) for one in series])
+    if not (np.isfinite(x).any() and np.isfinite(values).any()):
         raise ValueError("a chart needs finite values")
+    y = np.concatenate((values, [0.0, *levels]))
     x0, x1 = float(np.nanmin(x)), float(np.nanmax(x))
     ticks = MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(np.nanmin(y), np.nanmax(y))
     y_ticks = [float(t) for t in ticks]

@@ -120,7 +120,8 @@ def _expression(node: Expression, em: float) -> Box:
         case Negative(of):
             return _text("−", em).beside(_factor(of, em))
         case Fraction(top, bottom):
-            above, below = _expression(top, em), _expression(bottom, em)
+            # In a line of text both typesetters set the parts of a fraction in the size of scripts.
+            above, below = _expression(top, SCRIPT * em), _expression(bottom, SCRIPT * em)
             axis, gap = 0.25 * em, 0.12 * em
             return Box(
                 max(above.width, below.width) + 0.24 * em,

@@ -1,0 +1,97 @@
+"""Charts: curves where the data are, whole ticks, clear labels; nothing of matplotlib before a chart."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from reportgen.figures.charts import HEIGHT, WIDTH, Series, chart, polar
+from reportgen.figures.labels import overlaps
+from reportgen.figures.scene import Circle, Label, Polyline, Scene
+from reportgen.notation.expressions import Number, Symbol
+
+ANGLE = np.linspace(0, 720, 721)
+
+
+def curves(scene: Scene) -> list[np.ndarray]:
+    return [np.array(item.points) for item in scene.items if isinstance(item, Polyline) and not item.closed]
+
+
+def torque() -> Scene:
+    x = np.radians(ANGLE)
+    series = Series(Symbol("M", "cb"), ANGLE, 300 * np.sin(2 * x) - 120 * np.cos(x), tuple(range(0, 720, 45)))
+    return chart([series], Symbol("φ", "1"), "M, N·m", levels=[(-120.0, Symbol("M", "m"))])
+
+
+def test_a_chart_is_clear_and_of_its_size() -> None:
+    scene = torque()
+    assert overlaps(scene) == []
+    assert WIDTH < scene.width < 160
+    assert HEIGHT < scene.height < 95
+    assert sum(isinstance(item, Circle) for item in scene.items) == 16
+
+
+def test_angles_have_ticks_at_whole_multiples() -> None:
+    ticks = [
+        item.content
+        for item in torque().items
+        if isinstance(item, Label) and isinstance(item.content, Number)
+    ]
+    assert [tick.value for tick in ticks if tick.unit == "°"] == [90.0 * k for k in range(9)]
+
+
+def test_the_simplified_curve_stays_within_the_pen() -> None:
+    curve = curves(torque())[0]
+    assert len(curve) < 500  # simplified
+    frame = next(item for item in torque().items if isinstance(item, Polyline) and item.closed)
+    left, base = frame.points[0].real, frame.points[0].imag
+    ticks = [
+        i.content.value
+        for i in torque().items
+        if isinstance(i, Label) and i.anchor == "right" and isinstance(i.content, Number)
+    ]
+    per = (max(ticks) - min(ticks)) / HEIGHT
+    x = np.radians((curve.real - left) / WIDTH * 720)
+    drawn = (curve.imag - base) * per + min(ticks)
+    error = np.abs(drawn - (300 * np.sin(2 * x) - 120 * np.cos(x))) / per
+    assert error.max() < 0.2  # half a pen's width of 0.4 mm
+
+
+def test_two_curves_are_told_apart_without_colour() -> None:
+    x = ANGLE[:361]
+    series = [
+        Series(Symbol("v", "B"), x, np.sin(np.radians(x))),
+        Series(Symbol("v", "D"), x, np.cos(np.radians(x))),
+    ]
+    scene = chart(series, Symbol("φ", "1"), "v, m/s")
+    assert overlaps(scene) == []
+    pens = [item.stroke for item in scene.items if isinstance(item, Polyline) and not item.closed]
+    assert len({pen.dash for pen in pens if pen}) == 2
+
+
+def test_a_gap_stays_a_gap() -> None:
+    y = np.sin(np.radians(ANGLE))
+    y[300:340] = np.nan
+    assert len(curves(chart([Series("y", ANGLE, y)], "x", "y"))) == 2
+
+
+def test_nothing_finite_is_an_error() -> None:
+    with pytest.raises(ValueError, match="finite"):
+        chart([Series("y", [0.0, 1.0], [np.nan, np.nan])], "x", "y")
+
+
+def test_a_polar_diagram_has_equal_scales() -> None:
+    x = np.radians(ANGLE)
+    load = Series("", 4000 * np.cos(x), 9000 * np.sin(x) - 2000, tuple(range(0, 720, 90)), tuple("12345678"))
+    scene = polar(load, "N")
+    assert overlaps(scene) == []
+    curve = curves(scene)[0]
+    assert np.ptp(curve.real) / np.ptp(curve.imag) == pytest.approx(8000 / 18000, rel=2e-3)  # 0.025 mm in 50
+
+
+def test_matplotlib_waits_for_the_first_chart() -> None:
+    code = "import sys, reportgen.figures.charts; sys.exit('matplotlib' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

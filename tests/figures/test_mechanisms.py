@@ -1,0 +1,213 @@
+"""Schemes, groups, position plans, separated links and levers of linkages of every kind."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Callable
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from reportgen.figures.actions import ArmOf, Couple, Force, foot
+from reportgen.figures.bodies import bodies
+from reportgen.figures.geometry import Complexes
+from reportgen.figures.indicator import Branch, Frame, Reading, beside, indicator
+from reportgen.figures.labels import overlaps
+from reportgen.figures.lever import lever, turned
+from reportgen.figures.positions import PositionPlan, position_plan
+from reportgen.figures.scene import Arrow, Circle, Hatch, Label, Line, Polyline, Scene
+from reportgen.figures.scheme import Looks, groups, scheme
+from reportgen.figures.skeleton import skeleton
+from reportgen.mechanism.structure import Linkage
+from reportgen.notation.expressions import Symbol
+from tests.figures.machines import (
+    OMEGA,
+    L,
+    R,
+    dense,
+    eight_positions,
+    elliptic_drive,
+    four_bar,
+    sine_drive,
+    slotted_lever,
+    twin_engine,
+    velocity_plan,
+)
+
+Machine = Callable[[], Linkage]
+MACHINES: dict[Machine, tuple[float, Looks, PositionPlan]] = {
+    twin_engine: (
+        50 / R,
+        Looks(centres=("S2", "S4"), blocks={3: (20, 30), 5: (20, 30)}),
+        PositionPlan(("A", "C", "B", "D"), ("S2", "S4"), 3),
+    ),
+    four_bar: (400, Looks(centres=("S2",)), PositionPlan(("A", "B", "F"), ("E", "S2"), 2)),
+    slotted_lever: (300, Looks(centres=("S3",)), PositionPlan(("A", "D", "E"), ("S3",), 1)),
+    sine_drive: (400, Looks(), PositionPlan(("A", "Q"), (), 1)),
+    elliptic_drive: (400, Looks(), PositionPlan(("A", "B", "P"), (), 5)),
+}
+every_machine = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
+
+
+@every_machine
+def test_schemes_and_groups_are_clear_at_every_position(machine: Machine) -> None:
+    linkage = machine()
+    motion = eight_positions(linkage)
+    _, looks, _ = MACHINES[machine]
+    for k in range(8):
+        for scene in (scheme(linkage, motion, k, 300, looks), *groups(linkage, motion, k, 300, looks)):
+            assert overlaps(scene) == [], f"position {k + 1}"
+
+
+@every_machine
+def test_a_scheme_shows_every_link_and_joint_once(machine: Machine) -> None:
+    linkage = machine()
+    scene = scheme(linkage, eight_positions(linkage), 1, 300)
+    numbers = sorted(
+        item.content
+        for item in scene.items
+        if isinstance(item, Label) and isinstance(item.content, str) and item.content.isdigit()
+    )
+    assert numbers == [str(link) for link in linkage.links]
+    assert any(isinstance(item, Hatch) for item in scene.items)
+
+
+@every_machine
+def test_position_plans_are_clear_and_true_to_scale(machine: Machine) -> None:
+    linkage = machine()
+    motion = eight_positions(linkage)
+    scale, looks, shows = MACHINES[machine]
+    scene = position_plan(linkage, motion, dense(linkage), scale, shows, looks)
+    assert overlaps(scene) == []
+    lines = [abs(item.end - item.start) for item in scene.items if isinstance(item, Line)]
+    drawn = abs(motion.points["A"].p[0] - motion.points["O1"].p[0]) * scale
+    if machine is twin_engine:
+        drawn *= 2  # the crank goes on to the opposite pin
+    assert sum(abs(length - drawn) < 1e-9 for length in lines) >= 8
+
+
+def test_coinciding_positions_share_one_label() -> None:
+    linkage = twin_engine()
+    scale, looks, shows = MACHINES[twin_engine]
+    scene = position_plan(linkage, eight_positions(linkage), dense(linkage), scale, shows, looks)
+    contents = [item.content for item in scene.items if isinstance(item, Label)]
+    place = contents.index(Symbol("B", "1"))
+    assert contents[place : place + 3] == [Symbol("B", "1"), ", ", Symbol("D", "5")]
+    # 16 numbered pins in 8 places, 16 sliders in 5.
+    assert sum(isinstance(item, Circle) and item.radius < 0.6 for item in scene.items) == 13
+
+
+@every_machine
+def test_the_skeleton_keeps_the_lengths_of_links(machine: Machine) -> None:
+    linkage = machine()
+    motion = eight_positions(linkage)
+    first = skeleton(linkage, motion, 0, 1000)
+    for k in range(1, 8):
+        bones = skeleton(linkage, motion, k, 1000)
+        for joints in bones.bars.values():
+            for a, b in pairwise(joints):
+                here, there = bones.points[b] - bones.points[a], first.points[b] - first.points[a]
+                assert abs(here) == pytest.approx(abs(there), abs=1e-6)
+        for slide in bones.slides:
+            # A block lies on its guide, between the ends of its way.
+            along = (slide.at - slide.low) / cmath.exp(1j * slide.angle)
+            assert along.imag == pytest.approx(0, abs=1e-6)
+            assert -1e-6 <= along.real <= abs(slide.high - slide.low) + 1e-6
+
+
+def sketch(k: int) -> Scene:
+    linkage = twin_engine()
+    motion = eight_positions(linkage)
+    scale = 400.0
+    point: dict[str, complex] = {name: complex(motion.points[name].p[k]) * scale for name in ("C", "D", "S4")}
+    rod = point["D"] - point["C"]
+    acceleration = complex(motion.points["S4"].a[k])
+    acting = (
+        Force(Symbol("P", "5"), point["D"], -1j, id="P5"),
+        Force(Symbol("G", "5"), point["D"], -1j, id="G5"),
+        Force(Symbol("P", "qt5"), point["D"], -complex(motion.points["D"].a[k]), id="Pqt5"),
+        Force(Symbol("R", "05"), point["D"], 1, "reaction", "R05"),
+        Force(Symbol("G", "4"), point["S4"], -1j, id="G4"),
+        Force(Symbol("P", "qt4"), point["S4"], -acceleration, id="Pqt4"),
+        Force(Symbol("R", "14", "n"), point["C"], rod, "reaction", "n"),
+        Force(Symbol("R", "14", "t"), point["C"], 1j * rod, "reaction", "t"),
+    )
+    arms = (ArmOf(Symbol("h", "1"), point["D"], "Pqt4"), ArmOf(Symbol("h", "2"), point["D"], "G4"))
+    couple = Couple(Symbol("M", "qt4"), point["S4"], -float(motion.links[4].epsilon[k]))
+    return bodies(
+        linkage, motion, k, scale, (4, 5), acting, arms=arms, turning=[couple], looks=Looks(centres=("S4",))
+    )
+
+
+@pytest.mark.parametrize("k", range(8))
+def test_separated_links_are_clear(k: int) -> None:
+    scene = sketch(k)
+    assert overlaps(scene) == []
+    forces = [item for item in scene.items if isinstance(item, Arrow) and item.name]
+    assert len(forces) == 8
+    assert all(12 <= abs(arrow.end - arrow.start) <= 30 for arrow in forces)
+
+
+def test_arms_are_the_distances_to_the_lines_of_action() -> None:
+    about, at, way = 3 + 4j, 10 - 2j, 2 + 1j
+    base = foot(about, at, way)
+    assert ((base - about) * way.conjugate()).real == pytest.approx(0, abs=1e-12)
+    assert ((base - at) * way.conjugate()).imag == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize("k", range(8))
+def test_the_lever_is_the_plan_turned_by_a_right_angle(k: int) -> None:
+    motion = eight_positions(twin_engine())
+    drawing = velocity_plan(motion, k)
+    mu = OMEGA * R / 50
+
+    def image(name: str) -> complex:
+        return 1j * complex(motion.points[name].v[k]) / mu
+
+    acting = [
+        Force(Symbol("G", str(link)), image(name), -1j, id=f"G{link}")
+        for link, name in ((2, "S2"), (3, "B"), (4, "S4"), (5, "D"))
+    ]
+    acting.append(Force(Symbol("P", "qt2"), image("S2"), -complex(motion.points["S2"].a[k]), id="Pqt2"))
+    arms = [ArmOf(Symbol("h", force.id), 0j, force.id) for force in acting]
+    scene = lever(drawing, acting, arms)
+    assert overlaps(scene) == []
+    ends = {point.label: point.at for point in turned(drawing).points}
+    # The pin's image turned by +90° lies along A–O1: opposite to the crank for a positive ω1.
+    crank = complex(motion.points["A"].p[k]) / R
+    assert ends[Symbol("a")] == pytest.approx(-50 * crank, abs=1e-9)
+
+
+def rod_heights() -> Complexes:
+    return eight_positions(twin_engine()).points["B"].p.astype(np.complex128)
+
+
+@pytest.mark.parametrize("side", [1 + 0j, -1 + 0j])
+def test_the_indicator_diagram_stands_in_line_with_the_piston(side: complex) -> None:
+    scale = 50 / R
+    top, bottom = 1j * (L + R) * scale, 1j * (L - R) * scale
+    axis_top, axis_bottom, mu = beside(top, bottom, side, 30.0, 40.0)
+    frame = Frame(axis_top, axis_bottom, side, mu, Symbol("p"))
+    x = tuple(np.linspace(0, 1, 11))
+    rows = {"a": [-2.5] * 11, "b": [28 * (1 - s) ** 2 - 2.5 for s in x], "c": [40 * (1 - s) + 3.6 for s in x]}
+    branches = [Branch(name, x, tuple(row)) for name, row in rows.items()]
+    pins = rod_heights()
+    readings = [
+        Reading(str(k + 1), float((L + R - pin.imag) / (2 * R)), -2.5, complex(pin) * scale)
+        for k, pin in enumerate(pins)
+    ]
+    linkage = twin_engine()
+    draft = indicator(frame, branches, readings)
+    for reading in readings:
+        place = frame.at(reading.fraction, reading.pressure)
+        assert reading.from_point is not None
+        assert place.imag == pytest.approx(reading.from_point.imag, abs=1e-9)
+        assert (place - axis_top).real * side.real == pytest.approx(-2.5 / mu)
+    curves = [item for item in draft.items if isinstance(item, Polyline)]
+    assert len(curves) == len(branches)
+    _, looks, shows = MACHINES[twin_engine]
+    scene = position_plan(
+        linkage, eight_positions(linkage), dense(linkage), scale, shows, looks, beside=draft
+    )
+    assert overlaps(scene) == []

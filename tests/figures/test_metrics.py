@@ -1,0 +1,59 @@
+"""Label boxes against what a typesetter measures of the same labels."""
+
+from __future__ import annotations
+
+import pymupdf
+import pytest
+import typst
+
+from reportgen.figures.labels import CLEAR
+from reportgen.figures.metrics import box
+from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Symbol
+from reportgen.writers.typst_math import math
+
+LABELS: tuple[Expression | str, ...] = (
+    Symbol("p"),
+    Symbol("A", "12"),
+    Symbol("b", sup="′"),
+    Symbol("s", "2", "′"),
+    Symbol("R", "14", "n"),
+    Symbol("P", "qt4"),
+    Symbol("R", "05", over="vector"),
+    Symbol("ω", "1"),
+    Symbol("n", "BA"),
+    Number(-28.27, 2, "mm"),
+    Chain((Symbol("μ", "v"), Number(0.2189, 4, "m/(s·mm)"))),
+    Fraction(Symbol("a"), Symbol("b", "1")),
+    "10:1",
+    "Quá trình nạp",
+)
+
+
+def test_boxes_agree_with_the_typesetter() -> None:
+    pages = [
+        f'#page(text("{label}"))' if isinstance(label, str) else f"#page(${math(label, 'en')}$)"
+        for label in LABELS
+    ]
+    source = (
+        "#set page(width: auto, height: auto, margin: 0mm)\n"
+        '#set text(9pt, font: "New Computer Modern", top-edge: "bounds", bottom-edge: "bounds")\n'
+        '#show math.equation: set text(font: "New Computer Modern Math")\n' + "\n".join(pages)
+    )
+    with pymupdf.open(stream=typst.compile(source.encode())) as document:
+        sizes = [(page.rect.width * 25.4 / 72, page.rect.height * 25.4 / 72) for page in document]
+    for label, (width, height) in zip(LABELS, sizes, strict=True):
+        ours = box(label, 9.0)
+        # What placement keeps clear on both sides takes up the difference of two typesetters; a long
+        # line's spaces stretch by a tenth.
+        assert ours.width == pytest.approx(width, abs=2 * CLEAR, rel=0.12), label
+        assert ours.height + ours.depth == pytest.approx(height, abs=2 * CLEAR), label
+
+
+def test_boxes_grow_with_the_font() -> None:
+    small, large = box(Symbol("s", "2", "′"), 8.0), box(Symbol("s", "2", "′"), 16.0)
+    assert large.width == pytest.approx(2 * small.width)
+    assert large.depth == pytest.approx(2 * small.depth)
+
+
+def test_an_empty_label_takes_no_room() -> None:
+    assert box("") == box("", 20.0)

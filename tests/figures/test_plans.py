@@ -1,0 +1,173 @@
+"""Plans and polygons: lengths exact on paper, stages, insets, labels, at every position."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from reportgen.figures.labels import overlaps
+from reportgen.figures.plan import Plan, PlanPoint, PlanVector, plan, stages
+from reportgen.figures.polygon import Chord, Side, force_polygon, letters, vertices
+from reportgen.figures.scale import TINY, choose_force_scale
+from reportgen.figures.scene import Arrow, Circle, Label, Line, Scene
+from reportgen.mechanism.forces import solve_forces
+from reportgen.mechanism.loads import Load, inertia_loads, weights
+from reportgen.mechanism.motion import Motion
+from reportgen.notation.expressions import Symbol
+from tests.figures.machines import acceleration_plan, eight_positions, twin_engine, velocity_plan
+
+POSITIONS = range(8)
+
+
+@cache
+def motion() -> Motion:
+    return eight_positions(twin_engine())
+
+
+@cache
+def sides(k: int) -> tuple[Side, ...]:
+    """The engine's group (4,5) at a position: weights and inertia known, two reactions found; in newtons."""
+    linkage = twin_engine()
+    gas = Load("P5", 5, np.full(8, -1046j), motion().points["D"].p, np.zeros(8))
+    loads = (gas, *weights(linkage, motion()), *inertia_loads(linkage, motion()))
+    reactions = solve_forces(linkage, motion(), loads).reactions
+    known = [load for link in (5, 4) for load in loads if load.link == link]
+    forces = [
+        Side(Symbol(load.name[0], load.name[1:]), complex(load.force[k]), name=load.name) for load in known
+    ]
+    found = [
+        Side(Symbol("R", name[1:]), complex(reactions[name].force[k]), True, name) for name in ("R14", "R05")
+    ]
+    return (*forces, *found)
+
+
+def polygon(k: int) -> Plan:
+    scale = choose_force_scale([vertices(sides(i)) for i in POSITIONS])
+    drawn = [Side(side.label, side.vector / scale, side.found, side.name) for side in sides(k)]
+    return force_polygon(drawn)
+
+
+def arrows(scene: Scene) -> dict[str, complex]:
+    return {item.name: item.end - item.start for item in scene.items if isinstance(item, Arrow)}
+
+
+@pytest.mark.parametrize("k", POSITIONS)
+@pytest.mark.parametrize("make", [velocity_plan, acceleration_plan, lambda _, k: polygon(k)])
+def test_nothing_overlaps_at_any_position(make: object, k: int) -> None:
+    assert callable(make)
+    drawing = make(motion(), k)
+    assert overlaps(plan(drawing)) == []
+    for panel in stages(drawing, 0.45):
+        assert overlaps(panel) == []
+
+
+@pytest.mark.parametrize("k", POSITIONS)
+def test_vectors_are_true_to_scale(k: int) -> None:
+    drawing = velocity_plan(motion(), k)
+    drawn = arrows(plan(drawing))
+    for vector in drawing.drawn():
+        # Moving the figure onto its sheet costs the last binary digits only.
+        assert drawn[vector.name] == pytest.approx(vector.end - vector.start, abs=1e-9)
+
+
+def test_segments_of_the_reference_engine() -> None:
+    # Printed at position 4, drawn by hand: 0.5 %.
+    lengths = {name: abs(way) for name, way in arrows(plan(velocity_plan(motion(), 3))).items()}
+    for name, printed in {
+        "pa": 50,
+        "pb": 28.20,
+        "ab": 35.91,
+        "ps2": 40.11,
+        "pd": 42.41,
+        "ps4": 44.26,
+    }.items():
+        assert lengths[name] == pytest.approx(printed, rel=5e-3)
+    lengths = {name: abs(way) for name, way in arrows(plan(acceleration_plan(motion(), 3))).items()}
+    for name, printed in {"πb′": 35.10, "πd′": 35.62, "πs2′": 42.08, "πs4′": 42.23, "n": 7.20}.items():
+        assert lengths[name] == pytest.approx(printed, rel=5e-3)
+
+
+def test_nothing_is_drawn_of_a_vector_that_is_nothing() -> None:
+    drawn = arrows(plan(velocity_plan(motion(), 0)))
+    assert "pb" not in drawn
+    assert "pd" not in drawn
+    assert "pa" in drawn
+
+
+def test_coinciding_points_share_a_label() -> None:
+    contents = [item.content for item in plan(velocity_plan(motion(), 0)).items if isinstance(item, Label)]
+    assert contents.count(" ≡ ") == 2  # p ≡ b ≡ d: both pistons stand at a dead centre
+
+
+@pytest.mark.parametrize("length", [0.004, 0.5, 2.99, 3.0, 8.0])
+def test_short_vectors_get_an_enlarged_inset(length: float) -> None:
+    vectors = (PlanVector("long", 0j, 40 + 0j), PlanVector("short", 40 + 0j, 40 + length * 1j))
+    points = (
+        PlanPoint(Symbol("e"), 0j),
+        PlanPoint(Symbol("f"), 40 + 0j),
+        PlanPoint(Symbol("g"), 40 + length * 1j),
+    )
+    scene = plan(Plan(vectors, points))
+    drawn = arrows(scene)
+    assert drawn["short"] == pytest.approx(length * 1j, abs=1e-9)
+    ratios = [
+        item.content for item in scene.items if isinstance(item, Label) and str(item.content).endswith(":1")
+    ]
+    assert len(ratios) == (1 if length < TINY else 0)
+    if ratios:
+        ratio = float(str(ratios[0]).removesuffix(":1"))
+        enlarged = next(way for name, way in drawn.items() if name.startswith("short ×"))
+        assert enlarged == pytest.approx(ratio * length * 1j)
+        assert 8 <= abs(enlarged) <= 20  # readable with a ruler
+    assert overlaps(scene) == []
+
+
+def test_no_inset_for_what_is_nothing() -> None:
+    scene = plan(Plan((PlanVector("long", 0j, 40 + 0j), PlanVector("dust", 40 + 0j, 40 + 1e-8j))))
+    assert list(arrows(scene)) == ["long"]
+
+
+def test_polygon_closes_head_to_tail_with_letters() -> None:
+    corners = vertices(sides(3))
+    # The reactions balance the loads: closed to rounding against forces of 1e4 N.
+    assert abs(corners[-1]) < 1e-6
+    names = letters(sides(3))
+    assert names[0] == names[-1] == "e"
+    assert len(set(names)) == len(sides(3))
+
+
+def test_a_force_that_is_nothing_keeps_its_vertex() -> None:
+    assert letters((Side("P", 5j), Side("G", 0j), Side("R", 3 + 0j), Side("S", -3 - 5j))) == (*"effg", "e")
+
+
+def test_chords_run_between_vertices() -> None:
+    drawing = force_polygon(
+        (Side("P", 30j), Side("Q", 40 + 0j), Side("R", -40 - 30j, True)), chords=[Chord("S", "e", "g")]
+    )
+    assert arrows(plan(drawing))["eg"] == pytest.approx(40 + 30j)
+
+
+def test_stages_add_up_to_the_plan() -> None:
+    drawing = velocity_plan(motion(), 3)
+    panels = stages(drawing, 0.5)
+    assert len(panels) == drawing.last_stage + 1
+    assert len({(panel.width, panel.height) for panel in panels}) == 1
+    counts = [len(arrows(panel)) for panel in panels]
+    assert counts == sorted(counts)
+    assert counts[-1] == len(drawing.drawn())
+    assert abs(arrows(panels[-1])["pa"]) == pytest.approx(25)
+    assert [panel.title for panel in panels[:3]] == ["a)", "b)", "c)"]
+
+
+def test_the_scale_is_printed_and_the_pole_marked() -> None:
+    drawing = velocity_plan(motion(), 3)
+    scene = plan(drawing)
+    assert any(isinstance(item, Label) and item.content == drawing.scale for item in scene.items)
+    assert any(isinstance(item, Circle) for item in scene.items)
+    assert sum(isinstance(item, Line) for item in scene.items) >= len(drawing.lines)
+
+
+def test_the_same_plan_gives_the_same_scene() -> None:
+    assert plan(velocity_plan(motion(), 5)) == plan(velocity_plan(motion(), 5))
