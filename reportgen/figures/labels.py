@@ -25,7 +25,7 @@ DIRECTIONS = np.exp(2j * np.pi * np.arange(24) / 24)
 NEAR = (0.0, 0.7, 1.6)
 """Extra distances (mm) at which a label still reads as belonging to its point."""
 FAR = (3.5, 6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0)
-CLEAR = 0.45
+CLEAR = 0.55
 """White kept between a label's ink and strokes; it also takes up what two typesetters differ by."""
 APART = 0.7
 """White kept between two labels."""

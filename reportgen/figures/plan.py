@@ -159,7 +159,10 @@ def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
         new = stage is not None and line.stage == stage
         pen = replace(CONSTRUCTION, width=0.18, colour=NEW.colour) if new else CONSTRUCTION
         on = unit(line.end - line.start)
-        result.append(Line(line.start, line.end + BEYOND * on, pen))
+        # Under an arrow that covers it only the piece beyond the tip shows.
+        covered = any(abs(v.start - line.start) + abs(v.end - line.end) < SAME for v in drawing.drawn())
+        start = line.end if covered else line.start
+        result.append(Line(start, line.end + BEYOND * on, pen))
     return result
 
 
