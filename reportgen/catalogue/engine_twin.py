@@ -42,8 +42,8 @@ from reportgen.units import Given
 
 KIND = "engine-twin"
 TITLES = {
-    "vi": "Động cơ đốt trong song hành: hai xi lanh thẳng hàng, bốn kỳ",
-    "en": "Parallel twin-cylinder internal combustion engine, four strokes",
+    "vi": "Động cơ đốt trong song hành",
+    "en": "Parallel twin-cylinder combustion engine",
 }
 TURNS = 2
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from reportgen.assignment import Assignment
 from reportgen.document.facts import Facts
-from reportgen.document.pictures import TEXT_BLOCK, Drawn, Pictures
+from reportgen.document.pictures import TEXT_BLOCK, Drawn, Pictures, beside_one_another
 from reportgen.document.views import GroupView
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
 from reportgen.figures.scene import Scene
@@ -54,6 +54,7 @@ class Drawings:
             "acceleration-plates": self.acceleration_plates,
             "forces": self.forces,
             "force-plates": self.force_plates,
+            "crank": self.crank,
             **self.pictures.figures,
         }
         return figures[name](*arguments)
@@ -77,7 +78,9 @@ class Drawings:
         return self._stages(self.acceleration_plan(k), "mu.a")
 
     def _stages(self, drawing: Plan, scale: str) -> Drawn:
-        return Drawn(stages(drawing, HALF))
+        number = self.ledger.number(scale)
+        doubled = replace(number, value=float(f"{number.shown / HALF:.9g}"), decimals=None)
+        return Drawn(stages(drawing, HALF), note=Chain((self.ledger.symbol(scale), doubled)))
 
     def velocity_plates(self) -> Drawn:
         return self._plates(self.velocity_plan, "mu.v")
@@ -132,6 +135,11 @@ class Drawings:
     def forces(self, k: int, group: GroupView) -> Drawn:
         assert group.polygon is not None
         return Drawn((plan(self.force_plan(group.polygon, k)),))
+
+    def crank(self, k: int) -> Drawn:
+        """The driver with its forces, and their polygon."""
+        polygon = plan(self.force_plan(self.facts.driver_polygon, k))
+        return beside_one_another(self.pictures.crank(k), polygon)
 
     def force_plates(self, group: GroupView) -> Drawn:
         polygon = group.polygon

@@ -237,6 +237,8 @@ def _figure(
     """A figure's block, or one for each of its plates; the key names the first."""
     drawn = drawings.draw(name, *arguments)
     inlines = voice.prose.inlines(caption)
+    if drawn.note is not None:
+        inlines = (*inlines, Text("; "), InlineMath(drawn.note))
     if drawn.paper is None:
         return (Figure(drawn.scenes, inlines, key),)
     count = len(drawn.scenes)

@@ -21,6 +21,7 @@ from reportgen.figures.lever import lever
 from reportgen.figures.plan import Plan
 from reportgen.figures.positions import PositionPlan, position_plan
 from reportgen.figures.scene import Scene
+from reportgen.figures.sheet import sheets
 from reportgen.figures.scheme import Looks, groups, scheme
 from reportgen.ledger.core import Ledger
 from reportgen.mechanism.loads import Load, as_single_force
@@ -43,10 +44,12 @@ SHOWN_AT = 1
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """The scenes of a figure; `paper` (mm) asks for a page of its own."""
+    """The scenes of a figure; `paper` (mm) asks for a page of its own for each."""
 
     scenes: tuple[Scene, ...]
     paper: tuple[float, float] | None = None
+    note: Chain | None = None
+    """A scale to print behind the caption."""
 
 
 def on_paper(scene: Scene) -> Drawn:
@@ -57,6 +60,14 @@ def on_paper(scene: Scene) -> Drawn:
         if scene.width <= paper[0] - WHITE[0] and scene.height <= paper[1] - WHITE[1]:
             return Drawn((scene,), paper)
     return Drawn((scene,), (max(scene.width + WHITE[0], 297.0), max(scene.height + WHITE[1], 210.0)))
+
+
+def beside_one_another(*scenes: Scene) -> Drawn:
+    """Scenes close together on one piece of paper if they fit a text block so, else as they are."""
+    together = sheets(scenes, *TEXT_BLOCK)
+    if len(together) == 1 and together[0].width <= TEXT_BLOCK[0] and together[0].height <= TEXT_BLOCK[1]:
+        return Drawn(together)
+    return Drawn(scenes)
 
 
 @dataclass(frozen=True)
@@ -75,7 +86,6 @@ class Pictures:
             "positions": self.positions,
             "indicator": self.indicator,
             "bodies": self.bodies,
-            "crank": self.crank,
             "lever": self.lever,
             "motion": self.motion,
             "torque": self.torque,
@@ -258,9 +268,9 @@ class Pictures:
             looks=replace(looks, scale=self.length_scale()),
             title=f"{names['link']} {group.i}",
         )
-        return Drawn((whole, alone))
+        return beside_one_another(whole, alone)
 
-    def crank(self, k: int) -> Drawn:
+    def crank(self, k: int) -> Scene:
         """The driver with the reactions on it and their arms about its centre."""
         machine, motion, scale = self.analysis.machine, self.analysis.motion, self.scale
         centre = self.facts.driver.centre
@@ -275,20 +285,8 @@ class Pictures:
             arms.append(ArmOf(self.ledger.symbol(id), about, id.split(".")[1]))
         turning = (Couple(self.ledger.symbol("M.eq"), about, float(np.sign(self.analysis.torque[k - 1]))),)
         looks = replace(self.looks(scale), centres=())
-        return Drawn(
-            (
-                bodies(
-                    machine.linkage,
-                    motion,
-                    k - 1,
-                    scale,
-                    (DRIVER,),
-                    acting,
-                    arms=arms,
-                    turning=turning,
-                    looks=looks,
-                ),
-            )
+        return bodies(
+            machine.linkage, motion, k - 1, scale, (DRIVER,), acting, arms=arms, turning=turning, looks=looks
         )
 
     def _pin_of(self, reaction: str) -> str:
