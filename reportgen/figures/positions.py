@@ -127,7 +127,7 @@ def _links(bones: Skeleton, pen: Stroke) -> list[Item]:
 def _path_name(name: str, dense: Motion, scale: float, looks: Looks) -> Request:
     """The name of a path, anywhere along it."""
     curve = dense.points[name].p[dense.reachable] * scale
-    places = [complex(p) for p in curve[:: max(1, len(curve) // 16)]]
+    places = [complex(p) for p in curve[:: max(1, len(curve) // 10)]]
     return label(places[0], looks.name(name), also=places[1:])
 
 
