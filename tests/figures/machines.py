@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 
 import numpy as np
 
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector
-from reportgen.mechanism.loads import inertia_loads, weights
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol
@@ -86,8 +84,8 @@ def elliptic_drive() -> Linkage:
     )
 
 
-def eight_positions(linkage: Linkage, start: float = math.pi / 2, count: int = 8) -> Motion:
-    return solve_motion(linkage, start + np.arange(count) * math.tau / count, OMEGA)
+def at_positions(linkage: Linkage, start: float = math.pi / 2, count: int = 8, turns: int = 1) -> Motion:
+    return solve_motion(linkage, start + np.arange(count) * turns * math.tau / count, OMEGA)
 
 
 def dense(linkage: Linkage) -> Motion:
@@ -150,11 +148,15 @@ def acceleration_plan(motion: Motion, k: int) -> Plan:
     return Plan(tuple(vectors), tuple(points), (), scale_note("a", mu, "m/(s²·mm)"))
 
 
-def engine_loads(motion: Motion, linkage: Linkage) -> list[tuple[str, complex, complex]]:
-    """(name, force, point) of weights and inertia at position index 3, for figures with forces."""
-    loads = (*weights(linkage, motion), *inertia_loads(linkage, motion))
-    return [(load.name, complex(load.force[3]), complex(load.point[3])) for load in loads]
+FRACTION = (0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1)
+INTAKE = (1.0, *(-2.5,) * 11)
+COMPRESSION = (28, 23.2, 19.5, 12.6, 8.1, 5.3, 3.4, 2.0, 0.9, 0, -1.0, -2.5)
+EXPANSION = (28, 40, 36.5, 27.4, 20.8, 16.2, 13.0, 10.6, 8.8, 7.3, 5.6, 3.6)
+EXHAUST = (*(1.0,) * 10, 1.6, 3.6)
 
 
-def direction(angle: float) -> complex:
-    return cmath.exp(1j * angle)
+def gas_on_piston_5(motion: Motion, k: int) -> float:
+    """Gas force (N, positive down) at position index k of 16; piston 5 begins with compression."""
+    row = (COMPRESSION, EXPANSION, EXHAUST, INTAKE)[k // 4]
+    fraction = (L + R - float(motion.points["D"].p[k].imag)) / (2 * R)
+    return float(np.interp(fraction, FRACTION, row)) * math.pi * 9.8**2 / 4

@@ -25,8 +25,8 @@ from tests.figures.machines import (
     OMEGA,
     L,
     R,
+    at_positions,
     dense,
-    eight_positions,
     elliptic_drive,
     four_bar,
     sine_drive,
@@ -53,7 +53,7 @@ every_machine = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine:
 @every_machine
 def test_schemes_and_groups_are_clear_at_every_position(machine: Machine) -> None:
     linkage = machine()
-    motion = eight_positions(linkage)
+    motion = at_positions(linkage)
     _, looks, _ = MACHINES[machine]
     for k in range(8):
         for scene in (scheme(linkage, motion, k, 300, looks), *groups(linkage, motion, k, 300, looks)):
@@ -63,7 +63,7 @@ def test_schemes_and_groups_are_clear_at_every_position(machine: Machine) -> Non
 @every_machine
 def test_a_scheme_shows_every_link_and_joint_once(machine: Machine) -> None:
     linkage = machine()
-    scene = scheme(linkage, eight_positions(linkage), 1, 300)
+    scene = scheme(linkage, at_positions(linkage), 1, 300)
     numbers = sorted(
         item.content
         for item in scene.items
@@ -76,7 +76,7 @@ def test_a_scheme_shows_every_link_and_joint_once(machine: Machine) -> None:
 @every_machine
 def test_position_plans_are_clear_and_true_to_scale(machine: Machine) -> None:
     linkage = machine()
-    motion = eight_positions(linkage)
+    motion = at_positions(linkage)
     scale, looks, shows = MACHINES[machine]
     scene = position_plan(linkage, motion, dense(linkage), scale, shows, looks)
     assert overlaps(scene) == []
@@ -90,7 +90,7 @@ def test_position_plans_are_clear_and_true_to_scale(machine: Machine) -> None:
 def test_coinciding_positions_share_one_label() -> None:
     linkage = twin_engine()
     scale, looks, shows = MACHINES[twin_engine]
-    scene = position_plan(linkage, eight_positions(linkage), dense(linkage), scale, shows, looks)
+    scene = position_plan(linkage, at_positions(linkage), dense(linkage), scale, shows, looks)
     contents = [item.content for item in scene.items if isinstance(item, Label)]
     place = contents.index(Symbol("B", "1"))
     assert contents[place : place + 3] == [Symbol("B", "1"), ", ", Symbol("D", "5")]
@@ -101,7 +101,7 @@ def test_coinciding_positions_share_one_label() -> None:
 @every_machine
 def test_the_skeleton_keeps_the_lengths_of_links(machine: Machine) -> None:
     linkage = machine()
-    motion = eight_positions(linkage)
+    motion = at_positions(linkage)
     first = skeleton(linkage, motion, 0, 1000)
     for k in range(1, 8):
         bones = skeleton(linkage, motion, k, 1000)
@@ -118,7 +118,7 @@ def test_the_skeleton_keeps_the_lengths_of_links(machine: Machine) -> None:
 
 def sketch(k: int) -> Scene:
     linkage = twin_engine()
-    motion = eight_positions(linkage)
+    motion = at_positions(linkage)
     scale = 400.0
     point: dict[str, complex] = {name: complex(motion.points[name].p[k]) * scale for name in ("C", "D", "S4")}
     rod = point["D"] - point["C"]
@@ -158,7 +158,7 @@ def test_arms_are_the_distances_to_the_lines_of_action() -> None:
 
 @pytest.mark.parametrize("k", range(8))
 def test_the_lever_is_the_plan_turned_by_a_right_angle(k: int) -> None:
-    motion = eight_positions(twin_engine())
+    motion = at_positions(twin_engine())
     drawing = velocity_plan(motion, k)
     mu = OMEGA * R / 50
 
@@ -180,7 +180,7 @@ def test_the_lever_is_the_plan_turned_by_a_right_angle(k: int) -> None:
 
 
 def rod_heights() -> Complexes:
-    return eight_positions(twin_engine()).points["B"].p.astype(np.complex128)
+    return at_positions(twin_engine()).points["B"].p.astype(np.complex128)
 
 
 @pytest.mark.parametrize("side", [1 + 0j, -1 + 0j])
@@ -207,7 +207,5 @@ def test_the_indicator_diagram_stands_in_line_with_the_piston(side: complex) -> 
     curves = [item for item in draft.items if isinstance(item, Polyline)]
     assert len(curves) == len(branches)
     _, looks, shows = MACHINES[twin_engine]
-    scene = position_plan(
-        linkage, eight_positions(linkage), dense(linkage), scale, shows, looks, beside=draft
-    )
+    scene = position_plan(linkage, at_positions(linkage), dense(linkage), scale, shows, looks, beside=draft)
     assert overlaps(scene) == []

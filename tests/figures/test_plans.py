@@ -16,21 +16,29 @@ from reportgen.mechanism.forces import solve_forces
 from reportgen.mechanism.loads import Load, inertia_loads, weights
 from reportgen.mechanism.motion import Motion
 from reportgen.notation.expressions import Symbol
-from tests.figures.machines import acceleration_plan, eight_positions, twin_engine, velocity_plan
+from tests.figures.machines import (
+    acceleration_plan,
+    at_positions,
+    gas_on_piston_5,
+    twin_engine,
+    velocity_plan,
+)
 
-POSITIONS = range(8)
+POSITIONS = range(16)
+"""Two turns: kinematics repeats, the gas forces do not."""
 
 
 @cache
 def motion() -> Motion:
-    return eight_positions(twin_engine())
+    return at_positions(twin_engine(), count=16, turns=2)
 
 
 @cache
 def sides(k: int) -> tuple[Side, ...]:
     """The engine's group (4,5) at a position: weights and inertia known, two reactions found; in newtons."""
     linkage = twin_engine()
-    gas = Load("P5", 5, np.full(8, -1046j), motion().points["D"].p, np.zeros(8))
+    pressed = np.array([-1j * gas_on_piston_5(motion(), i) for i in POSITIONS])
+    gas = Load("P5", 5, pressed, motion().points["D"].p, np.zeros(16))
     loads = (gas, *weights(linkage, motion()), *inertia_loads(linkage, motion()))
     reactions = solve_forces(linkage, motion(), loads).reactions
     known = [load for link in (5, 4) for load in loads if load.link == link]
