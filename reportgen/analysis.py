@@ -85,7 +85,7 @@ def fraction(piston: Piston, motion: Motion) -> np.ndarray:
     """s/H [N]: the pin's way from its top dead centre over the stroke."""
     along = (piston.bottom - piston.top) / piston.stroke**2
     place = motion.points[piston.pin].p - piston.top
-    return np.clip(np.real(np.conj(along) * place), 0.0, 1.0)
+    return np.asarray(np.clip(np.real(np.conj(along) * place), 0.0, 1.0))
 
 
 def gas_in(piston: Piston, motion: Motion, cycle_angle: np.ndarray) -> Gas:
@@ -110,7 +110,7 @@ def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis
         Load(
             name,
             state.piston.link,
-            state.pressure * state.piston.area * state.piston.inward,
+            np.asarray(state.pressure * state.piston.area * state.piston.inward, dtype=np.complex128),
             motion.points[state.piston.pin].p,
             np.zeros_like(angles),
         )
@@ -135,9 +135,7 @@ def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis
 
 def _own_motion(machine: Machine, piston: Piston, angle: np.ndarray) -> Motion:
     """The motion at cycle angles of one piston."""
-    return solve_motion(
-        machine.linkage, machine.angles(angle - piston.phase), machine.turn * machine.speed
-    )
+    return solve_motion(machine.linkage, machine.angles(angle - piston.phase), machine.turn * machine.speed)
 
 
 def _breaks(machine: Machine) -> np.ndarray:
@@ -169,9 +167,7 @@ def summarise(machine: Machine) -> Summary:
     whole = machine.turns * FULL_TURN
     mean = mean_over(lambda angle: analyse(machine, angle).torque_by_work, _breaks(machine), 0.0, whole)
     work = sum(
-        indicated_work(
-            piston.indicator, piston.area, piston.stroke, partial(_fraction_rate, machine, piston)
-        )
+        indicated_work(piston.indicator, piston.area, piston.stroke, partial(_fraction_rate, machine, piston))
         for piston in machine.pistons
     )
     fine = np.linspace(0.0, whole, 361 * machine.turns, endpoint=False)

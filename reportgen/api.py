@@ -60,8 +60,8 @@ def solve(assignment: Assignment, positions: int | None = None) -> dict[str, Any
 def document(assignment: Assignment) -> Document:
     """The report as a numbered tree, ready for any writer."""
     from reportgen.document.outline import compose
-    from reportgen.document.words import load_words
     from reportgen.document.prose import search_path
+    from reportgen.document.words import load_words
     from reportgen.ledger.report import keep
 
     analysis = analyse(assignment)

@@ -56,7 +56,9 @@ def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
     entry["weights"] = _loads(analysis.weights, k)
     entry["inertia"] = _loads(analysis.inertia, k)
     if analysis.gas:
-        entry["pressures"] = {name.replace("P", "p"): float(gas.pressure[k]) for name, gas in analysis.gas.items()}
+        entry["pressures"] = {
+            name.replace("P", "p"): float(gas.pressure[k]) for name, gas in analysis.gas.items()
+        }
     entry["reactions"] = {name: _reaction(analysis, name, k) for name in analysis.forces.reactions}
     entry["reactions_in_guides"] = {
         name: {"moment": float(reaction.moment[k]), "point": _pair(reaction.point[k])}

@@ -25,9 +25,7 @@ from reportgen.notation.expressions import (
 )
 
 
-def formulas(
-    rod: int, slider: int, pin: str, joint: str, centre: str, angle: np.ndarray
-) -> tuple[Item, ...]:
+def formulas(rod: int, slider: int, pin: str, joint: str, centre: str, angle: np.ndarray) -> tuple[Item, ...]:
     """Items for one slider: `phi.3` (given, per position), `beta.2`, `x.3`, `f.v.B`, `f.a.B`, `f.omega.2`,
     `f.eps.2` and the mass centre's `f.v.S2`, `f.a.S2` by components.  Uses R, L, lambda, omega.1.
     """

@@ -34,10 +34,10 @@ class Item:
 class Piston:
     """A piston and the gas on it.
 
-    `pin` is its point and `crank_pin` the other end of its rod; `top` and `bottom` are the pin's places at the dead centres; `tops` and `bottoms`
-    the driver angles there (one turn, in the direction of rotation, from the top).  `phase` is its cycle
-    angle at position 1, from its top dead centre at the start of intake.  A positive pressure pushes it
-    along `inward`.
+    `pin` is its point and `crank_pin` the other end of its rod; `top` and `bottom` are the pin's places at
+    the dead centres, `top_angle` and `bottom_angle` the crank's turn there, in the direction of rotation.
+    `phase` is its cycle angle at position 1, from its top dead centre at the start of intake.  A positive
+    pressure pushes it along `inward`.
     """
 
     link: int

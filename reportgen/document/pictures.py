@@ -21,8 +21,8 @@ from reportgen.figures.lever import lever
 from reportgen.figures.plan import Plan
 from reportgen.figures.positions import PositionPlan, position_plan
 from reportgen.figures.scene import Scene
-from reportgen.figures.sheet import sheets
 from reportgen.figures.scheme import Looks, groups, scheme
+from reportgen.figures.sheet import sheets
 from reportgen.ledger.core import Ledger
 from reportgen.mechanism.loads import Load, as_single_force
 from reportgen.mechanism.motion import Motion, solve_motion
@@ -120,7 +120,9 @@ class Pictures:
         names = {*self.analysis.motion.points}
         jointed = {group.Q for group in self.facts.groups} | {group.P for group in self.facts.groups}
         centres = tuple(
-            body.centre for body in machine.linkage.inertias if body.centre in names and body.centre not in jointed
+            body.centre
+            for body in machine.linkage.inertias
+            if body.centre in names and body.centre not in jointed
         )
         return Looks(blocks=blocks, centres=centres, scale=self.length_scale(factor))
 
@@ -149,7 +151,9 @@ class Pictures:
         points = [point.p[SHOWN_AT] for point in self.analysis.motion.points.values()]
         size = np.array(points)[np.isfinite(points)] * self.scale
         needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
-        return 1.0 / float(next(step for step in (1, 2, 2.5, 4, 5, 10, 20, 25, 40, 50, 100, 1000) if step >= needed))
+        return 1.0 / float(
+            next(step for step in (1, 2, 2.5, 4, 5, 10, 20, 25, 40, 50, 100, 1000) if step >= needed)
+        )
 
     @cached_property
     def dense(self) -> Motion:
@@ -174,7 +178,9 @@ class Pictures:
         numbered += [group.Q for group in self.facts.groups]
         shows = PositionPlan(tuple(numbered), machine.paths if beside is None else (), self._first_worked())
         looks = replace(self.looks(self.scale), blocks={}, centres=())
-        return position_plan(machine.linkage, self.one_turn, self.dense, self.scale, shows, looks, beside=beside)
+        return position_plan(
+            machine.linkage, self.one_turn, self.dense, self.scale, shows, looks, beside=beside
+        )
 
     def _first_worked(self) -> int:
         return (self.facts.worked[0] - 1) % self.analysis.machine.count
@@ -203,7 +209,9 @@ class Pictures:
         )
         branches = [
             indicator.Branch(name, x, tuple(p / unit for p in pressures))
-            for name, x, pressures in _branches(table, self._angles_to_fractions(first), self.words["strokes"])
+            for name, x, pressures in _branches(
+                table, self._angles_to_fractions(first), self.words["strokes"]
+            )
         ]
         readings = [
             indicator.Reading(
@@ -310,7 +318,11 @@ class Pictures:
             if load.link not in links or load.name not in self.ledger or self.facts.zero(load.name, k):
                 continue
             at = self._acts_at(load, k)
-            result.append(Force(symbols.vector(self.ledger.symbol(load.name)), at * self.scale, force, "load", load.name))
+            result.append(
+                Force(
+                    symbols.vector(self.ledger.symbol(load.name)), at * self.scale, force, "load", load.name
+                )
+            )
         return result
 
     def _acts_at(self, load: Load, k: int) -> complex:
@@ -320,7 +332,11 @@ class Pictures:
     def _couples(self, links: Sequence[int], k: int) -> list[Couple]:
         """Couples whose force is nothing."""
         return [
-            Couple(self.ledger.symbol(f"M.{load.name}"), complex(load.point[k - 1]) * self.scale, float(load.couple[k - 1]))
+            Couple(
+                self.ledger.symbol(f"M.{load.name}"),
+                complex(load.point[k - 1]) * self.scale,
+                float(load.couple[k - 1]),
+            )
             for load in self.analysis.loads
             if load.link in links and load.couple[k - 1] != 0 and self.facts.zero(load.name, k)
         ]

@@ -49,7 +49,9 @@ class Tables:
         ledger = self.facts.ledger
         ids = [id for id in names if id in ledger and self._is_given(id)]
         table = self.voice.quantity_table(key, caption, ids, names)
-        return replace(table, rows=tuple(self._as_typed(id, row) for id, row in zip(ids, table.rows, strict=True)))
+        return replace(
+            table, rows=tuple(self._as_typed(id, row) for id, row in zip(ids, table.rows, strict=True))
+        )
 
     def _is_given(self, id: str) -> bool:
         definition = self.facts.ledger[id].definition
@@ -86,7 +88,9 @@ class Tables:
             tuple(cell for block in range(beside) for cell in filled[block * rows_count + row])
             for row in range(rows_count)
         )
-        return Table((Column(18.0),) * (2 * beside), (head * beside,), body, self.voice.prose.inlines(caption), key)
+        return Table(
+            (Column(18.0),) * (2 * beside), (head * beside,), body, self.voice.prose.inlines(caption), key
+        )
 
     def _exact(self, value: float) -> Cell:
         return Cell((Value(Number(float(f"{value:.10g}"))),))
@@ -106,14 +110,21 @@ class Tables:
             body += [(row[0], *row[start:stop], *pad) for row in rows]
         count = min(len(head) - 1, most)
         columns = (Column(first, "left"), *(Column(width),) * count)
-        return Table(columns, ((head[0], *head[1 : count + 1]),), tuple(body), self.voice.prose.inlines(caption), key)
+        return Table(
+            columns, ((head[0], *head[1 : count + 1]),), tuple(body), self.voice.prose.inlines(caption), key
+        )
 
     def joints_table(self, key: str, caption: str, head: Sequence[str]) -> Table:
         """All joints: number, place, links, type."""
         joints = mobility(self.facts.analysis.machine.linkage).joints
         kinds = self.voice.words["joints"]
         rows = (
-            (str(number), symbols.point(joint.point), f"{joint.links[0]} – {joint.links[1]}", kinds[joint.kind])
+            (
+                str(number),
+                symbols.point(joint.point),
+                f"{joint.links[0]} – {joint.links[1]}",
+                kinds[joint.kind],
+            )
             for number, joint in enumerate(joints, start=1)
         )
         return self.voice.list_table(key, caption, head, rows, (20.0, 30.0, 40.0, 50.0))
@@ -144,7 +155,10 @@ class Tables:
         ]
         kept = [index for index, value in enumerate(values) if np.abs(value[:count]).max() > 1e-12]
         width = min((TEXT_WIDTH - 14) / len(kept), 22.0)
-        head = (self.voice.cell(self.voice.words["table"]["position"]), *(self.voice.cell(heads[i]) for i in kept))
+        head = (
+            self.voice.cell(self.voice.words["table"]["position"]),
+            *(self.voice.cell(heads[i]) for i in kept),
+        )
         rows = tuple(
             (
                 self.voice.cell(str(k + 1)),
@@ -168,7 +182,9 @@ class Tables:
                 rows.append((str(piston.link), words, _tidy(turn), _tidy(abs(place) * 1e3)))
         return self.voice.list_table(key, caption, head, rows, (20.0, 46.0, 44.0, 46.0))
 
-    def rotation_table(self, key: str, caption: str, head: Sequence[str], ids: Sequence[str], k: int) -> Table:
+    def rotation_table(
+        self, key: str, caption: str, head: Sequence[str], ids: Sequence[str], k: int
+    ) -> Table:
         """Angular velocities or accelerations with their sense in words."""
         turn = self.facts.analysis.machine.turn
         senses = self.voice.words["sense"]
@@ -196,7 +212,13 @@ class Tables:
         strokes = np.array([state.stroke for state in gas.values()])
         starts = [0, *(int(i) + 1 for i in np.flatnonzero(np.any(np.diff(strokes, axis=1), axis=0)))]
         ends = [*starts[1:], machine.positions]
-        head = (positions, *(f"{start + 1}–{end + 1 if end < machine.positions else end}" for start, end in zip(starts, ends, strict=True)))
+        head = (
+            positions,
+            *(
+                f"{start + 1}–{end + 1 if end < machine.positions else end}"
+                for start, end in zip(starts, ends, strict=True)
+            ),
+        )
         rows = [
             (f"{first} {state.piston.link}", *(names[int(state.stroke[start])] for start in starts))
             for state in gas.values()
@@ -229,7 +251,9 @@ class Tables:
         """Residuals of the independent checks, as powers of ten."""
         residuals = self.residuals()
         rows = [
-            (name, _scientific(residuals[id][0]), residuals[id][1]) for id, name in names.items() if id in residuals
+            (name, _scientific(residuals[id][0]), residuals[id][1])
+            for id, name in names.items()
+            if id in residuals
         ]
         return self.voice.list_table(key, caption, head, rows, (95.0, 35.0, 20.0))
 
@@ -238,7 +262,11 @@ class Tables:
         analysis, values = self.facts.analysis, self.facts.ledger.families
         points = analysis.motion.points
         closure = max(
-            float(np.nanmax(np.abs(np.abs(points[group.Q].p - points[group.P].p) - values[f"l.{group.rod}"].values)))
+            float(
+                np.nanmax(
+                    np.abs(np.abs(points[group.Q].p - points[group.P].p) - values[f"l.{group.rod}"].values)
+                )
+            )
             for group in self.facts.groups
             if f"l.{group.rod}" in values
         )
@@ -282,7 +310,9 @@ class Tables:
         )
         return self.voice.equal(Chain((Symbol("W"), formula, numbers, Number(counted.W))))
 
-    def tables(self, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]) -> tuple[Table, ...]:
+    def tables(
+        self, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]
+    ) -> tuple[Table, ...]:
         """One table, or several below one another where the columns are too many; the key names the first."""
         wide = MOST_COLUMNS - 1
         count = max(-(-len(ids) // wide), 1)
@@ -321,7 +351,13 @@ def _dustless(value: float) -> float:
 
 def _tidy(value: float) -> tuple[Value, ...]:
     """A number to two decimals, or as it is when it has no more than two."""
-    return (Value(Number(float(f"{value:.10g}")) if abs(value * 100 - round(value * 100)) < 1e-7 else Number(value, 2)),)
+    return (
+        Value(
+            Number(float(f"{value:.10g}"))
+            if abs(value * 100 - round(value * 100)) < 1e-7
+            else Number(value, 2)
+        ),
+    )
 
 
 def _scientific(value: float) -> tuple[Any, ...]:

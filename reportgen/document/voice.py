@@ -258,7 +258,7 @@ class Voice:
     ) -> Table:
         """A free table: cells are texts, symbols, numbers or inlines; widths in mm; columns of words flush left."""
         body = [tuple(row) for row in rows]
-        words = [any(isinstance(row[i], str) and len(row[i]) >= LONG_WORDS for row in body) for i in range(len(widths))]
+        words = [any(_is_wordy(row[i]) for row in body) for i in range(len(widths))]
         return Table(
             tuple(Column(width, "left" if wordy else "center") for width, wordy in zip(widths, words, strict=True)),
             (tuple(self.cell(content) for content in head),),
@@ -313,6 +313,10 @@ def _centre(arm: str) -> str:
     match = re.match(r"[A-Z]\d*", arm)
     assert match is not None
     return match.group()
+
+
+def _is_wordy(content: object) -> bool:
+    return isinstance(content, str) and len(content) >= LONG_WORDS
 
 
 def _inlines(content: object) -> Inlines:

@@ -45,7 +45,8 @@ def keep(analysis: Analysis, units: Mapping[str, str] | None = None) -> Books:
         _masses(b, analysis)
         _gas(b, analysis)
         gas = {
-            name: (state.piston.link, state.piston.pin, state.piston.inward) for name, state in analysis.gas.items()
+            name: (state.piston.link, state.piston.pin, state.piston.inward)
+            for name, state in analysis.gas.items()
         }
         polygons = forces.describe(b, machine.linkage, machine.turn, gas)
         _cycle(b, analysis)
@@ -75,13 +76,12 @@ def _gas(b: Builder, analysis: Analysis) -> None:
 def _cycle(b: Builder, analysis: Analysis) -> None:
     """Mean, extremes, power and energy of the cycle."""
     summary = analysis.summary
-    torque = {"kind": "torque", "exact": False}
     size = float(np.nanmax(np.abs(analysis.torque)))
     b.define("M.difference", Symbol("ΔM", "cb"), "torque", call("abs", subtract("M.eq", "M.vw")), scale=size)
     b.define("M.mean.positions", Symbol("M", "N"), "torque", call("mean", "M.eq"))
-    b.give("M.mean", Symbol("M", "m"), value=summary.mean_torque, **torque)
-    b.give("M.least", Symbol("M", "min"), value=summary.extremes[0][1], **torque)
-    b.give("M.greatest", Symbol("M", "max"), value=summary.extremes[1][1], **torque)
+    b.give("M.mean", Symbol("M", "m"), "torque", summary.mean_torque, exact=False)
+    b.give("M.least", Symbol("M", "min"), "torque", summary.extremes[0][1], exact=False)
+    b.give("M.greatest", Symbol("M", "max"), "torque", summary.extremes[1][1], exact=False)
     b.give("W", Symbol("W"), "work", summary.work, exact=False)
     b.define("power", Symbol("N"), "power", multiply(call("abs", "M.mean"), "omega.1"))
     turns = 2 * analysis.machine.turns
