@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from reportgen.figures.draft import Draft, settle
 from reportgen.figures.geometry import bounds, clipped, clusters
 from reportgen.figures.labels import Content, Request, label
-from reportgen.figures.scale import enlargement
+from reportgen.figures.scale import TINY, enlargement
 from reportgen.figures.scene import Arrow, Circle, Item, Label, Line, Polyline, Stroke
 from reportgen.figures.style import GRAY, HEAD, PALE, SMALL, THIN
 
@@ -57,8 +57,19 @@ def insets(tiny: Sequence[Tiny], others: Sequence[tuple[complex, complex]], figu
 
 
 def _groups(tiny: Sequence[Tiny]) -> list[list[int]]:
-    """Indices of vectors with neighbouring middles, a group each."""
-    return clusters([(t.start + t.end) / 2 for t in tiny], NEIGHBOUR)
+    """Indices of vectors with neighbouring middles, a group each.
+
+    What would still be short at the ratio of a much longer neighbour gets an inset of its own.
+    """
+    result: list[list[int]] = []
+    for group in clusters([(t.start + t.end) / 2 for t in tiny], NEIGHBOUR):
+        rest = group
+        while rest:
+            sizes = {i: abs(tiny[i].end - tiny[i].start) for i in rest}
+            ratio = enlargement(max(sizes.values()))
+            result.append([i for i in rest if sizes[i] * ratio >= TINY])
+            rest = [i for i in rest if sizes[i] * ratio < TINY]
+    return result
 
 
 def _mark(group: Sequence[Tiny]) -> Item:

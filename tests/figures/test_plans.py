@@ -132,6 +132,16 @@ def test_short_vectors_get_an_enlarged_inset(length: float) -> None:
     assert overlaps(scene) == []
 
 
+@pytest.mark.parametrize("lengths", [(2.5, 2.0), (2.9, 0.3), (2.0, 0.2, 0.01)])
+def test_every_short_vector_is_readable_in_some_inset(lengths: tuple[float, ...]) -> None:
+    way = np.cumsum([0, *lengths])
+    vectors = [PlanVector(f"v{n}", complex(way[n]), complex(way[n + 1])) for n in range(len(lengths))]
+    scene = plan(Plan((*vectors, PlanVector("long", complex(way[-1]), 40 + 30j))))
+    enlarged = {name: abs(size) for name, size in arrows(scene).items() if "×" in name}
+    assert len(enlarged) == len(lengths)
+    assert all(size >= TINY for size in enlarged.values())
+
+
 def test_no_inset_for_what_is_nothing() -> None:
     scene = plan(Plan((PlanVector("long", 0j, 40 + 0j), PlanVector("dust", 40 + 0j, 40 + 1e-8j))))
     assert list(arrows(scene)) == ["long"]
