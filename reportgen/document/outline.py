@@ -189,7 +189,9 @@ def _names(
         "stroke_name": lambda link, k: words["strokes"][int(analysis.gas[f"P{link}"].stroke[k - 1])],
         "last_known": lambda group: group.polygon.sides[-3].end,
         "force_list": lambda group, k: _force_list(voice, facts, group, k),
-        "plate_refs": lambda prefix: _references(f"{prefix}{group.name}" for group in facts.groups),
+        "plate_refs": lambda prefix: _references(
+            f"{prefix}{group.name}" for group in reversed(facts.groups)
+        ),
         "figure": lambda name, key, caption, *arguments: _figure(
             voice, drawings, name, key, caption, *arguments
         ),

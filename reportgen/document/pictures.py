@@ -342,10 +342,10 @@ class Pictures:
         ]
 
     def lever(self, k: int) -> Drawn:
-        """The velocity plan turned clockwise by 90°, every load at its image, arms about the pole."""
+        """The velocity plan turned by 90° against ω1, every load at its image, arms about the pole."""
         motion, index = self.analysis.motion, k - 1
-        # Turned clockwise, the moment of a force about the pole has the sign of its power.
-        per = -1j * MM / float(self.ledger.families["mu.v"].values[0])
+        turn = self.analysis.machine.turn
+        per = -1j * turn * MM / float(self.ledger.families["mu.v"].values[0])
         acting, arms = [], []
         for load in self.analysis.loads:
             if load.name not in self.ledger or self.facts.zero(load.name, k):
@@ -358,7 +358,7 @@ class Pictures:
                 arms.append(ArmOf(self.ledger.symbol(f"h.{load.name}.p"), 0j, load.name))
         drawing = self.velocity_plan(k)
         scale = Chain((self.ledger.symbol("mu.v"), self.ledger.number("mu.v")))
-        return on_paper(lever(drawing, acting, arms, sense=-1, notes=(scale,)))
+        return on_paper(lever(drawing, acting, arms, sense=-turn, notes=(scale,)))
 
     # --- curves
 

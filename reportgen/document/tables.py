@@ -215,7 +215,7 @@ class Tables:
         head = (
             positions,
             *(
-                f"{start + 1}–{end + 1 if end < machine.positions else end}"
+                f"{start + 1}–{end % machine.positions + 1}"
                 for start, end in zip(starts, ends, strict=True)
             ),
         )
