@@ -1,0 +1,187 @@
+"""`make bench`: what a report costs, as ratios measured in one run.
+
+The build in a cold process over the typesetter alone on the finished source; a plain script that makes a
+document of the same size over the build; motion and forces over a closed form by hand; peak memory.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from .measure import Cost, in_turns, repeated, run
+
+ROOT = Path(__file__).resolve().parents[2]
+SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
+POSITIONS = 3600
+SUFFIX = {"typst": ".typ", "latex": ".tex"}
+TYPST_ALONE = "import sys, typst; typst.compile(sys.argv[1], sys.argv[2], ignore_system_fonts=True)"
+BUILD = "from reportgen.cli import main; main()"
+PASSES = (
+    "import sys, pathlib; from reportgen.writers import pdflatex; "
+    "print(pdflatex.compile(pathlib.Path(sys.argv[1]).read_text(encoding='utf-8')).passes)"
+)
+SAME_DATE = {"SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"}
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One line of the table: what was measured, the aim, the result and the figures behind it."""
+
+    what: str
+    aim: str
+    result: str
+    detail: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Bench:
+    """The bench of one assignment file in a scratch folder."""
+
+    file: Path
+    folder: Path
+    engines: tuple[str, ...]
+
+    def report(self, engine: str) -> Path:
+        """Where `engine` puts its report; the source stands beside it."""
+        return self.folder / engine / self.file.stem / "report.pdf"
+
+    def source(self, engine: str) -> Path:
+        return self.report(engine).with_suffix(SUFFIX[engine])
+
+    def build(self, engine: str) -> Cost:
+        """One report by the command line, in a cold process."""
+        options = ("--out", str(self.folder / engine), "--engine", engine, "--keep-source")
+        return run(
+            (sys.executable, "-c", BUILD, "build", str(self.file), *options), self.folder, _importable()
+        )
+
+    def typst_alone(self) -> Cost:
+        """The finished source by a process that does nothing else."""
+        alone = str(self.folder / "alone.pdf")
+        return run((sys.executable, "-c", TYPST_ALONE, str(self.source("typst")), alone), self.folder)
+
+    def latex_alone(self, passes: int) -> Cost:
+        """As many passes over the finished source, from nothing, as the build makes."""
+        fresh = Path(tempfile.mkdtemp(dir=self.folder))
+        shutil.copy(self.source("latex"), fresh)
+        command = ("pdflatex", "-interaction=nonstopmode", "-halt-on-error", self.source("latex").name)
+        return repeated(lambda: run(command, fresh, SAME_DATE), passes)
+
+    def plain(self, size: str) -> Cost:
+        """A document of the same size by a script of its own."""
+        fresh = tempfile.mkdtemp(dir=self.folder)
+        return run((sys.executable, str(Path(__file__).with_name("plain.py")), fresh, size), self.folder)
+
+    def ask(self, *arguments: str) -> str:
+        """What a helper process prints; this process stays small, for children inherit its peak memory."""
+        command = (sys.executable, *arguments)
+        done = subprocess.run(
+            command, cwd=ROOT, env={**os.environ, **_importable()}, capture_output=True, text=True
+        )
+        if done.returncode:
+            raise RuntimeError(done.stderr.strip())
+        return done.stdout
+
+    def rows(self, rounds: int, plain_rounds: int) -> Iterator[Row]:
+        """Everything, measured; the first build of each engine warms the disk and is not counted."""
+        for engine in self.engines:
+            self.build(engine)
+        size = self.ask("-m", "tests.bench.size", str(self.file), str(self.report(self.engines[0])))
+        tasks: dict[str, Callable[[], Cost]] = {
+            engine: partial(self.build, engine) for engine in self.engines
+        }
+        tasks["typst alone"] = self.typst_alone
+        passes = 0
+        if "latex" in self.engines:
+            passes = int(self.ask("-c", PASSES, str(self.source("latex"))))
+            tasks["latex alone"] = partial(self.latex_alone, passes)
+        costs = in_turns(tasks, rounds)
+        for engine in self.engines:
+            yield _over_typesetter(engine, costs[engine], costs[f"{engine} alone"], passes)
+        if "latex" in self.engines:
+            yield from _against_plain(
+                costs, in_turns({"plain": partial(self.plain, size)}, plain_rounds)["plain"], size
+            )
+        else:
+            yield Row("rows with LaTeX, plain script", "", "skipped", "pdflatex is not installed")
+        yield _solving(json.loads(self.ask("-m", "tests.bench.solving", str(self.file), str(POSITIONS))))
+        for engine in self.engines:
+            yield Row(f"peak memory, {engine}", "", f"{costs[engine].memory:.0f} MB")
+        yield Row("peak memory, typst alone", "", f"{costs['typst alone'].memory:.0f} MB")
+
+
+def _over_typesetter(engine: str, build: Cost, alone: Cost, passes: int) -> Row:
+    aim = {"typst": "≤ 1.5", "latex": "≤ 2"}[engine]
+    how = f"{passes} passes" if engine == "latex" else "alone"
+    detail = f"{build.seconds:.2f} s, {how} {alone.seconds:.2f} s"
+    return Row(f"build / typesetter, {engine}", aim, f"{build.seconds / alone.seconds:.2f}", detail)
+
+
+def _against_plain(costs: dict[str, Cost], plain: Cost, size: str) -> Iterator[Row]:
+    held = json.loads(size)
+    by = "latexmk" if shutil.which("latexmk") else "pdflatex"
+    pages, figures, formulas = held["pages"], held["figures"], held["formulas"]
+    detail = (
+        f"{plain.seconds:.2f} s by pyplot and {by}; {pages} pages, {figures} figures, {formulas} formulas"
+    )
+    for engine in ("typst", "latex"):
+        yield Row(
+            f"plain script / build, {engine}", "≥ 5", f"{plain.seconds / costs[engine].seconds:.2f}", detail
+        )
+
+
+def _solving(taken: dict[str, float]) -> Row:
+    solver, closed = taken["solver"], taken["closed form"]
+    detail = f"{solver:.1f} ms, closed form {closed:.2f} ms"
+    return Row(f"motion and forces of {POSITIONS} positions", "≤ 10", f"{solver / closed:.1f}", detail)
+
+
+def _importable() -> dict[str, str]:
+    """The checkout before whatever is installed."""
+    return {"PYTHONPATH": os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))}
+
+
+def table(rows: Sequence[Row]) -> str:
+    """The rows in aligned columns under a head."""
+    cells = [("", "aim", "result", ""), *((row.what, row.aim, row.result, row.detail) for row in rows)]
+    widths = [max(len(cell[k]) for cell in cells) for k in range(3)]
+    return "\n".join(
+        f"{what:{widths[0]}}  {aim:>{widths[1]}}  {result:>{widths[2]}}  {detail}".rstrip()
+        for what, aim, result, detail in cells
+    )
+
+
+def of_this_machine() -> str:
+    """The machine in a line."""
+    return (
+        f"{os.cpu_count()} CPUs, Python {platform.python_version()}, {platform.system()} {platform.machine()}"
+    )
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
+    parser.add_argument("file", nargs="?", type=Path, default=SAMPLE, help="assignment file")
+    parser.add_argument("--rounds", type=int, default=5, help="runs of each build, taken in turns")
+    parser.add_argument("--plain-rounds", type=int, default=3, help="runs of the plain script")
+    chosen = parser.parse_args(arguments)
+    engines = ("typst", "latex") if shutil.which("pdflatex") else ("typst",)
+    with tempfile.TemporaryDirectory(prefix="reportgen-bench-") as name:
+        bench = Bench(chosen.file.resolve(), Path(name), engines)
+        rows = list(bench.rows(chosen.rounds, chosen.plain_rounds))
+    print(of_this_machine(), table(rows), sep="\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,76 @@
+"""The solver against the closed form: milliseconds for the same positions, in one warm process.
+
+`python -m tests.bench.solving FILE POSITIONS` prints both medians as JSON.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from statistics import median
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from reportgen import api, catalogue
+from reportgen.analysis import analyse
+from reportgen.catalogue.engine_twin import phases
+from reportgen.catalogue.machine import Machine
+from reportgen.cycle.indicator import StrokeIndicator
+
+from .closed_form import Cylinder, Engine, solve
+
+ROUNDS = 25
+
+
+def machine(path: Path) -> tuple[Machine, Engine]:
+    """An engine's assignment for the solver and, in plain numbers, for the closed form.
+
+    Raises `TypeError` for an indicator diagram over the crank's angle, which the closed form does not read.
+    """
+    assignment = api.load(path)
+    built: Machine = catalogue.module(assignment.kind).machine(assignment)
+    given, table = assignment.parameters, built.pistons[0].indicator
+    if not isinstance(table, StrokeIndicator):
+        raise TypeError("the closed form reads an indicator diagram by stroke")
+    both = phases(given, assignment.indicator, assignment.positions)
+    cylinders = tuple(
+        Cylinder(offset, phase, given.mass(rod), given.moment(rod), given.mass(rod + 1))
+        for rod, offset, phase in zip((2, 4), (0.0, given.crank_angle.si), both, strict=True)
+    )
+    return built, Engine(
+        radius=given.H.si / 2,
+        rod=given.rod_length,
+        share=given.s.si,
+        area=built.pistons[0].area,
+        gravity=given.g.si,
+        start=built.start,
+        omega=built.turn * built.speed,
+        fractions=table.fractions,
+        rows=table.rows,
+        cylinders=cylinders,
+    )
+
+
+def compare(path: Path, positions: int, rounds: int = ROUNDS) -> dict[str, float]:
+    """Medians in ms of the solver and of the closed form, run in turns over one cycle of `positions`."""
+    built, engine = machine(path)
+    angles = np.arange(positions, dtype=np.float64) * (2 * np.pi * built.turns / positions)
+    tasks: dict[str, Callable[[], Any]] = {
+        "solver": lambda: analyse(built, angles),
+        "closed form": lambda: solve(engine, angles),
+    }
+    taken: dict[str, list[float]] = {name: [] for name in tasks}
+    for _ in range(rounds):
+        for name, task in tasks.items():
+            begun = perf_counter()
+            task()
+            taken[name].append(1e3 * (perf_counter() - begun))
+    return {name: median(times) for name, times in taken.items()}
+
+
+if __name__ == "__main__":
+    json.dump(compare(Path(sys.argv[1]), int(sys.argv[2])), sys.stdout)

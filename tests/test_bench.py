@@ -1,0 +1,157 @@
+"""The bench measures what it says; how fast anything is, is not asserted."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from bench import measure, plain
+from bench.__main__ import Bench, Row, table
+from bench.closed_form import solve
+from bench.size import Size, size_of
+from bench.solving import compare, machine
+
+from reportgen.analysis import analyse
+from reportgen.document.tree import Equation, Figure, List, Paragraph, Table, Text
+from reportgen.figures.scene import Circle, Label, Line, Scene
+from reportgen.notation.expressions import Number
+
+SAMPLE = Path(__file__).parents[1] / "assignments" / "engine-twin-05.yaml"
+TINY = Size(pages=3, figures=1, labels=2, strokes=6, formulas=4, tables=1, rows=3, words=30)
+
+
+def same(found: np.ndarray, expected: np.ndarray) -> bool:
+    """Equal to 1e-9 of the quantity's own maximum: far above rounding, far below any error of a formula."""
+    return bool(np.abs(found - expected).max() <= 1e-9 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {},
+        {"direction: anticlockwise": "direction: clockwise"},
+        {"crank_angle: 180 deg": "crank_angle: 100 deg", "firing: [intake, compression]": ""},
+    ],
+    ids=["sample", "clockwise", "crank of 100°"],
+)
+def test_the_closed_form_is_the_engine(tmp_path: Path, changed: dict[str, str]) -> None:
+    text = SAMPLE.read_text(encoding="utf-8")
+    for old, new in changed.items():
+        assert old in text
+        text = text.replace(old, new)
+    file = tmp_path / "engine.yaml"
+    file.write_text(text, encoding="utf-8")
+    built, engine = machine(file)
+    angles = np.linspace(0, 4 * np.pi, 360, endpoint=False)
+    library, by_hand = analyse(built, angles), solve(engine, angles)
+
+    assert same(by_hand.torque, library.torque)
+    assert same(by_hand.torque_by_work, library.torque_by_work)
+    assert same(by_hand.bearing, library.forces.reactions["R01"].force)
+    for side, pin, piston, rod in zip(by_hand.sides, "AC", "BD", (2, 4), strict=True):
+        link, points, reactions = library.motion.links[rod], library.motion.points, library.forces.reactions
+        assert same(np.exp(1j * side.angle), np.exp(1j * link.angle))
+        assert same(side.omega, link.omega)
+        assert same(side.epsilon, link.epsilon)
+        for k, order in enumerate("pva"):
+            assert same(side.pin[k], getattr(points[pin], order))
+            assert same(side.centre[k], getattr(points[f"S{rod}"], order))
+            assert same(1j * side.piston[k], getattr(points[piston], order))
+        assert same(side.gas, np.abs(library.applied[rod // 2 - 1].force) * np.sign(side.gas))
+        assert same(side.crank_on_rod, reactions[f"R1{rod}"].force)
+        assert same(side.piston_on_rod, reactions[f"R{rod + 1}{rod}"].force)
+        assert same(side.wall_on_piston, reactions[f"R0{rod + 1}"].force)
+
+
+def test_solver_and_closed_form_are_both_timed() -> None:
+    taken = compare(SAMPLE, positions=16, rounds=1)
+    assert set(taken) == {"solver", "closed form"}
+    assert all(time > 0 for time in taken.values())
+
+
+def test_a_process_costs_time_and_memory(tmp_path: Path) -> None:
+    code = "import time; held = bytearray(b'x') * 60_000_000; time.sleep(0.05)"
+    cost = measure.run((sys.executable, "-c", code), tmp_path)
+    assert cost.seconds > 0.05
+    # The array alone takes 60 MB; a bare interpreter well under 60 more, or what this process had before exec.
+    assert cost.memory > 60
+
+
+def test_a_process_that_fails_says_why(tmp_path: Path) -> None:
+    with pytest.raises(RuntimeError, match="no such luck"):
+        measure.run((sys.executable, "-c", "raise SystemExit('no such luck')"), tmp_path)
+
+
+def test_tasks_take_turns_and_give_medians() -> None:
+    order: list[str] = []
+    costs = iter((1.0, 10.0, 5.0, 30.0, 3.0, 20.0))
+
+    def task(name: str) -> measure.Cost:
+        order.append(name)
+        return measure.Cost(next(costs), 1.0)
+
+    medians = measure.in_turns({name: lambda name=name: task(name) for name in "ab"}, 3)
+    assert "".join(order) == "ababab"
+    assert {name: cost.seconds for name, cost in medians.items()} == {"a": 3.0, "b": 20.0}
+
+
+def test_runs_one_after_the_other_add_up() -> None:
+    costs = iter((measure.Cost(1.0, 5.0), measure.Cost(2.0, 4.0)))
+    assert measure.repeated(lambda: next(costs), 2) == measure.Cost(3.0, 5.0)
+
+
+def test_the_size_of_a_document() -> None:
+    scene = Scene(10, 10, (Line(0j, 1j), Circle(0j, 1), Label(0j, "A")))
+    blocks = (
+        Paragraph((Text("hai từ"),)),
+        List(((Equation((Number(1), Number(2))),),)),
+        Table((), (), ((), (), ())),
+        Figure((scene, scene)),
+    )
+    assert size_of(blocks, 7) == Size(
+        7, figures=2, labels=2, strokes=4, formulas=2, tables=1, rows=3, words=2
+    )
+
+
+def test_shares_are_even_and_whole() -> None:
+    shares = [list(plain.share(7, 3, k)) for k in range(3)]
+    assert [i for part in shares for i in part] == list(range(7))
+    assert {len(part) for part in shares} == {2, 3}
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex is not installed")
+def test_the_plain_script_makes_a_document_of_that_size(tmp_path: Path) -> None:
+    import json
+    from dataclasses import asdict
+
+    import pymupdf
+
+    code = (sys.executable, plain.__file__, str(tmp_path), json.dumps(asdict(TINY)))
+    measure.run(code, tmp_path)
+    with pymupdf.open(tmp_path / "plain.pdf") as pdf:
+        assert len(pdf) == TINY.pages
+    source = (tmp_path / "plain.tex").read_text(encoding="utf-8")
+    assert source.count(r"\begin{equation}") == TINY.formulas
+    assert source.count(r"\includegraphics") == TINY.figures
+    assert source.count(r"\begin{longtable}") == TINY.tables
+
+
+def test_both_ways_of_setting_a_source_are_measured(tmp_path: Path) -> None:
+    bench = Bench(SAMPLE, tmp_path, ("typst",))
+    bench.source("typst").parent.mkdir(parents=True)
+    bench.source("typst").write_text("A report.", encoding="utf-8")
+    assert bench.typst_alone().seconds > 0
+    assert (tmp_path / "alone.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_the_table_is_aligned() -> None:
+    lines = table([Row("a", "≤ 1.5", "1.20", "words"), Row("longer", "", "12.00")]).splitlines()
+    assert (
+        len(
+            {line.index(end) + len(end) for line, end in zip(lines, ("result", "1.20", "12.00"), strict=True)}
+        )
+        == 1
+    )
