@@ -5,10 +5,10 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Mapping
 from functools import cache
-from pathlib import Path
 from string import Formatter
 from typing import Any
 
+from reportgen import folders
 from reportgen.assignment.faults import Fault
 from reportgen.assignment.source import words_of
 from reportgen.errors import Problem
@@ -17,17 +17,10 @@ from reportgen.notation.numbers import Language
 LONGEST_SHOWN = 40
 
 
-def templates_folder() -> Path:
-    """The folder of words and frames: packed into the package, or beside it in a checkout."""
-    package = Path(__file__).resolve().parent.parent
-    packed = package / "templates"
-    return packed if packed.is_dir() else package.parent / "templates"
-
-
 @cache
 def messages(language: Language) -> Mapping[str, Any]:
     """The message table: `faults`, `hints`, `words` (kinds of value, reasons) and `cli`."""
-    return words_of(templates_folder() / language / "messages.yaml")
+    return words_of(folders.templates() / language / "messages.yaml")
 
 
 def as_problem(fault: Fault, language: Language) -> Problem:

@@ -12,9 +12,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from reportgen import folders
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model
-from reportgen.assignment.messages import templates_folder
 from reportgen.errors import Problem
 from reportgen.notation.numbers import Language
 
@@ -56,7 +56,7 @@ def check(path: Path, language: Language | None = None) -> list[Problem]:
 def sample(name: str, language: Language) -> str:
     """The commented assignment file to fill in of a kind; raises `KeyError`."""
     file = f"{module(name).KIND}.yaml"
-    return (templates_folder() / language / "new" / file).read_text(encoding="utf-8")
+    return (folders.templates() / language / "new" / file).read_text(encoding="utf-8")
 
 
 def schema() -> dict[str, Any]:

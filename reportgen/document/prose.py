@@ -7,21 +7,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from reportgen import folders
 from reportgen.document.tree import Block, Inlines
-from reportgen.errors import TemplateError
 from reportgen.notation.numbers import Language
 
 if TYPE_CHECKING:
     from jinja2 import Environment
-
-
-def template_root() -> Path:
-    """The directory of all templates: inside the installed package, or beside it in a checkout."""
-    package = Path(__file__).resolve().parent.parent
-    for directory in (package / "templates", package.parent / "templates"):
-        if directory.is_dir():
-            return directory
-    raise TemplateError(f"{package / 'templates'}: the templates are missing")
 
 
 def search_path(
@@ -31,7 +22,7 @@ def search_path(
 
     A school's own words, then those of one kind of machine, then those common to all.
     """
-    root = root or template_root()
+    root = root or folders.templates()
     return (
         *((root / school / language,) if school else ()),
         *((root / language / kind,) if kind else ()),

@@ -14,30 +14,28 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
+from reportgen.notation.numbers import SERIES
+from reportgen.notation.numbers import nice_up as nice
+
+__all__ = [
+    "SERIES",
+    "PlanScales",
+    "choose_force_scale",
+    "choose_scale",
+    "crank_scales",
+    "enlargement",
+    "extent",
+    "length_scale",
+    "nice",
+    "nice_below",
+]
+
 CRANK_DRAWN = 50.0
 """Drawn length of the crank in mm unless the assignment says otherwise."""
 TINY = 3.0
 """Vectors drawn shorter than this (mm) get an enlarged inset."""
 NOTHING = 1e-9
 """A vector below this share of its figure's size is nothing and is not drawn."""
-
-
-def nice(value: float, series: Sequence[float] = SERIES) -> float:
-    """The smallest s·10ⁿ, s of the series, that is not below `value`.
-
-    Raises `ValueError` unless `value` is positive and finite.
-    """
-    if not (value > 0 and math.isfinite(value)):
-        raise ValueError("a scale is a positive number")
-    exponent = math.floor(math.log10(value))
-    # A value that is a member but for its last binary digits is that member.
-    for power in (exponent, exponent + 1):
-        for member in sorted(series):
-            candidate = float(f"{member}e{power}")
-            if candidate >= value * (1 - 1e-12):
-                return candidate
-    return float(f"{min(series)}e{exponent + 2}")
 
 
 def nice_below(value: float, series: Sequence[float] = SERIES) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from decimal import ROUND_HALF_UP, Decimal
 from typing import Literal
 
@@ -49,10 +50,18 @@ def significant_decimals(value: float, digits: int) -> int:
     return digits - 1 - math.floor(math.log10(abs(value)))
 
 
-def nice_up(value: float, series: tuple[float, ...] = (1, 2, 2.5, 4, 5)) -> float:
-    """The smallest series·10ⁿ that is not below `value`; raises `ValueError` unless value > 0."""
-    if not value > 0:
-        raise ValueError("a scale needs a positive size")
+SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
+"""Scales one measures with are these times a power of ten."""
+
+
+def nice_up(value: float, series: Sequence[float] = SERIES) -> float:
+    """The smallest s·10ⁿ, s of the series, that is not below `value`.
+
+    Raises `ValueError` unless `value` is positive and finite.
+    """
+    if not (value > 0 and math.isfinite(value)):
+        raise ValueError("a scale is a positive number")
     decade = math.floor(math.log10(value))
-    choices = (float(f"{step}e{power}") for power in (decade, decade + 1) for step in series)
+    choices = (float(f"{step}e{power}") for power in (decade, decade + 1, decade + 2) for step in sorted(series))
+    # A value that is a member but for its last binary digits is that member.
     return next(choice for choice in choices if choice >= value * (1 - 1e-12))

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from typing import TYPE_CHECKING
 
-from reportgen.document.prose import template_root
+from reportgen import folders
 from reportgen.document.tree import (
     BlankLine,
     Block,
@@ -86,7 +86,7 @@ def _frame() -> Template:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(
-        loader=FileSystemLoader(template_root() / "frames" / "latex"),
+        loader=FileSystemLoader(folders.templates() / "frames" / "latex"),
         block_start_string="<%",
         block_end_string="%>",
         variable_start_string="<(",

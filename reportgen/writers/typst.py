@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from pathlib import Path
 
+from reportgen import folders
 from reportgen.document.tree import (
     BlankLine,
     Block,
@@ -95,12 +95,11 @@ def write(document: Document) -> str:
 
 def _frame() -> str:
     """The frame's source: from the installed package, or beside it in a checkout."""
-    package = Path(__file__).parents[1]
-    for folder in (package, package.parent):
-        path = folder / "templates" / "frames" / "typst" / "report.typ"
-        if path.is_file():
-            return path.read_text(encoding="utf-8")
-    raise TypesetterError("the frame templates/frames/typst/report.typ is missing")
+    path = folders.templates() / "frames" / "typst" / "report.typ"
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise TypesetterError(f"{path}: {error.strerror}") from error
 
 
 def _array(items: Iterable[str]) -> str:

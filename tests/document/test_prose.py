@@ -9,7 +9,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from reportgen.document.prose import Prose, search_path, template_root
+from reportgen import folders
+from reportgen.document.prose import Prose, search_path
 from reportgen.document.tree import (
     BlankLine,
     Block,
@@ -267,4 +268,4 @@ def test_the_nearest_words_win(tmp_path: Path) -> None:
 
 
 def test_the_templates_are_found() -> None:
-    assert (template_root() / "vi").is_dir()
+    assert (folders.templates() / "vi").is_dir()
