@@ -183,7 +183,7 @@ def _names(
         "reaction_ids": facts.reaction_ids,
         "reaction_angles": facts.reaction_angles,
         "crank_lines": facts.crank_lines,
-        "driver_polygon": facts.driver_polygon,
+        "driver_polygon": facts.driver_polygon if facts.books.polygons else None,
         "lowered": lowered,
         "group_kind": lambda group: words["groups"][group.kind],
         "stroke_name": lambda link, k: words["strokes"][int(analysis.gas[f"P{link}"].stroke[k - 1])],
