@@ -11,20 +11,22 @@ import numpy as np
 
 from reportgen.analysis import FULL_TURN, Analysis, analyse
 from reportgen.cycle.indicator import StrokeIndicator
-from reportgen.document.facts import Facts
+from reportgen.document.facts import BodyView, Facts
 from reportgen.document.views import GroupView
 from reportgen.figures import charts, indicator
 from reportgen.figures.actions import ArmOf, Couple, Force
 from reportgen.figures.bodies import bodies
 from reportgen.figures.draft import Draft
+from reportgen.figures.labels import label
 from reportgen.figures.lever import lever
 from reportgen.figures.plan import Plan
 from reportgen.figures.positions import PositionPlan, position_plan
-from reportgen.figures.scene import Scene
+from reportgen.figures.scene import Circle, Item, Line, Scene
 from reportgen.figures.scheme import Looks, groups, scheme
 from reportgen.figures.sheet import sheets
+from reportgen.figures.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.ledger.core import Ledger
-from reportgen.mechanism.loads import Load, as_single_force
+from reportgen.mechanism.loads import Load, as_single_force, percussion_meeting
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import DRIVER
 from reportgen.notation import symbols
@@ -36,6 +38,9 @@ TEXT_BLOCK = (160.0, 225.0)
 """What of an A4 page a figure may fill with its caption."""
 WHITE = (40.0, 64.0)
 """What of a plate's page (mm) its margins, header and caption take."""
+HALF = 0.5
+CLOSE = 4.0
+"""What of their margins (mm) scenes of one figure give up to stand side by side."""
 SCHEME_BOX = (120.0, 130.0)
 DENSE = 361
 SHOWN_AT = 1
@@ -64,7 +69,7 @@ def on_paper(scene: Scene) -> Drawn:
 
 def beside_one_another(*scenes: Scene) -> Drawn:
     """Scenes close together on one piece of paper if they fit a text block so, else as they are."""
-    together = sheets(scenes, *TEXT_BLOCK)
+    together = sheets(scenes, *TEXT_BLOCK, trim=CLOSE)
     if len(together) == 1 and together[0].width <= TEXT_BLOCK[0] and together[0].height <= TEXT_BLOCK[1]:
         return Drawn(together)
     return Drawn(scenes)
@@ -238,96 +243,140 @@ class Pictures:
     # --- forces
 
     def bodies(self, k: int, group: GroupView) -> Drawn:
-        """The group with all its forces, then its first link with the arms of the moments."""
-        machine, motion, scale = self.analysis.machine, self.analysis.motion, self.scale
+        """The group with all its forces, at half size; then its first link with the arms of the moments."""
         names = self.words["figure"]
-        looks = replace(self.looks(scale), scale=None)
-        joint = [self._reaction(f"R{group.guide}", f"R.{group.guide}", group.Q, k)]
-        outer = [
-            self._component(f"R{group.outer}.t", f"R.{group.outer}.t", group.P, k),
-            self._component(f"R{group.outer}.n", f"R.{group.outer}.n", group.P, k),
-        ]
-        whole = bodies(
-            machine.linkage,
-            motion,
-            k - 1,
-            scale,
+        half = self.scale * HALF
+        whole = self._bodies(
+            k,
+            half,
             (group.i, group.j),
-            [*self._loads((group.i, group.j), k), *outer, *joint],
-            looks=looks,
+            [
+                *self._loads((group.i, group.j), k, half),
+                *self._outer(group, k, half),
+                self._reaction(f"R{group.guide}", f"R.{group.guide}", group.Q, k, half),
+            ],
+            looks=self._bare_looks(HALF),
             title=names["group"].format(i=group.i, j=group.j),
         )
-        about = complex(motion.points[group.Q].p[k - 1]) * scale
-        arms = [
-            ArmOf(self.ledger.symbol(id), about, id.split(".")[1])
-            for id in self.facts.arm_ids(group)
-            if not self.facts.zero(id, k)
-        ]
-        inner = self._reaction(f"R{group.inner}", f"R.{group.inner}", group.Q, k)
-        alone = bodies(
-            machine.linkage,
-            motion,
-            k - 1,
+        scale = self.scale
+        about = complex(self.analysis.motion.points[group.Q].p[k - 1]) * scale
+        alone = self._bodies(
+            k,
             scale,
             (group.i,),
-            [*self._loads((group.i,), k), *outer, inner],
-            arms=arms,
+            [
+                *self._loads((group.i,), k, scale),
+                *self._outer(group, k, scale),
+                self._reaction(f"R{group.inner}", f"R.{group.inner}", group.Q, k, scale),
+            ],
+            arms=[
+                ArmOf(self.ledger.symbol(id), about, id.split(".")[1])
+                for id in self.facts.arm_ids(group)
+                if not self.facts.zero(id, k)
+            ],
             turning=self._couples((group.i,), k),
-            looks=replace(looks, scale=self.length_scale()),
+            extra=self._percussion(group, k),
+            looks=self._bare_looks(1.0),
             title=f"{names['link']} {group.i}",
         )
         return beside_one_another(whole, alone)
 
+    def _bodies(
+        self, k: int, scale: float, links: Sequence[int], acting: Sequence[Force], **more: Any
+    ) -> Scene:
+        return bodies(
+            self.analysis.machine.linkage, self.analysis.motion, k - 1, scale, links, acting, **more
+        )
+
+    def _bare_looks(self, factor: float) -> Looks:
+        return self.looks(self.scale * factor, factor)
+
+    def _outer(self, group: GroupView, k: int, scale: float) -> list[Force]:
+        """The components of the reaction in the group's outer pin."""
+        return [
+            self._reaction(f"R{group.outer}.{part}", f"R.{group.outer}.{part}", group.P, k, scale)
+            for part in ("t", "n")
+        ]
+
     def crank(self, k: int) -> Scene:
         """The driver with the reactions on it and their arms about its centre."""
-        machine, motion, scale = self.analysis.machine, self.analysis.motion, self.scale
+        motion, scale = self.analysis.motion, self.scale
         centre = self.facts.driver.centre
         about = complex(motion.points[centre].p[k - 1]) * scale
-        polygon = self.facts.driver_polygon
-        acting, arms = self._loads((DRIVER,), k), []
-        for side in polygon.sides:
+        acting = self._loads((DRIVER,), k, scale)
+        for side in self.facts.driver_polygon.sides:
             if side.name.startswith("R") and not side.unknown:
-                acting.append(self._reaction(side.name, f"R.{side.name[1:]}", self._pin_of(side.name), k))
-        acting.append(self._reaction("R01", "R.01", centre, k))
-        for id in self.facts.crank_lines[:-1]:
-            arms.append(ArmOf(self.ledger.symbol(id), about, id.split(".")[1]))
-        turning = (Couple(self.ledger.symbol("M.eq"), about, float(np.sign(self.analysis.torque[k - 1]))),)
-        looks = replace(self.looks(scale), centres=())
-        return bodies(
-            machine.linkage, motion, k - 1, scale, (DRIVER,), acting, arms=arms, turning=turning, looks=looks
+                pin = self._pin_of(side.name)
+                acting.append(self._reaction(side.name, f"R.{side.name[1:]}", pin, k, scale))
+        acting.append(self._reaction("R01", "R.01", centre, k, scale))
+        arms = [
+            ArmOf(self.ledger.symbol(id), about, id.split(".")[1])
+            for id in self.facts.crank_lines[:-1]
+            if not self.facts.zero(id, k)
+        ]
+        turning = (
+            Couple(self.ledger.symbol("M.eq"), about, float(np.sign(self.ledger.number("M.eq", k).value))),
         )
+        looks = replace(self.looks(scale), centres=())
+        return self._bodies(k, scale, (DRIVER,), acting, arms=arms, turning=turning, looks=looks)
 
     def _pin_of(self, reaction: str) -> str:
         """The pin of the crank at which a group's reaction acts."""
         link = reaction.removeprefix("R")[: -len(str(DRIVER))]
         return next(group.P for group in self.facts.groups if str(group.i) == link)
 
-    def _reaction(self, name: str, id: str, place: str, k: int) -> Force:
-        at = complex(self.analysis.motion.points[place].p[k - 1]) * self.scale
+    def _reaction(self, name: str, id: str, place: str, k: int, scale: float) -> Force:
+        at = complex(self.analysis.motion.points[place].p[k - 1]) * scale
         symbol = symbols.vector(self.ledger.symbol(id))
-        return Force(symbol, at, complex(self.ledger[f"F.{name}"].at(k)), "reaction", name)
+        direction = 0j if self.facts.zero(id, k) else complex(self.ledger[f"F.{name}"].at(k))
+        return Force(symbol, at, direction, "reaction", name)
 
-    def _component(self, name: str, id: str, place: str, k: int) -> Force:
-        return self._reaction(name, id, place, k)
-
-    def _loads(self, links: Sequence[int], k: int) -> list[Force]:
+    def _loads(self, links: Sequence[int], k: int, scale: float) -> list[Force]:
         """Loads on links; a force with a couple acts at the one point where it alone does both."""
         result = []
         for load in self.analysis.loads:
-            force = complex(load.force[k - 1])
             if load.link not in links or load.name not in self.ledger or self.facts.zero(load.name, k):
                 continue
-            at = self._acts_at(load, k)
-            result.append(
-                Force(
-                    symbols.vector(self.ledger.symbol(load.name)), at * self.scale, force, "load", load.name
-                )
-            )
+            symbol = symbols.vector(self.ledger.symbol(load.name))
+            at, force = self._acts_at(load, k) * scale, complex(load.force[k - 1])
+            result.append(Force(symbol, at, force, "load", load.name))
         return result
 
     def _acts_at(self, load: Load, k: int) -> complex:
+        """Where a load is drawn: an inertia force at the constructed point Q, else where it acts alone."""
+        for body in self.facts.couples:
+            if load.name == f"Pqt{body.link}" and (points := self._percussion_points(body, k)):
+                return points[1]
         single = complex(as_single_force(load)[k - 1])
         return single if np.isfinite(single) else complex(load.point[k - 1])
+
+    def _percussion_points(self, body: BodyView, k: int) -> tuple[complex, complex] | None:
+        """The centre of percussion K and the point Q (m); None where their lines do not meet near the link."""
+        start, centre = (self.analysis.motion.points[name] for name in (body.start, body.centre))
+        l_sk = float(self.ledger.families[body.ids[-1]].values[0])
+        s, a = complex(centre.p[k - 1]), complex(start.p[k - 1])
+        q = complex(percussion_meeting(start.p, centre.p, start.a, centre.a, l_sk)[k - 1])
+        near = abs(s - a) + 2 * l_sk
+        return (s + (s - a) / abs(s - a) * l_sk, q) if np.isfinite(q) and abs(q - s) < near else None
+
+    def _percussion(self, group: GroupView, k: int) -> Draft:
+        """K on the link, and the two lines of construction that meet in Q."""
+        body = next((body for body in self.facts.couples if body.link == group.i), None)
+        points = body and self._percussion_points(body, k)
+        if not body or not points or self.facts.zero(f"M.Pqt{body.link}", k):
+            return Draft()
+        known, meeting = (point * self.scale for point in points)
+        centre = complex(self.analysis.motion.points[body.centre].p[k - 1]) * self.scale
+        marks: tuple[Item, ...] = (
+            Line(centre, meeting, CONSTRUCTION),
+            Line(known, meeting, CONSTRUCTION),
+            Circle(known, 0.6, VISIBLE, PAPER),
+            Circle(meeting, 0.6, VISIBLE, PAPER),
+        )
+        link = str(body.link)
+        return Draft(
+            marks, (label(known, Symbol("K", link), gap=1.2), label(meeting, Symbol("Q", link), gap=1.2))
+        )
 
     def _couples(self, links: Sequence[int], k: int) -> list[Couple]:
         """Couples whose force is nothing."""

@@ -60,7 +60,10 @@ class Tables:
     def _as_typed(self, id: str, row: tuple[Cell, ...]) -> tuple[Cell, ...]:
         """A ratio written 1/3.6 stays one."""
         definition = self.facts.ledger[id].definition
-        return row if definition is None else (*row[:-1], Cell((InlineMath(definition),)))
+        if not isinstance(definition, Fraction):
+            return row
+        ends = [part for part in (definition.top, definition.bottom) if isinstance(part, Number)]
+        return (*row[:-1], Cell((Value(ends[0]), Text("/"), Value(ends[1])))) if len(ends) == 2 else row
 
     def indicator_table(self, key: str, caption: str) -> Table:
         """The indicator diagram as given, in gauge pressure: by stroke, or against the cycle angle."""
@@ -73,7 +76,8 @@ class Tables:
                 (self.voice.cell(name), *(self._exact(value / 1e4) for value in row))
                 for name, row in zip(words, table.rows, strict=True)
             ]
-            head = (self.voice.cell(Fraction(Symbol("s"), Symbol("H"))), *map(self._exact, table.nodes))
+            share = Cell((InlineMath(Symbol("s")), Text("/"), InlineMath(Symbol("H"))))
+            head = (share, *map(self._exact, table.nodes))
             return self._blocks(key, caption, head, rows, first)
         assert isinstance(table, AngleIndicator)
         head = (self.voice.cell(Symbol("φ")), self.voice.cell(Symbol("p")))
@@ -214,10 +218,7 @@ class Tables:
         ends = [*starts[1:], machine.positions]
         head = (
             positions,
-            *(
-                f"{start + 1}–{end % machine.positions + 1}"
-                for start, end in zip(starts, ends, strict=True)
-            ),
+            *(f"{start + 1}–{end % machine.positions + 1}" for start, end in zip(starts, ends, strict=True)),
         )
         rows = [
             (f"{first} {state.piston.link}", *(names[int(state.stroke[start])] for start in starts))

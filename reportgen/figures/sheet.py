@@ -17,16 +17,21 @@ TRIM = 3.5
 
 
 def sheets(
-    scenes: Sequence[Scene], width: float, height: float, note: Content | None = None
+    scenes: Sequence[Scene],
+    width: float,
+    height: float,
+    note: Content | None = None,
+    trim: float = TRIM,
 ) -> tuple[Scene, ...]:
     """The scenes in true size on as many sheets of `width` × `height` mm as they need.
 
     Rows are filled in order and spread over the width; each scene's title stands below it and `note` (the
-    common scale) below all.  A scene larger than the sheet gets one of its own size.
+    common scale) below all.  Of each scene's margin `trim` mm are given up.  A scene larger than the sheet
+    gets one of its own size.
     """
     room = height - (NOTE_HEIGHT if note is not None else 0.0)
     pages: list[list[_Row]] = []
-    for row in _rows(scenes, width):
+    for row in _rows(scenes, width, trim):
         if not pages or sum(other.height for other in pages[-1]) + row.height > room:
             pages.append([])
         pages[-1].append(row)
@@ -35,30 +40,30 @@ def sheets(
 
 @dataclass(frozen=True, slots=True)
 class _Row:
-    """Scenes side by side."""
+    """Scenes side by side, each without `trim` mm of its margin."""
 
     scenes: tuple[Scene, ...]
+    trim: float
 
     @property
     def width(self) -> float:
-        return sum(_wide(scene) for scene in self.scenes)
+        return sum(map(self.wide, self.scenes))
 
     @property
     def height(self) -> float:
-        return max(scene.height for scene in self.scenes) - 2 * TRIM + TITLE_HEIGHT
+        return max(scene.height for scene in self.scenes) - 2 * self.trim + TITLE_HEIGHT
+
+    def wide(self, scene: Scene) -> float:
+        return scene.width - 2 * self.trim
 
 
-def _wide(scene: Scene) -> float:
-    return scene.width - 2 * TRIM
-
-
-def _rows(scenes: Sequence[Scene], width: float) -> list[_Row]:
+def _rows(scenes: Sequence[Scene], width: float, trim: float) -> list[_Row]:
     rows: list[_Row] = []
     for scene in scenes:
-        if rows and rows[-1].width + _wide(scene) <= width:
-            rows[-1] = _Row((*rows[-1].scenes, scene))
+        if rows and rows[-1].width + rows[-1].wide(scene) <= width:
+            rows[-1] = _Row((*rows[-1].scenes, scene), trim)
         else:
-            rows.append(_Row((scene,)))
+            rows.append(_Row((scene,), trim))
     return rows
 
 
@@ -73,12 +78,12 @@ def _sheet(rows: Sequence[_Row], width: float, note: Content | None) -> Scene:
         space = (wide - row.width) / (len(row.scenes) + 1)
         x = space
         for scene in row.scenes:
-            corner = complex(x - TRIM, top + TITLE_HEIGHT - TRIM)
+            corner = complex(x - row.trim, top + TITLE_HEIGHT - row.trim)
             items += [moved(item, corner) for item in scene.items]
             if scene.title:
-                middle = complex(x + _wide(scene) / 2, top + TITLE_HEIGHT / 2)
+                middle = complex(x + row.wide(scene) / 2, top + TITLE_HEIGHT / 2)
                 items.append(Label(middle, scene.title, size=LABEL))
-            x += _wide(scene) + space
+            x += row.wide(scene) + space
     if note is not None:
         items.append(Label(complex(wide / 2, NOTE_HEIGHT / 3), note, size=LABEL))
     return Scene(wide, height, tuple(items))
