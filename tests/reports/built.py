@@ -1,0 +1,126 @@
+"""Finished reports of every assignment file in the repository, each built once a session."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from reportgen import api
+from reportgen.analysis import Analysis
+from reportgen.assignment import Assignment
+from reportgen.document.prose import search_path
+from reportgen.document.tree import Block, Document, Figure, List, Plate
+from reportgen.document.words import load_words
+from reportgen.figures.scene import Scene
+from reportgen.ledger.report import Books, keep
+from reportgen.notation.numbers import Language
+
+ROOT = Path(__file__).parents[2]
+FILES = sorted((ROOT / "assignments").glob("*.yaml"))
+LANGUAGES: tuple[Language, ...] = ("vi", "en")
+ENGINES: tuple[api.Engine, ...] = ("typst", "latex")
+
+needs_tex = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex is not installed")
+MARKS = {"typst": (), "latex": (needs_tex,)}
+
+ENGINE_CASES = [pytest.param(engine, marks=MARKS[engine], id=engine) for engine in ENGINES]
+WRITTEN = [
+    pytest.param((path, language), id=f"{path.stem}-{language}") for path in FILES for language in LANGUAGES
+]
+CASES = [
+    pytest.param((path, engine, language), marks=MARKS[engine], id=f"{path.stem}-{engine}-{language}")
+    for path in FILES
+    for engine in ENGINES
+    for language in LANGUAGES
+]
+PAIRS = [pytest.param(*case.values, marks=(needs_tex,), id=case.id) for case in WRITTEN]
+
+
+@dataclass(frozen=True)
+class Written:
+    """A report below the typesetter: what it was made of, and its tree."""
+
+    assignment: Assignment
+    analysis: Analysis
+    books: Books
+    document: Document
+
+    @property
+    def language(self) -> Language:
+        return self.document.language
+
+
+@dataclass(frozen=True)
+class Report:
+    """A report on paper."""
+
+    written: Written
+    engine: api.Engine
+    source: str
+    pdf: bytes
+    overfull: tuple[str, ...]
+
+    @property
+    def document(self) -> Document:
+        return self.written.document
+
+    @property
+    def language(self) -> Language:
+        return self.written.language
+
+    @cached_property
+    def pages(self) -> Any:
+        """The open PDF."""
+        return pytest.importorskip("pymupdf").open(stream=self.pdf, filetype="pdf")
+
+
+def compose(assignment: Assignment) -> Written:
+    """The tree of an assignment with all it stands on."""
+    analysis = api.analyse(assignment)
+    units = load_words(search_path(assignment.language, assignment.kind))["units"]
+    return Written(assignment, analysis, keep(analysis, units), api.document(assignment))
+
+
+@cache
+def written(path: Path, language: Language) -> Written:
+    return compose(api.load(path, language))
+
+
+def typeset(tree: Written, engine: api.Engine) -> Report:
+    """A tree on paper; for LaTeX with what its log says of boxes that are too large."""
+    if engine == "latex":
+        from reportgen.writers import latex, pdflatex
+
+        source = latex.write(tree.document)
+        done = pdflatex.compile(source)
+        return Report(tree, engine, source, done.pdf, done.overfull)
+    return Report(tree, engine, *api.typeset(tree.document, engine), ())
+
+
+@cache
+def report(path: Path, engine: api.Engine, language: Language) -> Report:
+    return typeset(written(path, language), engine)
+
+
+def walk(blocks: tuple[Block, ...]) -> Iterator[Block]:
+    """All blocks in order, those inside lists too."""
+    for block in blocks:
+        yield block
+        if isinstance(block, List):
+            for item in block.items:
+                yield from walk(item)
+
+
+def scenes(document: Document) -> Iterator[tuple[str, Scene]]:
+    """(figure's key, scene) of every drawing, in printed order."""
+    for block in walk(document.blocks):
+        if isinstance(block, Figure):
+            yield from ((block.key, scene) for scene in block.scenes)
+        elif isinstance(block, Plate):
+            yield block.key, block.scene

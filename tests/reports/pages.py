@@ -1,0 +1,133 @@
+"""What a PDF page shows: glyphs with their ink, words, arrows; read by an independent PDF library."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+MM = 72 / 25.4
+"""PDF points in a millimetre."""
+BODY = 24 * MM
+"""Above and below this much of a page stand header and footer, except on plates."""
+EDGE = 6 * MM
+"""What printers leave white along the edge of the paper, with some to spare."""
+PROSE = (11.6, 12.4)
+"""Font sizes of running text, headings of level 3 and formulas; all else is smaller or larger."""
+
+_DROPPED = re.compile("[\\s\N{WORD JOINER}\N{SOFT HYPHEN}\N{HYPHEN}-]+")
+
+
+@dataclass(frozen=True, slots=True)
+class Glyph:
+    """A character, the box of its ink (points, y down), its font size and baseline, and its word's number."""
+
+    char: str
+    box: tuple[float, float, float, float]
+    size: float
+    origin: tuple[float, float]
+    bold: bool
+    word: int
+
+
+def squash(text: str) -> str:
+    """Text without what typesetters are free in: spaces, line breaks, hyphens, compatibility forms."""
+    return _DROPPED.sub("", unicodedata.normalize("NFKC", text))
+
+
+def glyphs(page: Any) -> list[Glyph]:
+    """The visible characters of a page in the order of its text."""
+    import pymupdf
+
+    flags = (pymupdf.TEXTFLAGS_WORDS | pymupdf.TEXT_ACCURATE_BBOXES) & ~pymupdf.TEXT_PRESERVE_LIGATURES
+    found: list[Glyph] = []
+    word = 0
+    for block in page.get_text("rawdict", flags=flags)["blocks"]:
+        for line in block.get("lines", ()):
+            word += 1
+            for span in line["spans"]:
+                bold = "bold" in span["font"].lower()
+                for char in span["chars"]:
+                    if not char["c"].strip():
+                        word += 1
+                        continue
+                    found.append(
+                        Glyph(char["c"], tuple(char["bbox"]), span["size"], tuple(char["origin"]), bold, word)
+                    )
+    return found
+
+
+def is_plate(page: Any) -> bool:
+    """Whether a page is larger than A4."""
+    return bool(page.rect.width > 215 * MM or page.rect.height > 300 * MM)
+
+
+def body(page: Any) -> list[Glyph]:
+    """The glyphs of a page without its header and footer."""
+    edge = 13 * MM if is_plate(page) else BODY
+    return [glyph for glyph in glyphs(page) if edge < glyph.origin[1] < page.rect.height - edge]
+
+
+def text(of: Iterable[Glyph]) -> str:
+    return squash("".join(glyph.char for glyph in of))
+
+
+def overlaps(page: Any, tolerance: float) -> list[str]:
+    """Pairs of glyphs of different words whose ink overlaps by more than `tolerance` points both ways."""
+    found = glyphs(page)
+    if not found:
+        return []
+    boxes = np.array([glyph.box for glyph in found])
+    words = np.array([glyph.word for glyph in found])
+    across = np.minimum.outer(boxes[:, 2], boxes[:, 2]) - np.maximum.outer(boxes[:, 0], boxes[:, 0])
+    down = np.minimum.outer(boxes[:, 3], boxes[:, 3]) - np.maximum.outer(boxes[:, 1], boxes[:, 1])
+    met = (np.minimum(across, down) > tolerance) & (words[:, None] < words[None, :])
+    return [
+        f"page {page.number + 1}: {found[i].char!r} and {found[j].char!r} at {found[i].origin}"
+        for i, j in np.argwhere(met)
+    ]
+
+
+def outside(page: Any, bearing: float) -> list[str]:
+    """Glyphs outside the margins by more than `bearing` points.
+
+    A4: 30 mm left, 20 mm right; plates 15 mm.  Above and below only header and footer use the margin,
+    and keep what printers need from the edge.
+    """
+    left, right = (15.0, 15.0) if is_plate(page) else (30.0, 20.0)
+    allowed = (
+        left * MM - bearing,
+        EDGE,
+        page.rect.width - right * MM + bearing,
+        page.rect.height - EDGE,
+    )
+    return [
+        f"page {page.number + 1}: {glyph.char!r} at {glyph.box}"
+        for glyph in glyphs(page)
+        if glyph.box[0] < allowed[0]
+        or glyph.box[1] < allowed[1]
+        or glyph.box[2] > allowed[2]
+        or glyph.box[3] > allowed[3]
+    ]
+
+
+def arrows(page: Any) -> Iterator[float]:
+    """Lengths (mm) of the straight arrows of a page, in painting order.
+
+    An arrow is a stroke of one straight piece and, painted next, a filled triangle: its tip is the
+    triangle's first corner, and the shaft ends inside.
+    """
+    for shaft, head in pairwise(page.get_drawings()):
+        if shaft["type"] != "s" or head["type"] != "f" or len(shaft["items"]) != 1:
+            continue
+        kind, *points = shaft["items"][0]
+        edges = head["items"]
+        if kind != "l" or len(edges) not in (2, 3) or any(edge[0] != "l" for edge in edges):
+            continue
+        tip, start = edges[0][1], points[0]
+        yield abs(complex(tip.x - start.x, tip.y - start.y)) / MM

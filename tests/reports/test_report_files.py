@@ -1,0 +1,145 @@
+"""Every assignment file end to end: the PDF as a reader holds it."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from reportgen import api
+from reportgen.document.plain import plain
+from reportgen.document.tree import Contents, Section
+from tests.reports import built, pages
+from tests.reports.built import Report
+from tests.reports.pages import squash
+
+pymupdf = pytest.importorskip("pymupdf")
+
+INK = 0.1
+"""Points that the ink of two words may share: the PDF library rounds its boxes to about 0.05."""
+BEARING = 0.5
+"""Points by which a glyph's ink may hang over the edge of its own box."""
+
+
+def test_a_report_of_the_engine_has_thirty_to_sixty_pages(report: Report) -> None:
+    if report.written.assignment.kind != "engine-twin":
+        pytest.skip("the number of pages is given for the engine only")
+    assert 30 <= report.pages.page_count <= 60
+
+
+def test_no_page_is_empty(report: Report) -> None:
+    for page in report.pages:
+        assert page.get_drawings() or pages.body(page), page.number + 1
+
+
+def headings(report: Report) -> list[tuple[str, int]]:
+    """(number and title, page) of each heading of the contents, found where it stands in bold print."""
+    sections = [
+        squash(f"{block.number}{plain(block.title, report.language)}")
+        for block in report.document.blocks
+        if isinstance(block, Section) and block.level <= 3
+    ]
+    printed = [pages.text(glyph for glyph in pages.body(page) if glyph.bold) for page in report.pages]
+    skipped = contents_pages(report)
+    found: list[tuple[str, int]] = []
+    at = 0
+    for title in sections:
+        at = next(page for page in range(at, len(printed)) if page not in skipped and title in printed[page])
+        found.append((title, at + 1))
+    return found
+
+
+def contents_pages(report: Report) -> range:
+    """Indices of the pages from the title of the contents to the next heading."""
+    (title,) = (block.title for block in report.document.blocks if isinstance(block, Contents))
+    start = next(page.number for page in report.pages if pages.text(pages.body(page)).startswith(squash(title)))
+    last = start
+    while re.search(r"(\.{5}\d+){3}", pages.text(pages.body(report.pages[last + 1]))):
+        last += 1
+    return range(start, last + 1)
+
+
+def test_contents_tell_the_page_on_which_each_heading_stands(report: Report) -> None:
+    (title,) = (block.title for block in report.document.blocks if isinstance(block, Contents))
+    printed = "".join(pages.text(pages.body(report.pages[number])) for number in contents_pages(report))
+    entries = (re.escape(heading) + r"\.*" + str(page) for heading, page in headings(report))
+    assert re.fullmatch(re.escape(squash(title)) + "".join(entries), printed)
+
+
+def test_pages_are_numbered_as_they_lie(report: Report) -> None:
+    word = squash(report.document.words.page)
+    for page in list(report.pages)[1:]:
+        foot = pages.text(
+            glyph for glyph in pages.glyphs(page) if glyph.origin[1] > page.rect.height - 17 * pages.MM
+        )
+        assert foot.endswith(f"{word}{page.number + 1}")
+
+
+def test_no_glyph_stands_outside_the_margins(report: Report) -> None:
+    assert [fault for page in list(report.pages)[1:] for fault in pages.outside(page, BEARING)] == []
+
+
+def test_no_words_intersect(report: Report) -> None:
+    assert [fault for page in report.pages for fault in pages.overlaps(page, INK)] == []
+
+
+def test_intersecting_words_are_seen() -> None:
+    """The measure itself: two words set half a letter apart are told, side by side they are not."""
+    page = pymupdf.open().new_page()
+    page.insert_text((100, 100), "mm")
+    page.insert_text((125, 100), "nn")
+    assert pages.overlaps(page, INK) == []
+    page.insert_text((103, 103), "kk")
+    assert pages.overlaps(page, INK) != []
+
+
+def test_no_box_is_overfull(report: Report) -> None:
+    assert report.overfull == ()
+
+
+# --- from a shell ---------------------------------------------------------------------------------
+
+
+def compiled_as_it_stands(source: Path, engine: api.Engine) -> bytes:
+    """The PDF that a user's own typesetter makes of a kept source, alone in its folder."""
+    if engine == "typst":
+        import typst
+
+        return bytes(typst.compile(str(source)))
+    for _ in range(3):
+        subprocess.run(
+            ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", source.name],
+            cwd=source.parent,
+            check=True,
+            stdout=subprocess.DEVNULL,
+            timeout=120,
+        )
+    return source.with_suffix(".pdf").read_bytes()
+
+
+def text_of(pdf: bytes) -> list[Any]:
+    return [page.get_text() for page in pymupdf.open(stream=pdf, filetype="pdf")]
+
+
+@pytest.mark.parametrize("engine", built.ENGINE_CASES)
+@pytest.mark.parametrize("path", built.FILES, ids=lambda path: path.stem)
+def test_a_new_process_gives_the_same_bytes_and_a_source_that_compiles(
+    path: Path, engine: api.Engine, tmp_path: Path
+) -> None:
+    command = [sys.executable, "-m", "reportgen.cli", "build", str(path), "--out", str(tmp_path)]
+    command += ["--engine", engine, "--keep-source"]
+    done = subprocess.run(command, cwd=built.ROOT, check=True, capture_output=True, text=True, timeout=300)
+    folder = tmp_path / path.stem
+    assert done.stdout.splitlines() == [str(folder / "report.pdf")]
+    kept = folder / f"report{api.SUFFIX[engine]}"
+    assert set(folder.iterdir()) == {folder / "report.pdf", kept}
+    pdf = (folder / "report.pdf").read_bytes()
+    report = built.report(path, engine, api.load(path).language)
+    assert pdf == report.pdf
+    alone = tmp_path / "alone"
+    alone.mkdir()
+    assert text_of(compiled_as_it_stands(kept.rename(alone / kept.name), engine)) == text_of(pdf)
