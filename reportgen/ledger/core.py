@@ -111,6 +111,12 @@ class Builder:
         self.families: dict[str, Family] = {}
         self._values: dict[str, np.ndarray] = {}
 
+    def copy(self) -> Builder:
+        """What is entered so far, for a trial."""
+        other = Builder(self.positions)
+        other.families, other._values = dict(self.families), dict(self._values)
+        return other
+
     def __contains__(self, id: str) -> bool:
         return id in self.families
 
