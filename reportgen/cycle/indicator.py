@@ -28,6 +28,11 @@ DEAD_CENTRES = (0.0, math.pi, 2 * math.pi, 3 * math.pi)
 AT_DEAD_CENTRE = 1e-9
 """An angle this near below a dead centre (rad) is rounding of the dead centre itself."""
 
+HALVINGS = 60
+"""A stroke halved so often is below the spacing of floats there."""
+SETTLED = 1e-9
+"""A last step (rad) whose square is far below rounding."""
+
 
 def stroke_at(cycle_angle: ArrayLike, dead_centres: ArrayLike = DEAD_CENTRES) -> NDArray[np.int64]:
     """Which stroke (0…3 of `STROKES`) a cycle angle lies in; a dead centre begins its stroke.
@@ -84,8 +89,8 @@ class StrokeIndicator:
     ) -> tuple[float, ...]:
         """All cycle angles in [0, 4π] where the pressure bends or jumps, rising.
 
-        `fraction_of` gives s/H at cycle angles [N]; it is monotonic between dead centres, so halving
-        finds the angle of every node.
+        `fraction_of` gives s/H at cycle angles [N]; it is monotonic between dead centres, so each
+        stroke crosses every node once.
         """
         starts = np.asarray(dead_centres, dtype=np.float64)
         edges = np.append(starts, CYCLE)
@@ -94,11 +99,8 @@ class StrokeIndicator:
         high = np.repeat(edges[1:], inner.size)
         wanted = np.tile(inner, starts.size)
         outward = np.repeat(np.asarray(OUTWARD), inner.size)
-        for _ in range(60):  # 2π halved 60 times is below the spacing of floats there
-            middle = (low + high) / 2
-            before = outward * (fraction_of(middle) - wanted) < 0
-            low, high = np.where(before, middle, low), np.where(before, high, middle)
-        return tuple(float(angle) for angle in np.unique(np.concatenate((edges, (low + high) / 2))))
+        found = _crossings(lambda angle: outward * (fraction_of(angle) - wanted), low, high)
+        return tuple(float(angle) for angle in np.unique(np.concatenate((edges, found))))
 
     def work(self, area: float, stroke: float) -> float:
         """Indicated work of one cylinder per cycle (J), W = A H Σ ±∫ p d(s/H), exact for the table.
@@ -171,6 +173,31 @@ def indicated_work(
     if isinstance(indicator, StrokeIndicator):
         return indicator.work(area, stroke)
     return indicator.work(lambda angle: area * stroke * fraction_rate(angle))
+
+
+def _crossings(rise: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
+    """Where a function that is negative at `low` and positive at `high` is nothing, for every pair [N].
+
+    Ridders' method: with f_m at the middle, x = m − (m − low) f_m/√(f_m² − f_low f_high) lies between
+    both ends, and its error falls with the square of the step before.
+    """
+    below, above = rise(low), rise(high)
+    found = low
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        between = rise(middle)
+        root = np.sqrt(np.maximum(between**2 - below * above, 0.0))
+        way = np.divide(between, root, out=np.zeros_like(root), where=root > 0)
+        before, found = found, middle - (middle - low) * way
+        there = rise(found)
+        if np.all(np.abs(found - before) <= SETTLED):
+            break
+        for angle, value in ((middle, between), (found, there)):
+            short = (value < 0) & (angle > low)
+            low, below = np.where(short, angle, low), np.where(short, value, below)
+            past = (value >= 0) & (angle < high)
+            high, above = np.where(past, angle, high), np.where(past, value, above)
+    return found
 
 
 def _rising(nodes: tuple[float, ...], first: float, last: float) -> None:
