@@ -8,7 +8,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from reportgen.catalogue.machine import Machine, Piston
+from reportgen.catalogue.machine import Applied, Machine, Piston
 from reportgen.cycle.indicator import indicated_work, stroke_at
 from reportgen.mechanism.forces import Forces, solve_forces
 from reportgen.mechanism.loads import Load, inertia_loads, weights
@@ -66,56 +66,29 @@ class Summary:
     power: float
     work: float
     energy_error: float
-    """|sgn(ω1)·mean(M_cb) + W/(2π·turns)| over the larger of both."""
+    """|sgn(ω1)·mean(M_cb) + W/(2π·turns)| over the greatest torque of the cycle."""
     extremes: tuple[tuple[float, float], tuple[float, float]]
-
-
-def cycle_angles(machine: Machine) -> np.ndarray:
-    """Cycle angles of the numbered positions [count·turns]."""
-    return np.arange(machine.positions) * (FULL_TURN / machine.count)
-
-
-def dead_centres(piston: Piston) -> np.ndarray:
-    """Cycle angles of a piston at which its four strokes begin [4]; the first is 0, its top."""
-    outward = (piston.bottom_angle - piston.top_angle) % FULL_TURN or np.pi
-    return np.array([0.0, outward, FULL_TURN, FULL_TURN + outward])
-
-
-def fraction(piston: Piston, motion: Motion) -> np.ndarray:
-    """s/H [N]: the pin's way from its top dead centre over the stroke."""
-    along = (piston.bottom - piston.top) / piston.stroke**2
-    place = motion.points[piston.pin].p - piston.top
-    return np.asarray(np.clip(np.real(np.conj(along) * place), 0.0, 1.0))
 
 
 def gas_in(piston: Piston, motion: Motion, cycle_angle: np.ndarray) -> Gas:
     """The gas in a cylinder: s/H from the pin's place, pressure from the indicator diagram."""
-    angle, share, starts = piston.phase + cycle_angle, fraction(piston, motion), dead_centres(piston)
+    angle = piston.phase + cycle_angle
     return Gas(
         piston,
         angle,
-        share,
-        stroke_at(angle, starts),
-        piston.indicator.pressure(angle, share, starts),
+        piston.fraction(motion),
+        stroke_at(angle, piston.dead_centres),
+        piston.law.reading(cycle_angle, motion),
     )
 
 
 def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis:
     """Solve motion, gas, forces and both torques at the machine's positions, or at other cycle angles."""
-    angles = cycle_angles(machine) if cycle_angle is None else np.asarray(cycle_angle, dtype=float)
+    angles = machine.cycle_angles if cycle_angle is None else np.asarray(cycle_angle, dtype=float)
     linkage = machine.linkage
-    motion = solve_motion(linkage, machine.angles(angles), machine.turn * machine.speed)
+    motion = motion_at(machine, angles)
     gas = {piston.name: gas_in(piston, motion, angles) for piston in machine.pistons}
-    applied = tuple(
-        Load(
-            name,
-            state.piston.link,
-            np.asarray(state.pressure * state.piston.area * state.piston.inward, dtype=np.complex128),
-            motion.points[state.piston.pin].p,
-            np.zeros_like(angles),
-        )
-        for name, state in gas.items()
-    )
+    applied = tuple(_load(force, angles, motion) for force in machine.applied)
     heavy, inert = weights(linkage, motion), inertia_loads(linkage, motion)
     loads = (*heavy, *inert, *applied)
     forces = solve_forces(linkage, motion, loads)
@@ -133,51 +106,70 @@ def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis
     )
 
 
-def _own_motion(machine: Machine, piston: Piston, angle: np.ndarray) -> Motion:
-    """The motion at cycle angles of one piston."""
-    return solve_motion(machine.linkage, machine.angles(angle - piston.phase), machine.turn * machine.speed)
+def motion_at(machine: Machine, cycle_angle: np.ndarray) -> Motion:
+    """The motion at cycle angles [N]."""
+    return solve_motion(machine.linkage, machine.angles(cycle_angle), machine.turn * machine.speed)
 
 
-def _breaks(machine: Machine) -> np.ndarray:
-    """Cycle angles where the loads have corners: dead centres and nodes of the indicator tables."""
-    found: list[float] = []
-    for piston in machine.pistons:
+def _load(force: Applied, cycle_angle: np.ndarray, motion: Motion) -> Load:
+    size = force.law.value(cycle_angle, motion)
+    return Load(
+        force.name,
+        force.link,
+        np.asarray(size * force.direction, dtype=np.complex128),
+        motion.points[force.point].p,
+        np.zeros_like(cycle_angle),
+    )
 
-        def share(angle: np.ndarray, piston: Piston = piston) -> np.ndarray:
-            order = np.argsort(angle)
-            result = np.empty_like(angle)
-            result[order] = fraction(piston, _own_motion(machine, piston, angle[order]))
-            return result
 
-        corners = (*piston.indicator.breaks(share, dead_centres(piston)), *dead_centres(piston))
-        found += [corner - piston.phase for corner in corners]
+def breaks(machine: Machine) -> np.ndarray:
+    """Cycle angles where the loads have corners: dead centres and nodes of the tables."""
+    found = [
+        corner for force in machine.applied for corner in force.law.breaks(partial(motion_at, machine))
+    ]
     whole = machine.turns * FULL_TURN
     return np.unique(np.mod(found, whole).round(13)) if found else np.array([])
 
 
-def _fraction_rate(machine: Machine, piston: Piston, angle: np.ndarray) -> np.ndarray:
-    """d(s/H)/dφ [N] at cycle angles of one piston."""
-    along = (piston.bottom - piston.top) / piston.stroke**2
-    velocity = _own_motion(machine, piston, angle).points[piston.pin].v
-    return np.asarray(np.real(np.conj(along) * velocity)) / machine.speed
+def _work(machine: Machine) -> float:
+    """The work of the applied forces over the cycle (J): of gas exact from its table, else ∫ F·v dt."""
+    whole = machine.turns * FULL_TURN
+    pistons = {piston.name: piston for piston in machine.pistons}
+    total = 0.0
+    for force in machine.applied:
+        if force.name in pistons:
+            total += _indicated(machine, pistons[force.name])
+            continue
+
+        def power(angle: np.ndarray, force: Applied = force) -> np.ndarray:
+            motion = motion_at(machine, angle)
+            along = np.real(np.conj(force.direction) * motion.points[force.point].v)
+            return np.asarray(force.law.value(angle, motion) * along)
+
+        corners = force.law.breaks(partial(motion_at, machine))
+        total += mean_over(power, np.mod(list(corners), whole), 0.0, whole) * whole / machine.speed
+    return total
+
+
+def _indicated(machine: Machine, piston: Piston) -> float:
+    def rate(angle: np.ndarray) -> np.ndarray:
+        return piston.fraction_rate(motion_at(machine, angle - piston.phase))
+
+    return indicated_work(piston.indicator, piston.area, piston.stroke, rate)
 
 
 def summarise(machine: Machine) -> Summary:
     """Mean, extremes and energy balance over the cycle: sgn(ω1)·mean(M_cb) = −W/(2π·turns)."""
     whole = machine.turns * FULL_TURN
-    mean = mean_over(lambda angle: analyse(machine, angle).torque_by_work, _breaks(machine), 0.0, whole)
-    work = sum(
-        indicated_work(piston.indicator, piston.area, piston.stroke, partial(_fraction_rate, machine, piston))
-        for piston in machine.pistons
-    )
+    mean = mean_over(lambda angle: analyse(machine, angle).torque_by_work, breaks(machine), 0.0, whole)
+    work = _work(machine)
     fine = np.linspace(0.0, whole, 361 * machine.turns, endpoint=False)
     torque = analyse(machine, fine).torque
     low, high = int(np.nanargmin(torque)), int(np.nanargmax(torque))
-    expected = -work / whole
     return Summary(
         float(mean),
         abs(float(mean)) * machine.speed,
         float(work),
-        abs(machine.turn * mean - expected) / max(abs(mean), abs(expected), 1e-300),
+        abs(machine.turn * mean + work / whole) / max(float(np.nanmax(np.abs(torque))), 1e-300),
         ((float(fine[low]), float(torque[low])), (float(fine[high]), float(torque[high]))),
     )

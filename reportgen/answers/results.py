@@ -34,6 +34,7 @@ def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
         return None
     entry: dict[str, Any] = {
         "number": k + 1,
+        **({"label": analysis.machine.labels[k]} if analysis.machine.labels else {}),
         "crank_angle": float(motion.driver[k]),
         "cycle_angle": float(analysis.cycle_angle[k]),
         "points": {

@@ -11,19 +11,21 @@ from itertools import pairwise
 from statistics import mode
 from typing import Any
 
-from reportgen.assignment.common import Check, Draft
+from reportgen.assignment.common import Added, Check, Draft, none_added
 from reportgen.assignment.faults import Finding, Where
 from reportgen.units import QuantityFault, read_number, read_quantity
 
 
-def worked_positions(turns: int) -> Check:
-    """Numbers of worked positions lie in the cycle of `turns` turns."""
+def worked_positions(turns: int, added: Added = none_added) -> Check:
+    """Numbers of worked positions lie in the cycle of `turns` turns, with the positions `added` to each."""
 
     def check(draft: Draft) -> Iterator[Finding]:
         report, positions = draft.sections.get("report"), draft.sections.get("positions")
         if report is None or positions is None or report.worked_positions is None:
             return
-        last = positions.count * turns
+        parameters = draft.sections.get("parameters")
+        more = 0 if parameters is None else added(parameters, positions)
+        last = (positions.count + more) * turns
         for index, number in enumerate(report.worked_positions):
             if number > last:
                 place = ("report", "worked_positions", index)

@@ -91,6 +91,12 @@ class Draft:
 
 
 Check = Callable[[Draft], Iterator[Finding]]
+Added = Callable[[Any, Positions], int]
+
+
+def none_added(parameters: Any, positions: Positions) -> int:
+    """A turn has no positions but the evenly spaced ones."""
+    return 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +104,8 @@ class Kind:
     """What the reader must know of a kind of machine.
 
     `turns` of the driver make a cycle; `indicator` is the type of the section of that name, None for a
-    machine that has none; `checks` look at what no single value shows.
+    machine that has none; `checks` look at what no single value shows.  `added` tells from the parameters
+    and `Positions` how many positions a turn has beside the evenly spaced ones.
     """
 
     name: str
@@ -106,6 +113,7 @@ class Kind:
     indicator: Any = None
     turns: int = 1
     checks: tuple[Check, ...] = ()
+    added: Added = none_added
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,6 +134,7 @@ class Assignment:
     source: Path
     id: str
     turns: int = 1
+    added: Added = none_added
 
     @property
     def language(self) -> Language:
@@ -133,8 +142,8 @@ class Assignment:
 
     @property
     def cycle_positions(self) -> int:
-        """Positions of a whole cycle: N, or 2N for four strokes."""
-        return self.positions.count * self.turns
+        """Positions of a whole cycle: N, or 2N for four strokes, and those that the kind adds."""
+        return (self.positions.count + self.added(self.parameters, self.positions)) * self.turns
 
     @property
     def worked_positions(self) -> tuple[int, ...]:
@@ -149,13 +158,11 @@ class Assignment:
         """
         if not FEWEST_POSITIONS <= count <= MOST_POSITIONS:
             raise ValueError(f"{count} positions")
+        counted = replace(self, positions=self.positions.model_copy(update={"count": count}))
         worked = self.report.worked_positions
-        kept = None if worked is None else tuple(n for n in worked if n <= count * self.turns) or (2,)
-        return replace(
-            self,
-            positions=self.positions.model_copy(update={"count": count}),
-            report=self.report.model_copy(update={"worked_positions": kept}),
-        )
+        last = counted.cycle_positions
+        kept = None if worked is None else tuple(n for n in worked if n <= last) or (2,)
+        return replace(counted, report=self.report.model_copy(update={"worked_positions": kept}))
 
     def with_language(self, language: Language) -> Assignment:
         """The same, reported in another language."""

@@ -66,7 +66,7 @@ def _read(source: Source, path: Path, kinds: Kinds) -> tuple[Assignment | None, 
     if kind is None:
         findings.insert(0, _no_kind(name, kinds))
     else:
-        for one in (checks.worked_positions(kind.turns), *kind.checks):
+        for one in (*kind.checks, checks.worked_positions(kind.turns, kind.added)):
             told = {finding.where for finding in findings}
             findings += [finding for finding in one(draft) if finding.where not in told]
     # What the source already refuses is not judged a second time.
@@ -75,7 +75,10 @@ def _read(source: Source, path: Path, kinds: Kinds) -> tuple[Assignment | None, 
     faults += [fault for fault in placed if fault.mark.line not in refused]
     if faults or kind is None:
         return None, faults
-    return Assignment(kind.name, **_filled(draft), source=path, id=path.stem, turns=kind.turns), []
+    filled = _filled(draft)
+    return Assignment(
+        kind.name, **filled, source=path, id=path.stem, turns=kind.turns, added=kind.added
+    ), []
 
 
 def _filled(draft: Draft) -> dict[str, Any]:

@@ -1,7 +1,8 @@
 """The machines the house knows: one module each, imported when its kind is asked for.
 
 A module gives `KIND` (its name in a file), `TITLES` (a line each language), `TURNS` of the driver in a
-cycle, the models `Parameters` and, if it has one, `Indicator`, and `CHECKS`.
+cycle, the models `Parameters` and, if it has one, `Indicator`, and `CHECKS`; `added_positions` if a turn
+has more positions than the evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from typing import Any
 
 from reportgen import folders
 from reportgen.assignment import reading
-from reportgen.assignment.common import Assignment, Kind, file_model
+from reportgen.assignment.common import Assignment, Kind, file_model, none_added
 from reportgen.errors import Problem
 from reportgen.notation.numbers import Language
 
@@ -31,7 +32,12 @@ def kind(name: str) -> Kind:
     """What the reader of assignment files must know of a kind; raises `KeyError`."""
     machine = module(name)
     return Kind(
-        machine.KIND, machine.Parameters, getattr(machine, "Indicator", None), machine.TURNS, machine.CHECKS
+        machine.KIND,
+        machine.Parameters,
+        getattr(machine, "Indicator", None),
+        machine.TURNS,
+        machine.CHECKS,
+        getattr(machine, "added_positions", none_added),
     )
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field
@@ -20,22 +20,17 @@ from reportgen.assignment.fields import (
     Acceleration,
     Angle,
     AngularVelocity,
-    CycleAngle,
-    Fraction,
     Length,
     Mass,
     MomentOfInertia,
-    Pressure,
-    PressureUnit,
-    PressureValue,
     RodRatio,
     RotationalSpeed,
     Share,
     Weight,
 )
-from reportgen.catalogue import crank_slider
-from reportgen.catalogue.machine import Item, Machine, Piston, ratio_item, speed_items
-from reportgen.cycle.indicator import STROKES, AngleIndicator, Stroke, StrokeIndicator, stroke_at
+from reportgen.catalogue import crank_slider, gas
+from reportgen.catalogue.machine import Item, Machine, Piston, gas_forces, ratio_item, speed_items
+from reportgen.cycle.indicator import STROKES, Stroke, stroke_at
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import PI, Ref, Symbol, divide, multiply, power
 from reportgen.units import Given
@@ -47,11 +42,8 @@ TITLES = {
 }
 TURNS = 2
 
-MOST_NODES = 2000
 TOP_OF_PISTON_3 = math.pi / 2
 """Crank angle (from +x) at which piston 3, above the crank, is at its top dead centre."""
-
-_Row = Annotated[tuple[PressureValue, ...], Field(min_length=2, max_length=MOST_NODES)]
 
 
 class Parameters(Part):
@@ -103,44 +95,34 @@ class Parameters(Part):
         return self.mass(rod) * self.rod_length**2 / 12 if typed is None else typed
 
 
-class _Indicator(Part):
-    """What both forms of the indicator diagram say."""
-
-    unit: PressureUnit
-    reference: Literal["gauge", "absolute"] = "gauge"
-    ambient: Pressure = Given(101325.0, 10.1325, "N/cm2", "10.1325 N/cm2")
-    firing: Annotated[tuple[Stroke, ...], Field(min_length=2, max_length=2)] | None = None
-
-    def gauge(self, row: tuple[float, ...]) -> tuple[float, ...]:
-        """Pressures of the table as gauge pressures (Pa)."""
-        below = self.ambient.si if self.reference == "absolute" else 0.0
-        return tuple(value * self.unit.si - below for value in row)
+Firing = Annotated[tuple[Stroke, ...], Field(min_length=2, max_length=2)] | None
 
 
-class IndicatorByStroke(_Indicator):
-    """A row of pressures for each stroke, over s/H of the piston."""
+class IndicatorByStroke(gas.ByStroke):
+    """Rows over s/H of each piston."""
 
-    by: Literal["stroke"]
-    s: Annotated[tuple[Fraction, ...], Field(min_length=2, max_length=MOST_NODES)]
-    intake: _Row
-    compression: _Row
-    expansion: _Row
-    exhaust: _Row
+    firing: Firing = None
 
 
-class IndicatorByCrankAngle(_Indicator):
-    """Pressures over the cycle angle, from the top dead centre at the start of intake."""
+class IndicatorByCrankAngle(gas.ByCrankAngle):
+    """Pressures over the cycle angle of piston 3, from the top dead centre at the start of intake."""
 
-    by: Literal["crank_angle"]
-    angle: Annotated[tuple[CycleAngle, ...], Field(min_length=2, max_length=MOST_NODES)]
-    p: _Row
+    firing: Firing = None
 
 
-Indicator = Annotated[IndicatorByStroke | IndicatorByCrankAngle, Field(discriminator="by")]
+class IndicatorByOrdinates(gas.ByOrdinates):
+    """Heights of a drawn diagram over the cycle angle of piston 3."""
+
+    firing: Firing = None
+
+
+Indicator = Annotated[
+    IndicatorByStroke | IndicatorByCrankAngle | IndicatorByOrdinates, Field(discriminator="by")
+]
 
 
 def phases(
-    parameters: Parameters, indicator: IndicatorByStroke | IndicatorByCrankAngle, positions: Positions
+    parameters: Parameters, indicator: Indicator, positions: Positions
 ) -> tuple[float, float]:
     """Cycle angles (rad) of pistons 3 and 5 at position 1; `KeyError` for an impossible firing pair."""
     possible = _possible_phases(parameters.crank_angle.si, positions)
@@ -184,10 +166,7 @@ CHECKS = (
     checks.one_of("parameters", "G3", "m3"),
     checks.one_of("parameters", "G4", "m4", required=False),
     checks.one_of("parameters", "G5", "m5", required=False),
-    checks.same_length("indicator", "s", STROKES),
-    checks.same_length("indicator", "angle", ("p",)),
-    checks.increasing("indicator", "s", 0, 1),
-    checks.increasing("indicator", "angle", 0, 720, "deg"),
+    *gas.CHECKS,
     _check_firing,
 )
 
@@ -244,7 +223,7 @@ def machine(assignment: Assignment) -> Machine:
         ),
         gravity=-1j * given.g.si,
     )
-    table = gas_table(assignment.indicator)
+    table = assignment.indicator.table
     both = phases(given, assignment.indicator, positions)
     pistons = tuple(
         Piston(
@@ -257,7 +236,6 @@ def machine(assignment: Assignment) -> Machine:
             top_angle=0.0,
             bottom_angle=math.pi,
             phase=phase,
-            inward=-1j,
             bore=given.D.si,
             indicator=table,
         )
@@ -288,17 +266,11 @@ def machine(assignment: Assignment) -> Machine:
         formulas=formulas,
         outline=OUTLINE,
         pistons=pistons,
+        applied=gas_forces(pistons),
+        sliders=pistons,
         paths=("S2", "S4"),
         compared=crank_slider.compared(pistons),
     )
-
-
-def gas_table(diagram: IndicatorByStroke | IndicatorByCrankAngle) -> StrokeIndicator | AngleIndicator:
-    """The indicator diagram in gauge pressures (Pa)."""
-    if isinstance(diagram, IndicatorByStroke):
-        rows = (diagram.gauge(getattr(diagram, stroke)) for stroke in STROKES)
-        return StrokeIndicator(diagram.s, *rows)
-    return AngleIndicator(tuple(angle.si for angle in diagram.angle), diagram.gauge(diagram.p))
 
 
 def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:

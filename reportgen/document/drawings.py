@@ -15,7 +15,6 @@ from reportgen.document.facts import Facts
 from reportgen.document.pictures import TEXT_BLOCK, Drawn, Pictures, beside_one_another
 from reportgen.document.views import GroupView
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
-from reportgen.figures.scene import Scene
 from reportgen.figures.sheet import sheets
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces import Polygon
@@ -102,7 +101,7 @@ class Drawings:
         return Drawn(sheets(scenes, *SHEET, note), A3)
 
     def at_position(self, k: int) -> str:
-        return f"{self.words['table']['position']} {k}"
+        return f"{self.words['table']['position']} {self.facts.analysis.machine.position(k)}"
 
     def velocity_plan(self, k: int) -> Plan:
         """The velocity plan at a position, in mm, its stages in the order of construction."""

@@ -134,7 +134,7 @@ def _names(
     analysis, machine = facts.analysis, facts.analysis.machine
     words = voice.words
     worked = assignment.worked_positions
-    kinematic = tuple(dict.fromkeys((k - 1) % machine.count + 1 for k in worked))
+    kinematic = machine.numbered(dict.fromkeys((k - 1) % machine.count + 1 for k in worked))
     senses = words["sense"]
     public: dict[str, Callable[..., Any]] = {
         name: getattr(owner, name)
@@ -163,15 +163,16 @@ def _names(
         "count": machine.count,
         "cycle_count": machine.positions,
         "worked": kinematic,
-        "worked_forces": worked,
-        "worked_list": ", ".join(map(str, worked)),
-        "positions": range(1, machine.count + 1),
-        "all_positions": range(1, machine.positions + 1),
+        "worked_forces": machine.numbered(worked),
+        "worked_list": ", ".join(map(str, machine.numbered(worked))),
+        "positions": machine.numbered(range(1, machine.count + 1)),
+        "all_positions": machine.numbered(range(1, machine.positions + 1)),
         "computed": [id for id, family in facts.ledger.families.items() if family.definition is not None],
         "mobility": mobility(machine.linkage),
         "groups": facts.groups,
         "driver": facts.driver,
         "pistons": machine.pistons,
+        "sliders": machine.sliders,
         "has_formulas": bool(machine.compared),
         "velocity_segments": facts.velocity_segments,
         "velocity_columns": facts.velocity_columns,

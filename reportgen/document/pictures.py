@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from reportgen.analysis import FULL_TURN, Analysis, analyse
+from reportgen.analysis import FULL_TURN, Analysis, analyse, motion_at
+from reportgen.catalogue.machine import Machine, Piston
 from reportgen.cycle.indicator import StrokeIndicator
 from reportgen.document.facts import BodyView, Facts
 from reportgen.document.views import GroupView
@@ -43,6 +45,8 @@ CLOSE = 4.0
 """What of their margins (mm) scenes of one figure give up to stand side by side."""
 SCHEME_BOX = (120.0, 130.0)
 DENSE = 361
+SAME = 1e-9
+"""Cycle angles nearer than this are one."""
 SHOWN_AT = 1
 """The position (from 0) at which schemes are drawn: the first one away from the start."""
 
@@ -171,7 +175,7 @@ class Pictures:
     def one_turn(self) -> Motion:
         """The motion at the numbered positions of one turn."""
         machine = self.analysis.machine
-        angles = machine.angles(np.arange(machine.count) * (FULL_TURN / machine.count))
+        angles = machine.angles(machine.cycle_angles[: machine.count])
         return solve_motion(machine.linkage, angles, machine.turn * machine.speed)
 
     def positions(self) -> Drawn:
@@ -181,7 +185,12 @@ class Pictures:
         machine = self.analysis.machine
         numbered = [self.facts.driver.pin, *(place.name for place in self.facts.driver.others)]
         numbered += [group.Q for group in self.facts.groups]
-        shows = PositionPlan(tuple(numbered), machine.paths if beside is None else (), self._first_worked())
+        shows = PositionPlan(
+            tuple(numbered),
+            machine.paths if beside is None else (),
+            self._first_worked(),
+            labels=tuple(map(str, machine.numbered(range(1, machine.count + 1)))),
+        )
         looks = replace(self.looks(self.scale), blocks={}, centres=())
         return position_plan(
             machine.linkage, self.one_turn, self.dense, self.scale, shows, looks, beside=beside
@@ -196,7 +205,6 @@ class Pictures:
         """The diagram in line with the first piston's stroke, every piston's positions read from it."""
         machine = self.analysis.machine
         first = machine.pistons[0]
-        table = first.indicator
         unit, scale = 1e4, self.scale
         top, bottom = first.top * scale, first.bottom * scale
         highest = max(float(np.max(gas.pressure)) for gas in self.analysis.gas.values())
@@ -214,13 +222,11 @@ class Pictures:
         )
         branches = [
             indicator.Branch(name, x, tuple(p / unit for p in pressures))
-            for name, x, pressures in _branches(
-                table, self._angles_to_fractions(first), self.words["strokes"]
-            )
+            for name, x, pressures in _branches(first, machine, self.words["strokes"])
         ]
         readings = [
             indicator.Reading(
-                Symbol(str(k + 1), "" if len(machine.pistons) == 1 else f"({gas.piston.link})"),
+                Symbol(str(machine.position(k + 1)), "" if len(machine.pistons) == 1 else f"({gas.piston.link})"),
                 float(gas.fraction[k]),
                 float(gas.pressure[k]) / unit,
                 first.top * scale + (bottom - top) * float(gas.fraction[k]),
@@ -229,16 +235,6 @@ class Pictures:
             for k in range(machine.positions)
         ]
         return on_paper(self._position_plan(indicator.indicator(frame, branches, readings)))
-
-    def _angles_to_fractions(self, piston: Any) -> Callable[[np.ndarray], np.ndarray]:
-        machine = self.analysis.machine
-
-        def fractions(angle: np.ndarray) -> np.ndarray:
-            along = (piston.bottom - piston.top) / piston.stroke**2
-            motion = solve_motion(machine.linkage, machine.angles(angle - piston.phase), machine.speed)
-            return np.asarray(np.real(np.conj(along) * (motion.points[piston.pin].p - piston.top)))
-
-        return fractions
 
     # --- forces
 
@@ -415,21 +411,22 @@ class Pictures:
     def dense_cycle(self) -> Analysis:
         """The whole analysis over the cycle, finely, the numbered positions among the samples."""
         machine = self.analysis.machine
-        step = max(1, 360 // machine.count)
-        return analyse(machine, np.arange(machine.positions * step + 1) * (FULL_TURN / machine.count / step))
+        own = machine.cycle_angles
+        grid = np.linspace(0.0, machine.turns * FULL_TURN, machine.turns * (DENSE - 1) + 1)
+        between = np.abs(grid[:, None] - own).min(axis=1) > SAME
+        return analyse(machine, np.sort(np.concatenate((grid[between], own))))
 
     @property
     def _marks(self) -> tuple[int, ...]:
-        machine = self.analysis.machine
-        step = max(1, 360 // machine.count)
-        return tuple(range(0, machine.positions * step, step))
+        """Which samples of `dense_cycle` are the numbered positions."""
+        places = np.searchsorted(self.dense_cycle.cycle_angle, self.analysis.machine.cycle_angles)
+        return tuple(map(int, places))
 
     def motion(self) -> Drawn:
         machine = self.analysis.machine
         names = self.words["figure"]
         fine = self.dense_cycle
-        step = max(1, 360 // machine.count)
-        count = machine.count * step + 1
+        count = int(np.searchsorted(fine.cycle_angle, FULL_TURN + SAME))
         degrees = np.degrees(fine.cycle_angle[:count])
         marks = self._marks[: machine.count]
         along = {group.Q: np.exp(1j * _guide_angle(self.analysis, group)) for group in self.facts.groups}
@@ -477,7 +474,6 @@ class Pictures:
     def polar(self) -> Drawn:
         """The load of each crank pin in axes that turn with the crank, its radius upwards."""
         fine, machine = self.dense_cycle, self.analysis.machine
-        step = max(1, 360 // machine.count)
         scenes = []
         for side in self.facts.driver_polygon.sides:
             if side.unknown or not side.name.startswith("R"):
@@ -485,10 +481,13 @@ class Pictures:
             pin = self._pin_of(side.name)
             radius = fine.motion.points[pin].p - fine.motion.points[self.facts.driver.centre].p
             load = fine.forces.reactions[side.name].force * np.conj(radius / np.abs(radius)) * 1j
-            numbers = tuple(str(k + 1) for k in range(machine.positions))
-            marks = tuple(range(0, machine.positions * step, step))
+            numbers = tuple(map(str, machine.numbered(range(1, machine.positions + 1))))
             series = charts.Series(
-                symbols.vector(self.ledger.symbol(f"R.{side.name[1:]}")), load.real, load.imag, marks, numbers
+                symbols.vector(self.ledger.symbol(f"R.{side.name[1:]}")),
+                load.real,
+                load.imag,
+                self._marks,
+                numbers,
             )
             scenes.append(charts.polar(series, "N", title=f"{self.words['figure']['pin']} {pin}"))
         return Drawn(tuple(scenes))
@@ -506,16 +505,19 @@ def _highest(table: Any) -> float:
 
 
 def _branches(
-    table: Any, fractions: Callable[[np.ndarray], np.ndarray], names: Sequence[str]
+    piston: Piston, machine: Machine, names: Sequence[str]
 ) -> list[tuple[str, tuple[float, ...], tuple[float, ...]]]:
     """Each stroke's line over s/H; a table by crank angle is carried over by the motion of the piston."""
+    table = piston.indicator
     if isinstance(table, StrokeIndicator):
         return [(name, table.fractions, row) for name, row in zip(names, table.rows, strict=True)]
     result = []
-    for number, name in enumerate(names):
-        angle = np.linspace(number * np.pi, (number + 1) * np.pi, 91)
+    edges = (*piston.dead_centres, 2 * FULL_TURN)
+    for name, (start, end) in zip(names, pairwise(edges), strict=True):
+        angle = np.union1d(np.linspace(start, end, 91), [a for a in table.angles if start < a < end])
+        fractions = piston.fraction(motion_at(machine, angle - piston.phase))
         pressure = np.interp(angle, table.angles, table.pressures)
-        result.append((name, tuple(map(float, fractions(angle))), tuple(map(float, pressure))))
+        result.append((name, tuple(map(float, fractions)), tuple(map(float, pressure))))
     return result
 
 

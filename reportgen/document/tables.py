@@ -165,7 +165,7 @@ class Tables:
         )
         rows = tuple(
             (
-                self.voice.cell(str(k + 1)),
+                self.voice.cell(str(analysis.machine.position(k + 1))),
                 *(Cell((Value(Number(_dustless(values[i][k] * 1e3), 2)),)) for i in kept),
             )
             for k in range(count)
@@ -174,9 +174,9 @@ class Tables:
         return Table(columns, (head,), rows, self.voice.prose.inlines(caption), key)
 
     def dead_centres_table(self, key: str, caption: str, head: Sequence[str], top: str, bottom: str) -> Table:
-        """Where each piston turns back: crank's turn from position 1, the pin's distance from the crank centre."""
+        """Where each slider turns back: crank's turn from position 1, the pin's distance from the crank centre."""
         rows = []
-        for piston in self.facts.analysis.machine.pistons:
+        for piston in self.facts.analysis.machine.sliders:
             for words, angle, place in (
                 (top, piston.top_angle, piston.top),
                 (bottom, piston.bottom_angle, piston.bottom),
@@ -218,7 +218,10 @@ class Tables:
         ends = [*starts[1:], machine.positions]
         head = (
             positions,
-            *(f"{start + 1}–{end % machine.positions + 1}" for start, end in zip(starts, ends, strict=True)),
+            *(
+                f"{machine.position(start + 1)}–{machine.position(end % machine.positions + 1)}"
+                for start, end in zip(starts, ends, strict=True)
+            ),
         )
         rows = [
             (f"{first} {state.piston.link}", *(names[int(state.stroke[start])] for start in starts))

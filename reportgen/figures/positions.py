@@ -33,13 +33,18 @@ class PositionPlan:
 
     `numbered` are points labelled with each position's number (A₁ … A₈), `paths` points whose curves are
     drawn from a dense motion, `emphasised` the index (from 0) of the position drawn heavy, if any;
-    `letters` replaces the letter that numbers a point (e.g. for a point O2).
+    `letters` replaces the letter that numbers a point (e.g. for a point O2), `labels` the positions' numbers.
     """
 
     numbered: tuple[str, ...]
     paths: tuple[str, ...] = ()
     emphasised: int | None = None
     letters: Mapping[str, str] = field(default_factory=dict)
+    labels: tuple[str, ...] = ()
+
+    def label(self, k: int) -> str:
+        """What the position of index `k` (from 0) is called."""
+        return self.labels[k] if self.labels else str(k + 1)
 
 
 def position_plan(
@@ -142,7 +147,7 @@ def _numbers(
         for k in numbers:
             if every[k].reached:
                 where.append(every[k].points[name])
-                what.append(Symbol(letter, str(k + 1)))
+                what.append(Symbol(letter, shows.label(k)))
     middle = sum(where) / len(where) if where else 0j
     items: list[Item] = []
     requests: list[Request] = []

@@ -44,11 +44,9 @@ def keep(analysis: Analysis, units: Mapping[str, str] | None = None) -> Books:
     if analysis.loads:
         _masses(b, analysis)
         _gas(b, analysis)
-        gas = {
-            name: (state.piston.link, state.piston.pin, state.piston.inward)
-            for name, state in analysis.gas.items()
-        }
-        polygons = forces.describe(b, machine.linkage, machine.turn, gas)
+        _applied(b, analysis)
+        applied = {one.name: (one.link, one.point, one.direction) for one in machine.applied}
+        polygons = forces.describe(b, machine.linkage, machine.turn, applied)
         _cycle(b, analysis)
     decimals, cancellations = precision.choose(b.families, (("M.eq", "M.vw"),) if "M.eq" in b else ())
     return Books(Ledger(b.families, decimals, machine.positions, cancellations, units or {}), polygons)
@@ -71,6 +69,14 @@ def _gas(b: Builder, analysis: Analysis) -> None:
         b.give(f"s.{link}", Symbol("s", link), "length", state.fraction * state.piston.stroke, exact=False)
         b.give(f"p.{link}", Symbol("p", link), "pressure", state.pressure, exact=False)
         b.define(name, Symbol("P", link), "force", multiply(f"p.{link}", "F"))
+
+
+def _applied(b: Builder, analysis: Analysis) -> None:
+    """Forces read from a table other than the indicator diagram, positive along their own direction."""
+    for force, load in zip(analysis.machine.applied, analysis.applied, strict=True):
+        if force.name not in b:
+            size = np.real(np.conj(force.direction) * load.force)
+            b.give(force.name, Symbol("P", str(force.link)), "force", size, exact=False)
 
 
 def _cycle(b: Builder, analysis: Analysis) -> None:
