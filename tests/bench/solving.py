@@ -17,7 +17,6 @@ import numpy as np
 
 from reportgen import api, catalogue
 from reportgen.analysis import analyse
-from reportgen.catalogue.engine_twin import phases
 from reportgen.catalogue.machine import Machine
 from reportgen.cycle.indicator import StrokeIndicator
 
@@ -36,10 +35,11 @@ def machine(path: Path) -> tuple[Machine, Engine]:
     given, table = assignment.parameters, built.pistons[0].indicator
     if not isinstance(table, StrokeIndicator):
         raise TypeError("the closed form reads an indicator diagram by stroke")
-    both = phases(given, assignment.indicator, assignment.positions)
     cylinders = tuple(
-        Cylinder(offset, phase, given.mass(rod), given.moment(rod), given.mass(rod + 1))
-        for rod, offset, phase in zip((2, 4), (0.0, given.crank_angle.si), both, strict=True)
+        Cylinder(
+            offset, piston.phase, given.mass(piston.rod), given.moment(piston.rod), given.mass(piston.link)
+        )
+        for piston, offset in zip(built.pistons, (0.0, given.crank_angle.si), strict=True)
     )
     return built, Engine(
         radius=given.H.si / 2,
