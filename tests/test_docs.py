@@ -1,0 +1,281 @@
+"""The documents keep their word: commands run as shown, files work as printed, names exist."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+import pytest
+import typer
+
+from reportgen import api, catalogue
+from reportgen.cli import app
+from reportgen.document.prose import Prose, search_path
+from reportgen.writers import pdflatex
+
+ROOT = Path(__file__).parent.parent
+DOCUMENTS = ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md", "CHANGELOG.md")
+LARGEST_PICTURE = 150_000
+"""Bytes: a page that loads at once, also over a slow line."""
+
+_FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_FILE = re.compile(r"`([\w./-]+\.\w+)`[^`\n]*:\n\n```\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_LINK = re.compile(r"\]\(([^)\s]+)\)")
+
+
+def text_of(document: str) -> str:
+    return (ROOT / document).read_text(encoding="utf-8")
+
+
+def fences(document: str, language: str) -> list[str]:
+    return [body for name, body in _FENCE.findall(text_of(document)) if name == language]
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A line of a console block and what it is said to print."""
+
+    line: str
+    output: tuple[str, ...]
+
+    @property
+    def runnable(self) -> str:
+        """Make only says what it would do: it would install and run all this again."""
+        return self.line.replace("make ", "make -n ", 1) if self.line.startswith("make ") else self.line
+
+    @property
+    def possible(self) -> bool:
+        return "--engine latex" not in self.line or shutil.which("pdflatex") is not None
+
+
+def commands(document: str) -> Iterator[Command]:
+    for block in fences(document, "console"):
+        shown = re.split(r"^\$ ", block, flags=re.MULTILINE)
+        assert shown[0] == "", f"a console block begins with a command: {block}"
+        for one in shown[1:]:
+            line, *output = one.splitlines()
+            yield Command(line, tuple(output))
+
+
+def agrees(shown: Sequence[str], printed: Sequence[str]) -> bool:
+    """Whether the lines are those printed; `…` stands for any text, alone on its line for any lines."""
+    if not shown:
+        return not printed
+    if shown[0] == "…":
+        return any(agrees(shown[1:], printed[start:]) for start in range(len(printed) + 1))
+    if not printed:
+        return False
+    pattern = shown[0].replace("[", "[[]").replace("…", "*")
+    return fnmatchcase(printed[0].rstrip(), pattern.rstrip()) and agrees(shown[1:], printed[1:])
+
+
+def run(lines: Sequence[str], place: Path) -> list[list[str]]:
+    """What each command prints in one shell that knows `reportgen` and `python`; `$?` passes from one to the next."""
+    programs = place / ".programs"
+    programs.mkdir(exist_ok=True)
+    for name, arguments in (("reportgen", "-m reportgen.cli"), ("python", "")):
+        program = programs / name
+        program.write_text(f'#!/bin/sh\nexec "{sys.executable}" {arguments} "$@"\n', encoding="utf-8")
+        program.chmod(0o755)
+    mark = "\x1e"
+    script = "".join(f"(exit $status)\n{line}\nstatus=$?; printf '{mark}'\n" for line in lines)
+    done = subprocess.run(
+        ["bash", "-c", "status=0\n" + script],
+        cwd=place,
+        env={
+            **os.environ,
+            "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}",
+            "PYTHONPATH": str(place),
+            "PYTHONDONTWRITEBYTECODE": "1",
+            "COLUMNS": "100",
+        },
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        encoding="utf-8",
+        timeout=300,
+        check=True,
+    )
+    return [part.strip("\n").splitlines() for part in done.stdout.split(mark)[:-1]]
+
+
+def copy_of_repository(place: Path) -> Path:
+    for name in ("reportgen", "templates", "assignments"):
+        shutil.copytree(ROOT / name, place / name, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "Makefile", place)
+    (place / "out").mkdir()
+    return place
+
+
+def follow(document: str, place: Path) -> list[str]:
+    """Write the files a document prints, run its commands in order; gives what differs from the document."""
+    for name, content in _FILE.findall(text_of(document)):
+        file = place / name
+        assert not file.exists(), f"{name} is there already"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(content, encoding="utf-8")
+    shown = [command for command in commands(document) if command.possible]
+    printed = run([command.runnable for command in shown], place)
+    return [
+        "\n".join((f"$ {command.line}", *output))
+        for command, output in zip(shown, printed, strict=True)
+        if not command.line.startswith("make ") and not agrees(command.output, output)
+    ]
+
+
+# --- what is shown is so --------------------------------------------------------------------------
+
+
+def test_the_commands_of_the_readme_print_what_it_shows(tmp_path: Path) -> None:
+    assert follow("README.md", copy_of_repository(tmp_path)) == []
+
+
+def test_a_machine_added_as_described_has_its_report(tmp_path: Path) -> None:
+    place = copy_of_repository(tmp_path)
+    table = place / "reportgen" / "catalogue" / "__init__.py"
+    before = "MODULES: Mapping[str, str] = {"
+    (line,) = [body for body in fences("CONTRIBUTING.md", "python") if body.startswith('"slider-crank":')]
+    text = table.read_text(encoding="utf-8")
+    assert text.count(before) == 1
+    table.write_text(text.replace(before, f"{before}\n    {line}    "), encoding="utf-8")
+    assert follow("CONTRIBUTING.md", place) == []
+    # A crank of 40 mm at 300 rpm: ω = 10π, its pin moves at 0.4π m/s, at the dead centre a = ω²r(1 + r/l).
+    first = json.loads((place / "slider-crank.json").read_text(encoding="utf-8"))["positions"][0]
+    assert first["links"]["1"]["omega"] == pytest.approx(31.41592653589793)
+    assert first["points"]["A"]["v"] == pytest.approx([0, 1.2566370614359172], abs=1e-12)
+    assert first["points"]["B"]["a"][0] == pytest.approx(-39.47841760435743 * (1 + 40 / 140))
+    assert "reactions" not in first
+
+
+def test_the_example_machine_is_clean(tmp_path: Path) -> None:
+    files = dict(_FILE.findall(text_of("CONTRIBUTING.md")))
+    code = files["reportgen/catalogue/slider_crank.py"]
+    # The project's own rules; the file's name tells ruff which of them hold for it.
+    done = subprocess.run(
+        [sys.executable, "-m", "ruff", "check", "--config", ROOT / "pyproject.toml", "--stdin-filename", "a.py", "-"],
+        input=code,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_a_school_overrides_one_section(tmp_path: Path) -> None:
+    (words,) = [content for name, content in _FILE.findall(text_of("CONTRIBUTING.md")) if "my-school" in name]
+    root = tmp_path / "templates"
+    shutil.copytree(ROOT / "templates" / "en", root / "en")
+    school = root / "my-school" / "en"
+    school.mkdir(parents=True)
+    (school / "foreword.md").write_text(words, encoding="utf-8")
+    prose = Prose(search_path("en", "engine-twin", school="my-school", root=root))
+    names = {"machine_title": "A_B & *engine*", "signature": ()}
+    foreword = repr(prose.render("foreword.md", names))
+    assert "A_B & *engine*" in foreword
+    assert "This report presents" not in foreword
+    assert prose.directories[1:] == search_path("en", "engine-twin", root=root)
+
+
+def test_the_scripts_of_the_readme_run(tmp_path: Path) -> None:
+    place = copy_of_repository(tmp_path)
+    for number, script in enumerate(fences("README.md", "python")):
+        (place / f"script{number}.py").write_text(script, encoding="utf-8")
+        torque, report = run([f"python script{number}.py"], place)[0]
+        assert torque.startswith("-342.07")
+        assert (place / report).read_bytes().startswith(b"%PDF")
+
+
+# --- nothing is forgotten -------------------------------------------------------------------------
+
+
+def test_the_readme_begins_with_the_two_commands_and_a_page() -> None:
+    text = text_of("README.md")
+    places = [text.index(part) for part in ("$ make report", "$ make test", "![", "## ")]
+    assert places == sorted(places)
+
+
+def test_the_readme_names_every_command_option_kind_and_result() -> None:
+    text = text_of("README.md")
+    for name, command in vars(typer.main.get_command(app))["commands"].items():
+        assert f"| `reportgen {name}" in text
+        row = next(line for line in text.splitlines() if line.startswith(f"| `reportgen {name}"))
+        options = [name for parameter in command.params for name in parameter.opts if name.startswith("-")]
+        assert all(option in row for option in options if option not in {"--help", "--output"})
+    for kind in catalogue.MODULES:
+        assert re.search(rf"^\| \[`{kind}`\]\(#{kind}\) \| !\[[^\]]+\]\(docs/{kind}\.png\) \| ", text, re.MULTILINE)
+        assert f"\n### `{kind}`\n" in text
+        for name, field in catalogue.kind(kind).parameters.model_fields.items():
+            assert f"`{field.alias or name}`" in text
+    results = api.solve(api.load(ROOT / "assignments" / "engine-twin-05.yaml"))
+    for key in (*results, *results["positions"][0]):
+        assert f"`{key}`" in text
+
+
+def test_the_readme_gives_the_one_command_that_installs_tex() -> None:
+    assert f"{pdflatex.INSTALL}\n" in fences("README.md", "sh")
+
+
+@pytest.mark.parametrize("document", DOCUMENTS)
+def test_links_lead_somewhere(document: str) -> None:
+    for link in _LINK.findall(text_of(document)):
+        if re.match(r"https?:", link):
+            continue
+        name, _, anchor = link.partition("#")
+        target = ROOT / (name or document)
+        assert target.is_file(), link
+        if anchor:
+            titles = re.findall(r"^#+ (.+)$", target.read_text(encoding="utf-8"), re.MULTILINE)
+            anchors = [re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles]
+            assert anchor in anchors, link
+
+
+@pytest.mark.parametrize("picture", sorted((ROOT / "docs").glob("*.png")), ids=lambda path: path.name)
+def test_pictures_are_small_and_used(picture: Path) -> None:
+    assert picture.stat().st_size <= LARGEST_PICTURE
+    assert f"(docs/{picture.name})" in text_of("README.md")
+
+
+@pytest.mark.parametrize("document", ["ARCHITECTURE.md", "CONTRIBUTING.md"])
+def test_modules_that_are_named_exist(document: str) -> None:
+    text = text_of(document)
+    printed = {name for name, _ in _FILE.findall(text)}
+    for name in set(re.findall(r"`((?:reportgen|templates|tests|assignments)/[\w./-]+)`", text)) - printed:
+        assert (ROOT / name).exists(), name
+
+
+def test_the_architecture_places_every_part() -> None:
+    text = text_of("ARCHITECTURE.md")
+    parts = [path for path in (ROOT / "reportgen").iterdir() if not path.name.startswith("_")]
+    for part in parts:
+        if part.is_dir() or part.suffix == ".py":
+            assert f"`reportgen/{part.name}" in text, part.name
+
+
+# --- the tools of this file -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("shown", "printed", "same"),
+    [
+        (["a"], ["a  "], True),
+        (["a"], ["a", "b"], False),
+        (["a", "…"], ["a", "b", "c"], True),
+        (["a", "…", "c"], ["a", "c"], True),
+        (["a", "…", "c"], ["a", "b"], False),
+        (["x = … m"], ["x = 1.5 m"], True),
+        (["[a]"], ["a"], False),
+        ([], ["a"], False),
+    ],
+)
+def test_shown_and_printed_lines(shown: list[str], printed: list[str], same: bool) -> None:
+    assert agrees(shown, printed) is same
