@@ -47,9 +47,13 @@ class Command:
     output: tuple[str, ...]
 
     @property
+    def is_make(self) -> bool:
+        return self.line.startswith("make ")
+
+    @property
     def runnable(self) -> str:
         """Make only says what it would do: it would install and run all this again."""
-        return self.line.replace("make ", "make -n ", 1) if self.line.startswith("make ") else self.line
+        return self.line.replace("make ", "make -n ", 1) if self.is_make else self.line
 
     @property
     def possible(self) -> bool:
@@ -77,8 +81,11 @@ def agrees(shown: Sequence[str], printed: Sequence[str]) -> bool:
     return fnmatchcase(printed[0].rstrip(), pattern.rstrip()) and agrees(shown[1:], printed[1:])
 
 
-def run(lines: Sequence[str], place: Path) -> list[list[str]]:
-    """What each command prints in one shell that knows `reportgen` and `python`; `$?` passes from one to the next."""
+def run(lines: Sequence[str], place: Path) -> list[tuple[list[str], int]]:
+    """What each command prints in one shell that knows `reportgen` and `python`, and how it ends.
+
+    `$?` passes from one to the next.
+    """
     programs = place / ".programs"
     programs.mkdir(exist_ok=True)
     for name, arguments in (("reportgen", "-m reportgen.cli"), ("python", "")):
@@ -86,7 +93,7 @@ def run(lines: Sequence[str], place: Path) -> list[list[str]]:
         program.write_text(f'#!/bin/sh\nexec "{sys.executable}" {arguments} "$@"\n', encoding="utf-8")
         program.chmod(0o755)
     mark = "\x1e"
-    script = "".join(f"(exit $status)\n{line}\nstatus=$?; printf '{mark}'\n" for line in lines)
+    script = "".join(f"(exit $status)\n{line}\nstatus=$?; printf '{mark}%s{mark}' $status\n" for line in lines)
     done = subprocess.run(
         ["bash", "-c", "status=0\n" + script],
         cwd=place,
@@ -105,13 +112,17 @@ def run(lines: Sequence[str], place: Path) -> list[list[str]]:
         timeout=300,
         check=True,
     )
-    return [part.strip("\n").splitlines() for part in done.stdout.split(mark)[:-1]]
+    outputs, codes = done.stdout.split(mark)[:-1:2], done.stdout.split(mark)[1::2]
+    return [
+        (output.strip("\n").splitlines(), int(code)) for output, code in zip(outputs, codes, strict=True)
+    ]
 
 
 def copy_of_repository(place: Path) -> Path:
     for name in ("reportgen", "templates", "assignments"):
         shutil.copytree(ROOT / name, place / name, ignore=shutil.ignore_patterns("__pycache__"))
-    shutil.copy(ROOT / "Makefile", place)
+    for name in ("Makefile", "pyproject.toml", "requirements-dev.lock"):
+        shutil.copy(ROOT / name, place)
     (place / "out").mkdir()
     return place
 
@@ -127,8 +138,8 @@ def follow(document: str, place: Path) -> list[str]:
     printed = run([command.runnable for command in shown], place)
     return [
         "\n".join((f"$ {command.line}", *output))
-        for command, output in zip(shown, printed, strict=True)
-        if not command.line.startswith("make ") and not agrees(command.output, output)
+        for command, (output, code) in zip(shown, printed, strict=True)
+        if not (code == 0 if command.is_make else agrees(command.output, output))
     ]
 
 
@@ -190,7 +201,7 @@ def test_the_scripts_of_the_readme_run(tmp_path: Path) -> None:
     place = copy_of_repository(tmp_path)
     for number, script in enumerate(fences("README.md", "python")):
         (place / f"script{number}.py").write_text(script, encoding="utf-8")
-        torque, report = run([f"python script{number}.py"], place)[0]
+        (torque, report), _ = run([f"python script{number}.py"], place)[0]
         assert torque.startswith("-342.07")
         assert (place / report).read_bytes().startswith(b"%PDF")
 
@@ -251,6 +262,23 @@ def test_modules_that_are_named_exist(document: str) -> None:
     printed = {name for name, _ in _FILE.findall(text)}
     for name in set(re.findall(r"`((?:reportgen|templates|tests|assignments)/[\w./-]+)`", text)) - printed:
         assert (ROOT / name).exists(), name
+
+
+@pytest.mark.parametrize("document", DOCUMENTS)
+def test_targets_of_make_that_are_named_exist(document: str) -> None:
+    targets = set(re.findall(r"^(\w+):", text_of("Makefile"), re.MULTILINE))
+    named = set(re.findall(r"(?:`|^\$ )make (\w+)", text_of(document), re.MULTILINE))
+    assert named <= targets
+
+
+def test_types_and_template_names_that_are_named_exist() -> None:
+    code = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "reportgen").rglob("*.py"))
+    for name in set(re.findall(r"`([A-Z][a-z][A-Za-z]*)s?`", text_of("ARCHITECTURE.md"))):
+        assert re.search(rf"^class {name}\b", code, re.MULTILINE), name
+    section = text_of("CONTRIBUTING.md").partition("## Names in templates")[2].partition("\n## ")[0]
+    rows = [line for line in section.splitlines() if line.startswith("| `")]
+    for name in re.findall(r"`(\w+)", "\n".join(row.split(" | ")[0] for row in rows)):
+        assert re.search(rf'(def {name}\(|"{name}"[:\]]|\b{name}=)', code), name
 
 
 def test_the_architecture_places_every_part() -> None:
