@@ -9,7 +9,7 @@ import numpy as np
 from reportgen.ledger.core import Builder
 from reportgen.ledger.kinematics.names import image, length_symbol, segment_symbol
 from reportgen.ledger.kinematics.sides import Scheme
-from reportgen.ledger.kinematics.site import Site, Sizes, longest
+from reportgen.ledger.kinematics.site import Site, longest, sizes
 from reportgen.mechanism.structure import DRIVER, Crank, SlidingDriver
 from reportgen.notation.expressions import (
     Symbol,
@@ -36,8 +36,7 @@ def crank(b: Builder, scheme: Scheme, driver: Crank, turn: int) -> Site:
     """v_A = ω₁ l, a_A = ω₁² l; μ_v = ω₁ μ_l and μ_a = ω₁² μ_l, so that pa and πa′ equal the drawn crank."""
     centre, pin = driver.centre, driver.pin
     length, drawn = f"l.{centre}{pin}", f"drawn.{centre}{pin}"
-    natural = float(b.value("omega.1")[0])
-    site = Site(b, scheme, turn, Sizes(natural * driver.length, natural**2 * driver.length, natural))
+    site = Site(b, scheme, turn, sizes(b, scheme.linkage))
     site.length(centre, pin, driver.length)
     if drawn not in b:
         b.give(drawn, length_symbol(centre, pin), "segment", DRAWN)
@@ -92,8 +91,7 @@ def slide(
     Expects the driver's coordinate `s.1` and the size of its speed, `v.` and the pin's name.
     """
     pin, size = driver.pin, longest(scheme.linkage)
-    speed = float(np.abs(b.value(f"v.{pin}")).max())
-    site = Site(b, scheme, turn, Sizes(speed, speed**2 / size, speed / size))
+    site = Site(b, scheme, turn, sizes(b, scheme.linkage))
     if "mu.l" not in b:
         b.give("mu.l", Symbol("μ", "l"), "length scale", nice_up(size / LONGEST_DRAWN / 1e3) * 1e3)
     along = site.plane("guide.1", cmath.exp(1j * driver.guide.angle))

@@ -6,10 +6,12 @@ import cmath
 from dataclasses import dataclass, field
 from typing import Literal
 
+import numpy as np
+
 from reportgen.ledger.core import Builder
 from reportgen.ledger.kinematics.names import image, length_symbol, segment_symbol
 from reportgen.ledger.kinematics.sides import Scheme
-from reportgen.mechanism.structure import DRIVER, GROUND, Guide, Linkage
+from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Guide, Linkage
 from reportgen.notation.expressions import (
     Expression,
     Negative,
@@ -198,3 +200,13 @@ def longest(linkage: Linkage) -> float:
     spans = [abs(p - q) for p in fixed for q in fixed]
     rods = [length for dyad in linkage.dyads for length in dyad.lengths]
     return max((*rods, *spans, *(abs(place.local) for place in linkage.points)), default=0.0) or 1.0
+
+
+def sizes(b: Builder, linkage: Linkage) -> Sizes:
+    """Velocity, acceleration and rotation that are natural to a linkage: those of its driver's pin."""
+    driver = linkage.driver
+    if isinstance(driver, Crank):
+        omega = float(b.value("omega.1")[0])
+        return Sizes(omega * driver.length, omega**2 * driver.length, omega)
+    speed, size = float(np.abs(b.value(f"v.{driver.pin}")).max()), longest(linkage)
+    return Sizes(speed, speed**2 / size, speed / size)

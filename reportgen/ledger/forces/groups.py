@@ -1,0 +1,285 @@
+"""Reactions of a group in the textbook's order, two unknowns or fewer a step.
+
+The group's loads are laid head to tail, link j's first (e … b), then link i's (b … c).  Vertex n closes the
+plan: R_ci = cn acts on i in its outer joint, R_dj = ne on j in its own, R_ji = nb on i in the inner joint.
+
+==== ======================================== ==================================================
+kind computed by moments                      n lies on
+==== ======================================== ==================================================
+RRR  Rᵗ in both outer joints, about Q         a line along PQ and one along TQ
+RRP  Rᵗ in P, about Q                         a line along PQ and one across the guide
+RPR  R_ij across the slot, about T            the end of R_ij laid on from b
+PRP  –                                        lines across the guides
+RPP  –                                        from b across the slot, from e across the guide
+==== ======================================== ==================================================
+
+In a slide, M is the moment of all else on the link about the pin; the reaction acts at the distance M/R.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.ledger.forces.loads import (
+    FAINT,
+    LoadOn,
+    Statics,
+    above,
+    joint,
+    moments,
+)
+from reportgen.ledger.forces.polygon import Path, Polygon, Side, drawn_sides, force_plan, read
+from reportgen.ledger.kinematics.names import length_symbol
+from reportgen.mechanism.structure import Dyad, DyadKind, Guide
+from reportgen.notation.expressions import (
+    Expression,
+    Ref,
+    Symbol,
+    add,
+    call,
+    divide,
+    multiply,
+    negative,
+)
+
+CLEAR = 1e-3
+"""A slide's reaction that stays above this share of the loads has a distance printed as M/R."""
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """A dyad with the names of its joints and the loads of its two links."""
+
+    statics: Statics
+    dyad: Dyad
+    i: int
+    j: int
+    outer: str
+    inner: str
+    end: str
+    on_i: tuple[LoadOn, ...]
+    on_j: tuple[LoadOn, ...]
+
+    @property
+    def name(self) -> str:
+        return joint(self.i, self.j)
+
+    @property
+    def start(self) -> str:
+        """The outer pin of link i."""
+        assert isinstance(self.dyad.start, str)
+        return self.dyad.start
+
+
+def group(statics: Statics, dyad: Dyad) -> Polygon:
+    """Enter a group's reactions; `statics.loads` holds those of later groups on its links."""
+    i, j = dyad.links
+    carriers = [
+        end.link if isinstance(end, Guide) else statics.scheme.owner[end] for end in (dyad.start, dyad.end)
+    ]
+    parts = Group(
+        statics,
+        dyad,
+        i,
+        j,
+        joint(carriers[0], i),
+        joint(j, i),
+        joint(carriers[1], j),
+        statics.on(i),
+        statics.on(j),
+    )
+    return DYADS[dyad.kind](parts)
+
+
+def _rrr(g: Group) -> Polygon:
+    assert isinstance(g.dyad.end, str)
+    q = g.dyad.middle
+    _tangential(g, g.i, g.outer, g.start, q, g.on_i)
+    _tangential(g, g.j, g.end, g.dyad.end, q, g.on_j)
+    return _close(g, f"rod.{g.i}", f"rod.{g.j}", tangents=(True, True))
+
+
+def _rrp(g: Group) -> Polygon:
+    q = g.dyad.middle
+    _tangential(g, g.i, g.outer, g.start, q, g.on_i)
+    polygon = _close(g, f"rod.{g.i}", call("turned", f"guide.{g.j}"), tangents=(True, False))
+    _slide(g, g.end, q, g.on_j)
+    return polygon
+
+
+def _rpr(g: Group) -> Polygon:
+    """Lever j about T: R_ij l = ΣM_T(j) + ΣM_P(i), l the distance of T from the line of R_ij."""
+    assert isinstance(g.dyad.end, str)
+    b, across = g.statics.b, joint(g.i, g.j)
+    couple = _moment(g, g.inner, g.start, g.on_i)
+    turned = moments(g.statics, g.on_j, g.dyad.end)
+    known = [part for part in (turned, couple) if part is not None]
+    b.define(
+        f"R.{across}.s",
+        Symbol("R", across),
+        "force",
+        divide(known[0] if len(known) == 1 else add(*known), _reach(g)) if known else 0.0,
+        scale=g.statics.force,
+    )
+    sense = -float(g.dyad.sign)
+    b.construct(f"F.R{across}.s", multiply(f"R.{across}.s", sense, call("turned", f"slot.{g.j}")))
+    polygon = _close(g, None, None, laid=f"F.R{across}.s")
+    _offset(g, g.inner)
+    return polygon
+
+
+def _prp(g: Group) -> Polygon:
+    q = g.dyad.middle
+    polygon = _close(g, call("turned", f"guide.{g.i}"), call("turned", f"guide.{g.j}"))
+    _slide(g, g.outer, q, g.on_i)
+    _slide(g, g.end, q, g.on_j)
+    return polygon
+
+
+def _rpp(g: Group) -> Polygon:
+    """Link j under its loads, R_ij across the slot and R_kj across the guide; then block i."""
+    polygon = _close(g, call("turned", f"slot.{g.j}"), call("turned", f"guide.{g.j}"), from_between=True)
+    _slide(g, g.inner, g.start, g.on_i)
+    b, back = g.statics.b, joint(g.i, g.j)
+    b.define(f"R.{back}", Symbol("R", back), "force", f"R.{g.inner}")
+    b.construct(f"F.R{back}", negative(f"F.R{g.inner}"))
+    if f"M.{g.inner}" in b:
+        b.construct(f"couple.R{back}", add(f"M.{g.inner}"))
+    _slide(g, g.end, g.dyad.middle, (LoadOn(f"R{back}", g.j, g.start, f"R.{back}"), *g.on_j))
+    return polygon
+
+
+# --- steps ----------------------------------------------------------------------------------------
+
+
+def _tangential(
+    g: Group, link: int, digits: str, pin: str, middle: str, loads: tuple[LoadOn, ...]
+) -> None:
+    """Moments of a rod about the inner joint: Rᵗ l = ΣM, positive along the rod turned by 90°."""
+    b, length = g.statics.b, f"l.{pin}{middle}"
+    turned = moments(g.statics, loads, middle)
+    b.define(
+        f"R.{digits}.t",
+        Symbol("R", digits, "τ"),
+        "force",
+        0.0 if turned is None else divide(turned, length),
+        scale=g.statics.force,
+    )
+    b.construct(f"F.R{digits}.t", multiply(f"R.{digits}.t", call("turned", divide(f"rod.{link}", length))))
+
+
+def _reach(g: Group) -> str:
+    """The length from T to the line of R_ij: TP itself, or from the foot H of T on the slot's line."""
+    b, q, end = g.statics.b, g.dyad.middle, g.dyad.end
+    if not g.dyad.lengths[1]:
+        return f"l.{end}{q}"
+    foot = f"H{g.j}"
+    b.define(
+        f"drawn.{foot}{q}",
+        length_symbol(foot, q),
+        "segment",
+        divide(call("abs", call("dot", f"rod.{g.j}", f"slot.{g.j}")), "mu.l"),
+        scale=g.statics.span,
+    )
+    return b.define(f"l.{foot}{q}", Symbol("l", f"{foot}{q}"), "length", multiply("mu.l", f"drawn.{foot}{q}"))
+
+
+def _close(
+    g: Group,
+    first: Expression | str | None,
+    second: Expression | str | None,
+    *,
+    tangents: tuple[bool, bool] = (False, False),
+    laid: str = "",
+    from_between: bool = False,
+) -> Polygon:
+    """Lay the known forces, close the plan at n, and read every reaction from it.
+
+    `first` and `second` are the directions in which n is sought: from the last known vertex (or from b), and
+    from e; `laid` instead is a force laid on from b.
+    """
+    path = Path()
+    if tangents[1]:
+        path.lay(f"R{g.end}.t", g.j)
+    after = path.last
+    for load in g.on_j:
+        if load.point:
+            path.lay(load.name, g.j)
+    between = path.last
+    for load in g.on_i:
+        if load.point:
+            path.lay(load.name, g.i)
+    before = path.last
+    if tangents[0]:
+        path.lay(f"R{g.outer}.t", g.i)
+    start = between if from_between else path.last
+    statics, name, at = g.statics, g.name, path.corners
+    if laid:
+        closing: Expression = add(at[between], laid)
+    else:
+        assert first is not None
+        assert second is not None
+        closing = call("meet", at[start], first, 0.0, second)
+    statics.b.construct(f"closing.{name}", closing)
+    force_plan(statics, name, f"R({g.i},{g.j})", {**at, "n": add(f"closing.{name}")})
+
+    def take(digits: str, part: str, begin: str, end: str) -> None:
+        dotted = f".{part}" if part else ""
+        read(statics, name, f"R{digits}{dotted}", Symbol("R", digits, part), f"R.{digits}{dotted}", begin, end)
+
+    take(g.outer, "", before, "n")
+    if tangents[0]:
+        take(g.outer, "n", path.last, "n")
+    if tangents[1]:
+        take(g.end, "n", "n", path.first)
+    take(g.end, "", "n", after)
+    take(g.inner, "", "n", between)
+    drawn_sides(statics, name, path.sides)
+
+    outer = Side(f"R{g.outer}.n" if tangents[0] else f"R{g.outer}", path.last, "n", True, g.i)
+    end = Side(f"R{g.end}.n" if tangents[1] else f"R{g.end}", "n", path.first, True, g.j)
+    reads = [Side(f"R{g.outer}", before, "n", True, g.i)] if tangents[0] else []
+    reads += [Side(f"R{g.end}", "n", after, True, g.j)] if tangents[1] else []
+    reads.append(Side(f"R{g.inner}", "n", between, True, g.i))
+    return Polygon(name, (*path.sides, outer, end), tuple(reads))
+
+
+def _slide(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> None:
+    """Where a slide's reaction acts: moments of all else on the link about the pin."""
+    _moment(g, digits, pin, loads)
+    _offset(g, digits)
+
+
+def _moment(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> Expression | None:
+    """Enter the moment about the pin that a slide's reaction has to balance, if there is any."""
+    turned = moments(g.statics, loads, pin)
+    if turned is None:
+        return None
+    id = f"M.{digits}"
+    g.statics.b.define(id, Symbol("M", digits), "torque", turned, scale=g.statics.torque)
+    return Ref(id)
+
+
+def _offset(g: Group, digits: str) -> None:
+    """The distance x = M/R from the pin to the line of a slide's reaction."""
+    b, statics, size = g.statics.b, g.statics, f"R.{digits}"
+    moment: Expression | float = Ref(f"M.{digits}") if f"M.{digits}" in b else 0.0
+    values = b.value(size)
+    clear = bool(np.all(values[np.isfinite(values)] > CLEAR * statics.force)) and f"M.{digits}" in b
+    if clear:
+        formula: Expression = divide(moment, size)
+    else:
+        formula = call("quotient", moment, above(size, FAINT * statics.force) if f"M.{digits}" in b else size)
+    b.define(f"x.{digits}", Symbol("x", digits), "length", formula, scale=statics.span)
+
+
+DYADS: Mapping[DyadKind, Callable[[Group], Polygon]] = {
+    "RRR": _rrr,
+    "RRP": _rrp,
+    "RPR": _rpr,
+    "PRP": _prp,
+    "RPP": _rpp,
+}
