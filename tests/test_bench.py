@@ -86,17 +86,18 @@ def test_a_process_that_fails_says_why(tmp_path: Path) -> None:
         measure.run((sys.executable, "-c", "raise SystemExit('no such luck')"), tmp_path)
 
 
-def test_tasks_take_turns_and_give_medians() -> None:
+def test_tasks_take_turns_and_are_compared_round_by_round() -> None:
     order: list[str] = []
-    costs = iter((1.0, 10.0, 5.0, 30.0, 3.0, 20.0))
+    seconds = iter((1.0, 10.0, 5.0, 30.0, 3.0, 20.0))
 
     def task(name: str) -> measure.Cost:
         order.append(name)
-        return measure.Cost(next(costs), 1.0)
+        return measure.Cost(next(seconds), 1.0)
 
-    medians = measure.in_turns({name: lambda name=name: task(name) for name in "ab"}, 3)
+    costs = measure.in_turns({name: lambda name=name: task(name) for name in "ab"}, 3)
     assert "".join(order) == "ababab"
-    assert {name: cost.seconds for name, cost in medians.items()} == {"a": 3.0, "b": 20.0}
+    assert measure.middle(costs["a"]) == measure.Cost(3.0, 1.0)
+    assert measure.ratio(costs["b"], costs["a"]) == 20 / 3  # of 10, 6 and 20/3
 
 
 def test_runs_one_after_the_other_add_up() -> None:

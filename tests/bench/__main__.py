@@ -14,12 +14,12 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from .measure import Cost, in_turns, repeated, run
+from .measure import Cost, in_turns, middle, ratio, repeated, run
 
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
@@ -93,7 +93,7 @@ class Bench:
             raise RuntimeError(done.stderr.strip())
         return done.stdout
 
-    def rows(self, rounds: int, plain_rounds: int) -> Iterator[Row]:
+    def rows(self, rounds: int) -> Iterator[Row]:
         """Everything, measured; the first build of each engine warms the disk and is not counted."""
         for engine in self.engines:
             self.build(engine)
@@ -106,39 +106,33 @@ class Bench:
         if "latex" in self.engines:
             passes = int(self.ask("-c", PASSES, str(self.source("latex"))))
             tasks["latex alone"] = partial(self.latex_alone, passes)
+            tasks["plain"] = partial(self.plain, size)
         costs = in_turns(tasks, rounds)
         for engine in self.engines:
             yield _over_typesetter(engine, costs[engine], costs[f"{engine} alone"], passes)
-        if "latex" in self.engines:
-            yield from _against_plain(
-                costs, in_turns({"plain": partial(self.plain, size)}, plain_rounds)["plain"], size
-            )
+        if "plain" in costs:
+            yield from _against_plain(costs, json.loads(size))
         else:
             yield Row("rows with LaTeX, plain script", "", "skipped", "pdflatex is not installed")
         yield _solving(json.loads(self.ask("-m", "tests.bench.solving", str(self.file), str(POSITIONS))))
-        for engine in self.engines:
-            yield Row(f"peak memory, {engine}", "", f"{costs[engine].memory:.0f} MB")
-        yield Row("peak memory, typst alone", "", f"{costs['typst alone'].memory:.0f} MB")
+        for name in (*self.engines, "typst alone"):
+            yield Row(f"peak memory, {name}", "", f"{middle(costs[name]).memory:.0f} MB")
 
 
-def _over_typesetter(engine: str, build: Cost, alone: Cost, passes: int) -> Row:
+def _over_typesetter(engine: str, build: Sequence[Cost], alone: Sequence[Cost], passes: int) -> Row:
     aim = {"typst": "≤ 1.5", "latex": "≤ 2"}[engine]
     how = f"{passes} passes" if engine == "latex" else "alone"
-    detail = f"{build.seconds:.2f} s, {how} {alone.seconds:.2f} s"
-    return Row(f"build / typesetter, {engine}", aim, f"{build.seconds / alone.seconds:.2f}", detail)
+    detail = f"{middle(build).seconds:.2f} s, {how} {middle(alone).seconds:.2f} s"
+    return Row(f"build / typesetter, {engine}", aim, f"{ratio(build, alone):.2f}", detail)
 
 
-def _against_plain(costs: dict[str, Cost], plain: Cost, size: str) -> Iterator[Row]:
-    held = json.loads(size)
+def _against_plain(costs: Mapping[str, Sequence[Cost]], size: Mapping[str, int]) -> Iterator[Row]:
     by = "latexmk" if shutil.which("latexmk") else "pdflatex"
-    pages, figures, formulas = held["pages"], held["figures"], held["formulas"]
-    detail = (
-        f"{plain.seconds:.2f} s by pyplot and {by}; {pages} pages, {figures} figures, {formulas} formulas"
-    )
-    for engine in ("typst", "latex"):
-        yield Row(
-            f"plain script / build, {engine}", "≥ 5", f"{plain.seconds / costs[engine].seconds:.2f}", detail
-        )
+    held = ", ".join(f"{size[what]} {what}" for what in ("pages", "figures", "labels", "formulas", "tables"))
+    details = (f"{middle(costs['plain']).seconds:.2f} s by pyplot and {by}", held)
+    for engine, detail in zip(("typst", "latex"), details, strict=True):
+        faster = ratio(costs["plain"], costs[engine])
+        yield Row(f"plain script / build, {engine}", "≥ 5", f"{faster:.2f}", detail)
 
 
 def _solving(taken: dict[str, float]) -> Row:
@@ -173,13 +167,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
     parser.add_argument("file", nargs="?", type=Path, default=SAMPLE, help="assignment file")
-    parser.add_argument("--rounds", type=int, default=5, help="runs of each build, taken in turns")
-    parser.add_argument("--plain-rounds", type=int, default=3, help="runs of the plain script")
+    parser.add_argument("--rounds", type=int, default=5, help="runs of everything, taken in turns")
     chosen = parser.parse_args(arguments)
     engines = ("typst", "latex") if shutil.which("pdflatex") else ("typst",)
     with tempfile.TemporaryDirectory(prefix="reportgen-bench-") as name:
         bench = Bench(chosen.file.resolve(), Path(name), engines)
-        rows = list(bench.rows(chosen.rounds, chosen.plain_rounds))
+        rows = list(bench.rows(chosen.rounds))
     print(of_this_machine(), table(rows), sep="\n")
 
 

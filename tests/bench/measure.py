@@ -1,4 +1,4 @@
-"""Cold processes, timed: wall time and peak memory of each, medians of runs taken in turns."""
+"""Cold processes, timed: wall time and peak memory of each, run in turns and compared round by round."""
 
 from __future__ import annotations
 
@@ -44,16 +44,23 @@ def run(command: Sequence[str], folder: Path, environment: Mapping[str, str] | N
     return Cost(seconds, usage.ru_maxrss * BYTES_PER_MAXRSS / 1e6)
 
 
-def in_turns(tasks: Mapping[str, Callable[[], Cost]], rounds: int) -> dict[str, Cost]:
-    """Median cost of each task; one run of each a round, so that a slow minute strikes all alike."""
+def in_turns(tasks: Mapping[str, Callable[[], Cost]], rounds: int) -> dict[str, tuple[Cost, ...]]:
+    """Costs of each task; one run of each a round, so that a slow minute strikes all alike."""
     taken: dict[str, list[Cost]] = {name: [] for name in tasks}
     for _ in range(rounds):
         for name, task in tasks.items():
             taken[name].append(task())
-    return {
-        name: Cost(median(cost.seconds for cost in costs), median(cost.memory for cost in costs))
-        for name, costs in taken.items()
-    }
+    return {name: tuple(costs) for name, costs in taken.items()}
+
+
+def middle(costs: Sequence[Cost]) -> Cost:
+    """Median time and median memory."""
+    return Cost(median(cost.seconds for cost in costs), median(cost.memory for cost in costs))
+
+
+def ratio(above: Sequence[Cost], below: Sequence[Cost]) -> float:
+    """Median over the rounds of one task's time over the other's in the same round."""
+    return median(one.seconds / other.seconds for one, other in zip(above, below, strict=True))
 
 
 def repeated(task: Callable[[], Cost], times: int) -> Cost:
