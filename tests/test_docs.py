@@ -70,15 +70,19 @@ def commands(document: str) -> Iterator[Command]:
 
 
 def agrees(shown: Sequence[str], printed: Sequence[str]) -> bool:
-    """Whether the lines are those printed; `…` stands for any text, alone on its line for any lines."""
+    """Whether the lines are those printed; `…` stands for any text, alone on its line for any lines.
+
+    Columns may be wider or narrower: blanks between words count as two.
+    """
     if not shown:
         return not printed
     if shown[0] == "…":
         return any(agrees(shown[1:], printed[start:]) for start in range(len(printed) + 1))
     if not printed:
         return False
-    pattern = shown[0].replace("[", "[[]").replace("…", "*")
-    return fnmatchcase(printed[0].rstrip(), pattern.rstrip()) and agrees(shown[1:], printed[1:])
+    wanted, line = (re.sub(r"(?<=\S) {2,}", "  ", text.rstrip()) for text in (shown[0], printed[0]))
+    pattern = re.sub(r"[*?[]", r"[\g<0>]", wanted).replace("…", "*")
+    return fnmatchcase(line, pattern) and agrees(shown[1:], printed[1:])
 
 
 def run(lines: Sequence[str], place: Path) -> list[tuple[list[str], int]]:
@@ -154,13 +158,13 @@ def test_a_machine_added_as_described_has_its_report(tmp_path: Path) -> None:
     place = copy_of_repository(tmp_path)
     table = place / "reportgen" / "catalogue" / "__init__.py"
     before = "MODULES: Mapping[str, str] = {"
-    (line,) = [body for body in fences("CONTRIBUTING.md", "python") if body.startswith('"slider-crank":')]
+    (line,) = [body for body in fences("CONTRIBUTING.md", "python") if body.startswith('"plunger-pump":')]
     text = table.read_text(encoding="utf-8")
     assert text.count(before) == 1
     table.write_text(text.replace(before, f"{before}\n    {line}    "), encoding="utf-8")
     assert follow("CONTRIBUTING.md", place) == []
     # A crank of 40 mm at 300 rpm: ω = 10π, its pin moves at 0.4π m/s, at the dead centre a = ω²r(1 + r/l).
-    first = json.loads((place / "slider-crank.json").read_text(encoding="utf-8"))["positions"][0]
+    first = json.loads((place / "plunger-pump.json").read_text(encoding="utf-8"))["positions"][0]
     assert first["links"]["1"]["omega"] == pytest.approx(31.41592653589793)
     assert first["points"]["A"]["v"] == pytest.approx([0, 1.2566370614359172], abs=1e-12)
     assert first["points"]["B"]["a"][0] == pytest.approx(-39.47841760435743 * (1 + 40 / 140))
@@ -169,7 +173,7 @@ def test_a_machine_added_as_described_has_its_report(tmp_path: Path) -> None:
 
 def test_the_example_machine_is_clean(tmp_path: Path) -> None:
     files = dict(_FILE.findall(text_of("CONTRIBUTING.md")))
-    code = files["reportgen/catalogue/slider_crank.py"]
+    code = files["reportgen/catalogue/plunger_pump.py"]
     # The project's own rules; the file's name tells ruff which of them hold for it.
     done = subprocess.run(
         [sys.executable, "-m", "ruff", "check", "--config", ROOT / "pyproject.toml", "--stdin-filename", "a.py", "-"],
@@ -302,6 +306,9 @@ def test_the_architecture_places_every_part() -> None:
         (["a", "…", "c"], ["a", "b"], False),
         (["x = … m"], ["x = 1.5 m"], True),
         (["[a]"], ["a"], False),
+        (["a*"], ["ab"], False),
+        (["a  b"], ["a     b"], True),
+        (["  a"], ["a"], False),
         ([], ["a"], False),
     ],
 )
