@@ -20,6 +20,7 @@ from reportgen.document.words import load_words
 from reportgen.figures.scene import Scene
 from reportgen.ledger.report import Books, keep
 from reportgen.notation.numbers import Language
+from tests.reports.pages import Glyph, body
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted((ROOT / "assignments").glob("*.yaml"))
@@ -78,6 +79,11 @@ class Report:
     def pages(self) -> Any:
         """The open PDF."""
         return pytest.importorskip("pymupdf").open(stream=self.pdf, filetype="pdf")
+
+    @cached_property
+    def bodies(self) -> list[list[Glyph]]:
+        """The glyphs of each page without header and footer."""
+        return [body(page) for page in self.pages]
 
 
 def compose(assignment: Assignment) -> Written:

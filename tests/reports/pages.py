@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -21,6 +21,7 @@ PROSE = (11.6, 12.4)
 """Font sizes of running text, headings of level 3 and formulas; all else is smaller or larger."""
 
 _DROPPED = re.compile("[\\s\N{WORD JOINER}\N{SOFT HYPHEN}\N{HYPHEN}-]+")
+_SMALL = re.compile("[₀-₉]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +39,11 @@ class Glyph:
 def squash(text: str) -> str:
     """Text without what typesetters are free in: spaces, line breaks, hyphens, compatibility forms."""
     return _DROPPED.sub("", unicodedata.normalize("NFKC", text))
+
+
+def squash_prose(text: str) -> str:
+    """The same without small figures below the line, which LaTeX sets as formulas in a smaller size."""
+    return squash(_SMALL.sub("", text))
 
 
 def glyphs(page: Any) -> list[Glyph]:
@@ -69,8 +75,30 @@ def is_plate(page: Any) -> bool:
 
 def body(page: Any) -> list[Glyph]:
     """The glyphs of a page without its header and footer."""
-    edge = 13 * MM if is_plate(page) else BODY
+    edge = 13.5 * MM if is_plate(page) else BODY
     return [glyph for glyph in glyphs(page) if edge < glyph.origin[1] < page.rect.height - edge]
+
+
+def without_repeated_head(page: Any, found: Sequence[Glyph]) -> Sequence[Glyph]:
+    """The glyphs of a page's body without the head of a table that continues from the page before.
+
+    Such a page begins with a rule, and the head lasts until the next rule of that width.
+    """
+    rules = sorted(
+        (
+            drawing["rect"]
+            for drawing in page.get_drawings()
+            if drawing["rect"].y0 > BODY and drawing["rect"].height < 1.5 and drawing["rect"].width > 60 * MM
+        ),
+        key=lambda rule: float(rule.y0),
+    )
+    top = min((glyph.box[1] for glyph in found), default=0.0)
+    if is_plate(page) or not rules or rules[0].y1 > top:
+        return found
+    below = next(
+        (rule for rule in rules[1:] if rule.y0 > top and abs(rule.width - rules[0].width) < 1), rules[0]
+    )
+    return [glyph for glyph in found if glyph.origin[1] > below.y1]
 
 
 def text(of: Iterable[Glyph]) -> str:

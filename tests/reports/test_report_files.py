@@ -32,8 +32,8 @@ def test_a_report_of_the_engine_has_thirty_to_sixty_pages(report: Report) -> Non
 
 
 def test_no_page_is_empty(report: Report) -> None:
-    for page in report.pages:
-        assert page.get_drawings() or pages.body(page), page.number + 1
+    for page, found in zip(report.pages, report.bodies, strict=True):
+        assert found or page.get_drawings(), page.number + 1
 
 
 def headings(report: Report) -> list[tuple[str, int]]:
@@ -43,7 +43,7 @@ def headings(report: Report) -> list[tuple[str, int]]:
         for block in report.document.blocks
         if isinstance(block, Section) and block.level <= 3
     ]
-    printed = [pages.text(glyph for glyph in pages.body(page) if glyph.bold) for page in report.pages]
+    printed = [pages.text(glyph for glyph in found if glyph.bold) for found in report.bodies]
     skipped = contents_pages(report)
     found: list[tuple[str, int]] = []
     at = 0
@@ -56,16 +56,17 @@ def headings(report: Report) -> list[tuple[str, int]]:
 def contents_pages(report: Report) -> range:
     """Indices of the pages from the title of the contents to the next heading."""
     (title,) = (block.title for block in report.document.blocks if isinstance(block, Contents))
-    start = next(page.number for page in report.pages if pages.text(pages.body(page)).startswith(squash(title)))
+    printed = [pages.text(found) for found in report.bodies]
+    start = next(page for page, text in enumerate(printed) if text.startswith(squash(title)))
     last = start
-    while re.search(r"(\.{5}\d+){3}", pages.text(pages.body(report.pages[last + 1]))):
+    while re.search(r"(\.{5}\d+){3}", printed[last + 1]):
         last += 1
     return range(start, last + 1)
 
 
 def test_contents_tell_the_page_on_which_each_heading_stands(report: Report) -> None:
     (title,) = (block.title for block in report.document.blocks if isinstance(block, Contents))
-    printed = "".join(pages.text(pages.body(report.pages[number])) for number in contents_pages(report))
+    printed = "".join(pages.text(report.bodies[number]) for number in contents_pages(report))
     entries = (re.escape(heading) + r"\.*" + str(page) for heading, page in headings(report))
     assert re.fullmatch(re.escape(squash(title)) + "".join(entries), printed)
 

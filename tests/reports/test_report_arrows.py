@@ -1,0 +1,123 @@
+"""Scale is true: every arrow of the PDF, and those of the plans against the ledger's segments, with a ruler."""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterator
+
+import pytest
+
+from reportgen.figures.scene import Arrow
+from reportgen.mechanism.structure import DRIVER
+from tests.reports import built, pages
+from tests.reports.built import Report, Written
+
+pytest.importorskip("pymupdf")
+
+RULER = 0.1
+"""Millimetres: what a ruler on paper can tell apart."""
+MM = 1e3
+STAGES = 0.5
+"""Stages are drawn at half the size of the plan; their caption prints the scale twice as large."""
+
+
+def drawn(written: Written) -> list[tuple[str, Arrow]]:
+    """(figure, arrow) of every arrow that has a length, in printed order."""
+    return [
+        (key, item)
+        for key, scene in built.scenes(written.document)
+        for item in scene.items
+        if isinstance(item, Arrow) and abs(item.end - item.start) > 0
+    ]
+
+
+def measured(report: Report) -> list[tuple[str, str, float]]:
+    """(figure, name, mm on paper) of every arrow."""
+    lengths = [length for page in report.pages for length in pages.arrows(page)]
+    expected = drawn(report.written)
+    assert len(lengths) == len(expected)
+    return [(key, arrow.name, length) for (key, arrow), length in zip(expected, lengths, strict=True)]
+
+
+def test_every_arrow_is_as_long_on_paper_as_in_its_scene(report: Report) -> None:
+    expected = [abs(arrow.end - arrow.start) for _, arrow in drawn(report.written)]
+    assert len(expected) > 10
+    off = [
+        (key, name, length, true)
+        for (key, name, length), true in zip(measured(report), expected, strict=True)
+        if abs(length - true) > RULER
+    ]
+    assert off == []
+
+
+def segment(name: str, plan: str) -> str:
+    """The ledger's id of a vector of a velocity or acceleration plan: v_B is pb, a^n_BA is a′n."""
+    normal = re.fullmatch(r"n([A-Z]\d*[A-Z]\d*)", name)
+    relative = re.fullmatch(r"([A-Z]\d*)([A-Z]\d*)", name)
+    if normal:
+        return f"seg.{plan}.n.{normal[1]}"
+    if relative:
+        return f"seg.a.t.{name}" if plan == "a" else f"seg.v.{relative[2].lower()}{relative[1].lower()}"
+    return f"seg.{plan}.p{name.lower()}"
+
+
+def segments(written: Written, key: str) -> dict[str, list[float]]:
+    """Lengths (mm) at the positions of one plan's figure by the vector's name; none for other figures."""
+    ledger = written.books.ledger
+    motion = re.fullmatch(r"fig\.([va])\.(?:stages\.)?(\d+|plates)(?:\.\d+)?", key)
+    forces = re.fullmatch(
+        r"fig\.R\.(?:plates\.(\w+)(?:\.\d+)?|(\w+)\.(\d+))", key.replace("fig.crank.", f"fig.R.{DRIVER}.")
+    )
+    if motion:
+        ids = {name: segment(name, motion[1]) for name in names(written, key)}
+        position = motion[2]
+    elif forces:
+        group = forces[1] or forces[2]
+        polygon = next(polygon for polygon in written.books.polygons if polygon.name == group)
+        sides = (*polygon.sides, *polygon.reads)
+        ids = {side.start + side.end: f"seg.{polygon.name}.{side.name}" for side in sides}
+        position = forces[3] or "plates"
+    else:
+        return {}
+    count = written.analysis.machine.count if motion else written.analysis.machine.positions
+    positions = range(1, count + 1) if position == "plates" else [int(position)]
+    scale = STAGES if ".stages." in key else 1.0
+    return {
+        name: [abs(complex(ledger[id].at(k))) * MM * scale for k in positions] for name, id in ids.items()
+    }
+
+
+def names(written: Written, key: str) -> set[str]:
+    return {arrow.name.split(" ×")[0] for figure, arrow in drawn(written) if figure == key}
+
+
+def plans(report: Report) -> Iterator[tuple[str, str, list[float]]]:
+    """(figure, name, lengths on paper) of the vectors of every plan; plates of one plan count as one figure."""
+    found: dict[tuple[str, str], list[float]] = defaultdict(list)
+    for key, name, length in measured(report):
+        whole = re.sub(r"(\.[va]\.plates|\.R\.plates\.\w+)\.\d+$", r"\1", key)
+        found[whole, name].append(length)
+    for (key, name), lengths in found.items():
+        yield key, name, lengths
+
+
+def test_every_vector_of_a_plan_is_its_segment_of_the_ledger(report: Report) -> None:
+    compared = 0
+    for key, name, lengths in plans(report):
+        known = segments(report.written, key)
+        base, _, ratio = name.partition(" ×")
+        if base not in known:
+            # The crank's plan shares its figure with the body and its forces, which are not to scale.
+            assert not re.match(r"fig\.[vaR]\.", key), (key, name)
+            continue
+        true = [length for length in known[base] if length > 1e-6]
+        if ratio:
+            true = [length * float(ratio) for length in true]
+            assert all(min(abs(length - other) for other in true) < RULER for length in lengths), (key, name)
+        elif ".stages." in key:
+            assert all(abs(length - true[0]) < RULER for length in lengths), (key, name)
+        else:
+            assert sorted(lengths) == pytest.approx(sorted(true), abs=RULER), (key, name)
+        compared += len(lengths)
+    assert compared > 100

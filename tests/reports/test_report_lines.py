@@ -1,0 +1,115 @@
+"""Printed lines hold: recomputed from the text of the PDF, and every one of them in the tree."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import replace
+
+import pytest
+
+from reportgen.document.plain import formula, text_of
+from reportgen.notation.numbers import write
+from tests.reports import built, recompute
+from tests.reports.built import Report, Written
+from tests.reports.printed_lines import NUMBER, PrintedLine, printed_lines
+
+pytest.importorskip("pymupdf")
+
+
+def rounded(written: Written) -> frozenset[str]:
+    """Texts (with decimal points) that stand for rounded numbers and never for exact ones."""
+    numbers = list(recompute.numbers(written.document))
+    texts = {
+        exact: {
+            write(abs(number.value), number.decimals, "en") for number in numbers if exact(number.decimals)
+        }
+        for exact in (lambda decimals: decimals is None, lambda decimals: decimals is not None)
+    }
+    exact, others = texts.values()
+    return frozenset(others - exact)
+
+
+def lines(report: Report) -> list[PrintedLine]:
+    return list(printed_lines(report))
+
+
+def test_lines_read_from_the_pdf_recompute(report: Report) -> None:
+    found = lines(report)
+    assert len({(line.substitution, line.result) for line in found}) >= 10
+    off = {line: line.misfit(rounded(report.written)) for line in found}
+    assert {line: misfit for line, misfit in off.items() if misfit > 1} == {}
+
+
+def test_both_writers_print_the_same_lines(pair: tuple[Report, Report]) -> None:
+    typst, latex = ([(line.substitution, line.result) for line in lines(report)] for report in pair)
+    assert typst == latex
+
+
+def corrupted(text: str, at: int) -> str:
+    """The text with another digit at a place, half the decade away so that rounding cannot explain it."""
+    return f"{text[:at]}{(int(text[at]) + 5) % 10}{text[at + 1 :]}"
+
+
+@pytest.mark.parametrize("path", built.FILES, ids=lambda path: path.stem)
+def test_one_corrupted_digit_is_caught(path: built.Path) -> None:
+    """Every digit of the results, and the first digit of what is put in, of lines read from a PDF."""
+    report = built.report(path, "typst", "vi")
+    numbers = rounded(report.written)
+    tried = 0
+    for line in lines(report):
+        digits = re.match(rf"-?{NUMBER}", line.result)
+        assert digits is not None
+        number = digits.group().lstrip("-")
+        for at in (at for at in range(digits.end()) if line.result[at].isdigit()):
+            wrong = replace(line, result=corrupted(line.result, at))
+            # The corrupted number is as rounded as the true one.
+            known = (
+                numbers | {corrupted(number, at - digits.end() + len(number))}
+                if number in numbers
+                else numbers
+            )
+            assert wrong.misfit(known) > 1, wrong
+            tried += 1
+    assert tried > 30
+
+
+# --- in the tree ----------------------------------------------------------------------------------
+
+
+def test_every_chain_of_the_tree_recomputes(written: Written) -> None:
+    steps = [
+        (recompute.step_misfit(left, result), formula(chain, written.language))
+        for chain in recompute.chains(written.document)
+        for left, result in recompute.steps(chain)
+    ]
+    assert len(steps) > 10
+    assert [step for step in steps if not step[0] <= 1] == []
+
+
+def test_no_line_is_exempt(written: Written) -> None:
+    """Cancellations that no number of digits mends would be listed here; the samples have none."""
+    assert written.books.ledger.cancellations == ()
+
+
+def test_numbers_are_printed_as_they_should(written: Written) -> None:
+    """Finite, no negative zero, no more than six significant figures of a rounded value."""
+    for number in recompute.numbers(written.document):
+        assert math.isfinite(number.value)
+        text = write(number.value, number.decimals, written.language)
+        digits = re.sub(r"\D", "", text).lstrip("0")
+        assert digits or not text.startswith("−")
+        assert number.decimals is None or len(digits) <= 6, text
+
+
+def test_the_decimal_mark_is_that_of_the_language(written: Written) -> None:
+    """A point between figures may only be that of a number of section, figure, table or equation."""
+    text = text_of(written.document)
+    if written.language == "vi":
+        text = re.sub(r"(?m)^\d+(\.\d+)+ ", "", text)
+        text = re.sub(
+            r"(?i)(hình|bảng|mục|phần) (\d+\.\d+(\.\d+)?(, |, hình |, bảng | và |–)?)+|\(\d+\.\d+\)", "", text
+        )
+        assert re.findall(r".*\d\.\d.*", text) == []
+    else:
+        assert re.findall(r".*\d,\d.*", re.sub(r"\(\d,\d\)", "", text)) == []
