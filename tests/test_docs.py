@@ -99,7 +99,7 @@ def run(lines: Sequence[str], place: Path) -> list[tuple[list[str], int]]:
     mark = "\x1e"
     script = "".join(f"(exit $status)\n{line}\nstatus=$?; printf '{mark}%s{mark}' $status\n" for line in lines)
     done = subprocess.run(
-        ["bash", "-c", "status=0\n" + script],
+        ["sh", "-c", "status=0\n" + script],
         cwd=place,
         env={
             **os.environ,
