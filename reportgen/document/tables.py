@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 
 from reportgen.assignment import Assignment
-from reportgen.cycle.indicator import AngleIndicator, StrokeIndicator
+from reportgen.catalogue.gas import ByOrdinates
+from reportgen.catalogue.laws import TableLaw
+from reportgen.cycle.indicator import StrokeIndicator
 from reportgen.document.facts import Facts
 from reportgen.document.tree import Cell, Column, InlineMath, Table, Text, Value
 from reportgen.document.voice import FIRST_COLUMN, TEXT_WIDTH, Voice
@@ -67,33 +69,57 @@ class Tables:
 
     def indicator_table(self, key: str, caption: str) -> Table:
         """The indicator diagram as given, in gauge pressure: by stroke, or against the cycle angle."""
-        piston = self.facts.analysis.machine.pistons[0]
-        table = piston.indicator
-        words = self.voice.words["strokes"]
+        diagram = self.assignment.indicator
+        heights = diagram.height if isinstance(diagram, ByOrdinates) else ()
+        law = self.facts.analysis.machine.pistons[0].law
+        return self._law_table(law, key, caption, self.voice.words["strokes"], Symbol("p"), 1e4, heights)
+
+    def force_table(self, key: str, caption: str, names: Sequence[str]) -> Table:
+        """A working force as given (N): a row for each of the strokes `names`, or against the crank angle."""
+        law = self.facts.analysis.machine.applied[0].law
+        assert isinstance(law, TableLaw)
+        return self._law_table(law, key, caption, names, Symbol("P"), 1.0)
+
+    def _law_table(
+        self,
+        law: TableLaw,
+        key: str,
+        caption: str,
+        names: Sequence[str],
+        symbol: Symbol,
+        unit: float,
+        heights: Sequence[float] = (),
+    ) -> Table:
+        """The nodes of a law; `heights` (mm) are those it was read from, if it was read from a drawing."""
+        table = law.table
         if isinstance(table, StrokeIndicator):
             first = FIRST_COLUMN + 8
             rows = [
-                (self.voice.cell(name), *(self._exact(value / 1e4) for value in row))
-                for name, row in zip(words, table.rows, strict=True)
+                (self.voice.cell(name), *(self._exact(value / unit) for value in row))
+                for name, row in zip(names, table.rows, strict=False)
             ]
-            share = Cell((InlineMath(Symbol("s")), Text("/"), InlineMath(Symbol("H"))))
-            head = (share, *map(self._exact, table.nodes))
+            head = (self.voice.cell(Fraction(Symbol("s"), Symbol("H"))), *map(self._exact, table.nodes))
             return self._blocks(key, caption, head, rows, first)
-        assert isinstance(table, AngleIndicator)
-        head = (self.voice.cell(Symbol("φ")), self.voice.cell(Symbol("p")))
-        pairs = [
-            (self._exact(math.degrees(angle)), self._exact(value / 1e4))
-            for angle, value in zip(table.angles, table.pressures, strict=True)
+        last = law.turns * 2 * math.pi * (1 + 1e-15)
+        columns = [
+            ("φ", [math.degrees(angle) for angle in table.angles if angle <= last]),
+            *((("y", list(heights)),) if heights else ()),
+            (symbol, [value / unit for value in table.pressures]),
         ]
-        beside = 4
-        rows_count = -(-len(pairs) // beside)
-        filled = pairs + [(Cell(), Cell())] * (rows_count * beside - len(pairs))
+        head = tuple(self.voice.cell(Symbol(one) if isinstance(one, str) else one) for one, _ in columns)
+        sets = [
+            tuple(map(self._exact, row)) for row in zip(*(values for _, values in columns), strict=False)
+        ]
+        beside = 3 if heights else 4
+        rows_count = -(-len(sets) // beside)
+        filled = sets + [(Cell(),) * len(columns)] * (rows_count * beside - len(sets))
         body = tuple(
             tuple(cell for block in range(beside) for cell in filled[block * rows_count + row])
             for row in range(rows_count)
         )
+        width = Column(TEXT_WIDTH / beside / len(columns) - 2.0)
         return Table(
-            (Column(18.0),) * (2 * beside), (head * beside,), body, self.voice.prose.inlines(caption), key
+            (width,) * (beside * len(columns)), (head * beside,), body, self.voice.prose.inlines(caption), key
         )
 
     def _exact(self, value: float) -> Cell:
@@ -231,25 +257,17 @@ class Tables:
         return self.voice.list_table(key, caption, head, rows, (30.0, *(width,) * len(starts)))
 
     def lever_table(self, key: str, caption: str, head: Sequence[str], k: int) -> Table:
-        """Loads on the turned velocity plan: size, arm, sense of the moment about the pole."""
-        ledger, senses = self.facts.ledger, self.voice.words["sense"]
+        """Loads on the turned velocity plan: size, arm, moment about the pole by μ_l, anticlockwise positive."""
+        ledger = self.facts.ledger
         rows = []
         for id in ledger.families:
             if not (id.startswith("h.") and id.endswith(".p")):
                 continue
             load = id.split(".")[1]
-            arm, force = ledger.number(id, k), ledger.number(load, k)
-            moment = arm.value * force.value
-            sense = "none" if moment == 0 else "anticlockwise" if moment > 0 else "clockwise"
-            rows.append(
-                (
-                    ledger.symbol(load),
-                    (Value(Number(force.value, force.decimals)),),
-                    (Value(Number(abs(arm.value), arm.decimals)),),
-                    senses[sense],
-                )
-            )
-        return self.voice.list_table(key, caption, head, rows, (30.0, 32.0, 38.0, 55.0))
+            numbers = (ledger.number(load, k), ledger.number(id, k, size=True), ledger.number(f"M.{load}.p", k))
+            cells = ((Value(Number(number.value, number.decimals)),) for number in numbers)
+            rows.append((ledger.symbol(load), *cells))
+        return self.voice.list_table(key, caption, head, rows, (30.0, 36.0, 44.0, 44.0))
 
     def checks_table(self, key: str, caption: str, head: Sequence[str], names: Mapping[str, str]) -> Table:
         """Residuals of the independent checks, as powers of ten."""

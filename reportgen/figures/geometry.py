@@ -158,13 +158,15 @@ def overlap(centres: Complexes, half: Complexes, strokes: Complexes, clearance: 
 
     The separating axes of a box and a segment are x, y and the segment's normal.
     """
-    middle = strokes.mean(axis=1)
-    reach = (strokes[:, 1] - strokes[:, 0]) / 2
+    middle, reach = strokes.mean(axis=1), (strokes[:, 1] - strokes[:, 0]) / 2
+    along, up = reach.real.copy(), reach.imag.copy()
     hw, hh = half.real[:, None] + clearance, half.imag[:, None] + clearance
-    rx, ry = np.abs(reach.real), np.abs(reach.imag)
+    rx, ry = np.abs(along), np.abs(up)
     dx, dy = centres.real[:, None] - middle.real, centres.imag[:, None] - middle.imag
-    return np.asarray(
-        (np.abs(dx) < hw + rx)
-        & (np.abs(dy) < hh + ry)
-        & (np.abs(reach.real * dy - reach.imag * dx) < hw * ry + hh * rx)
-    )
+    touching: Flags = np.abs(dx) < hw + rx
+    touching &= np.abs(dy) < hh + ry
+    dy *= along
+    dx *= up
+    dy -= dx
+    touching &= np.abs(dy, out=dy) < hw * ry + hh * rx
+    return touching

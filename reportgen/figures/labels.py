@@ -27,6 +27,8 @@ NEAR = (0.0, 0.7, 1.6)
 FAR = (3.5, 6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0)
 CLEAR = 0.55
 """White kept between a label's ink and strokes; it also takes up what two typesetters differ by."""
+MANY = 20_000
+"""Pairs of a box and a stroke above which it pays to part the boxes by place."""
 APART = 0.7
 """White kept between two labels."""
 
@@ -150,10 +152,7 @@ def _near(request: Request, strokes: Complexes) -> _Spots:
     owner = np.repeat(anchors, len(offsets))
     best = np.argsort(total, kind="stable")
     centres, owner = centres[best], owner[best]
-    free: Flags = np.ones(len(centres), dtype=np.bool_)
-    near = _around_here(strokes, centres, half)
-    if len(near):
-        free = ~_touched(centres, half, near)
+    free = ~_touched(centres, half, _around_here(strokes, centres, half))
     return _Spots(centres, owner, half, free)
 
 
@@ -186,6 +185,13 @@ def _hit(spot: _Spots, ties: Sequence[tuple[complex, complex]]) -> Flags:
 
 def _touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
     """Which boxes come too close to any stroke."""
+    if len(centres) * len(strokes) > MANY and len(centres) > 1:
+        # Half of the boxes are near far fewer of the strokes.
+        order = np.argsort(centres.real if np.ptp(centres.real) > np.ptp(centres.imag) else centres.imag)
+        touched: Flags = np.empty(len(centres), dtype=np.bool_)
+        for part in np.array_split(order, 2):
+            touched[part] = _touched(centres[part], half, _around_here(strokes, centres[part], half))
+        return touched
     return np.asarray(overlap(centres, np.array([half]), strokes, CLEAR).any(axis=1), dtype=np.bool_)
 
 
@@ -207,8 +213,11 @@ def _away(
     free = ~busy & _clear(spot, taken) & ~_hit(spot, ties)
     for centre, width, height in taken:
         free &= ~overlap(np.array([centre]), np.array([complex(width, height) / 2]), leaders, 0.2)[0]
-    cost = cost + 0.3 * _crossings(leaders, near) + 0.8 * _grazes(leaders, near)
-    best = int(np.argmin(np.where(free, cost, cost + 1e3)))
+    # Where any spot is free only those are weighed: the rest would stand far behind them.
+    weighed = np.flatnonzero(free) if free.any() else np.arange(len(centres))
+    tried = leaders[weighed]
+    cost = cost[weighed] + 0.3 * _crossings(tried, near) + 0.8 * _grazes(tried, near)
+    best = int(weighed[np.argmin(cost)])
     return complex(centres[best]), (complex(leaders[best, 0]), complex(leaders[best, 1]))
 
 

@@ -8,7 +8,7 @@ at one position.  Definitions are expressions over other families, so the ledger
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -294,4 +294,17 @@ def _replace(node: Expression, change: Any) -> Expression:
     node = rebuild(node, lambda child: _replace(child, change))
     if isinstance(node, Fraction) and isinstance(node.top, Negative):
         return Negative(Fraction(node.top.of, node.bottom))
+    if isinstance(node, Sum):
+        return Sum((node.terms[0], *map(_sign_before, node.terms[1:])))
     return node
+
+
+def _sign_before(term: Expression) -> Expression:
+    """A negative number as a later term of a sum: its sign becomes that of the term."""
+    match term:
+        case Number(value) if value < 0:
+            return Negative(replace(term, value=-value))
+        case Negative(Number(value) as number) if value < 0:
+            return replace(number, value=-value)
+        case _:
+            return term

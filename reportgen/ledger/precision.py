@@ -36,11 +36,19 @@ def _largest(family: Family) -> float:
     return float(finite.max()) if finite.size else 0.0
 
 
-def _digits_to_decimals(family: Family, digits: int) -> int:
-    largest = _largest(family)
+def _digits_to_decimals(family: Family, digits: int, at_least: float = 0.0) -> int:
+    """Decimals that show the largest value, or one of size `at_least`, with so many figures."""
+    largest = max(_largest(family), at_least)
     if largest == 0:
         return max(digits - 1, 0) if family.how.decimals is None else family.how.decimals
     return digits - 1 - math.floor(math.log10(largest) + 1e-12)
+
+
+def _wanted(family: Family) -> int:
+    """The decimals aimed at: those of its kind, counted from what it stands beside (its scale)."""
+    if family.how.decimals is not None:
+        return family.how.decimals
+    return _digits_to_decimals(family, family.how.digits, family.scale / family.how.scale)
 
 
 def _is_short(family: Family) -> bool:
@@ -88,8 +96,7 @@ def choose(
             decimals[id] = None
             continue
         most = _digits_to_decimals(family, MAX_DIGITS)
-        aim = family.how.decimals
-        wanted = aim if aim is not None else _digits_to_decimals(family, family.how.digits)
+        wanted = _wanted(family)
         ceiling[id], floor[id] = most, min(_digits_to_decimals(family, LEAST_DIGITS), wanted)
         decimals[id] = max(min(wanted, most), 0)
         ceiling[id] = max(ceiling[id], 0)
@@ -109,6 +116,10 @@ def choose(
     def allowed(id: str) -> float:
         """A result printed as it is (0.171 m) is read to its own last digit."""
         return half_unit(id) if decimals[id] is not None else 0.5 * 10.0 ** -_shown_decimals(families[id])
+
+    def holds(line: _Line) -> bool:
+        shares = line.slopes * np.array([[half_unit(id)] for id in line.inputs])
+        return bool(shares.sum(axis=0).max() <= allowed(line.id) * (1 + 1e-9))
 
     cancellations: dict[str, None] = {}
     settled = False
@@ -133,6 +144,21 @@ def choose(
                     decimals[line.id] = ceiling[line.id] = own - 1
                 else:
                     cancellations[line.id] = None
+    # Decimals that were raised in vain, before the result gave way, are given back.
+    uses: dict[str, list[_Line]] = {}
+    for line in lines:
+        for id in line.inputs:
+            uses.setdefault(id, []).append(line)
+    own_lines = {line.id: line for line in lines}
+    for id in reversed(families):
+        concerned = [*uses.get(id, []), *([own_lines[id]] if id in own_lines else [])]
+        concerned = [line for line in concerned if line.id not in cancellations]
+        aim = max(_wanted(families[id]), 0)
+        while (digits := decimals[id]) is not None and digits > aim:
+            decimals[id] = digits - 1
+            if not all(map(holds, concerned)):
+                decimals[id] = digits
+                break
     for pair in alike:
         known = [digits for id in pair if (digits := decimals.get(id)) is not None]
         for id in pair:

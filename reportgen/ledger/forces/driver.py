@@ -69,46 +69,49 @@ def _laid(own: tuple[LoadOn, ...]) -> Path:
 
 
 def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
-    """Zhukovsky's lever: the turned velocity plan with every load at its image, balanced by M_cb.
+    """Zhukovsky's lever: the velocity plan turned 90° against ω₁, every load at its image, balanced by M_cb.
 
-    Σ F v cos α + M_cb ω₁ = 0 with v = μ_v · (segment) and μ_v = ω₁ μ_l gives M_cb = −Σ F h′ μ_l for an
-    anticlockwise crank; h′ is the arm of a load about the pole, drawn at its image on the turned plan.  For a
-    sliding driver P_cb = −Σ F h′ μ_v/v_A.  Enters the arms `h.X.p` and `M.vw`.
+    Σ F v cos α + M_cb ω₁ = 0 with v = μ_v · (segment) and μ_v = ω₁ μ_l gives M_cb = −Σ F h′ μ_l; h′ is the
+    signed arm of a load about the pole.  For a sliding driver P_cb = −Σ F h′ μ_v/v_A.  Enters the arms
+    `h.X.p`, what each load contributes, `M.X.p`, and `M.vw`.
     """
     b, turning = statics.b, isinstance(statics.scheme.linkage.driver, Crank)
     rate = "omega.1" if turning else f"v.{statics.scheme.linkage.driver.pin}"
-    terms: list[Expression] = []
-    couples: list[Expression] = []
+    kind, scale = ("torque", statics.torque) if turning else ("force", statics.force)
+    per: Expression = Ref("mu.l") if turning else divide("mu.v", rate)
+    base = "M" if turning else "P"
+    parts: list[str] = []
+
+    def contribute(name: str, amount: Expression, optional: bool = False) -> None:
+        id = f"M.{name}.p"
+        b.define(id, Symbol(base, name), kind, amount, scale=scale, optional=optional)
+        parts.append(id)
+
     for load in loads:
         spin = _spin(statics, load.link)
         if not load.point:
             if spin is not None:
-                couples.append(divide(multiply(load.size, spin), rate))
+                contribute(load.name, divide(multiply(statics.turn, load.size, spin), rate))
             continue
         work: Expression = call("dot", f"F.{load.name}", statics.image("v", load.point))
-        couple = statics.has_couple(load) and spin is not None
-        if couple and spin is not None:
-            work = add(work, divide(multiply(f"couple.{load.name}", spin), "mu.v"))
+        couple = spin if statics.has_couple(load) else None
+        if couple is not None:
+            work = add(work, divide(multiply(f"couple.{load.name}", couple), "mu.v"))
         id = f"h.{load.name}.p"
-        symbol = Symbol("h", load.name, "′")
-        b.define(id, symbol, "segment", call("quotient", work, load.size), arm=True, scale=statics.span)
-        terms.append(multiply(load.size, id))
-        if couple and spin is not None:
-            couples.append(divide(multiply(lone_couple(statics, load), spin), rate))
-    parts: list[Expression] = []
-    if terms:
-        drawn = add(*terms)
-        parts.append(multiply(drawn, "mu.l") if turning else divide(multiply(drawn, "mu.v"), rate))
-    parts += couples
-    total = parts[0] if len(parts) == 1 else add(*parts) if parts else Number(0.0)
-    symbol = Symbol("M", "cb") if turning else Symbol("P", "cb")
-    b.define(
-        "M.vw",
-        symbol,
-        "torque" if turning else "force",
-        negative(total) if statics.turn > 0 else total,
-        scale=statics.torque if turning else statics.force,
-    )
+        b.define(
+            id,
+            Symbol("h", load.name, "′"),
+            "segment",
+            multiply(statics.turn, call("quotient", work, load.size)),
+            arm=True,
+            scale=statics.span,
+        )
+        contribute(load.name, multiply(load.size, id, per))
+        if couple is not None:
+            lone = multiply(statics.turn, lone_couple(statics, load), couple)
+            contribute(f"{load.name}.lone", divide(lone, rate), optional=True)
+    total: Expression | float = negative(add(*parts)) if parts else 0.0
+    b.define("M.vw", Symbol(base, "cb"), kind, total, scale=scale)
 
 
 def _spin(statics: Statics, link: int) -> Expression | None:
