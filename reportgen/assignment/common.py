@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, create_model, model_validator
 
 from reportgen.assignment.faults import Finding
-from reportgen.assignment.fields import Angle, Date, Line, Whole, WorkedPositions, quantity
+from reportgen.assignment.fields import Angle, Date, Line, SchoolFolder, Whole, WorkedPositions, quantity
 from reportgen.notation.numbers import Language
 from reportgen.units import Given
 
@@ -46,9 +46,13 @@ class Student(Part):
 
 
 class Report(Part):
-    """The report's language, cover and the positions written out in full (None: all)."""
+    """The report's language, cover and the positions written out in full (None: all).
+
+    `school` names a folder of templates whose words stand before the common ones.
+    """
 
     language: Language = "vi"
+    school: Annotated[str, SchoolFolder()] | None = None
     university: Line | None = None
     faculty: Line | None = None
     department: Line | None = None

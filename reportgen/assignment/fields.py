@@ -17,12 +17,14 @@ from typing import Annotated, Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
+from reportgen import folders
 from reportgen.units import NUMBER, Given, QuantityFault, read_quantity, read_ratio, read_unit
 
 LONGEST_TEXT = 300
 MOST_WORKED = 720
 _FORBIDDEN = {"Cc", "Cs", "Co", "Zl", "Zp"}
 _UNIT_PATTERN = r"[A-Za-zµ°][^,]*"
+_SLUG = r"[a-z0-9][a-z0-9-]{0,60}"
 _INTEGER = re.compile(r"[+-]?[0-9]{1,9}")
 
 
@@ -99,6 +101,29 @@ class Quantity(Reader):
             "pattern": rf"^\s*{NUMBER}\s*{_UNIT_PATTERN}$",
             "examples": [f"1 {self.unit}"],
         }
+
+
+@dataclass(frozen=True, slots=True)
+class SchoolFolder(Reader):
+    """The folder of a school's own words beside those of the languages, e.g. `tnut` for templates/tnut/vi."""
+
+    def read(self, value: object) -> str:
+        known = _schools()
+        if value not in known:
+            raise fault("no-such-school", text=str(value), known=", ".join(known) or "–")
+        return str(value)
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "string", "pattern": f"^{_SLUG}$"}
+
+
+def _schools() -> list[str]:
+    """Folders of words that are no language's own."""
+    return sorted(
+        folder.name
+        for folder in folders.templates().iterdir()
+        if folder.name not in {"vi", "en", "frames"} and any((folder / name).is_dir() for name in ("vi", "en"))
+    )
 
 
 @dataclass(frozen=True, slots=True)

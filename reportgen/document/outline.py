@@ -17,6 +17,7 @@ from reportgen.document.tree import (
     Contents,
     Cover,
     Document,
+    Equation,
     Figure,
     InlineMath,
     PageBreak,
@@ -43,8 +44,9 @@ def compose(assignment: Assignment, analysis: Analysis, books: Books, title: str
     `title` is the machine's name in the report's language.
     """
     language = assignment.language
-    words = load_words(search_path(language, analysis.machine.kind))
-    prose = Prose(search_path(language, analysis.machine.kind))
+    path = search_path(language, analysis.machine.kind, assignment.report.school or "")
+    words = load_words(path)
+    prose = Prose(path)
     facts = Facts(
         analysis, books, groups(analysis, books.polygons), driver(analysis), assignment.worked_positions
     )
@@ -141,8 +143,8 @@ def _names(
         for owner, listed in (
             (
                 tables,
-                "given_table indicator_table joints_table lengths_table coordinates_table dead_centres_table "
-                "rotation_table strokes_table lever_table checks_table mobility_line tables",
+                "given_table indicator_table force_table joints_table lengths_table coordinates_table "
+                "dead_centres_table rotation_table strokes_table lever_table checks_table mobility_line tables",
             ),
             (
                 facts,
@@ -173,6 +175,10 @@ def _names(
         "driver": facts.driver,
         "pistons": machine.pistons,
         "sliders": machine.sliders,
+        "known": lambda id: id in facts.ledger,
+        "synthesised": "synthesis" in machine.outline,
+        "has_force": bool(machine.applied),
+        "has_forces": bool(analysis.loads),
         "has_formulas": bool(machine.compared),
         "velocity_segments": facts.velocity_segments,
         "velocity_columns": facts.velocity_columns,
@@ -186,6 +192,7 @@ def _names(
         "crank_lines": facts.crank_lines,
         "driver_polygon": facts.driver_polygon if facts.books.polygons else None,
         "lowered": lowered,
+        "equations": lambda name: Equation(machine.equations[name]),
         "group_kind": lambda group: words["groups"][group.kind],
         "stroke_name": lambda link, k: words["strokes"][int(analysis.gas[f"P{link}"].stroke[k - 1])],
         "last_known": lambda group: group.polygon.sides[-3].end,

@@ -1,0 +1,39 @@
+"""A school's own words: named in the assignment file, put before the common ones."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from reportgen import api, folders
+from reportgen.document.plain import text_of
+
+SAMPLE = Path(__file__).parent.parent / "assignments" / "engine-twin-05.yaml"
+
+
+def with_school(folder: Path, name: str) -> Path:
+    file = folder / "mine.yaml"
+    text = SAMPLE.read_text(encoding="utf-8").replace("  language: vi", f"  language: en\n  school: {name}")
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def test_a_school_overrides_one_section(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    root = tmp_path / "templates"
+    shutil.copytree(folders.templates(), root)
+    (root / "my-school" / "en").mkdir(parents=True)
+    (root / "my-school" / "en" / "foreword.md").write_text(
+        "# Preface {{ unnumbered() }}\n\nAs our department asks.\n", encoding="utf-8"
+    )
+    monkeypatch.setattr(folders, "templates", lambda: root)
+    text = text_of(api.document(api.load(with_school(tmp_path, "my-school"))))
+    assert "As our department asks." in text
+    assert "Position plan" in text
+
+
+@pytest.mark.parametrize("name", ["nowhere", "vi", "../vi", "frames"])
+def test_an_unknown_school_is_a_located_fault(tmp_path: Path, name: str) -> None:
+    (problem,) = api.check(with_school(tmp_path, name), "en")
+    assert (problem.code, problem.mark.line, problem.mark.column) == ("no-such-school", 7, 11)
