@@ -13,11 +13,12 @@ from typing import Any
 from reportgen.assignment import Assignment
 from reportgen.document.facts import Facts
 from reportgen.document.pictures import TEXT_BLOCK, Drawn, Pictures, beside_one_another
-from reportgen.document.views import GroupView
+from reportgen.document.views import GroupView, known_part, sought_part
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
 from reportgen.figures.sheet import sheets
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces import Polygon
+from reportgen.ledger.kinematics import Side, Turn
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Chain, Symbol
 
@@ -119,9 +120,10 @@ class Drawings:
         stage = 0
         drawn: set[str] = set()
         for group in self.facts.groups:
-            if group.P in carried and group.P not in drawn:
-                sketch.vector(group.P, 0j, carried[group.P], "known", what, group.P, stage)
-                drawn.add(group.P)
+            for side in group.moving:
+                if side.base in carried and side.base not in drawn:
+                    sketch.vector(side.base, 0j, carried[side.base], "known", what, side.base, stage)
+                    drawn.add(side.base)
             stage = sketch.group(group, stage) + 1
         return sketch.finish(pole, self.scale(f"mu.{what}"))
 
@@ -210,25 +212,45 @@ class _Sketch:
         self.points.append(PlanPoint(symbols.on_plan(name, self.what == "a"), at, stage))
 
     def group(self, group: GroupView, stage: int) -> int:
-        """Enter a group's construction after the stage that shows its outer pin; gives its last stage."""
-        start, end = self.at(group.P), self.at(group.Q)
-        if self.what == "a":
-            normal = complex(self.ledger[f"plan.a.n.{group.relative}"].at(self.k)) * MM
+        """Enter a group's construction after the stage that shows its outer pins; gives its last stage."""
+        for guide in group.under:
             stage += 1
-            self.vector(f"n{group.relative}", start, normal, "relative", "a", group.relative, stage, "n")
-            self.points.append(PlanPoint(Symbol("n", group.relative), normal, stage))
-            start = normal
-        self.lines.append(PlanLine(start, end, stage + 1))
-        self.lines.append(PlanLine(0j, end, stage + 2))
-        sup = "τ" if self.what == "a" else ""
-        self.vector(group.relative, start, end, "relative", self.what, group.relative, stage + 2, sup)
-        self.vector(group.Q, 0j, end, "found", self.what, group.Q, stage + 2)
-        stage += 2
-        if group.points:
+            self.vector(guide.base, 0j, self.at(guide.base), "known", self.what, guide.base, stage)
+        end = self.at(group.M)
+        starts = []
+        for side in group.sides:
+            stage, start = self._known(side, stage)
+            starts.append(start)
+        for start in starts:
             stage += 1
-            for place in group.points:
-                self.vector(place.name, 0j, self.at(place.name), "found", self.what, place.name, stage)
+            self.lines.append(PlanLine(start, end, stage))
+        for side, start in zip(group.sides, starts, strict=True):
+            sought = not side.still if self.what == "v" else bool(sought_part(side))
+            if sought:
+                sup = "" if self.what == "v" else "τ" if isinstance(side, Turn) else "r"
+                name = f"{side.point}{side.shown}"
+                self.vector(side.relative, start, end, "relative", self.what, name, stage, sup)
+        self.vector(group.M, 0j, end, "found", self.what, group.M, stage)
+        further = [place.name for place in (*group.points, *group.points_j)]
+        if group.M != group.Q:
+            further.insert(0, group.Q)
+        if further:
+            stage += 1
+            for name in further:
+                self.vector(name, 0j, self.at(name), "found", self.what, name, stage)
         return stage
+
+    def _known(self, side: Side, stage: int) -> tuple[int, complex]:
+        """Enter the relative acceleration that is known; gives the stage and where the sought part starts."""
+        start = 0j if side.still else self.at(side.base)
+        part = known_part(side)
+        if self.what == "v" or not part:
+            return stage, start
+        end = complex(self.ledger[f"plan.a.{part}.{side.relative}"].at(self.k)) * MM
+        name = f"{side.point}{side.shown}"
+        self.vector(f"{part}{side.relative}", start, end, "relative", "a", name, stage + 1, part)
+        self.points.append(PlanPoint(Symbol(part, name), end, stage + 1))
+        return stage + 1, end
 
     def finish(self, pole: str, scale: Chain) -> Plan:
         first = PlanPoint(Symbol(pole), 0j)

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from reportgen.analysis import Analysis
-from reportgen.document.views import CentreView, DriverView, GroupView
+from reportgen.document.views import CentreView, DriverView, GroupView, known_part, sought_part
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces import Polygon
+from reportgen.ledger.kinematics import Side, Turn
 from reportgen.ledger.report import Books
 from reportgen.notation.expressions import Number
 
@@ -50,60 +51,107 @@ class Facts:
         return self.has([f"{prefix}{link}" for link in self.analysis.machine.linkage.links])
 
     def velocity_lines(self, group: GroupView) -> list[str]:
-        return self.has(
-            [f"v.{group.Q}", f"v.{group.relative}", *(f"v.{s.name}" for s in group.points), f"omega.{group.i}"]
+        """What is worked out from a group's velocity plan: points, relative velocities, rotations."""
+        return self._once(
+            *(f"v.{side.base}" for side in group.under),
+            f"v.{group.M}",
+            *(f"v.{side.relative}" for side in group.sides),
+            f"v.{group.Q}",
+            *self._point_lines("v", group),
+            *self._measured(group),
+            f"omega.{group.i}",
+            f"omega.{group.j}",
         )
 
     def acceleration_lines(self, group: GroupView) -> list[str]:
-        names = (s.name for s in group.points)
-        return self.has(
-            [f"a.{group.Q}", f"a.{group.relative}.t", *(f"a.{name}" for name in names), f"eps.{group.i}"]
+        """What is worked out from a group's acceleration plan."""
+        return self._once(
+            *(f"a.{side.base}" for side in group.under),
+            f"a.{group.M}",
+            *(f"a.{side.relative}.{sought_part(side)}" for side in group.sides),
+            f"a.{group.Q}",
+            *self._point_lines("a", group),
+            f"eps.{group.i}",
+            f"eps.{group.j}",
         )
 
+    def _once(self, *ids: str) -> list[str]:
+        return self.has(list(dict.fromkeys(ids)))
+
+    def _measured(self, group: GroupView) -> list[str]:
+        """Lengths that change and are measured on the position drawing."""
+        rods = [side.rod for side in group.sides if isinstance(side, Turn) and side.measured]
+        return [f"{what}.{rod}" for rod in rods for what in ("drawn", "l")]
+
+    def _point_lines(self, what: str, group: GroupView) -> list[str]:
+        ids: list[str] = []
+        for place in (*group.points, *group.points_j):
+            origin = self._origin(group, place.link)
+            parts = ("",) if what == "v" else (".n", ".t")
+            ids += [f"{what}.{place.name}{origin}{part}" for part in parts]
+            ids.append(f"{what}.{place.name}")
+        return ids
+
+    def _origin(self, group: GroupView, link: int) -> str:
+        """The joint that a link's points are measured from."""
+        if link == group.i:
+            return group.P
+        return group.T or group.Q
+
     def similar(self, what: str, group: GroupView) -> list[str]:
-        """Segments that the similarity theorem gives, e.g. as₂."""
-        return self.has([f"seg.{what}.{group.p}{place.image}" for place in group.points])
+        """Segments that the similarity theorem gives, e.g. as₂, and be where E is off the line of joints."""
+        ids: list[str] = []
+        for place in (*group.points, *group.points_j):
+            for side in group.sides:
+                if isinstance(side, Turn) and side.link == place.link:
+                    base = "p" if side.still else side.base.lower()
+                    ids += [f"seg.{what}.{base}{place.image}", f"seg.{what}.{group.m}{place.image}"]
+        return self._once(*ids)
 
     def names(self, places: Sequence[CentreView]) -> list[str]:
         return [place.name for place in places]
 
     @property
     def velocity_segments(self) -> list[str]:
-        return self._segments("v", ("p{q}", "{p}{q}"))
+        ids: list[str] = []
+        for group in self.groups:
+            ids += [f"seg.v.p{group.m}", *(f"seg.v.{side.base.lower()}{group.m}" for side in group.moving)]
+            ids += self._images("v", group)
+        return self._once(*ids)
 
     @property
     def acceleration_segments(self) -> list[str]:
-        return self._segments("a", ("p{q}", "n.{relative}", "t.{relative}"))
-
-    def _segments(self, what: str, patterns: Sequence[str]) -> list[str]:
-        result: list[str] = []
+        ids: list[str] = []
         for group in self.groups:
-            fields = {"p": group.p, "q": group.q, "relative": group.relative}
-            result += [f"seg.{what}.{pattern.format(**fields)}" for pattern in patterns]
-            result += [f"seg.{what}.p{place.image}" for place in group.points]
-        return self.has(result)
+            ids.append(f"seg.a.p{group.m}")
+            ids += [f"seg.a.{part}.{side.relative}" for side in group.sides for part in _parts(side)]
+            ids += self._images("a", group)
+        return self._once(*ids)
+
+    def _images(self, what: str, group: GroupView) -> list[str]:
+        places = (group.q, *(place.image for place in (*group.points, *group.points_j)))
+        return [f"seg.{what}.p{place}" for place in places]
 
     @property
     def velocity_columns(self) -> list[str]:
-        ids = [id for group in self.groups for id in (f"v.{group.Q}", f"v.{group.relative}", *self._centres("v", group))]
-        return self.has([*ids, *self.turning("turn.omega.")])
+        ids: list[str] = []
+        for group in self.groups:
+            # Relative to a fixed point a velocity is the point's own.
+            ids += [f"v.{group.M}", *(f"v.{side.relative}" for side in group.moving), f"v.{group.Q}"]
+            ids += self._centres("v", group)
+        return self._once(*ids, *self.turning("turn.omega."))
 
     @property
     def acceleration_columns(self) -> list[str]:
-        ids = [
-            id
-            for group in self.groups
-            for id in (
-                f"a.{group.Q}",
-                f"a.{group.relative}.n",
-                f"a.{group.relative}.t",
-                *self._centres("a", group),
-            )
-        ]
-        return self.has([*ids, *self.turning("turn.eps.")])
+        ids: list[str] = []
+        for group in self.groups:
+            ids.append(f"a.{group.M}")
+            ids += [f"a.{side.relative}.{part}" for side in group.sides for part in _parts(side)]
+            ids += [f"a.{group.Q}", *self._centres("a", group)]
+        return self._once(*ids, *self.turning("turn.eps."))
 
     def _centres(self, what: str, group: GroupView) -> list[str]:
-        return [f"{what}.{place.name}" for place in group.points]
+        return [f"{what}.{place.name}" for place in (*group.points, *group.points_j)]
 
     def centre_lines(self, rod: int, what: str) -> list[str]:
         """Closed formulas of a rod's mass centre by components."""
@@ -130,16 +178,20 @@ class Facts:
         views = []
         for body in self.analysis.machine.linkage.inertias:
             ids = self.has([f"e.Pqt{body.link}", f"l.{body.centre}K{body.link}"])
-            start = next((group.P for group in self.groups if group.i == body.link), "")
+            start = next(
+                (side.base for group in self.groups for side in group.sides if _turns(side, body.link)), ""
+            )
             if len(ids) == 2:
                 views.append(BodyView(body.link, body.centre, start, tuple(ids)))
         return tuple(views)
 
-    def arm_ids(self, group: GroupView) -> list[str]:
-        """Arms about the inner pin of the loads on the group's first link."""
-        return [
-            id for id in self.ledger.families if id.startswith("h.") and id.endswith(f".{group.Q}")
-        ]
+    def arm_ids(self, group: GroupView, centre: str = "", link: int = 0) -> list[str]:
+        """Arms of the group's loads about a point (else the inner pin), of one link or of both."""
+        if group.polygon is None:
+            return []
+        about = centre or group.Q
+        sides = [side for side in group.polygon.sides if not side.unknown and link in (0, side.link)]
+        return self.has([f"h.{side.name}.{about}" for side in sides])
 
     def negative(self, id: str, position: int) -> bool:
         return self.ledger.number(id, position).value < 0
@@ -152,7 +204,13 @@ class Facts:
         ids = [
             id
             for group in reversed(self.groups)
-            for id in (f"R.{group.outer}.t", f"R.{group.outer}", f"R.{group.inner}", f"R.{group.guide}")
+            for id in (
+                f"R.{group.outer}.t",
+                f"R.{group.guide}.t",
+                f"R.{group.outer}",
+                f"R.{group.inner}",
+                f"R.{group.guide}",
+            )
         ]
         return self.has([*ids, "R.01"])
 
@@ -177,3 +235,12 @@ class Facts:
     def drawn(self, group: GroupView, name: str, position: int) -> Number:
         """The drawn length of a force in its group's plan."""
         return self.ledger.number(f"seg.{group.name}.{name}", position)
+
+
+def _parts(side: Side) -> list[str]:
+    """Suffixes of a side's relative accelerations, the known one first."""
+    return [part for part in (known_part(side), sought_part(side)) if part]
+
+
+def _turns(side: Side, link: int) -> bool:
+    return isinstance(side, Turn) and side.link == link

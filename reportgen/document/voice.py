@@ -22,8 +22,10 @@ from reportgen.document.tree import (
     Text,
     Value,
 )
-from reportgen.document.views import GroupView
+from reportgen.document.views import GroupView, sought_part
 from reportgen.ledger.core import Ledger
+from reportgen.ledger.forces import Side as PolygonSide
+from reportgen.ledger.kinematics import Side, Slide, Turn
 from reportgen.notation import symbols
 from reportgen.notation.expressions import (
     Chain,
@@ -33,6 +35,7 @@ from reportgen.notation.expressions import (
     Term,
     VectorEquation,
     multiply,
+    refs,
 )
 from reportgen.notation.expressions import Fraction as FractionOf
 from reportgen.notation.expressions import Power as PowerOf
@@ -127,65 +130,90 @@ class Voice:
     # --- vector equations
 
     def velocity_equation(self, group: GroupView, key: str = "") -> Equation:
-        """v_Q = v_P + v_QP with what is known of each vector."""
-        words = self.words["vector"]
-        return Equation(
-            (
-                VectorEquation(
-                    (
-                        (self._term("v", group.Q, "", words["along_guide"], None, None),),
-                        (
-                            self._known(group, "v"),
-                            self._term("v", group.relative, "", f"⊥ {group.rod}", None, None),
-                        ),
-                    ),
-                    tuple(words["rows"]),
-                ),
-            ),
-            key,
-        )
+        """v_M = v_P + v_MP = v_T + v_MT with what is known of each vector; a fixed base leaves v_M's direction."""
+        still = next((side for side in group.sides if side.still), None)
+        direction = None if still is None else self._direction(still)
+        sides: list[tuple[Term, ...]] = [(self._term("v", group.M, "", direction, None, None),)]
+        for side in group.moving:
+            relative = f"{side.point}{side.shown}"
+            sides.append(
+                (self._known(side, "v"), self._term("v", relative, "", self._direction(side), None, None))
+            )
+        return self._vectors(sides, "rows", key)
 
     def acceleration_equation(self, group: GroupView, key: str = "") -> Equation:
-        """a_Q = a_P + aⁿ_QP + aᵗ_QP with what is known of each vector."""
-        words = self.words["vector"]
-        relative = group.relative
-        square = FractionOf(
-            PowerOf(self.symbol(f"v.{relative}"), Number(2)), self.symbol(f"l.{group.rod}")
-        )
-        return Equation(
-            (
-                VectorEquation(
-                    (
-                        (self._term("a", group.Q, "", words["along_guide"], None, None),),
-                        (
-                            self._known(group, "a"),
-                            self._term("a", relative, "n", f"∥ {group.rod}", f"{group.Q} → {group.P}", square),
-                            self._term("a", relative, "τ", f"⊥ {group.rod}", None, None),
-                        ),
-                    ),
-                    tuple(words["rows"]),
-                ),
-            ),
-            key,
-        )
+        """a_M = a_P + aⁿ_MP + aᵗ_MP = a_G + aᵏ_MG + aʳ_MG with what is known of each vector."""
+        fixed = next((side for side in group.sides if not sought_part(side)), None)
+        direction = None if fixed is None else self._direction(fixed)
+        sides: list[tuple[Term, ...]] = [(self._term("a", group.M, "", direction, None, None),)]
+        for side in group.sides:
+            if side is fixed:
+                continue
+            terms = () if side.still else (self._known(side, "a"),)
+            sides.append((*terms, *self._relative(side)))
+        return self._vectors(sides, "rows", key)
 
     def force_equation(self, group: GroupView, key: str = "") -> Equation:
         """The equilibrium of a group's two links; only the two reactions that close the plan are unknown."""
         assert group.polygon is not None
+        terms = [self._force_term(group, side) for side in group.polygon.sides]
+        return self._balance(terms, key)
+
+    def link_equation(self, group: GroupView, link: int, key: str = "") -> Equation:
+        """The equilibrium of one link of a group with a slide between its links, R_ij or R_ji included."""
+        assert group.polygon is not None
         words = self.words["vector"]
-        terms = []
-        for side in group.polygon.sides:
-            symbol = self.force_symbol(side.name)
-            if side.unknown:
-                direction = f"∥ {group.rod}" if side.name.endswith(".n") else words["across_guide"]
-                known: tuple[Expression | str | None, ...] = (direction, None)
-            elif side.name.endswith(".t"):
-                known = (f"⊥ {group.rod}", words["computed"])
-            else:
-                known = (words["given"], words["given"])
-            terms.append(Term(symbols.vector(symbol), known))
+        own = [side for side in group.polygon.sides if side.link == link]
+        terms = [self._force_term(group, side) for side in own if not side.unknown]
+        # Across the slot; its size is computed before the plan, or read from the plan of link j.
+        first = group.kind == "RPP" and link == group.j
+        inner = Symbol("R", group.across if link == group.j else group.inner, over="vector")
+        terms.append(Term(inner, (words["across_slot"], None if first else words["computed"])))
+        terms += [self._force_term(group, side) for side in own if side.unknown]
+        return self._balance(terms, key)
+
+    def _force_term(self, group: GroupView, side: PolygonSide) -> Term:
+        words = self.words["vector"]
+        way = group.one if side.link == group.i else group.two
+        symbol = symbols.vector(self.force_symbol(side.name))
+        direction: str | None
+        if side.name.endswith((".n", ".t")) and isinstance(way, Turn):
+            normal = side.name.endswith(".n")
+            direction = f"{'∥' if normal else '⊥'} {_lowered(way.rod)}"
+            return Term(symbol, (direction, None if normal else words["computed"]))
+        if side.unknown:
+            on_guide = isinstance(way, Slide) and way.carrier is not None
+            return Term(symbol, (words["across_guide"] if on_guide else None, None))
+        return Term(symbol, (words["given"], words["given"]))
+
+    def _balance(self, terms: Sequence[Term], key: str) -> Equation:
         zero = Term(Symbol("0", over="vector"), ("", ""))
-        return Equation((VectorEquation((tuple(terms), (zero,)), tuple(words["force_rows"])),), key)
+        return self._vectors([tuple(terms), (zero,)], "force_rows", key)
+
+    def _vectors(self, sides: Sequence[tuple[Term, ...]], rows: str, key: str) -> Equation:
+        return Equation((VectorEquation(tuple(sides), tuple(self.words["vector"][rows])),), key)
+
+    def _direction(self, side: Side) -> str:
+        """The direction of what is sought on a side."""
+        words = self.words["vector"]
+        if isinstance(side, Turn):
+            return f"⊥ {_lowered(side.rod)}"
+        return str(words["along_slot"] if side.carrier is None else words["along_guide"])
+
+    def _relative(self, side: Side) -> tuple[Term, ...]:
+        """aⁿ and aᵗ of a turning side, aᵏ and aʳ of a sliding one."""
+        words, relative, name = self.words["vector"], side.relative, f"{side.point}{side.shown}"
+        sought = self._term("a", name, "τ" if isinstance(side, Turn) else "r", self._direction(side), None, None)
+        if isinstance(side, Turn):
+            square = PowerOf(self.symbol(f"v.{relative}"), Number(2))
+            size: Expression = FractionOf(square, self.symbol(f"l.{side.rod}"))
+            way = f"{_lowered(side.point)} → {_lowered(side.base)}"
+            return self._term("a", name, "n", f"∥ {_lowered(side.rod)}", way, size), sought
+        if not side.turning:
+            return (sought,)
+        twice = multiply(2, self.symbol(f"omega.{side.turning}"), self.symbol(f"v.{relative}"))
+        across = words["across_slot" if side.carrier is None else "across_guide"]
+        return self._term("a", name, "k", across, words["turned"], twice), sought
 
     def driver_equation(self, polygon: Any, key: str = "") -> Equation:
         """The equilibrium of forces on the driver."""
@@ -211,20 +239,26 @@ class Voice:
     ) -> Term:
         return Term(Symbol(base, sub, sup, "vector"), known)
 
-    def _known(self, group: GroupView, what: str) -> Term:
-        """The vector of the outer pin: on the crank with its direction and size, else known from before."""
+    def _known(self, side: Side, what: str) -> Term:
+        """The vector of a side's base: on the crank with its direction and size, else known from before."""
         words = self.words["vector"]
-        if group.carrier != 1:
-            return self._term(what, group.P, "", words["given"], words["given"], words["given"])
-        centre = next(id for id in self.ledger.families if id.startswith("drawn.")).removeprefix("drawn.")
-        arm = f"{_centre(centre)}{group.P}"
+        name = side.shown
+        centre = next((id for id in self.ledger.families if id.startswith("drawn.")), "drawn.A")
+        arm = f"{_centre(centre.removeprefix('drawn.'))}{side.base}"
+        if "omega.1" not in self.ledger or f"l.{arm}" not in self.ledger or not self._on_crank(side.base):
+            return self._term(what, name, "", words["given"], words["given"], words["given"])
         length = self.symbol(f"l.{arm}")
         omega = self.symbol("omega.1")
         if what == "v":
             size: Expression = multiply(omega, length)
-            return self._term("v", group.P, "", f"⊥ {arm}", words["with_crank"], size)
+            return self._term("v", name, "", f"⊥ {arm}", words["with_crank"], size)
         size = multiply(PowerOf(omega, Number(2)), length)
-        return self._term("a", group.P, "", f"∥ {arm}", f"{group.P} → {_centre(centre)}", size)
+        return self._term("a", name, "", f"∥ {arm}", f"{side.base} → {_centre(arm)}", size)
+
+    def _on_crank(self, name: str) -> bool:
+        """Whether a point's velocity is computed as that of a point of the crank."""
+        definition = self.ledger[f"v.{name}"].definition
+        return definition is not None and "omega.1" in refs(definition)
 
     # --- tables
 
@@ -302,10 +336,15 @@ class Voice:
         """The names under which templates call this voice."""
         names = (
             "symbol value point points image letters vector line lines reason equal ratio velocity_equation "
-            "acceleration_equation force_equation driver_equation force_symbol table list_table quantity_table "
-            "unit direction chain bare"
+            "acceleration_equation force_equation link_equation driver_equation force_symbol table list_table "
+            "quantity_table unit direction chain bare"
         )
         return {name: getattr(self, name) for name in names.split()}
+
+
+def _lowered(text: str) -> str:
+    """Digits of point names as lowered digits: B3 → B₃."""
+    return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
 
 
 def _centre(arm: str) -> str:

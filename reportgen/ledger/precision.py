@@ -150,7 +150,7 @@ def choose(
         for id in line.inputs:
             uses.setdefault(id, []).append(line)
     own_lines = {line.id: line for line in lines}
-    for id in reversed(families):
+    for id in reversed(tuple(families)):
         concerned = [*uses.get(id, []), *([own_lines[id]] if id in own_lines else [])]
         concerned = [line for line in concerned if line.id not in cancellations]
         aim = max(_wanted(families[id]), 0)

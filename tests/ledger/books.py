@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -16,8 +14,6 @@ from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.power import virtual_work_torque
 from reportgen.mechanism.structure import Crank, Linkage
 from reportgen.notation.expressions import Symbol
-
-sys.path.append(str(Path(__file__).parent.parent / "physics"))
 
 RATE = 7.0
 """The driver's speed, rad/s or m/s."""

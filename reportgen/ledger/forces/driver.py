@@ -7,7 +7,6 @@ from reportgen.ledger.forces.polygon import Path, Polygon, Side, drawn_sides, fo
 from reportgen.mechanism.structure import DRIVER, Crank
 from reportgen.notation.expressions import (
     Expression,
-    Number,
     Ref,
     Symbol,
     add,
