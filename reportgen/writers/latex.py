@@ -220,7 +220,7 @@ class _Writer:
     def cover(self, cover: Cover) -> str:
         institution = [escape(line) for line in cover.institution]
         lines = [
-            _command("coverinstitution", rf"\textbf{{{line}}}" if index else line)
+            _command("coverinstitution", line if index else rf"\textbf{{{line}}}")
             for index, line in enumerate(institution)
         ]
         lines += [r"\coverrule", r"\vfill"]
