@@ -17,6 +17,8 @@ BODY = 24 * MM
 """Above and below this much of a page stand header and footer, except on plates."""
 EDGE = 6 * MM
 """What printers leave white along the edge of the paper, with some to spare."""
+INK = 0.1
+"""Points that the ink of two words may share: the PDF library rounds its boxes to about 0.05."""
 PROSE = (11.6, 12.4)
 """Font sizes of running text, headings of level 3 and formulas; all else is smaller or larger."""
 

@@ -19,8 +19,6 @@ from tests.reports.pages import squash
 
 pymupdf = pytest.importorskip("pymupdf")
 
-INK = 0.1
-"""Points that the ink of two words may share: the PDF library rounds its boxes to about 0.05."""
 BEARING = 0.5
 """Points by which a glyph's ink may hang over the edge of its own box."""
 
@@ -85,7 +83,7 @@ def test_no_glyph_stands_outside_the_margins(report: Report) -> None:
 
 
 def test_no_words_intersect(report: Report) -> None:
-    assert [fault for page in report.pages for fault in pages.overlaps(page, INK)] == []
+    assert [fault for page in report.pages for fault in pages.overlaps(page, pages.INK)] == []
 
 
 def test_intersecting_words_are_seen() -> None:
@@ -93,9 +91,9 @@ def test_intersecting_words_are_seen() -> None:
     page = pymupdf.open().new_page()
     page.insert_text((100, 100), "mm")
     page.insert_text((125, 100), "nn")
-    assert pages.overlaps(page, INK) == []
+    assert pages.overlaps(page, pages.INK) == []
     page.insert_text((103, 103), "kk")
-    assert pages.overlaps(page, INK) != []
+    assert pages.overlaps(page, pages.INK) != []
 
 
 def test_no_box_is_overfull(report: Report) -> None:

@@ -1,0 +1,210 @@
+"""Both languages say the same, piece by piece; nothing is said of what is not shown, nor shown unsaid."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import Any, get_args
+
+import pytest
+from jinja2 import Environment, nodes
+
+from reportgen import catalogue
+from reportgen.document.numbering import unreferenced
+from reportgen.document.plain import plain
+from reportgen.document.prose import search_path
+from reportgen.document.tree import (
+    Block,
+    Cover,
+    Emph,
+    Equation,
+    Figure,
+    InlineMath,
+    Inlines,
+    List,
+    Paragraph,
+    Reference,
+    Section,
+    Strong,
+    Table,
+    Value,
+    Words,
+)
+from reportgen.document.words import load_words
+from reportgen.mechanism.structure import DyadKind
+from tests.reports import built
+from tests.reports.built import Written
+
+TEMPLATES = built.ROOT / "templates"
+FILES = pytest.mark.parametrize("path", built.FILES, ids=lambda path: path.stem)
+
+
+# --- the tree -------------------------------------------------------------------------------------
+
+
+def said(inlines: Inlines) -> Counter[str]:
+    """The formulas, numbers and references of a line; their order is the language's."""
+    result: Counter[str] = Counter()
+    for inline in inlines:
+        match inline:
+            case InlineMath() | Value():
+                result[type(inline).__name__] += 1
+            case Reference(key):
+                result[key] += 1
+            case Emph(of) | Strong(of):
+                result += said(of)
+    return result
+
+
+def shape(block: Block) -> tuple[Any, ...]:
+    """What of a block must be the same in every language."""
+    name = type(block).__name__
+    match block:
+        case Section(level, title, key, numbered, number):
+            return (name, level, key, numbered, number, said(title))
+        case Paragraph(inlines):
+            return (name, said(inlines), bool(plain(inlines, "en")))
+        case List(items, ordered):
+            return (name, ordered, [len(item) for item in items])
+        case Equation(rows, key, number):
+            return (name, key, number, [type(row).__name__ for row in rows])
+        case Table(columns, head, rows, _, key, number):
+            cells = [[cell.span for cell in row] for row in (*head, *rows)]
+            return (name, key, number, len(columns), cells, [said(c.inlines) for row in rows for c in row])
+        case Figure(scenes, _, key, number):
+            return (name, key, number, len(scenes))
+        case Cover(fields=entries, institution=institution):
+            return (name, len(entries), len(institution))
+        case _:
+            return (name, getattr(block, "key", ""), getattr(block, "number", ""))
+
+
+@FILES
+def test_both_languages_have_the_same_blocks(path: Path) -> None:
+    vi, en = (built.written(path, language).document for language in ("vi", "en"))
+    for first, second in zip(built.walk(vi.blocks), built.walk(en.blocks), strict=True):
+        assert shape(first) == shape(second)
+
+
+def sentences(text: str) -> int:
+    """Ends of sentences; the English abbreviations Fig., Figs. and Eq. are none."""
+    return len(re.findall(r"(?<!\bFig)(?<!\bFigs)(?<!\bEq)[.?!](?=\s|$)", text))
+
+
+@FILES
+def test_both_languages_have_the_same_sentences(path: Path) -> None:
+    """As many in every paragraph, and English about as long as the Vietnamese."""
+    vi, en = (
+        [
+            plain(block.inlines, language)
+            for block in built.walk(built.written(path, language).document.blocks)
+            if isinstance(block, Paragraph)
+        ]
+        for language in built.LANGUAGES
+    )
+    assert [(a, b) for a, b in zip(vi, en, strict=True) if sentences(a) != sentences(b)] == []
+    assert [
+        (a, b) for a, b in zip(vi, en, strict=True) if len(a) > 60 and not 0.8 < len(b) / len(a) < 1.8
+    ] == []
+
+
+def test_every_figure_and_table_is_referred_to(written: Written) -> None:
+    """But for the further sheets of a figure or table, whose key is that of the first with its number."""
+    assert [key for key in unreferenced(written.document) if not re.search(r"\.[2-9]\d*$", key)] == []
+
+
+# --- templates ------------------------------------------------------------------------------------
+
+
+def templates(language: str) -> dict[str, Path]:
+    folder = TEMPLATES / language
+    return {str(path.relative_to(folder)): path for path in folder.rglob("*") if path.is_file()}
+
+
+def test_every_template_has_its_twin() -> None:
+    assert templates("vi").keys() == templates("en").keys()
+
+
+GRAMMAR = {"lowered"}
+"""Functions that only fit a name into a sentence; so do conditions about singular and plural."""
+
+
+def calls(path: Path) -> Counter[str]:
+    """Functions, loops, included templates and keys that a template uses; not its texts and grammar."""
+    tree = Environment().parse(path.read_text(encoding="utf-8"))
+    result: Counter[str] = Counter()
+    for node in tree.find_all(nodes.Node):
+        match node:
+            case nodes.Call(node=nodes.Name(name=name)) if name not in GRAMMAR:
+                result[f"{name}()"] += 1
+            case nodes.Const(value=str(value)) if re.fullmatch(r"[a-z]+\.[\w.]*", value):
+                result[value] += 1
+            case nodes.For():
+                result["for"] += 1
+            case nodes.Include():
+                result["include"] += 1
+    return result
+
+
+@pytest.mark.parametrize("name", sorted(name for name in templates("vi") if name.endswith(".md")))
+def test_twins_call_the_same(name: str) -> None:
+    vi, en = (calls(templates(language)[name]) for language in ("vi", "en"))
+    assert vi == en
+
+
+def leaves(words: Mapping[str, Any], above: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
+    for key, value in words.items():
+        if isinstance(value, Mapping):
+            yield from leaves(value, (*above, key))
+        else:
+            yield (*above, key), value
+
+
+def shape_of_words(words: Mapping[str, Any]) -> set[tuple[Any, ...]]:
+    return {(*keys, len(value) if isinstance(value, list) else "") for keys, value in leaves(words)}
+
+
+ONE_SIDED = {("cover", "months")}
+"""English dates name the month; Vietnamese ones count it."""
+
+
+@pytest.mark.parametrize("kind", ["", *catalogue.MODULES])
+@pytest.mark.parametrize("file", ["words.yaml", "messages.yaml"])
+def test_both_languages_have_the_same_words(kind: str, file: str) -> None:
+    vi, en = (built_words(language, kind, file) for language in ("vi", "en"))
+    assert {keys for keys in vi ^ en if keys[:-1] not in ONE_SIDED} == set()
+
+
+def built_words(language: str, kind: str, file: str) -> set[tuple[Any, ...]]:
+    import yaml
+
+    path = TEMPLATES / language / kind / file
+    return shape_of_words(yaml.safe_load(path.read_text(encoding="utf-8"))) if path.is_file() else set()
+
+
+def test_every_word_is_used() -> None:
+    """Where the code reads a table by a computed key, the table's keys are those that can be computed."""
+    sources = [*(built.ROOT / "reportgen").rglob("*.py"), *TEMPLATES.rglob("*.md")]
+    code = "\n".join(path.read_text(encoding="utf-8") for path in sources)
+    words = load_words(search_path("en"))
+    assert words["document"].keys() == {field.name for field in fields(Words)}
+    assert words["groups"].keys() == set(get_args(DyadKind))
+    assert words["joints"].keys() == {"R", "P"}
+    computed = {"document", "groups", "joints", "zero"}
+    unused = [
+        keys
+        for keys, _ in leaves(words)
+        if keys[0] not in computed and not re.search(rf"[\"'.]{keys[-1]}\b", code)
+    ]
+    assert unused == []
+
+
+def test_every_reason_for_a_nothing_fits_a_quantity() -> None:
+    """Each pattern of `zero` is the first that fits some quantity of some machine."""
+    ids = {id for path in built.FILES for id in built.written(path, "en").books.ledger.families}
+    patterns = list(load_words(search_path("en"))["zero"])
+    first = {next((p for p in patterns if re.fullmatch(p, id)), None) for id in ids}
+    assert set(patterns) - first == set()
