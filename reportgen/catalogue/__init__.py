@@ -19,7 +19,11 @@ from reportgen.assignment.common import Assignment, Kind, file_model, none_added
 from reportgen.errors import Problem
 from reportgen.notation.numbers import Language
 
-MODULES: Mapping[str, str] = {"engine-twin": "engine_twin"}
+MODULES: Mapping[str, str] = {
+    "engine-twin": "engine_twin",
+    "engine-single": "engine_single",
+    "slider-crank": "slider_crank",
+}
 """Module of this package by kind; a new machine adds its line here and nowhere else."""
 
 
@@ -67,13 +71,17 @@ def sample(name: str, language: Language) -> str:
 
 def schema() -> dict[str, Any]:
     """JSON Schema (2020-12) of an assignment file of any kind."""
-    kinds = {name: file_model(kind(name)).model_json_schema(by_alias=True) for name in MODULES}
-    definitions: dict[str, Any] = {}
-    for one in kinds.values():
-        definitions |= one.pop("$defs", {})
+    from pydantic import BaseModel
+    from pydantic.json_schema import JsonSchemaMode, models_json_schema
+
+    # All at once: models of one name in different kinds get names of their own.
+    models: list[tuple[type[BaseModel], JsonSchemaMode]] = [
+        (file_model(kind(name)), "validation") for name in MODULES
+    ]
+    kinds, definitions = models_json_schema(models, by_alias=True)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "reportgen assignment",
-        "oneOf": list(kinds.values()),
-        "$defs": definitions,
+        "oneOf": [kinds[model] for model in models],
+        **definitions,
     }

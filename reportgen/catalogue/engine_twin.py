@@ -121,9 +121,7 @@ Indicator = Annotated[
 ]
 
 
-def phases(
-    parameters: Parameters, indicator: Indicator, positions: Positions
-) -> tuple[float, float]:
+def phases(parameters: Parameters, indicator: Indicator, positions: Positions) -> tuple[float, float]:
     """Cycle angles (rad) of pistons 3 and 5 at position 1; `KeyError` for an impossible firing pair."""
     possible = _possible_phases(parameters.crank_angle.si, positions)
     return next(iter(possible.values())) if indicator.firing is None else possible[indicator.firing]

@@ -32,11 +32,15 @@ class Law(Protocol):
 
 @dataclass(frozen=True)
 class TableLaw:
-    """A table read by a slider's own cycle angle and s/H, times `factor` (the area, for a pressure)."""
+    """A table read by a slider's own cycle angle and s/H, times `factor` (the area, for a pressure).
+
+    `turns` is how many turns of it were given: a table of one turn stands twice in `table`.
+    """
 
     course: Course
     table: Indicator
     factor: float = 1.0
+    turns: int = 2
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
         return self.factor * self.reading(angle, motion)
@@ -59,7 +63,9 @@ class TableLaw:
         return (corner - course.phase for corner in corners)
 
 
-def by_stroke(fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]) -> Indicator:
+def by_stroke(
+    fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]
+) -> Indicator:
     """Forces over s/H from the top: a row for the way in, towards the crank, and one for the way out."""
     return StrokeIndicator(fractions, inward, outward, inward, outward)
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from string import ascii_lowercase
 from typing import Any
 
 import numpy as np
@@ -16,8 +17,11 @@ from reportgen.catalogue.course import Course
 from reportgen.catalogue.laws import Law, TableLaw
 from reportgen.cycle.indicator import Indicator
 from reportgen.mechanism.structure import Linkage
-from reportgen.notation.expressions import PI, Expression, Symbol, divide, multiply
+from reportgen.notation.expressions import PI, Chain, Expression, Symbol, divide, multiply
 from reportgen.units import Given
+
+NEAR = 1e-6
+"""Positions nearer than this (rad) are one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +45,11 @@ class Piston(Course):
 
     bore: float
     indicator: Indicator
+
+    @classmethod
+    def on(cls, course: Course, bore: float, indicator: Indicator) -> Piston:
+        """The piston that is the slider of a course."""
+        return cls(**vars(course), bore=bore, indicator=indicator)
 
     @property
     def name(self) -> str:
@@ -116,6 +125,8 @@ class Machine:
     """Points whose paths the position plan shows."""
     compared: tuple[tuple[str, str], ...] = ()
     """Pairs of a plan's quantity and its closed formula, compared in the report."""
+    equations: Mapping[str, tuple[Chain, ...]] = field(default_factory=dict)
+    """Equations by name that the words of its analytic method show."""
     places: tuple[float, ...] = ()
     """Cycle angles of the positions of one turn; empty: evenly spaced from 0."""
     labels: tuple[str, ...] = ()
@@ -145,6 +156,37 @@ class Machine:
 
     def numbered(self, numbers: Iterable[int]) -> tuple[Position, ...]:
         return tuple(map(self.position, numbers))
+
+
+def lettered(count: int, turns: int, extra: Iterable[float]) -> tuple[tuple[float, ...], tuple[str, ...]]:
+    """Cycle angles of one turn's positions, and labels of the cycle's: `count` even ones 0, 1, …, others a, b, ….
+
+    Of the `extra` angles those that coincide with an even one are left out; the letters follow the angle and
+    go on from turn to turn, as the numbers do.
+    """
+    even = np.arange(count) * (2 * np.pi / count)
+    turned = np.mod(np.asarray(list(extra)) + NEAR, 2 * np.pi) - NEAR
+    new = [float(angle) for angle in turned if np.abs(even - angle).min() > NEAR]
+    places = sorted([*map(float, even), *new])
+    numbers, letters = iter(range(count * turns)), iter(ascii_lowercase)
+    labels = [next(letters) if place in new else str(next(numbers)) for _ in range(turns) for place in places]
+    return tuple(places), tuple(labels)
+
+
+def mass_items(link: int, weight: Given | None, mass: Given | None) -> tuple[Item, ...]:
+    """Weight and mass of a link: one as typed, the other from it; none of a link without mass."""
+    number = str(link)
+    if weight is not None:
+        return (
+            Item(f"G{link}", Symbol("G", number), "weight", weight.si),
+            Item(f"m.{link}", Symbol("m", number), "mass", definition=divide(f"G{link}", "g")),
+        )
+    if mass is not None:
+        return (
+            Item(f"m.{link}", Symbol("m", number), "mass", mass.si),
+            Item(f"G{link}", Symbol("G", number), "weight", definition=multiply(f"m.{link}", "g")),
+        )
+    return ()
 
 
 def ratio_item(id: str, symbol: Symbol, given: Given) -> Item:

@@ -7,6 +7,7 @@ from typing import Any
 
 from reportgen.analysis import Analysis
 from reportgen.assignment import Assignment
+from reportgen.catalogue.gas import ByOrdinates
 from reportgen.document.drawings import Drawings
 from reportgen.document.facts import Facts
 from reportgen.document.numbering import number
@@ -144,7 +145,8 @@ def _names(
             (
                 tables,
                 "given_table indicator_table force_table joints_table lengths_table coordinates_table "
-                "dead_centres_table rotation_table strokes_table lever_table checks_table mobility_line tables",
+                "dead_centres_table labels_table rotation_table strokes_table lever_table checks_table "
+                "mobility_line tables",
             ),
             (
                 facts,
@@ -176,6 +178,8 @@ def _names(
         "pistons": machine.pistons,
         "sliders": machine.sliders,
         "known": lambda id: id in facts.ledger,
+        "even_count": assignment.positions.count,
+        "has_ordinates": isinstance(assignment.indicator, ByOrdinates),
         "synthesised": "synthesis" in machine.outline,
         "has_force": bool(machine.applied),
         "has_forces": bool(analysis.loads),

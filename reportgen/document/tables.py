@@ -31,6 +31,8 @@ from reportgen.notation.expressions import (
 )
 
 MOST_COLUMNS = 9
+STILL = 1e-9
+"""A rate below this share of its greatest value is nothing."""
 
 
 def lowered(text: str) -> str:
@@ -211,6 +213,24 @@ class Tables:
                 turn = 0.0 if abs(turn - 360) < 1e-9 else turn
                 rows.append((str(piston.link), words, _tidy(turn), _tidy(abs(place) * 1e3)))
         return self.voice.list_table(key, caption, head, rows, (20.0, 46.0, 44.0, 46.0))
+
+    def labels_table(
+        self, key: str, caption: str, head: Sequence[str], names: Mapping[str, str]
+    ) -> Table:
+        """The positions of one turn by their labels: the crank's turn, and what the first slider does there.
+
+        `names` says it in words for "top" and "bottom", where it turns back, and "fastest", where a = 0.
+        """
+        analysis = self.facts.analysis
+        machine, course = analysis.machine, analysis.machine.sliders[0]
+        pin, way = analysis.motion.points[course.pin], course.fraction(analysis.motion)
+        still, steady = (np.abs(rate) < STILL * np.abs(rate).max() for rate in (pin.v, pin.a))
+        rows = []
+        for k in range(machine.count):
+            end = ("top" if way[k] < 0.5 else "bottom") if still[k] else "fastest" if steady[k] else ""
+            angle = _tidy(math.degrees(machine.cycle_angles[k]))
+            rows.append((str(machine.position(k + 1)), angle, names.get(end, "")))
+        return self.voice.list_table(key, caption, head, rows, (24.0, 50.0, 50.0))
 
     def rotation_table(
         self, key: str, caption: str, head: Sequence[str], ids: Sequence[str], k: int

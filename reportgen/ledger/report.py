@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.analysis import Analysis
+from reportgen.catalogue.laws import TableLaw
 from reportgen.catalogue.machine import Item
 from reportgen.ledger import forces, kinematics, precision
-from reportgen.ledger.core import Builder, Ledger
+from reportgen.ledger.core import ZERO, Builder, Ledger
 from reportgen.ledger.forces import Polygon
 from reportgen.notation.expressions import Symbol, call, divide, multiply, subtract
 
@@ -66,7 +67,8 @@ def _gas(b: Builder, analysis: Analysis) -> None:
     """s/H and pressure read from the diagram, gas force P = p F."""
     for name, state in analysis.gas.items():
         link = str(state.piston.link)
-        b.give(f"s.{link}", Symbol("s", link), "length", state.fraction * state.piston.stroke, exact=False)
+        stroke = state.piston.stroke
+        b.give(f"s.{link}", Symbol("s", link), "length", state.fraction * stroke, exact=False, scale=stroke)
         b.give(f"p.{link}", Symbol("p", link), "pressure", state.pressure, exact=False)
         b.define(name, Symbol("P", link), "force", multiply(f"p.{link}", "F"))
 
@@ -75,8 +77,12 @@ def _applied(b: Builder, analysis: Analysis) -> None:
     """Forces read from a table other than the indicator diagram, positive along their own direction."""
     for force, load in zip(analysis.machine.applied, analysis.applied, strict=True):
         if force.name not in b:
-            size = np.real(np.conj(force.direction) * load.force)
-            b.give(force.name, Symbol("P", str(force.link)), "force", size, exact=False)
+            link, size = str(force.link), np.real(np.conj(force.direction) * load.force)
+            if isinstance(force.law, TableLaw):
+                course = force.law.course
+                way = course.fraction(analysis.motion) * course.stroke
+                b.give(f"s.{link}", Symbol("s", link), "length", way, exact=False, scale=course.stroke)
+            b.give(force.name, Symbol("P", link), "force", size, exact=False)
 
 
 def _cycle(b: Builder, analysis: Analysis) -> None:
@@ -85,12 +91,17 @@ def _cycle(b: Builder, analysis: Analysis) -> None:
     size = float(np.nanmax(np.abs(analysis.torque)))
     b.define("M.difference", Symbol("ΔM", "cb"), "torque", call("abs", subtract("M.eq", "M.vw")), scale=size)
     b.define("M.mean.positions", Symbol("M", "N"), "torque", call("mean", "M.eq"))
-    b.give("M.mean", Symbol("M", "m"), "torque", summary.mean_torque, exact=False)
+    b.give("M.mean", Symbol("M", "m"), "torque", _dustless(summary.mean_torque, size), exact=False)
     b.give("M.least", Symbol("M", "min"), "torque", summary.extremes[0][1], exact=False)
     b.give("M.greatest", Symbol("M", "max"), "torque", summary.extremes[1][1], exact=False)
-    b.give("W", Symbol("W"), "work", summary.work, exact=False)
-    b.define("power", Symbol("N"), "power", multiply(call("abs", "M.mean"), "omega.1"))
     turns = 2 * analysis.machine.turns
+    b.give("W", Symbol("W"), "work", _dustless(summary.work, size * turns * np.pi), exact=False)
+    b.define("power", Symbol("N"), "power", multiply(call("abs", "M.mean"), "omega.1"))
     b.define(
         "M.energy", Symbol("M", "W"), "torque", divide("W", multiply(float(turns), Symbol("π", value=np.pi)))
     )
+
+
+def _dustless(value: float, size: float) -> float:
+    """A mean that is nothing beside what it is the mean of is 0."""
+    return 0.0 if abs(value) < ZERO * size else value
