@@ -19,6 +19,8 @@ EDGE = 6 * MM
 """What printers leave white along the edge of the paper, with some to spare."""
 INK = 0.1
 """Points that the ink of two words may share: the PDF library rounds its boxes to about 0.05."""
+BEARING = 0.5
+"""Points by which a glyph's ink may hang over the edge of its own box."""
 PROSE = (11.6, 12.4)
 """Font sizes of running text, headings of level 3 and formulas; all else is smaller or larger."""
 

@@ -19,9 +19,6 @@ from tests.reports.pages import squash
 
 pymupdf = pytest.importorskip("pymupdf")
 
-BEARING = 0.5
-"""Points by which a glyph's ink may hang over the edge of its own box."""
-
 
 def test_a_report_of_the_engine_has_thirty_to_sixty_pages(report: Report) -> None:
     if report.written.assignment.kind != "engine-twin":
@@ -79,7 +76,7 @@ def test_pages_are_numbered_as_they_lie(report: Report) -> None:
 
 
 def test_no_glyph_stands_outside_the_margins(report: Report) -> None:
-    assert [fault for page in list(report.pages)[1:] for fault in pages.outside(page, BEARING)] == []
+    assert [fault for page in list(report.pages)[1:] for fault in pages.outside(page, pages.BEARING)] == []
 
 
 def test_no_words_intersect(report: Report) -> None:
