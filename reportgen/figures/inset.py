@@ -16,6 +16,8 @@ from reportgen.figures.style import GRAY, HEAD, PALE, SMALL, THIN
 
 SPACE = 8.0
 """White between the figure and its insets, mm."""
+LABELS = 5.0
+"""How far labels stand out to the right of what they name, mm."""
 ROOM = 6.0
 """White inside an inset's frame around the enlarged vectors, mm."""
 NEIGHBOUR = 3.0
@@ -43,8 +45,9 @@ def insets(tiny: Sequence[Tiny], others: Sequence[tuple[complex, complex]], figu
     """
     if not tiny:
         return Draft()
-    high = bounds(settle(figure).items)[1]
-    top = complex(high.real + SPACE, high.imag)
+    # The figure's own labels are placed later; they seldom stand out further than LABELS.
+    high = bounds(figure.items)[1]
+    top = complex(high.real + LABELS + SPACE, high.imag)
     result = Draft()
     for group in _groups(tiny):
         part = _inset([tiny[i] for i in group], others)
