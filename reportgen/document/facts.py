@@ -186,12 +186,13 @@ class Facts:
         return tuple(views)
 
     def arm_ids(self, group: GroupView, centre: str = "", link: int = 0) -> list[str]:
-        """Arms of the group's loads about a point (else the inner pin), of one link or of both."""
+        """Arms about a point (else the inner pin) of the loads on one link of a group (else the first)."""
         if group.polygon is None:
             return []
-        about = centre or group.Q
-        sides = [side for side in group.polygon.sides if not side.unknown and link in (0, side.link)]
-        return self.has([f"h.{side.name}.{about}" for side in sides])
+        about, carrier = centre or group.Q, link or group.i
+        known = [(side.name, side.link) for side in group.polygon.sides if not side.unknown]
+        known.append((f"R{group.across}", group.j))
+        return self.has([f"h.{name}.{about}" for name, owner in known if owner == carrier])
 
     def negative(self, id: str, position: int) -> bool:
         return self.ledger.number(id, position).value < 0

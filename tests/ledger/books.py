@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from reportgen.mechanism.forces import Forces, solve_forces
 from reportgen.mechanism.loads import Load, inertia_loads, weights
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.power import virtual_work_torque
-from reportgen.mechanism.structure import Crank, Linkage
+from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import Symbol
 
 RATE = 7.0
@@ -79,3 +79,56 @@ def keep(
     )
     solved = solve_forces(linkage, motion, loads)
     return Book(motion, loads, solved, virtual_work_torque(linkage, motion, loads), b, polygons)
+
+
+def _machines() -> dict[str, Linkage]:
+    """One ordinary linkage of every kind, with loads on all that moves, that turns the whole way round."""
+    crank = Crank("A", "B", 0.1)
+    lever = Dyad("RPR", (2, 3), "B", "B3", "C")
+    four_bar = Dyad("RRR", (2, 3), "B", "C", "D", (0.3, 0.25))
+    block = Inertia(2, "B", 1.0, 0.001)
+    beam = (LinkPoint("S3", 3, 0.3 + 0j),)
+    on_beam = Inertia(3, "S3", 3.0, 0.05)
+    ground, low = {"A": 0j, "D": 0.3 + 0j}, {"A": 0j, "C": -0.25j}
+    corner = LinkPoint("E", 2, 0.15 + 0.1j)
+    return {
+        "RRR": Linkage(
+            ground, crank, (four_bar,), (corner,), (Inertia(2, "E", 2.0, 0.02), Inertia(3, "C", 1.0, 0.03))
+        ),
+        "RRP": Linkage(
+            {"A": 0j},
+            crank,
+            (Dyad("RRP", (2, 3), "B", "C", Guide(0.02j, 0.0), (0.3, 0.0)),),
+            (LinkPoint("S2", 2, 0.12 + 0j),),
+            (Inertia(2, "S2", 2.0, 0.02), Inertia(3, "C", 3.0)),
+        ),
+        "RPR": Linkage(low, crank, (lever,), beam, (block, on_beam)),
+        "RPR with offset": Linkage(
+            low, crank, (replace(lever, lengths=(0.0, 0.05)),), beam, (block, on_beam)
+        ),
+        "RPR and PRP": Linkage(
+            low,
+            crank,
+            (lever, Dyad("PRP", (4, 5), Guide(0j, 0.0, 3), "E", Guide(0.2j, 0.0))),
+            beam,
+            (block, on_beam, Inertia(5, "E", 4.0)),
+        ),
+        "RPP": Linkage(
+            {"A": 0j},
+            crank,
+            (Dyad("RPP", (2, 3), "B", "D", Guide(0j, 0.0), slide_angle=np.pi / 2),),
+            (),
+            (Inertia(2, "B", 1.0), Inertia(3, "D", 3.0)),
+        ),
+        "RRR and RRP on its rocker": Linkage(
+            ground,
+            crank,
+            (four_bar, Dyad("RRP", (4, 5), "E", "F", Guide(0.05j, 0.3, 3), (0.3, 0.0), -1)),
+            (corner,),
+            (Inertia(2, "E", 1.0), Inertia(4, "F", 3.0, 0.03)),
+        ),
+    }
+
+
+MACHINES = _machines()
+"""Lengths are round numbers, as those of an assignment are."""

@@ -12,7 +12,7 @@ from typing import Any
 import linkages as lk
 import numpy as np
 import pytest
-from books import RATE, Book, keep
+from books import MACHINES, RATE, Book, keep
 from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 
@@ -126,5 +126,19 @@ def test_one_group(kind: DyadKind, sliding: bool, data: Any) -> None:
 def test_chain(first: DyadKind, second: DyadKind, data: Any) -> None:
     book = data.draw(books((first, second)))
     assume(is_mild(book))
+    check_motion(book)
+    check_forces(book)
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+@pytest.mark.parametrize("name", MACHINES)
+def test_ordinary_machines(name: str, turn: int) -> None:
+    """A whole turn, with the crank at dead centres too."""
+    angles = turn * np.radians(np.arange(0.0, 360.0, 15.0))
+    link = MACHINES[name].dyads[-1].links[1]
+    point = MACHINES[name].dyads[-1].middle
+    pushes = () if point == "B3" else ((link, point, -1 + 0j, 50.0),)
+    book = keep(MACHINES[name], angles, turn, pushes)
+    assert book.motion.reachable.all()
     check_motion(book)
     check_forces(book)

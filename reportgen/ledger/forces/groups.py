@@ -37,6 +37,7 @@ from reportgen.mechanism.structure import Dyad, DyadKind, Guide
 from reportgen.notation.expressions import (
     Expression,
     Ref,
+    Sum,
     Symbol,
     add,
     call,
@@ -116,7 +117,8 @@ def _rpr(g: Group) -> Polygon:
     b, across = g.statics.b, joint(g.i, g.j)
     couple = _moment(g, g.inner, g.start, g.on_i)
     turned = moments(g.statics, g.on_j, g.dyad.end)
-    known = [part for part in (turned, couple) if part is not None]
+    # One flat sum: a sum within it would vanish with the first of its terms that is left out.
+    known = [*(turned.terms if isinstance(turned, Sum) else [turned] if turned else []), *([couple] if couple else [])]
     b.define(
         f"R.{across}.s",
         Symbol("R", across),

@@ -104,6 +104,7 @@ def slide(
     b.define(segment, segment_symbol("p", on_plan(pin)), "segment", divide(f"v.{pin}", "mu.v"))
     b.construct(f"plan.v.{image(pin)}", multiply(turn, segment, along))
     b.give(f"a.{pin}", Symbol("a", pin), "acceleration", 0.0)
+    b.define(f"seg.a.p{image(pin)}", segment_symbol("π", on_plan(pin, True)), "segment", 0.0)
     b.construct(f"plan.a.{image(pin)}", multiply(0.0, along))
     site.body(DRIVER, pin, along)
     return site

@@ -7,13 +7,14 @@ import cmath
 from reportgen.ledger.kinematics.names import difference, image, segment_symbol
 from reportgen.ledger.kinematics.rates import absolute
 from reportgen.ledger.kinematics.sides import Side, Turn
-from reportgen.ledger.kinematics.site import KINDS, NOWHERE, Body, Site, What
+from reportgen.ledger.kinematics.site import KINDS, NOWHERE, POLES, Body, Site, What
 from reportgen.mechanism.structure import LinkPoint
 from reportgen.notation.expressions import (
     Expression,
     Ref,
     Symbol,
     add,
+    call,
     divide,
     multiply,
     power,
@@ -119,7 +120,10 @@ def _shifted(site: Site, what: What, point: LinkPoint, body: Body) -> None:
     """A link that does not turn moves alike in all its points."""
     new = image(point.name)
     site.b.construct(f"plan.{what}.{new}", add(site.image(what, body.origin)))
+    target, along = on_plan(point.name, what == "a"), call("abs", f"plan.{what}.{new}")
+    site.segment(f"seg.{what}.p{new}", POLES[what], target, along, what)
     alike = NOWHERE if site.scheme.still(body.origin) else Ref(f"{what}.{body.origin}")
-    site.b.define(
-        f"{what}.{point.name}", Symbol(what, point.name), KINDS[what], alike, scale=site.sizes.of(what)
-    )
+    size = site.sizes.of(what)
+    site.b.define(f"{what}.{point.name}", Symbol(what, point.name), KINDS[what], alike, scale=size)
+    heading = call("heading", f"plan.{what}.{new}")
+    site.b.define(f"dir.{what}.{point.name}", Symbol("α", f"{what}{point.name}"), "angle", heading, scale=1.0)

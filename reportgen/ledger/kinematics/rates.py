@@ -44,8 +44,9 @@ def acceleration(site: Site, one: Side, two: Side) -> None:
         _guide_point(site, "a", side)
     starts = [_known_acceleration(site, side) for side in (one, two)]
     site.b.construct(f"plan.a.{q}", call("meet", starts[0], _across(one), starts[1], _across(two)))
+    alike = _known_part(one) == _known_part(two)
     for side, start in zip((one, two), starts, strict=True):
-        _unknown_acceleration(site, side, start)
+        _unknown_acceleration(site, side, start, alike)
     absolute(site, "a", one.point)
 
 
@@ -119,9 +120,9 @@ def _known_acceleration(site: Site, side: Side) -> Expression:
     """Enter aⁿ = v²/l towards the base, or aᵏ = 2ω v_r square to v_r; gives where the unknown part starts."""
     b, size = site.b, site.sizes.acceleration
     start = _start(site, "a", side)
-    if isinstance(side, Slide) and not side.turning:
+    part = _known_part(side)
+    if not part:
         return start
-    part = "n" if isinstance(side, Turn) else "k"
     id, relative = f"a.{side.relative}.{part}", f"v.{side.relative}"
     formula: Expression
     direction: Expression
@@ -145,21 +146,30 @@ def _known_acceleration(site: Site, side: Side) -> Expression:
     return Ref(b.construct(plan, subtract(start, direction) if part == "n" else add(start, direction)))
 
 
-def _unknown_acceleration(site: Site, side: Side, start: Expression) -> None:
-    """The tangential or sliding part, from the end of what is known to the point's image; ε of a turning link."""
+def _known_part(side: Side) -> str:
+    """The letter of a side's known relative acceleration, "" where there is none."""
+    if isinstance(side, Turn):
+        return "n"
+    return "k" if side.turning else ""
+
+
+def _unknown_acceleration(site: Site, side: Side, start: Expression, alike: bool) -> None:
+    """The tangential or sliding part, from the end of what is known to the point's image; ε of a turning link.
+
+    Where both sides are `alike`, two ends share the letter n or k and are told apart by their vectors.
+    """
     if isinstance(side, Slide) and side.still and not side.turning:
         return
     b, sizes, relative = site.b, site.sizes, side.relative
     part, sup = ("t", "τ") if isinstance(side, Turn) else ("r", "r")
     along = subtract(f"plan.a.{image(side.point)}", start)
-    if isinstance(side, Turn):
-        letter = Symbol("n")
-    elif side.turning:
-        letter = Symbol("k")
-    else:
-        letter = on_plan(side.base, True)
+    begin, end = Symbol(_known_part(side)), on_plan(side.point, True)
+    if not begin.base:
+        begin = on_plan(side.base, True)
+    elif alike:
+        begin, end = end, Symbol(begin.base, f"{side.point}{side.shown}")
     segment = f"seg.a.{part}.{relative}"
-    site.segment(segment, letter, on_plan(side.point, True), along, "a")
+    site.segment(segment, begin, end, along, "a")
     b.define(
         f"a.{relative}.{part}",
         _vector("a", side, sup),

@@ -52,6 +52,10 @@ class Turn:
         """The base as vectors name it."""
         return self.base
 
+    @property
+    def turns(self) -> bool:
+        return True
+
 
 @dataclass(frozen=True, slots=True)
 class Slide:
@@ -73,6 +77,15 @@ class Slide:
     @property
     def relative(self) -> str:
         return difference(self.point, self.base)
+
+    @property
+    def turns(self) -> bool:
+        return False
+
+    @property
+    def guided(self) -> bool:
+        """Whether the base is the guide's own point, not a pin."""
+        return self.carrier is not None
 
 
 Side = Turn | Slide
