@@ -28,9 +28,10 @@ from reportgen.figures.scheme import Looks, groups, scheme
 from reportgen.figures.sheet import sheets
 from reportgen.figures.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.ledger.core import Ledger
+from reportgen.ledger.kinematics import scheme as scheme_of
 from reportgen.mechanism.loads import Load, as_single_force, percussion_meeting
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import DRIVER
+from reportgen.mechanism.structure import DRIVER, GROUND
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Chain, Number, Symbol
 
@@ -97,6 +98,7 @@ class Pictures:
             "bodies": self.bodies,
             "lever": self.lever,
             "motion": self.motion,
+            "displacement": self.displacement,
             "torque": self.torque,
             "polar": self.polar,
         }
@@ -423,36 +425,47 @@ class Pictures:
         return tuple(map(int, places))
 
     def motion(self) -> Drawn:
-        machine = self.analysis.machine
-        names = self.words["figure"]
+        """Velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
+        names, motion, sliding = self.words["figure"], self.dense_cycle.motion, self._sliding
+        along = {group.Q: np.exp(1j * _guide_angle(self.analysis, group)) for group in sliding}
+        spins = scheme_of(self.analysis.machine.linkage).spins
+        turning = [link for link, other in spins.items() if link == other > DRIVER]
+
+        def of_points(base: str) -> list[tuple[Symbol, np.ndarray]]:
+            vectors = {name: getattr(motion.points[name], base) for name in along}
+            return [(Symbol(base, name), np.real(np.conj(u) * vectors[name])) for name, u in along.items()]
+
+        def of_links(base: str, quantity: str) -> list[tuple[Symbol, np.ndarray]]:
+            return [(Symbol(base, str(link)), getattr(motion.links[link], quantity)) for link in turning]
+
+        drawings = (
+            (of_points("v"), names["velocity"]),
+            (of_points("a"), names["acceleration"]),
+            (of_links("ω", "omega"), names["omega"]),
+            (of_links("ε", "epsilon"), names["epsilon"]),
+        )
+        return Drawn(tuple(self._over_a_turn(curves, title) for curves, title in drawings if curves))
+
+    def displacement(self) -> Drawn:
+        """The coordinates of what slides on the ground, along its guide, over one turn."""
+        slides = self.dense_cycle.motion.slides
+        curves = [(Symbol("x", group.Q), MM * slides[GROUND, group.j].s) for group in self._sliding]
+        return Drawn((self._over_a_turn(curves, self.words["figure"]["displacement"]),))
+
+    @property
+    def _sliding(self) -> tuple[GroupView, ...]:
+        """Groups whose inner pin runs along a fixed guide."""
+        on_ground = {slider for carrier, slider in self.analysis.motion.slides if carrier == GROUND}
+        return tuple(group for group in self.facts.groups if group.kind == "RRP" and group.j in on_ground)
+
+    def _over_a_turn(self, curves: Sequence[tuple[Symbol, np.ndarray]], title: str) -> Scene:
+        """Curves over one turn of the driver, the numbered positions marked."""
         fine = self.dense_cycle
         count = int(np.searchsorted(fine.cycle_angle, FULL_TURN + SAME))
         degrees = np.degrees(fine.cycle_angle[:count])
-        marks = self._marks[: machine.count]
-        along = {group.Q: np.exp(1j * _guide_angle(self.analysis, group)) for group in self.facts.groups}
-        motion = fine.motion
-
-        def curves(label: str, of: Callable[[GroupView], tuple[Symbol, np.ndarray]]) -> Scene:
-            series = []
-            for group in self.facts.groups:
-                symbol, values = of(group)
-                series.append(charts.Series(symbol, degrees, values[:count], marks))
-            return charts.chart(series, names["angle"], label)
-
-        return Drawn(
-            (
-                curves(
-                    names["velocity"],
-                    lambda g: (Symbol("v", g.Q), np.real(np.conj(along[g.Q]) * motion.points[g.Q].v)),
-                ),
-                curves(
-                    names["acceleration"],
-                    lambda g: (Symbol("a", g.Q), np.real(np.conj(along[g.Q]) * motion.points[g.Q].a)),
-                ),
-                curves(names["omega"], lambda g: (Symbol("ω", str(g.i)), motion.links[g.i].omega)),
-                curves(names["epsilon"], lambda g: (Symbol("ε", str(g.i)), motion.links[g.i].epsilon)),
-            )
-        )
+        marks = self._marks[: self.analysis.machine.count]
+        series = [charts.Series(symbol, degrees, values[:count], marks) for symbol, values in curves]
+        return charts.chart(series, self.words["figure"]["angle"], title)
 
     def torque(self) -> Drawn:
         fine = self.dense_cycle
