@@ -44,6 +44,7 @@ from reportgen.catalogue.offset_slider import OffsetSlider
 from reportgen.mechanism.structure import Inertia
 from reportgen.notation.expressions import (
     PI,
+    Expression,
     Number,
     Ref,
     Root,
@@ -67,6 +68,8 @@ TURNS = 2
 CRANK_DRAWN = 0.04
 """Drawn length of the crank (m on paper) when none is asked for."""
 UP = math.pi / 2
+MOST_LETTERED = 4
+"""Two dead centres and two greatest speeds."""
 
 Offset = Annotated[Given, quantity("mm", least=0, below=1e5)]
 TimeRatio = Annotated[Given, Ratio(Interval(above=1, below=2))]
@@ -104,11 +107,16 @@ class Parameters(Part):
         return given.si
 
     @property
+    def has_lengths(self) -> bool:
+        """Whether crank and rod are given in either way."""
+        return None not in (self.R, self.L) or None not in (self.H, self.K)
+
+    @property
     def lengths(self) -> tuple[float, float]:
         """Crank R and rod L (m): as given, or of the triangle that A makes with the dead centres.
 
         Its sides are L + R, L − R and H, the angle at A is θ = π(K − 1)/(K + 1) and the height e, whence
-        R² = H²/4 − (H e/2) tan(θ/2), L² = H²/4 + (H e/2)/tan(θ/2).
+        4R² = H² − 2H e₁, 4L² = H² + 2H e₂ with e₁ = e tan(θ/2), e₂ = e/tan(θ/2).
         """
         if self.R is not None and self.L is not None:
             return self.R.si, self.L.si
@@ -149,7 +157,9 @@ def _special(geometry: OffsetSlider, start: float) -> tuple[float, ...]:
 
 
 def added_positions(parameters: Parameters, positions: Positions) -> int:
-    """How many lettered positions a turn has."""
+    """How many lettered positions a turn has; of an engine with faulty lengths, the most that any has."""
+    if not parameters.has_lengths or _cannot_turn(parameters) is not None:
+        return MOST_LETTERED
     geometry = parameters.geometry(positions)
     places, _ = lettered(positions.count, 1, _special(geometry, _start(geometry, positions)))
     return len(places) - positions.count
@@ -174,20 +184,25 @@ def _check_lengths(draft: Draft) -> Iterator[Finding]:
             yield Finding("missing-key", ("parameters", key), {"key": key})
 
 
-def _check_turning(draft: Draft) -> Iterator[Finding]:
-    """The crank turns fully: L > R + e, or 0 < e < H/(2 tan θ/2) where they follow from H, e, K."""
-    given = draft.sections.get("parameters")
-    if given is None:
-        return
+def _cannot_turn(given: Parameters) -> Finding | None:
+    """What keeps the crank from turning: L ≤ R + e, or no 0 < e < H/(2 tan θ/2) beside H and K."""
     if given.R is not None and given.L is not None:
         if given.L.si <= given.R.si + given.e.si:
             least = f"> R + e = {(given.R.si + given.e.si) * 1e3:g} mm"
-            yield Finding("out-of-range", ("parameters", "L"), {"text": given.L.text, "range": least})
+            return Finding("out-of-range", ("parameters", "L"), {"text": given.L.text, "range": least})
     elif given.H is not None and given.K is not None:
         most = given.H.si / (2 * math.tan(math.pi * (given.K.si - 1) / (given.K.si + 1) / 2))
         if not 0 < given.e.si < most:
             limits = f"> 0, < H/(2·tan(θ/2)) = {most * 1e3:.6g} mm"
-            yield Finding("out-of-range", ("parameters", "e"), {"text": given.e.text, "range": limits})
+            return Finding("out-of-range", ("parameters", "e"), {"text": given.e.text, "range": limits})
+    return None
+
+
+def _check_turning(draft: Draft) -> Iterator[Finding]:
+    given = draft.sections.get("parameters")
+    found = None if given is None else _cannot_turn(given)
+    if found is not None:
+        yield found
 
 
 CHECKS = (
@@ -294,15 +309,20 @@ def _synthesis(given: Parameters) -> tuple[Item, ...]:
     assert given.K is not None
     half_turn = Number(180.0, unit="°")
     theta = divide(multiply(half_turn, subtract("K", 1)), add("K", 1))
-    quarter, area = divide(power("H", 2), 4), divide(multiply("H", "e"), 2)
-    tangent = call("tan", divide("theta", 2))
+    tangent, square = call("tan", divide("theta", 2)), power("H", 2)
     return (
         Item("H", Symbol("H"), "length", given.H.si),
         ratio_item("K", Symbol("K"), given.K),
         Item("theta", Symbol("θ"), "angle", definition=theta),
-        Item("R", Symbol("R"), "length", definition=Root(subtract(quarter, multiply(area, tangent)))),
-        Item("L", Symbol("L"), "length", definition=Root(add(quarter, divide(area, tangent)))),
+        Item("e.1", Symbol("e", "1"), "length", definition=multiply("e", tangent)),
+        Item("e.2", Symbol("e", "2"), "length", definition=divide("e", tangent)),
+        Item("R", Symbol("R"), "length", definition=_half_root(subtract(square, multiply(2, "H", "e.1")))),
+        Item("L", Symbol("L"), "length", definition=_half_root(add(square, multiply(2, "H", "e.2")))),
     )
+
+
+def _half_root(of: Expression) -> Expression:
+    return divide(Root(of), 2)
 
 
 def _stroke(given: Parameters) -> tuple[Item, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from reportgen.analysis import Analysis
@@ -34,6 +34,7 @@ from reportgen.document.voice import Voice
 from reportgen.document.words import load_words
 from reportgen.ledger.report import Books
 from reportgen.mechanism.mobility import mobility
+from reportgen.notation.expressions import Symbol
 
 PLATES_UP_TO = 24
 """Above this many positions, plates are drawn for worked positions only."""
@@ -196,6 +197,7 @@ def _names(
         "crank_lines": facts.crank_lines,
         "driver_polygon": facts.driver_polygon if facts.books.polygons else None,
         "lowered": lowered,
+        "not_recomputing": _listed(voice.symbol(id) for id in facts.ledger.cancellations),
         "equations": lambda name: Equation(machine.equations[name]),
         "group_kind": lambda group: words["groups"][group.kind],
         "stroke_name": lambda link, k: words["strokes"][int(analysis.gas[f"P{link}"].stroke[k - 1])],
@@ -234,6 +236,15 @@ def _force_list(voice: Voice, facts: Facts, group: GroupView, k: int) -> tuple[A
             InlineMath(voice.force_symbol(side.name)),
             Text(")"),
         ]
+    return tuple(result)
+
+
+def _listed(symbols: Iterable[Symbol]) -> tuple[Any, ...]:
+    """Symbols side by side with commas, each once."""
+    result: list[Any] = []
+    for symbol in dict.fromkeys(symbols):
+        result += [Text(", ")] if result else []
+        result.append(InlineMath(symbol))
     return tuple(result)
 
 

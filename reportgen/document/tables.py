@@ -186,7 +186,7 @@ class Tables:
             for part in (analysis.motion.points[name].p.real, analysis.motion.points[name].p.imag)
         ]
         kept = [index for index, value in enumerate(values) if np.abs(value[:count]).max() > 1e-12]
-        width = min((TEXT_WIDTH - 14) / len(kept), 22.0)
+        width = min((TEXT_WIDTH - FIRST_COLUMN) / len(kept), 22.0)
         head = (
             self.voice.cell(self.voice.words["table"]["position"]),
             *(self.voice.cell(heads[i]) for i in kept),
@@ -198,7 +198,7 @@ class Tables:
             )
             for k in range(count)
         )
-        columns = (Column(14.0), *(Column(width),) * len(kept))
+        columns = (Column(FIRST_COLUMN), *(Column(width),) * len(kept))
         return Table(columns, (head,), rows, self.voice.prose.inlines(caption), key)
 
     def dead_centres_table(self, key: str, caption: str, head: Sequence[str], top: str, bottom: str) -> Table:
