@@ -233,6 +233,12 @@ class Facts:
         arms = [id for id in self.ledger.families if id.startswith("h.") and id.endswith(f".{self.driver.centre}")]
         return [*arms, "M.eq"]
 
+    @property
+    def lever_couples(self) -> list[str]:
+        """What torques, which have no arm, contribute to the balance by virtual work."""
+        names = [torque.name for torque in self.analysis.machine.torques]
+        return self.has([f"M.{name}.p" for name in names])
+
     def drawn(self, group: GroupView, name: str, position: int) -> Number:
         """The drawn length of a force in its group's plan."""
         return self.ledger.number(f"seg.{group.name}.{name}", position)

@@ -28,6 +28,7 @@ from reportgen.figures.scheme import Looks, groups, scheme
 from reportgen.figures.sheet import sheets
 from reportgen.figures.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.ledger.core import Ledger
+from reportgen.ledger.forces import Polygon
 from reportgen.ledger.kinematics import scheme as scheme_of
 from reportgen.mechanism.loads import Load, as_single_force, percussion_meeting
 from reportgen.mechanism.motion import Motion, solve_motion
@@ -94,6 +95,7 @@ class Pictures:
             "scheme": self.scheme,
             "groups": self.groups,
             "positions": self.positions,
+            "extremes": self.extremes,
             "indicator": self.indicator,
             "bodies": self.bodies,
             "lever": self.lever,
@@ -185,10 +187,8 @@ class Pictures:
 
     def _position_plan(self, beside: Draft | None) -> Scene:
         machine = self.analysis.machine
-        numbered = [self.facts.driver.pin, *(place.name for place in self.facts.driver.others)]
-        numbered += [group.Q for group in self.facts.groups]
         shows = PositionPlan(
-            tuple(numbered),
+            self._numbered,
             machine.paths if beside is None else (),
             self._first_worked(),
             labels=tuple(map(str, machine.numbered(range(1, machine.count + 1)))),
@@ -197,6 +197,25 @@ class Pictures:
         return position_plan(
             machine.linkage, self.one_turn, self.dense, self.scale, shows, looks, beside=beside
         )
+
+    @property
+    def _numbered(self) -> tuple[str, ...]:
+        """Points that carry the positions' numbers: pins of the crank, joints, of a slotted lever its end."""
+        centres = {body.centre for body in self.analysis.machine.linkage.inertias}
+        names = [self.facts.driver.pin, *(place.name for place in self.facts.driver.others)]
+        for group in self.facts.groups:
+            ends = [place.name for place in group.points_j if place.name not in centres]
+            names += ends if group.kind == "RPR" else [group.Q]
+        return tuple(names)
+
+    def extremes(self) -> Drawn:
+        """The mechanism where its first slider turns back: I as its stroke begins, II as it ends."""
+        machine = self.analysis.machine
+        course = machine.sliders[0]
+        motion = motion_at(machine, course.dead_centres[:2] - course.phase)
+        shows = PositionPlan(self._numbered, machine.paths, labels=("I", "II"))
+        looks = replace(self.looks(self.scale), blocks={}, centres=())
+        return on_paper(position_plan(machine.linkage, motion, self.dense, self.scale, shows, looks))
 
     def _first_worked(self) -> int:
         return (self.facts.worked[0] - 1) % self.analysis.machine.count
@@ -241,7 +260,7 @@ class Pictures:
     # --- forces
 
     def bodies(self, k: int, group: GroupView) -> Drawn:
-        """The group with all its forces, at half size; then its first link with the arms of the moments."""
+        """The group with all its forces, at half size; then each link that moments are taken of, with the arms."""
         names = self.words["figure"]
         half = self.scale * HALF
         whole = self._bodies(
@@ -250,34 +269,42 @@ class Pictures:
             (group.i, group.j),
             [
                 *self._loads((group.i, group.j), k, half),
-                *self._outer(group, k, half),
-                self._reaction(f"R{group.guide}", f"R.{group.guide}", group.Q, k, half),
+                *self._carried(group.polygon, (group.i, group.j), k, half),
+                *self._outer(group, group.i, k, half),
+                *self._outer(group, group.j, k, half),
             ],
+            turning=self._couples((group.i, group.j), k, half),
             looks=self._bare_looks(HALF),
             title=names["group"].format(i=group.i, j=group.j),
         )
+        return beside_one_another(
+            whole, *(self._alone(k, group, link, pin) for link, pin in _moments_of(group))
+        )
+
+    def _alone(self, k: int, group: GroupView, link: int, pin: str) -> Scene:
+        """One link of a group with all that acts on it and the arms about a pin."""
         scale = self.scale
-        about = complex(self.analysis.motion.points[group.Q].p[k - 1]) * scale
-        alone = self._bodies(
+        about = complex(self.analysis.motion.points[pin].p[k - 1]) * scale
+        return self._bodies(
             k,
             scale,
-            (group.i,),
+            (link,),
             [
-                *self._loads((group.i,), k, scale),
-                *self._outer(group, k, scale),
-                self._reaction(f"R{group.inner}", f"R.{group.inner}", group.Q, k, scale),
+                *self._loads((link,), k, scale),
+                *self._carried(group.polygon, (link,), k, scale),
+                *self._outer(group, link, k, scale),
+                self._inner(group, link, k, scale),
             ],
             arms=[
                 ArmOf(self.ledger.symbol(id), about, id.split(".")[1])
-                for id in self.facts.arm_ids(group)
+                for id in self.facts.arm_ids(group, pin, link)
                 if not self.facts.zero(id, k)
             ],
-            turning=self._couples((group.i,), k),
-            extra=self._percussion(group, k),
+            turning=self._couples((link,), k, scale),
+            extra=self._percussion(link, k),
             looks=self._bare_looks(1.0),
-            title=f"{names['link']} {group.i}",
+            title=f"{self.words['figure']['link']} {link}",
         )
-        return beside_one_another(whole, alone)
 
     def _bodies(
         self, k: int, scale: float, links: Sequence[int], acting: Sequence[Force], **more: Any
@@ -289,12 +316,37 @@ class Pictures:
     def _bare_looks(self, factor: float) -> Looks:
         return self.looks(self.scale * factor, factor)
 
-    def _outer(self, group: GroupView, k: int, scale: float) -> list[Force]:
-        """The components of the reaction in the group's outer pin."""
-        return [
-            self._reaction(f"R{group.outer}.{part}", f"R.{group.outer}.{part}", group.P, k, scale)
-            for part in ("t", "n")
-        ]
+    def _outer(self, group: GroupView, link: int, k: int, scale: float) -> list[Force]:
+        """The reaction in the outer joint of a group's link, by components where moments gave one of them."""
+        first = link == group.i
+        digits = group.outer if first else group.guide
+        pin = group.P if first else group.T or group.Q
+        parts = (".t", ".n") if f"R.{digits}.t" in self.ledger else ("",)
+        return [self._reaction(f"R{digits}{part}", f"R.{digits}{part}", pin, k, scale) for part in parts]
+
+    def _inner(self, group: GroupView, link: int, k: int, scale: float) -> Force:
+        """The reaction in the inner joint on one link of the group, as it is read from the plan."""
+        read = self._reaction(f"R{group.inner}", f"R.{group.inner}", group.Q, k, scale)
+        if link == group.i:
+            return read
+        name = f"R{group.across}"
+        return Force(Symbol("R", group.across, over="vector"), read.at, -read.direction, "reaction", name)
+
+    def _carried(
+        self, polygon: Polygon | None, links: Sequence[int], k: int, scale: float
+    ) -> list[Force]:
+        """Reactions of other groups, found before, on some links of a force plan."""
+        assert polygon is not None
+        result = []
+        for side in polygon.sides:
+            if side.unknown or side.link not in links or side.name.endswith(".t") or side.name[0] != "R":
+                continue
+            at = complex(self.analysis.forces.reactions[side.name].point[k - 1]) * scale
+            known = np.isfinite(at) and not self.facts.zero(f"R.{side.name[1:]}", k)
+            direction = complex(self.ledger[f"F.{side.name}"].at(k)) if known else 0j
+            symbol = symbols.vector(self.ledger.symbol(f"R.{side.name[1:]}"))
+            result.append(Force(symbol, at if known else 0j, direction, "reaction", side.name))
+        return result
 
     def crank(self, k: int) -> Scene:
         """The driver with the reactions on it and their arms about its centre."""
@@ -302,10 +354,7 @@ class Pictures:
         centre = self.facts.driver.centre
         about = complex(motion.points[centre].p[k - 1]) * scale
         acting = self._loads((DRIVER,), k, scale)
-        for side in self.facts.driver_polygon.sides:
-            if side.name.startswith("R") and not side.unknown:
-                pin = self._pin_of(side.name)
-                acting.append(self._reaction(side.name, f"R.{side.name[1:]}", pin, k, scale))
+        acting += self._carried(self.facts.driver_polygon, (DRIVER,), k, scale)
         acting.append(self._reaction("R01", "R.01", centre, k, scale))
         arms = [
             ArmOf(self.ledger.symbol(id), about, id.split(".")[1])
@@ -333,7 +382,7 @@ class Pictures:
         """Loads on links; a force with a couple acts at the one point where it alone does both."""
         result = []
         for load in self.analysis.loads:
-            if load.link not in links or load.name not in self.ledger or self.facts.zero(load.name, k):
+            if load.link not in links or not self._has_force(load, k):
                 continue
             symbol = symbols.vector(self.ledger.symbol(load.name))
             at, force = self._acts_at(load, k) * scale, complex(load.force[k - 1])
@@ -357,9 +406,9 @@ class Pictures:
         near = abs(s - a) + 2 * l_sk
         return (s + (s - a) / abs(s - a) * l_sk, q) if np.isfinite(q) and abs(q - s) < near else None
 
-    def _percussion(self, group: GroupView, k: int) -> Draft:
-        """K on the link, and the two lines of construction that meet in Q."""
-        body = next((body for body in self.facts.couples if body.link == group.i), None)
+    def _percussion(self, link: int, k: int) -> Draft:
+        """K on a link, and the two lines of construction that meet in Q."""
+        body = next((body for body in self.facts.couples if body.link == link), None)
         points = body and self._percussion_points(body, k)
         if not body or not points or self.facts.zero(f"M.Pqt{body.link}", k):
             return Draft()
@@ -371,22 +420,33 @@ class Pictures:
             Circle(known, 0.6, VISIBLE, PAPER),
             Circle(meeting, 0.6, VISIBLE, PAPER),
         )
-        link = str(body.link)
+        number = str(link)
         return Draft(
-            marks, (label(known, Symbol("K", link), gap=1.2), label(meeting, Symbol("Q", link), gap=1.2))
+            marks, (label(known, Symbol("K", number), gap=1.2), label(meeting, Symbol("Q", number), gap=1.2))
         )
 
-    def _couples(self, links: Sequence[int], k: int) -> list[Couple]:
-        """Couples whose force is nothing."""
-        return [
-            Couple(
-                self.ledger.symbol(f"M.{load.name}"),
-                complex(load.point[k - 1]) * self.scale,
-                float(load.couple[k - 1]),
-            )
-            for load in self.analysis.loads
-            if load.link in links and load.couple[k - 1] != 0 and self.facts.zero(load.name, k)
-        ]
+    def _couples(self, links: Sequence[int], k: int, scale: float) -> list[Couple]:
+        """Torques, and couples whose force is nothing."""
+        result = []
+        for load in self.analysis.loads:
+            if load.link not in links or load.couple[k - 1] == 0:
+                continue
+            torque = load.name in self._torques
+            if torque or self.facts.zero(load.name, k):
+                symbol = self.ledger.symbol(load.name if torque else f"M.{load.name}")
+                at = complex(load.point[k - 1]) * scale
+                result.append(Couple(symbol, at, float(load.couple[k - 1])))
+        return result
+
+    @property
+    def _torques(self) -> frozenset[str]:
+        """Loads that have no force by their nature."""
+        return frozenset(torque.name for torque in self.analysis.machine.torques)
+
+    def _has_force(self, load: Load, k: int) -> bool:
+        return (
+            load.name in self.ledger and load.name not in self._torques and not self.facts.zero(load.name, k)
+        )
 
     def lever(self, k: int) -> Drawn:
         """The velocity plan turned by 90° against ω1, every load at its image, arms about the pole."""
@@ -395,7 +455,7 @@ class Pictures:
         per = -1j * turn * MM / float(self.ledger.families["mu.v"].values[0])
         acting, arms = [], []
         for load in self.analysis.loads:
-            if load.name not in self.ledger or self.facts.zero(load.name, k):
+            if not self._has_force(load, k):
                 continue
             at = np.full(motion.driver.shape, self._acts_at(load, k))
             image = complex(motion.of(load.link, at).v[index]) * per
@@ -510,6 +570,15 @@ def _guide_angle(analysis: Analysis, group: GroupView) -> float:
     """The direction in which a slider's course counts: away from the crank along its guide."""
     angle = analysis.motion.links[group.j].angle
     return float(angle[0])
+
+
+def _moments_of(group: GroupView) -> tuple[tuple[int, str], ...]:
+    """The links of a group that the force analysis takes moments of, with the pin it takes them about."""
+    if group.kind == "RRR":
+        return (group.i, group.Q), (group.j, group.Q)
+    if group.kind == "RPR":
+        return ((group.j, group.T),)
+    return ((group.i, group.Q),) if group.kind == "RRP" else ()
 
 
 def _highest(table: Any) -> float:

@@ -37,6 +37,7 @@ from reportgen.notation.expressions import (
     Chain,
     Expression,
     Fraction,
+    Matrix,
     Negative,
     Number,
     Power,
@@ -149,6 +150,8 @@ def formula(node: Expression, language: Language) -> str:
             return f"√({formula(of, language)})"
         case Call(name, arguments):
             return f"{name}({'; '.join(formula(argument, language) for argument in arguments)})"
+        case Matrix(rows):
+            return f"[{' | '.join('; '.join(formula(entry, language) for entry in row) for row in rows)}]"
         case Chain(parts, note):
             return " = ".join(formula(part, language) for part in parts) + (f" ({note})" if note else "")
         case VectorEquation(sides, rows):
@@ -159,7 +162,7 @@ def formula(node: Expression, language: Language) -> str:
 def _tight(node: Expression, loosest: type[Product] | None, language: Language) -> str:
     """The node, in parentheses unless it is one piece (or as tight as `loosest`)."""
     inner = formula(node, language)
-    single = isinstance(node, (Symbol, Ref, Root, Call)) or (isinstance(node, Number) and node.shown >= 0)
+    single = isinstance(node, (Symbol, Ref, Root, Call, Matrix)) or (isinstance(node, Number) and node.shown >= 0)
     if loosest is Product:
         single = single or isinstance(node, (Product, Fraction, Power))
     return inner if single else f"({inner})"

@@ -15,6 +15,7 @@ from reportgen.notation.expressions import (
     Chain,
     Expression,
     Fraction,
+    Matrix,
     Negative,
     Number,
     Power,
@@ -135,6 +136,11 @@ def _expression(node: Expression, em: float) -> Box:
         case Call(name, arguments):
             inner = _joined([_expression(argument, em) for argument in arguments], em, 0.5)
             return _text(name + "()", em).beside(inner)
+        case Matrix(rows):
+            lines = [_joined([_expression(entry, em) for entry in row], em, 1.0) for row in rows]
+            half = sum(line.height + line.depth for line in lines) / 2
+            width = max((line.width for line in lines), default=0.0)
+            return Box(width + em, half + 0.25 * em, half - 0.25 * em)
         case Chain(parts, note):
             line = _joined([_expression(part, em) for part in parts], em, 0.78 + RELATION)
             return line.beside(_text(" " + note, em)) if note else line

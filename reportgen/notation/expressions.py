@@ -106,6 +106,13 @@ class Call:
 
 
 @dataclass(frozen=True, slots=True)
+class Matrix:
+    """A matrix, or with rows of one entry a column, of a displayed equation; it has no single value."""
+
+    rows: tuple[tuple[Expression, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Chain:
     """formula = substitution = result, as one printed line.
 
@@ -139,7 +146,19 @@ class VectorEquation:
 
 
 Expression = (
-    Symbol | Number | Ref | Sum | Product | Negative | Fraction | Power | Root | Call | Chain | VectorEquation
+    Symbol
+    | Number
+    | Ref
+    | Sum
+    | Product
+    | Negative
+    | Fraction
+    | Power
+    | Root
+    | Call
+    | Matrix
+    | Chain
+    | VectorEquation
 )
 
 PI = Symbol("π", value=math.pi)
@@ -179,6 +198,10 @@ def power(base: Expression | float | str, exponent: Expression | float) -> Expre
 
 def negative(of: Expression | float | str) -> Expression:
     return Negative(as_expression(of))
+
+
+def column(*entries: Expression | float | str) -> Matrix:
+    return Matrix(tuple((as_expression(entry),) for entry in entries))
 
 
 def call(name: str, *arguments: Expression | float | str) -> Expression:
@@ -284,6 +307,8 @@ def children(node: Expression) -> tuple[Expression, ...]:
             return (base, exponent)
         case Call(_, arguments):
             return arguments
+        case Matrix(rows):
+            return tuple(entry for row in rows for entry in row)
         case Chain(parts):
             return parts
         case VectorEquation(sides):
@@ -309,6 +334,8 @@ def rebuild(node: Expression, change: Callable[[Expression], Expression]) -> Exp
             return Power(change(base), change(exponent))
         case Call(name, arguments):
             return Call(name, tuple(map(change, arguments)))
+        case Matrix(rows):
+            return Matrix(tuple(tuple(map(change, row)) for row in rows))
         case Chain(parts):
             return replace(node, parts=tuple(map(change, parts)))
         case _:

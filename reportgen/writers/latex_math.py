@@ -11,6 +11,7 @@ from reportgen.notation.expressions import (
     Chain,
     Expression,
     Fraction,
+    Matrix,
     Negative,
     Number,
     Power,
@@ -73,6 +74,9 @@ def mathematics(node: Expression, language: Language) -> str:
             return rf"\sqrt{{{mathematics(of, language)}}}"
         case Call():
             return _call(node, "", language)
+        case Matrix(rows):
+            lines = (" & ".join(mathematics(entry, language) for entry in row) for row in rows)
+            return r"\begin{bmatrix}" + r" \\ ".join(lines) + r"\end{bmatrix}"
         case Chain(parts, note):
             printed = r" \relbreak= ".join(mathematics(part, language) for part in parts)
             return printed + (rf" \relbreak\quad\text{{({escape(note)})}}" if note else "")

@@ -12,6 +12,7 @@ from reportgen.notation.expressions import (
     Chain,
     Expression,
     Fraction,
+    Matrix,
     Negative,
     Number,
     Power,
@@ -71,6 +72,9 @@ def math(node: Expression, language: Language) -> str:
             return f"sqrt({math(of, language)})"
         case Call():
             return _call(node, "", language)
+        case Matrix(rows):
+            printed = (", ".join(math(entry, language) for entry in row) for row in rows)
+            return f'mat(delim: "[", {"; ".join(printed)})'
         case Chain(parts):
             return " = ".join(math(part, language) for part in parts) + note(node)
         case VectorEquation(sides):
