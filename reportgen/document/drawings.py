@@ -53,6 +53,7 @@ class Drawings:
             "acceleration-stages": self.acceleration_stages,
             "acceleration-plates": self.acceleration_plates,
             "forces": self.forces,
+            "force-stages": self.force_stages,
             "force-plates": self.force_plates,
             "crank": self.crank,
             **self.pictures.figures,
@@ -136,6 +137,24 @@ class Drawings:
     def forces(self, k: int, group: GroupView) -> Drawn:
         assert group.polygon is not None
         return Drawn((plan(self.force_plan(group.polygon, k)),))
+
+    def force_stages(self, k: int, group: GroupView) -> Drawn:
+        """The force plan step by step: loads, components found by moments, closing sides, what is read."""
+        assert group.polygon is not None
+        drawing = self.force_plan(group.polygon, k)
+        loads = sum(side.name in self.ledger for side in group.polygon.sides)
+        known = sum(not side.unknown for side in group.polygon.sides)
+        found = 1 if known > loads else 0
+
+        def step(stage: int) -> int:
+            return 0 if stage < loads else 1 if stage < known else found + 1 + stage - known
+
+        steps = replace(
+            drawing,
+            vectors=tuple(replace(v, stage=step(v.stage)) for v in drawing.vectors),
+            points=tuple(replace(p, stage=step(p.stage)) for p in drawing.points),
+        )
+        return self._stages(steps, f"mu.R{group.polygon.name}")
 
     def crank(self, k: int) -> Drawn:
         """The driver with its forces, and their polygon."""

@@ -43,7 +43,7 @@ TEXT_BLOCK = (160.0, 225.0)
 WHITE = (40.0, 64.0)
 """What of a plate's page (mm) its margins, header and caption take."""
 HALF = 0.5
-CLOSE = 4.0
+CLOSE = 5.5
 """What of their margins (mm) scenes of one figure give up to stand side by side."""
 SCHEME_BOX = (120.0, 130.0)
 DENSE = 361

@@ -322,9 +322,17 @@ class Voice:
     def bare(self, id: str, position: int | None) -> Inlines:
         """A number without its unit, a dash for what does not exist."""
         number = self.ledger.number(id, position, size=self.ledger[id].arm)
-        if number.value != number.value:
+        if number.value != number.value or self._is_direction_of_nothing(id, position):
             return (Text("–"),)
         return (Value(Number(number.value, number.decimals, "")),)
+
+    def _is_direction_of_nothing(self, id: str, position: int | None) -> bool:
+        """Whether an angle `dir.R05`, `dir.v.B` is that of a vector which is nothing."""
+        if not id.startswith("dir."):
+            return False
+        name = id.removeprefix("dir.")
+        size = f"R.{name[1:]}" if name.startswith("R") else name
+        return size in self.ledger and self.ledger.number(size, position).value == 0
 
     def direction(self, id: str, position: int | None) -> str:
         """The sense of a rotation in words; a dash where there is none."""
