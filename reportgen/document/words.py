@@ -39,9 +39,9 @@ def _read(path: Path) -> Mapping[str, Any]:
 
 
 def _over(below: Mapping[str, Any], above: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Both tables in one; where both have a word, the one `above`."""
-    result = dict(below)
+    """Both tables in one; where both have a word, the one `above`, whose words also come first."""
+    result: dict[str, Any] = {}
     for key, value in above.items():
         both_tables = isinstance(value, Mapping) and isinstance(below.get(key), Mapping)
         result[key] = _over(below[key], value) if both_tables else value
-    return result
+    return result | {key: value for key, value in below.items() if key not in result}

@@ -77,7 +77,7 @@ def positions(
     driver = linkage.driver
     if isinstance(driver, Crank):
         centre = every[0].points[driver.centre]
-        for radius in _radii(reached, driver.centre, shows.numbered):
+        for radius in _radii(dense, driver.centre, shows.numbered, scale):
             items += symbols.path_circle(centre, radius)
     items += [line for bones in reached[:1] for line in _axes(bones)]
     for bones in reached:
@@ -97,11 +97,12 @@ def positions(
     return Draft((*items, *marks), (*requests, *names))
 
 
-def _radii(reached: Sequence[Skeleton], centre: str, numbered: Sequence[str]) -> list[float]:
+def _radii(dense: Motion, centre: str, numbered: Sequence[str], scale: float) -> list[float]:
     """Radii of the circles that numbered points describe about the driver's centre, each once."""
     radii: list[float] = []
     for name in numbered:
-        sizes = np.array([abs(bones.points[name] - bones.points[centre]) for bones in reached])
+        arms = dense.points[name].p[dense.reachable] - dense.points[centre].p[dense.reachable]
+        sizes = np.abs(arms) * scale
         if sizes.size and np.ptp(sizes) < 1e-6 and not any(abs(r - sizes[0]) < 1e-3 for r in radii):
             radii.append(float(sizes[0]))
     return radii
