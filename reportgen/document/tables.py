@@ -11,7 +11,7 @@ import numpy as np
 
 from reportgen.assignment import Assignment
 from reportgen.catalogue.gas import ByOrdinates
-from reportgen.catalogue.laws import TableLaw
+from reportgen.catalogue.laws import AngleLaw, TableLaw
 from reportgen.cycle.indicator import StrokeIndicator
 from reportgen.document.facts import Facts
 from reportgen.document.tree import Cell, Column, InlineMath, Table, Text, Value
@@ -82,6 +82,20 @@ class Tables:
         assert isinstance(law, TableLaw)
         return self._law_table(law, key, caption, names, Symbol("P"), 1.0)
 
+    def load_table(self, key: str, caption: str, name: str, strokes: Sequence[str]) -> Table:
+        """The load `name` as given (N, N·m): a row for each of the `strokes`, or against the driver's turn."""
+        machine = self.facts.analysis.machine
+        law = next(load.law for load in (*machine.applied, *machine.torques) if load.name == name)
+        symbol = self.voice.symbol(name)
+        if isinstance(law, AngleLaw):
+            columns: list[tuple[str | Symbol, Sequence[float]]] = [
+                ("φ", [math.degrees(angle) for angle in law.angles]),
+                (symbol, law.values),
+            ]
+            return self._beside(key, caption, columns)
+        assert isinstance(law, TableLaw)
+        return self._law_table(law, key, caption, strokes, symbol, 1.0)
+
     def _law_table(
         self,
         law: TableLaw,
@@ -103,16 +117,22 @@ class Tables:
             head = (self.voice.cell(Fraction(Symbol("s"), Symbol("H"))), *map(self._exact, table.nodes))
             return self._blocks(key, caption, head, rows, first)
         last = law.turns * 2 * math.pi * (1 + 1e-15)
-        columns = [
+        columns: list[tuple[str | Symbol, Sequence[float]]] = [
             ("φ", [math.degrees(angle) for angle in table.angles if angle <= last]),
             *((("y", list(heights)),) if heights else ()),
             (symbol, [value / unit for value in table.pressures]),
         ]
+        return self._beside(key, caption, columns)
+
+    def _beside(
+        self, key: str, caption: str, columns: Sequence[tuple[str | Symbol, Sequence[float]]]
+    ) -> Table:
+        """Long columns, folded into sets side by side."""
         head = tuple(self.voice.cell(Symbol(one) if isinstance(one, str) else one) for one, _ in columns)
         sets = [
             tuple(map(self._exact, row)) for row in zip(*(values for _, values in columns), strict=False)
         ]
-        beside = 3 if heights else 4
+        beside = 3 if len(columns) > 2 else 4
         rows_count = -(-len(sets) // beside)
         filled = sets + [(Cell(),) * len(columns)] * (rows_count * beside - len(sets))
         body = tuple(
@@ -302,17 +322,7 @@ class Tables:
     def residuals(self) -> dict[str, tuple[float, str]]:
         """The largest residual of each check and its unit: closure, formulas, reactions, torques, energy."""
         analysis, values = self.facts.analysis, self.facts.ledger.families
-        points = analysis.motion.points
-        closure = max(
-            float(
-                np.nanmax(
-                    np.abs(np.abs(points[group.Q].p - points[group.P].p) - values[f"l.{group.rod}"].values)
-                )
-            )
-            for group in self.facts.groups
-            if f"l.{group.rod}" in values
-        )
-        found = {"closure": (closure, "m")}
+        found = {"closure": (self._closure(), "m")}
         for name, prefix, unit in (("formulas", ("v.", "omega."), ""), ("formulas_a", ("a.", "eps."), "")):
             differences = [
                 float(np.max(np.abs(np.abs(values[one].values) - np.abs(values[other].values))))
@@ -334,6 +344,19 @@ class Tables:
             found["torque"] = (float(np.nanmax(np.abs(analysis.torque - analysis.torque_by_work))), "N·m")
             found["energy"] = (analysis.summary.energy_error, "")
         return found
+
+    def _closure(self) -> float:
+        """How far a distance of two points of one link is from its length at any position (m)."""
+        motion, families = self.facts.analysis.motion, self.facts.ledger.families
+        pairs = [(group.P, group.Q) for group in self.facts.groups]
+        pairs += [(group.T, group.Q) for group in self.facts.groups if group.kind == "RRR"]
+        lengths = [(p, q, families[f"l.{p}{q}"].values) for p, q in pairs if f"l.{p}{q}" in families]
+        differences = [np.abs(motion.points[p].p - motion.points[q].p) - length for p, q, length in lengths]
+        differences += [
+            np.abs(motion.points[point.name].p - motion.origins[point.link].p) - abs(point.local)
+            for point in self.facts.analysis.machine.linkage.points
+        ]
+        return max(float(np.nanmax(np.abs(difference))) for difference in differences)
 
     def mobility_line(self) -> Any:
         """W = 3n − (2t + c) + r − s with the numbers put in."""
