@@ -23,6 +23,10 @@ MODULES: Mapping[str, str] = {
     "engine-twin": "engine_twin",
     "engine-single": "engine_single",
     "slider-crank": "slider_crank",
+    "four-bar": "four_bar",
+    "lever-six-bar": "lever_six_bar",
+    "slotted-lever": "slotted_lever",
+    "shaper": "shaper",
 }
 """Module of this package by kind; a new machine adds its line here and nowhere else."""
 

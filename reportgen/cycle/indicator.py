@@ -99,7 +99,7 @@ class StrokeIndicator:
         high = np.repeat(edges[1:], inner.size)
         wanted = np.tile(inner, starts.size)
         outward = np.repeat(np.asarray(OUTWARD), inner.size)
-        found = _crossings(lambda angle: outward * (fraction_of(angle) - wanted), low, high)
+        found = crossings(lambda angle: outward * (fraction_of(angle) - wanted), low, high)
         return tuple(float(angle) for angle in np.unique(np.concatenate((edges, found))))
 
     def work(self, area: float, stroke: float) -> float:
@@ -175,7 +175,7 @@ def indicated_work(
     return indicator.work(lambda angle: area * stroke * fraction_rate(angle))
 
 
-def _crossings(rise: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
+def crossings(rise: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
     """Where a function that is negative at `low` and positive at `high` is nothing, for every pair [N].
 
     Ridders' method: with f_m at the middle, x = m − (m − low) f_m/√(f_m² − f_low f_high) lies between

@@ -32,6 +32,7 @@ KINDS: dict[str, Kind] = {
     "sign": Kind("", decimals=0),
     "angle": Kind("°", math.pi / 180, decimals=2),
     "speed of rotation": Kind("rpm", digits=5),
+    "time": Kind("s", digits=4),
     "length": Kind("m", digits=4),
     "diameter": Kind("cm", 1e-2, digits=4),
     "area": Kind("cm²", 1e-4, digits=5),
