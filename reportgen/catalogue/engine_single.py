@@ -29,7 +29,7 @@ from reportgen.assignment.fields import (
     Weight,
     quantity,
 )
-from reportgen.catalogue import gas, offset_slider
+from reportgen.catalogue import gas, offset_slider, regulation
 from reportgen.catalogue.machine import (
     Item,
     Machine,
@@ -98,6 +98,7 @@ class Parameters(Part):
     rho: GyrationRatio | None = None
     J2: MomentOfInertia | None = None
     g: Acceleration = Given(9.8, 9.8, "m/s2", "9.8 m/s2")
+    flywheel: regulation.Flywheel | None = None
 
     @property
     def speed(self) -> float:
@@ -261,7 +262,8 @@ def machine(assignment: Assignment) -> Machine:
         turns=TURNS,
         given=_items(given, assignment.drawing.crank),
         formulas=offset_slider.formulas(angles, Ref("e") if geometry.e else None, True),
-        outline=OUTLINE,
+        outline=regulation.with_chapter(OUTLINE, given.flywheel),
+        unevenness=None if given.flywheel is None else given.flywheel.delta.si,
         pistons=(piston,),
         applied=gas_forces((piston,)),
         sliders=(piston,),
@@ -282,6 +284,7 @@ def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
         Item("s", Symbol("s"), "ratio", given.s.si),
         Item("g", Symbol("g"), "gravity", given.g.si),
         *speed_items(given.n, given.omega1),
+        *regulation.items(given.flywheel),
         Item("l.AB", Symbol("l", "AB"), "length", definition=Ref("R")),
         Item("l.BC", Symbol("l", "BC"), "length", definition=Ref("L")),
         Item("l.BS2", Symbol("l", "BS2"), "length", definition=multiply("s", "L")),

@@ -28,7 +28,7 @@ from reportgen.assignment.fields import (
     Share,
     Weight,
 )
-from reportgen.catalogue import crank_slider, gas
+from reportgen.catalogue import crank_slider, gas, regulation
 from reportgen.catalogue.machine import Item, Machine, Piston, gas_forces, ratio_item, speed_items
 from reportgen.cycle.indicator import STROKES, Stroke, stroke_at
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
@@ -67,6 +67,7 @@ class Parameters(Part):
     J4: MomentOfInertia | None = None
     crank_angle: Angle = Given(math.pi, 180.0, "deg", "180 deg")
     g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
+    flywheel: regulation.Flywheel | None = None
 
     @property
     def speed(self) -> float:
@@ -262,7 +263,8 @@ def machine(assignment: Assignment) -> Machine:
         turns=TURNS,
         given=_items(given, assignment.drawing.crank),
         formulas=formulas,
-        outline=OUTLINE,
+        outline=regulation.with_chapter(OUTLINE, given.flywheel),
+        unevenness=None if given.flywheel is None else given.flywheel.delta.si,
         pistons=pistons,
         applied=gas_forces(pistons),
         sliders=pistons,
@@ -281,6 +283,7 @@ def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
         Item("g", Symbol("g"), "gravity", given.g.si),
         Item("crank.angle", Symbol("δ"), "angle", given.crank_angle.si),
         *speed_items(given.n, given.omega1),
+        *regulation.items(given.flywheel),
         Item("R", Symbol("R"), "length", definition=divide("H", 2)),
         Item("L", Symbol("L"), "length", definition=divide("R", "lambda")),
         *(Item(f"l.{arm}", Symbol("l", arm), "length", definition=Ref("R")) for arm in ("O1A", "O1C")),

@@ -127,6 +127,8 @@ class Machine:
     """Pairs of a plan's quantity and its closed formula, compared in the report."""
     equations: Mapping[str, tuple[Chain, ...]] = field(default_factory=dict)
     """Equations by name that the words of its analytic method show."""
+    unevenness: float | None = None
+    """δ of the speed that a flywheel is to keep to, if the report has its chapter."""
     places: tuple[float, ...] = ()
     """Cycle angles of the positions of one turn; empty: evenly spaced from 0."""
     labels: tuple[str, ...] = ()

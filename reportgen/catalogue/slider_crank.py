@@ -25,7 +25,7 @@ from reportgen.assignment.fields import (
     Weight,
     quantity,
 )
-from reportgen.catalogue import offset_slider, working
+from reportgen.catalogue import offset_slider, regulation, working
 from reportgen.catalogue.course import Course
 from reportgen.catalogue.laws import TableLaw
 from reportgen.catalogue.machine import Applied, Item, Machine, mass_items, speed_items
@@ -60,6 +60,7 @@ class Parameters(Part):
     J2: MomentOfInertia | None = None
     g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
     force: working.WorkingForce | None = None
+    flywheel: regulation.Flywheel | None = None
 
     @property
     def speed(self) -> float:
@@ -145,7 +146,8 @@ def machine(assignment: Assignment) -> Machine:
         turns=TURNS,
         given=_items(given, assignment.drawing.crank),
         formulas=(),
-        outline=_outline(bool(inertias), bool(applied)),
+        outline=regulation.with_chapter(_outline(bool(inertias), bool(applied)), given.flywheel),
+        unevenness=None if given.flywheel is None else given.flywheel.delta.si,
         applied=applied,
         sliders=(course,),
         paths=() if given.centre is None else ("S2",),
@@ -185,6 +187,7 @@ def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
         *((Item("e", Symbol("e"), "length", given.e.si),) if given.e.si else ()),
         *((Item("guide.angle", Symbol("α"), "angle", given.guide.si),) if given.guide.si else ()),
         *speed_items(given.n, given.omega1),
+        *regulation.items(given.flywheel),
         Item("drawn.AB", Symbol("AB", over="segment"), "segment", crank.si if crank else CRANK_DRAWN),
     ]
     if given.centre is not None:

@@ -12,6 +12,7 @@ from typing import Any
 
 from reportgen.assignment import Assignment
 from reportgen.document.facts import Facts
+from reportgen.document.flywheel import FlywheelFigures
 from reportgen.document.pictures import TEXT_BLOCK, Drawn, Pictures, beside_one_another
 from reportgen.document.views import GroupView, known_part, sought_part
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
@@ -57,6 +58,7 @@ class Drawings:
             "force-plates": self.force_plates,
             "crank": self.crank,
             **self.pictures.figures,
+            **FlywheelFigures(self.facts.books.flywheel, self.ledger, self.words).figures,
         }
         return figures[name](*arguments)
 

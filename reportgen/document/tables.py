@@ -27,6 +27,7 @@ from reportgen.notation.expressions import (
     Sum,
     Symbol,
     multiply,
+    refs,
     subtract,
 )
 
@@ -59,7 +60,7 @@ class Tables:
 
     def _is_given(self, id: str) -> bool:
         definition = self.facts.ledger[id].definition
-        return definition is None or id == "lambda"
+        return definition is None or not refs(definition)
 
     def _as_typed(self, id: str, row: tuple[Cell, ...]) -> tuple[Cell, ...]:
         """A ratio written 1/3.6 stays one."""

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen import regulation
 from reportgen.analysis import Analysis
 from reportgen.catalogue.laws import TableLaw
 from reportgen.catalogue.machine import Item
-from reportgen.ledger import forces, kinematics, precision
+from reportgen.cycle.flywheel import Flywheel
+from reportgen.ledger import flywheel, forces, kinematics, precision
 from reportgen.ledger.core import ZERO, Builder, Ledger
 from reportgen.ledger.forces import Polygon
 from reportgen.notation.expressions import Symbol, call, divide, multiply, subtract
@@ -22,6 +24,7 @@ class Books:
 
     ledger: Ledger
     polygons: tuple[Polygon, ...]
+    flywheel: Flywheel | None = None
 
 
 def enter(b: Builder, items: Iterable[Item]) -> None:
@@ -42,6 +45,7 @@ def keep(analysis: Analysis, units: Mapping[str, str] | None = None) -> Books:
     kinematics.describe(b, machine.linkage, machine.turn)
     enter(b, machine.formulas)
     polygons: tuple[Polygon, ...] = ()
+    wheel: Flywheel | None = None
     if analysis.loads:
         _masses(b, analysis)
         _gas(b, analysis)
@@ -49,8 +53,11 @@ def keep(analysis: Analysis, units: Mapping[str, str] | None = None) -> Books:
         applied = {one.name: (one.link, one.point, one.direction) for one in machine.applied}
         polygons = forces.describe(b, machine.linkage, machine.turn, applied)
         _cycle(b, analysis)
+        if machine.unevenness is not None:
+            wheel = regulation.flywheel(machine, machine.unevenness)
+            flywheel.describe(b, machine.linkage, wheel, machine.cycle_angles)
     decimals, cancellations = precision.choose(b.families, (("M.eq", "M.vw"),) if "M.eq" in b else ())
-    return Books(Ledger(b.families, decimals, machine.positions, cancellations, units or {}), polygons)
+    return Books(Ledger(b.families, decimals, machine.positions, cancellations, units or {}), polygons, wheel)
 
 
 def _masses(b: Builder, analysis: Analysis) -> None:

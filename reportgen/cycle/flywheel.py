@@ -1,0 +1,85 @@
+"""The flywheel that keeps a machine's speed within bounds, by energy and reduced inertia.
+
+With the reduced torque M_r(φ) of the loads and a constant torque M_c = −mean M_r on the other side, the
+excess work is A(φ) = ∫(M_r + M_c) dφ, and with the reduced moment of inertia J_r(φ) of the links and J_d of
+the flywheel  ½(J_d + J_r) ω² = E₀ + A.  The bounds ω_m(1 ± δ/2) are just met where the lines of slope
+½ω² touch the curve A over J_r (Wittenbauer):  a = max(A − ½ω_max² J_r),  b = min(A − ½ω_min² J_r),
+J_d = (a − b)/(δ ω_m²).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+ORDER = 8
+"""Gauss nodes between neighbouring angles: exact to rounding for a degree or less of a smooth torque."""
+
+
+@dataclass(frozen=True)
+class Flywheel:
+    """The regulated cycle over angles φ [N] (rad, in the direction of rotation).
+
+    `torque` M_r and `constant` M_c (N·m), `inertia` J_r and `moment` J_d (kg·m²), `work` A, `upper` a and
+    `lower` b (J), `speed` ω [N] and its bounds `fastest`, `slowest` (rad/s); `high`, `low` are the indices
+    where the speed reaches them.
+    """
+
+    angle: Floats
+    torque: Floats
+    constant: float
+    inertia: Floats
+    work: Floats
+    upper: float
+    lower: float
+    moment: float
+    speed: Floats
+    fastest: float
+    slowest: float
+    high: int
+    low: int
+
+
+def accumulated(function: Callable[[Floats], Floats], angle: Floats) -> Floats:
+    """∫ f dφ from the first angle to each [N]; f is smooth between neighbouring angles, which rise."""
+    nodes, factors = np.polynomial.legendre.leggauss(ORDER)
+    half = np.diff(angle)[:, None] / 2
+    inside = angle[:-1, None] + half * (nodes + 1)
+    values = np.asarray(function(inside.ravel())).reshape(inside.shape)
+    return np.concatenate(([0.0], np.cumsum((half * factors * values).sum(axis=1))))
+
+
+def regulate(
+    angle: Floats, torque: Floats, work: Floats, inertia: Floats, speed: float, unevenness: float
+) -> Flywheel:
+    """The flywheel for mean speed ω_m and unevenness δ, from M_r, its work ∫M_r dφ and J_r at angles [N].
+
+    The angles span the whole cycle.  `moment` is 0 or less where the links alone are even enough.
+    """
+    mean = float(work[-1] / (angle[-1] - angle[0]))
+    excess = work - mean * (angle - angle[0])
+    fastest, slowest = speed * (1 + unevenness / 2), speed * (1 - unevenness / 2)
+    above, below = excess - fastest**2 * inertia / 2, excess - slowest**2 * inertia / 2
+    high, low = int(above.argmax()), int(below.argmin())
+    upper, lower = float(above[high]), float(below[low])
+    moment = (upper - lower) / (unevenness * speed**2)
+    energy = fastest**2 * moment / 2 - upper
+    return Flywheel(
+        angle,
+        torque,
+        -mean,
+        inertia,
+        excess,
+        upper,
+        lower,
+        moment,
+        np.sqrt(2 * (energy + excess) / (moment + inertia)),
+        fastest,
+        slowest,
+        high,
+        low,
+    )

@@ -1,0 +1,59 @@
+"""The flywheel's quantities: what a report derives it from, position by position and over the cycle.
+
+Ids: `J.r` reduced inertia, `M.r` reduced torque, `A.excess` excess work, `omega.of` the regulated speed at each
+position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`, `A.lower`, and `J.d` the flywheel.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reportgen.cycle.flywheel import Flywheel
+from reportgen.ledger.core import Builder
+from reportgen.mechanism.structure import Linkage
+from reportgen.notation.expressions import (
+    Expression,
+    Symbol,
+    add,
+    divide,
+    multiply,
+    power,
+    subtract,
+)
+
+
+def describe(b: Builder, linkage: Linkage, flywheel: Flywheel, positions: np.ndarray) -> None:
+    """Enter the flywheel of a machine whose positions are the cycle angles `positions`; δ is `delta`."""
+    at = np.searchsorted(flywheel.angle, positions - 1e-9)
+    b.define("J.r", Symbol("J", "r"), "moment of inertia", _reduced(b, linkage))
+    b.give("M.r", Symbol("M", "r"), "torque", flywheel.torque[at], exact=False, scale=_size(flywheel.torque))
+    b.give("M.c", Symbol("M", "c"), "torque", flywheel.constant, exact=False)
+    b.give("A.excess", Symbol("A"), "work", flywheel.work[at], exact=False, scale=_size(flywheel.work))
+    half = divide("delta", 2)
+    b.define("omega.max", Symbol("ω", "max"), "angular velocity", multiply("omega.1", add(1, half)))
+    b.define("omega.min", Symbol("ω", "min"), "angular velocity", multiply("omega.1", subtract(1, half)))
+    b.give("A.upper", Symbol("a"), "work", flywheel.upper, exact=False)
+    b.give("A.lower", Symbol("b"), "work", flywheel.lower, exact=False)
+    b.define(
+        "J.d",
+        Symbol("J", "d"),
+        "moment of inertia",
+        divide(subtract("A.upper", "A.lower"), multiply("delta", power("omega.1", 2))),
+    )
+    if flywheel.moment > 0:
+        b.give("omega.of", Symbol("ω"), "angular velocity", flywheel.speed[at], exact=False)
+
+
+def _reduced(b: Builder, linkage: Linkage) -> Expression:
+    """J_r = Σ m v_S²/ω₁² + J ω²/ω₁² over the links that move so."""
+    terms: list[Expression] = []
+    for body in linkage.inertias:
+        if body.mass > 0 and f"v.{body.centre}" in b:
+            terms.append(multiply(f"m.{body.link}", power(f"v.{body.centre}", 2)))
+        if body.moment > 0 and f"omega.{body.link}" in b:
+            terms.append(multiply(f"J.{body.link}", power(f"omega.{body.link}", 2)))
+    return divide(add(*terms) if len(terms) != 1 else terms[0], power("omega.1", 2))
+
+
+def _size(values: np.ndarray) -> float:
+    return float(np.abs(values).max())
