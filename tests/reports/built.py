@@ -30,17 +30,35 @@ ENGINES: tuple[api.Engine, ...] = ("typst", "latex")
 needs_tex = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex is not installed")
 MARKS = {"typst": (), "latex": (needs_tex,)}
 
+
+def _first_of_each_kind() -> list[Path]:
+    kinds: dict[str, Path] = {}
+    for path in FILES:
+        kinds.setdefault(api.load(path).kind, path)
+    return list(kinds.values())
+
+
+TYPESET = _first_of_each_kind()
+"""One file a kind is made by both writers in both languages; its siblings, which differ in numbers, once."""
+SIBLINGS = [path for path in FILES if path not in TYPESET]
+
 ENGINE_CASES = [pytest.param(engine, marks=MARKS[engine], id=engine) for engine in ENGINES]
 WRITTEN = [
-    pytest.param((path, language), id=f"{path.stem}-{language}") for path in FILES for language in LANGUAGES
+    pytest.param((path, language), id=f"{path.stem}-{language}")
+    for path in FILES
+    for language in (LANGUAGES if path in TYPESET else (api.load(path).language,))
 ]
 CASES = [
     pytest.param((path, engine, language), marks=MARKS[engine], id=f"{path.stem}-{engine}-{language}")
-    for path in FILES
+    for path in TYPESET
     for engine in ENGINES
     for language in LANGUAGES
 ]
-PAIRS = [pytest.param(*case.values, marks=(needs_tex,), id=case.id) for case in WRITTEN]
+PAIRS = [
+    pytest.param((path, language), marks=(needs_tex,), id=f"{path.stem}-{language}")
+    for path in TYPESET
+    for language in LANGUAGES
+]
 
 
 @dataclass(frozen=True)

@@ -63,7 +63,7 @@ def glyphs(page: Any) -> list[Glyph]:
             for span in line["spans"]:
                 bold = "bold" in span["font"].lower()
                 for char in span["chars"]:
-                    if not char["c"].strip():
+                    if not char["c"].strip(" \n\t\N{NO-BREAK SPACE}\N{ZERO WIDTH SPACE}\N{WORD JOINER}"):
                         word += 1
                         continue
                     found.append(

@@ -44,10 +44,12 @@ class PrintedLine:
         assert result is not None
         sign = -1 if result["sign"] else 1
         printed = _printed(result["number"], rounded)
+        # Angles come out of a calculation in radians.
+        unit = math.radians(1) if result["unit"] == "°" else 1.0
         return misfit(
             lambda values: _value(tree, values),
             [_printed(text, rounded) for text in found],
-            Printed(sign * printed.value, printed.half_unit),
+            Printed(sign * printed.value * unit, printed.half_unit * unit),
         )
 
 
@@ -132,6 +134,16 @@ def _read(row: Sequence[Glyph], found: Sequence[Glyph], bars: Sequence[Any]) -> 
         for glyph in row
         if abs(glyph.origin[1] - baseline) < 0.6 and glyph.char != "√"
     ]
+    # Tall parentheses have their origin elsewhere.
+    pieces += [
+        (glyph.origin[0], glyph.char)
+        for glyph in found
+        if glyph.char in "()"
+        and abs(glyph.origin[1] - baseline) >= 0.6
+        and glyph.box[3] - glyph.box[1] > size
+        and glyph.box[1] < baseline < glyph.box[3]
+        and left < glyph.origin[0] < right
+    ]
     # The bar of a fraction lies on the axis, a quarter of the size above the baseline.
     own = [bar for bar in bars if 0 < baseline - bar.y0 < 0.5 * size and bar.x1 > left - 60]
     beside = [(bar.x0, bar.x1) for bar in own]
@@ -141,11 +153,8 @@ def _read(row: Sequence[Glyph], found: Sequence[Glyph], bars: Sequence[Any]) -> 
         bottom = [g for g in inside if 0 < g.origin[1] - bar.y0 < 1.5 * size]
         if not top or not bottom:
             continue
-        pieces.append((bar.x0, f"({_level(top)})/({_level(bottom)})"))
-    for sign in found:
-        if sign.char == "√" and sign.box[1] < baseline < sign.box[3] + 1 and left < sign.box[0] < right:
-            bar = min(bars, key=lambda bar: abs(bar.x0 - sign.box[2]) + abs(bar.y0 - sign.box[1]))
-            pieces += [(sign.box[0], "sqrt("), (bar.x1, ")")]
+        pieces.append((bar.x0, f"({_level(top, found, bars)})/({_level(bottom, found, bars)})"))
+    pieces += _roots(found, bars, baseline, left, right)
     pieces += [
         (glyph.origin[0], f"^{_plain(glyph.char)}")
         for glyph in found
@@ -157,17 +166,31 @@ def _read(row: Sequence[Glyph], found: Sequence[Glyph], bars: Sequence[Any]) -> 
     return "".join(text for _, text in sorted(pieces))
 
 
-def _level(glyphs: Sequence[Glyph]) -> str:
-    """The top or bottom of a fraction: its own baseline, powers above it."""
-    size = max(glyph.size for glyph in glyphs)
-    baseline = Counter(g.origin[1] for g in glyphs if g.size > 0.9 * size).most_common(1)[0][0]
-    text = ""
-    for glyph in sorted(glyphs, key=lambda glyph: glyph.origin[0]):
+def _roots(
+    found: Sequence[Glyph], bars: Sequence[Any], baseline: float, left: float, right: float
+) -> Iterator[tuple[float, str]]:
+    """Where the roots of a line open and, at the end of the bar that a sign carries, close."""
+    for sign in found:
+        if sign.char == "√" and sign.box[1] < baseline < sign.box[3] + 1 and left - 1 < sign.box[0] < right:
+            bar = min(bars, key=lambda bar: abs(bar.x0 - sign.box[2]) + abs(bar.y0 - sign.box[1]))
+            yield sign.box[0], "sqrt("
+            yield bar.x1, ")"
+
+
+def _level(glyphs: Sequence[Glyph], found: Sequence[Glyph], bars: Sequence[Any]) -> str:
+    """The top or bottom of a fraction: its own baseline, powers above it, roots around."""
+    size = max(glyph.size for glyph in glyphs if glyph.char != "√")
+    plain = [glyph for glyph in glyphs if glyph.char != "√"]
+    baseline = Counter(g.origin[1] for g in plain if g.size > 0.9 * size).most_common(1)[0][0]
+    pieces = list(
+        _roots(found, bars, baseline, min(g.box[0] for g in glyphs) - size, max(g.box[2] for g in glyphs))
+    )
+    for glyph in plain:
         if abs(glyph.origin[1] - baseline) < 0.6:
-            text += _plain(glyph.char)
+            pieces.append((glyph.origin[0], _plain(glyph.char)))
         elif glyph.size < 0.8 * size and 0.2 * size < baseline - glyph.origin[1]:
-            text += f"^{_plain(glyph.char)}"
-    return text
+            pieces.append((glyph.origin[0], f"^{_plain(glyph.char)}"))
+    return "".join(text for _, text in sorted(pieces))
 
 
 def _plain(char: str) -> str:

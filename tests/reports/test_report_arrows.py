@@ -65,9 +65,9 @@ def segment(name: str, plan: str) -> str:
 def segments(written: Written, key: str) -> dict[str, list[float]]:
     """Lengths (mm) at the positions of one plan's figure by the vector's name; none for other figures."""
     ledger = written.books.ledger
-    motion = re.fullmatch(r"fig\.([va])\.(?:stages\.)?(\d+|plates)(?:\.\d+)?", key)
+    motion = re.fullmatch(r"fig\.([va])\.(?:stages\.)?(\w+?)(?:\.\d+)?", key)
     forces = re.fullmatch(
-        r"fig\.R\.(?:plates\.(\w+)(?:\.\d+)?|(\w+)\.(\d+))", key.replace("fig.crank.", f"fig.R.{DRIVER}.")
+        r"fig\.R\.(?:plates\.(\w+)(?:\.\d+)?|(\w+)\.(\w+))", key.replace("fig.crank.", f"fig.R.{DRIVER}.")
     )
     if motion:
         ids = {name: segment(name, motion[1]) for name in names(written, key)}
@@ -81,11 +81,22 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
     else:
         return {}
     count = written.analysis.machine.count if motion else written.analysis.machine.positions
-    positions = range(1, count + 1) if position == "plates" else [int(position)]
+    positions = range(1, count + 1) if position == "plates" else [worked(written, position, count)]
     scale = STAGES if ".stages." in key else 1.0
     return {
         name: [abs(complex(ledger[id].at(k))) * MM * scale for k in positions] for name, id in ids.items()
     }
+
+
+def worked(written: Written, label: str, count: int) -> int:
+    """The position that a figure's key names: keys hold the labels of the worked positions, in order."""
+    family = (
+        r"fig\.v\.(?!stages|plates)(\w+)" if count == written.analysis.machine.count else r"fig\.crank\.(\w+)"
+    )
+    keys = (re.fullmatch(family, key) for key, _ in built.scenes(written.document))
+    labels = dict.fromkeys(found[1] for found in keys if found)
+    numbers = dict.fromkeys((k - 1) % count + 1 for k in written.assignment.worked_positions)
+    return dict(zip(labels, numbers, strict=True))[label]
 
 
 def names(written: Written, key: str) -> set[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -97,6 +98,17 @@ def test_no_box_is_overfull(report: Report) -> None:
     assert report.overfull == ()
 
 
+@pytest.mark.parametrize("index", range(len(built.SIBLINGS)), ids=[path.stem for path in built.SIBLINGS])
+def test_further_files_of_a_kind_keep_their_pages_in_order(index: int) -> None:
+    """By the writers in turn, in the file's own language: margins, intersecting words, overfull boxes."""
+    path = built.SIBLINGS[index]
+    engine = built.ENGINES[index % 2] if shutil.which("pdflatex") else "typst"
+    report = built.report(path, engine, api.load(path).language)
+    assert report.overfull == ()
+    for page in list(report.pages)[1:]:
+        assert [*pages.outside(page, pages.BEARING), *pages.overlaps(page, pages.INK)] == []
+
+
 # --- from a shell ---------------------------------------------------------------------------------
 
 
@@ -122,7 +134,7 @@ def text_of(pdf: bytes) -> list[Any]:
 
 
 @pytest.mark.parametrize("engine", built.ENGINE_CASES)
-@pytest.mark.parametrize("path", built.FILES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", built.TYPESET, ids=lambda path: path.stem)
 def test_a_new_process_gives_the_same_bytes_and_a_source_that_compiles(
     path: Path, engine: api.Engine, tmp_path: Path
 ) -> None:
