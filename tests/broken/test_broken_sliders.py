@@ -70,6 +70,15 @@ CASES = [
         "    by: crank_angle\n    unit: N\n    angle: [0 deg, 720 deg]\n    F: [0, 1]\n",
         ["11:20 out-of-range"],
     ),
+    (
+        "unevenness in words",
+        SLIDER,
+        "e: 40 mm",
+        "e: 40 mm\n  flywheel: {delta: small}",
+        ["6:21 not-a-number"],
+    ),
+    ("unevenness of 40", SLIDER, "e: 40 mm", "e: 40 mm\n  flywheel: {delta: 40}", ["6:21 out-of-range"]),
+    ("flywheel of nothing", SLIDER, "e: 40 mm", "e: 40 mm\n  flywheel: {}", ["6:3 missing-key"]),
     # the engine
     ("faster down than up", ENGINE, "K: 1.04", "K: 0.96", ["6:6 out-of-range"]),
     ("equal travel times beside an offset", ENGINE, "K: 1.04", "K: 1", ["6:6 out-of-range"]),

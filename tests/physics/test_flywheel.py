@@ -12,7 +12,8 @@ from reportgen import api
 from reportgen.analysis import FULL_TURN, motion_at
 from reportgen.catalogue.machine import Machine
 from reportgen.cycle.flywheel import Flywheel, accumulated, regulate
-from reportgen.regulation import flywheel
+from reportgen.ledger.report import keep
+from reportgen.regulation import flywheel, reduced_inertia
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 
@@ -69,6 +70,18 @@ def api_mean(machine: Machine) -> float:
     from reportgen.analysis import summarise
 
     return summarise(machine).mean_torque
+
+
+def test_the_report_prints_what_was_found() -> None:
+    """The printed definitions of J_r and J_d, evaluated, are the arrays they stand for."""
+    analysis = api.analyse(api.load(ASSIGNMENTS / "engine-single-VII.yaml"))
+    books = keep(analysis)
+    assert books.flywheel is not None
+    expected = reduced_inertia(analysis.machine, analysis.motion)
+    assert books.ledger["J.r"].values == pytest.approx(expected, rel=1e-12)
+    assert books.ledger["J.d"].values == pytest.approx([books.flywheel.moment], rel=1e-12)
+    at = np.searchsorted(books.flywheel.angle, analysis.cycle_angle - 1e-9)
+    assert books.flywheel.angle[at] == pytest.approx(analysis.cycle_angle, abs=1e-9)
 
 
 def test_a_sine_torque_on_constant_inertia() -> None:
