@@ -207,8 +207,19 @@ def _keys_at(schema: dict[str, Any], where: Where) -> list[str]:
             opened += _opened(one, schema)
         if step is None:
             return list(dict.fromkeys(name for one in opened for name in one.get("properties", {})))
-        level = [one["properties"][step] for one in opened if step in one.get("properties", {})]
+        level = [inner for one in opened for inner in _inside(one, step)]
     return []
+
+
+def _inside(one: dict[str, Any], step: str | int) -> Iterator[dict[str, Any]]:
+    """What a JSON Schema says of a key, of an item of a list, or of any key of a table of names."""
+    if isinstance(step, int):
+        if isinstance(one.get("items"), dict):
+            yield one["items"]
+    elif step in one.get("properties", {}):
+        yield one["properties"][step]
+    elif isinstance(one.get("additionalProperties"), dict):
+        yield one["additionalProperties"]
 
 
 def _opened(one: dict[str, Any], schema: dict[str, Any]) -> Iterator[dict[str, Any]]:

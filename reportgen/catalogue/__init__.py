@@ -27,6 +27,7 @@ MODULES: Mapping[str, str] = {
     "lever-six-bar": "lever_six_bar",
     "slotted-lever": "slotted_lever",
     "shaper": "shaper",
+    "linkage": "linkage",
 }
 """Module of this package by kind; a new machine adds its line here and nowhere else."""
 

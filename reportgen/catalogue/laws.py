@@ -16,6 +16,9 @@ from reportgen.catalogue.course import FULL_TURN, Course, Floats
 from reportgen.cycle.indicator import AngleIndicator, Indicator, StrokeIndicator
 from reportgen.mechanism.motion import Motion
 
+ROUND = 1e-9
+"""A cycle angle this near below the end of the cycle (rad) is its beginning."""
+
 MotionAt = Callable[[Floats], Motion]
 """The machine's motion at cycle angles [N] that grow from one to the next."""
 
@@ -61,6 +64,24 @@ class TableLaw:
 
         corners = (*self.table.breaks(share, course.dead_centres), *course.dead_centres)
         return (corner - course.phase for corner in corners)
+
+
+@dataclass(frozen=True)
+class AngleLaw:
+    """Values at cycle angles from 0 to the end of the cycle, linear between.
+
+    The last value closes the cycle, or jumps to the first.
+    """
+
+    angles: tuple[float, ...]
+    values: tuple[float, ...]
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        within = np.maximum(np.mod(angle + ROUND, self.angles[-1]) - ROUND, 0.0)
+        return np.asarray(np.interp(within, self.angles, self.values))
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        return self.angles
 
 
 def by_stroke(

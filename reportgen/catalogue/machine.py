@@ -78,6 +78,15 @@ class Applied:
     law: Law
 
 
+@dataclass(frozen=True)
+class Torque:
+    """A torque on a link that is no inertia couple: its law (N·m), anticlockwise positive."""
+
+    name: str
+    link: int
+    law: Law
+
+
 def gas_forces(pistons: Iterable[Piston]) -> tuple[Applied, ...]:
     """The gas on each piston."""
     return tuple(Applied(one.name, one.link, one.pin, one.inward, one.law) for one in pistons)
@@ -119,6 +128,8 @@ class Machine:
     pistons: tuple[Piston, ...] = ()
     applied: tuple[Applied, ...] = ()
     """All forces that are neither weight nor inertia, the gas on `pistons` among them."""
+    torques: tuple[Torque, ...] = ()
+    """Torques other than inertia couples."""
     sliders: tuple[Course, ...] = ()
     """Sliders with dead centres, the pistons among them."""
     paths: tuple[str, ...] = ()
@@ -133,6 +144,15 @@ class Machine:
     """Cycle angles of the positions of one turn; empty: evenly spaced from 0."""
     labels: tuple[str, ...] = ()
     """What the positions of the cycle are called; empty: their numbers."""
+    span: float = 0.0
+    """The way (m) of a sliding driver over the cycle, which then stands for one turn; 0 for a crank."""
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    """What the kind's own words may name beside quantities."""
+
+    @property
+    def way(self) -> float:
+        """The driver's way over the cycle: an angle (rad), or the span of a sliding driver (m)."""
+        return self.span or self.turns * 2 * np.pi
 
     @property
     def positions(self) -> int:
@@ -149,8 +169,8 @@ class Machine:
         return np.asarray((turns + np.asarray(self.places)).ravel())
 
     def angles(self, cycle_angle: np.ndarray) -> np.ndarray:
-        """Driver angles at the given cycle angles."""
-        return self.start + self.turn * cycle_angle
+        """Driver angles at the given cycle angles; the coordinates (m) of a sliding driver."""
+        return self.start + self.turn * cycle_angle * (self.span / (2 * np.pi) if self.span else 1.0)
 
     def position(self, number: int) -> Position:
         """A position by its number from 1."""

@@ -32,9 +32,10 @@ from reportgen.document.tree import (
 from reportgen.document.views import GroupView, driver, groups
 from reportgen.document.voice import Voice
 from reportgen.document.words import load_words
+from reportgen.ledger.core import Ledger
 from reportgen.ledger.report import Books
 from reportgen.mechanism.mobility import mobility
-from reportgen.notation.expressions import Symbol
+from reportgen.notation.expressions import Expression, Number, Ref, Symbol, substitute
 
 PLATES_UP_TO = 24
 """Above this many positions, plates are drawn for worked positions only."""
@@ -145,7 +146,7 @@ def _names(
         for owner, listed in (
             (
                 tables,
-                "given_table indicator_table force_table joints_table lengths_table coordinates_table "
+                "given_table indicator_table force_table load_table joints_table lengths_table coordinates_table "
                 "dead_centres_table labels_table rotation_table strokes_table lever_table checks_table "
                 "mobility_line tables",
             ),
@@ -176,6 +177,7 @@ def _names(
         "mobility": mobility(machine.linkage),
         "groups": facts.groups,
         "driver": facts.driver,
+        "own": machine.facts,
         "pistons": machine.pistons,
         "sliders": machine.sliders,
         "known": lambda id: id in facts.ledger,
@@ -195,10 +197,14 @@ def _names(
         "reaction_ids": facts.reaction_ids,
         "reaction_angles": facts.reaction_angles,
         "crank_lines": facts.crank_lines,
+        "lever_couples": facts.lever_couples,
+        "crank_pins": facts.crank_pins,
         "driver_polygon": facts.driver_polygon if facts.books.polygons else None,
         "lowered": lowered,
         "not_recomputing": _listed(voice.symbol(id) for id in facts.ledger.cancellations),
-        "equations": lambda name: Equation(machine.equations[name]),
+        "equations": lambda name, k=None: Equation(
+            tuple(_filled(facts.ledger, row, k) for row in machine.equations[name])
+        ),
         "group_kind": lambda group: words["groups"][group.kind],
         "stroke_name": lambda link, k: words["strokes"][int(analysis.gas[f"P{link}"].stroke[k - 1])],
         "last_known": lambda group: group.polygon.sides[-3].end,
@@ -210,6 +216,16 @@ def _names(
             voice, drawings, name, key, caption, *arguments
         ),
     }
+
+
+def _filled(ledger: Ledger, node: Expression, position: int | None) -> Expression:
+    """An equation with the ledger's numbers in place of the quantities it names."""
+
+    def bare(ref: Ref) -> Number:
+        number = ledger.number(ref.id, position)
+        return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
+
+    return substitute(node, bare)
 
 
 def _signature(assignment: Assignment, words: Mapping[str, Any]) -> Iterator[Block]:

@@ -12,6 +12,7 @@ import numpy as np
 from reportgen.assignment import Assignment
 from reportgen.catalogue.gas import ByOrdinates
 from reportgen.catalogue.laws import AngleLaw, TableLaw
+from reportgen.catalogue.machine import Applied, Torque
 from reportgen.cycle.indicator import StrokeIndicator
 from reportgen.document.facts import Facts
 from reportgen.document.tree import Cell, Column, InlineMath, Table, Text, Value
@@ -32,6 +33,9 @@ from reportgen.notation.expressions import (
 )
 
 MOST_COLUMNS = 9
+MOST_COORDINATES = 10
+MOST_LENGTHS = 7
+"""Columns of lengths that stand beside one another."""
 STILL = 1e-9
 """A rate below this share of its greatest value is nothing."""
 
@@ -86,7 +90,8 @@ class Tables:
     def load_table(self, key: str, caption: str, name: str, strokes: Sequence[str]) -> Table:
         """The load `name` as given (N, N·m): a row for each of the `strokes`, or against the driver's turn."""
         machine = self.facts.analysis.machine
-        law = next(load.law for load in (*machine.applied, *machine.torques) if load.name == name)
+        loads: tuple[Applied | Torque, ...] = (*machine.applied, *machine.torques)
+        law = next(load.law for load in loads if load.name == name)
         symbol = self.voice.symbol(name)
         if isinstance(law, AngleLaw):
             columns: list[tuple[str | Symbol, Sequence[float]]] = [
@@ -182,10 +187,23 @@ class Tables:
         )
         return self.voice.list_table(key, caption, head, rows, (20.0, 30.0, 40.0, 50.0))
 
-    def lengths_table(self, key: str, caption: str, head: Sequence[str], arms: Sequence[str]) -> Table:
-        """Real and drawn lengths, one column a length."""
+    def lengths_table(self, key: str, caption: str, head: Sequence[str], arms: Sequence[str]) -> tuple[Table, ...]:
+        """Real and drawn lengths, one column a length; many lengths in several tables below one another."""
         ledger = self.facts.ledger
         known = [arm for arm in arms if f"l.{arm}" in ledger]
+        sets = -(-len(known) // MOST_LENGTHS) or 1
+        size = -(-len(known) // sets)
+        return tuple(
+            self._lengths(
+                f"{key}.{index + 1}" if index else key,
+                caption if sets == 1 else f"{caption} ({index + 1}/{sets})",
+                head,
+                known[index * size : (index + 1) * size],
+            )
+            for index in range(sets)
+        )
+
+    def _lengths(self, key: str, caption: str, head: Sequence[str], known: Sequence[str]) -> Table:
         columns = (Column(46.0, "left"), *(Column(min((TEXT_WIDTH - 46) / len(known), 22.0)),) * len(known))
         rows = tuple(
             (self.voice.cell(title), *(Cell(self.voice.bare(f"{prefix}.{arm}", None)) for arm in known))
@@ -194,8 +212,8 @@ class Tables:
         heads = (self.voice.cell(head[0]), *(self.voice.cell(lowered(arm)) for arm in known))
         return Table(columns, (heads,), rows, self.voice.prose.inlines(caption), key)
 
-    def coordinates_table(self, key: str, caption: str) -> Table:
-        """x and y of every moving point at every position of one turn, in mm."""
+    def coordinates_table(self, key: str, caption: str) -> tuple[Table, ...]:
+        """x and y of every moving point at every position of one turn, in mm; several tables where they are many."""
         analysis = self.facts.analysis
         linkage = analysis.machine.linkage
         names = [name for name in analysis.motion.points if name not in linkage.ground]
@@ -207,20 +225,30 @@ class Tables:
             for part in (analysis.motion.points[name].p.real, analysis.motion.points[name].p.imag)
         ]
         kept = [index for index, value in enumerate(values) if np.abs(value[:count]).max() > 1e-12]
-        width = min((TEXT_WIDTH - FIRST_COLUMN) / len(kept), 22.0)
-        head = (
-            self.voice.cell(self.voice.words["table"]["position"]),
-            *(self.voice.cell(heads[i]) for i in kept),
-        )
-        rows = tuple(
-            (
-                self.voice.cell(str(analysis.machine.position(k + 1))),
-                *(Cell((Value(Number(_dustless(values[i][k] * 1e3), 2)),)) for i in kept),
+
+        def table(number: int, part: Sequence[int], of: int) -> Table:
+            width = min((TEXT_WIDTH - FIRST_COLUMN) / len(part), 22.0)
+            head = (
+                self.voice.cell(self.voice.words["table"]["position"]),
+                *(self.voice.cell(heads[i]) for i in part),
             )
-            for k in range(count)
-        )
-        columns = (Column(FIRST_COLUMN), *(Column(width),) * len(kept))
-        return Table(columns, (head,), rows, self.voice.prose.inlines(caption), key)
+            rows = tuple(
+                (
+                    self.voice.cell(str(analysis.machine.position(k + 1))),
+                    *(Cell((Value(Number(_dustless(values[i][k] * 1e3), 2)),)) for i in part),
+                )
+                for k in range(count)
+            )
+            columns = (Column(FIRST_COLUMN), *(Column(width),) * len(part))
+            told = caption if of == 1 else f"{caption} ({number}/{of})"
+            return Table(
+                columns, (head,), rows, self.voice.prose.inlines(told), key if number == 1 else f"{key}.{number}"
+            )
+
+        blocks = -(-len(kept) // MOST_COORDINATES)
+        size = 2 * -(-len(kept) // (2 * blocks))
+        parts = [kept[start : start + size] for start in range(0, len(kept), size)]
+        return tuple(table(number, part, len(parts)) for number, part in enumerate(parts, start=1))
 
     def dead_centres_table(self, key: str, caption: str, head: Sequence[str], top: str, bottom: str) -> Table:
         """Where each slider turns back: crank's turn from position 1, the pin's distance from the crank centre."""

@@ -1,0 +1,351 @@
+"""What no single value of a `linkage` file shows: names, numbers, what is placed when, whether it assembles."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+
+from reportgen.assignment.common import Draft, Positions
+from reportgen.assignment.faults import Finding, Where
+from reportgen.catalogue import linkage_file as file
+from reportgen.catalogue import linkage_loads, reach
+from reportgen.catalogue.linkage_build import linkage
+from reportgen.catalogue.reach import Member
+from reportgen.mechanism.mobility import mobility
+from reportgen.mechanism.motion import Motion, solve_motion
+from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Linkage
+from reportgen.units import Given
+
+TOP: Where = ("parameters",)
+STEPS = 720
+
+
+def check(draft: Draft) -> Iterator[Finding]:
+    """Names and numbers first; only a linkage in order is assembled."""
+    given: file.Parameters | None = draft.sections.get("parameters")
+    if given is None:
+        return
+    told = [*_structure(given), *_bodies(given), *_loads(given), *_declared(given)]
+    yield from told
+    if told:
+        return
+    positions = draft.sections.get("positions") or Positions()
+    yield from _assembly(given, positions)
+
+
+# --- names and numbers ----------------------------------------------------------------------------
+
+
+@dataclass
+class _Placed:
+    """What is placed while the groups are read in their order."""
+
+    points: set[str] = field(default_factory=set)
+    links: set[int] = field(default_factory=lambda: {GROUND, DRIVER})
+    passing: set[str] = field(default_factory=set)
+    coming: frozenset[str] = frozenset()
+
+    def enter(self, name: str, where: Where) -> Iterator[Finding]:
+        if name in self.points:
+            yield Finding("point-taken", where, {"text": name})
+        self.points.add(name)
+
+    def need(self, name: str, where: Where) -> Iterator[Finding]:
+        if name in self.passing:
+            yield Finding("hangs-on-slide", where, {"text": name})
+        elif name not in self.points:
+            code = "not-placed" if name in self.coming else "no-such-point"
+            yield Finding(code, where, {"text": name, "known": ", ".join(sorted(self.points)) or "–"})
+
+    def carrier(self, link: int, where: Where) -> Iterator[Finding]:
+        if link not in self.links:
+            yield Finding("link-not-placed", where, {"text": str(link), "known": _listed(self.links)})
+
+
+def _listed(numbers: set[int]) -> str:
+    return ", ".join(map(str, sorted(numbers)))
+
+
+def _structure(given: file.Parameters) -> Iterator[Finding]:
+    """Every point and link is new where it is declared and placed where it is used."""
+    middles = [group.joints[0 if group.type == "PRP" else 1] for group in given.groups]
+    placed = _Placed(coming=frozenset((*middles, *given.points)))
+    placed.points |= set(given.frame)
+    at: Where = (*TOP, "driver")
+    driver = given.driver
+    if isinstance(driver, file.CrankDriver):
+        if driver.centre not in given.frame:
+            known = ", ".join(given.frame) or "–"
+            yield Finding("no-such-point", (*at, "centre"), {"text": driver.centre, "known": known})
+    elif driver.guide.on != GROUND:
+        yield Finding("link-not-placed", (*at, "guide", "on"), {"text": str(driver.guide.on), "known": "0"})
+    yield from placed.enter(driver.pin, (*at, "pin"))
+    yield from _fixed_points(given, DRIVER, placed)
+    for index, group in enumerate(given.groups):
+        yield from _group(given, group, (*TOP, "groups", index), placed)
+    for name, point in given.points.items():
+        if point.link not in placed.links:
+            where = (*TOP, "points", name, "link")
+            yield Finding("no-such-link", where, {"text": str(point.link), "known": _moving(placed)})
+    for index, name in enumerate(given.paths):
+        if name not in placed.points:
+            yield from placed.need(name, (*TOP, "paths", index))
+
+
+def _moving(placed: _Placed) -> str:
+    return _listed(placed.links - {GROUND})
+
+
+def _fixed_points(given: file.Parameters, link: int, placed: _Placed) -> Iterator[Finding]:
+    for name, point in given.points.items():
+        if point.link == link:
+            yield from placed.enter(name, (*TOP, "points", name))
+
+
+def _group(given: file.Parameters, group: file.Group, at: Where, placed: _Placed) -> Iterator[Finding]:
+    taken = set(placed.links)
+    for index, link in enumerate(group.links):
+        if link in taken:
+            yield Finding("link-taken", (*at, "links", index), {"text": str(link)})
+        taken.add(link)
+    joints = (*at, "joints")
+    middle = 0 if group.type == "PRP" else 1
+    for index, name in enumerate(group.joints):
+        if index != middle:
+            yield from placed.need(name, (*joints, index))
+    for guide, where in _guides(group, at):
+        yield from placed.carrier(guide.on, (*where, "on"))
+    yield from placed.enter(group.joints[middle], (*joints, middle))
+    if group.type == "RPR":
+        placed.passing.add(group.joints[middle])
+    placed.links |= set(group.links)
+    for link in group.links:
+        yield from _fixed_points(given, link, placed)
+
+
+def _guides(group: file.Group, at: Where) -> list[tuple[file.Guide, Where]]:
+    if isinstance(group, file.PRP):
+        return [(guide, (*at, "guides", index)) for index, guide in enumerate(group.guides)]
+    return [(group.guide, (*at, "guide"))] if isinstance(group, file.RRP | file.RPP) else []
+
+
+def _pins(given: file.Parameters) -> dict[int, set[str]]:
+    """The points of every moving link: its joints and what is fixed to it."""
+    driver = given.driver
+    found = {DRIVER: {driver.pin}}
+    if isinstance(driver, file.CrankDriver):
+        found[DRIVER].add(driver.centre)
+    for group in given.groups:
+        first, second = group.links
+        names = group.joints
+        match group.type:
+            case "RRR":
+                own: tuple[set[str], set[str]] = {names[0], names[1]}, {names[1], names[2]}
+            case "RRP":
+                own = {names[0], names[1]}, {names[1]}
+            case "RPR":
+                own = {names[0]}, {names[2]}
+            case "PRP":
+                own = {names[0]}, {names[0]}
+            case _:
+                own = {names[0]}, {names[1]}
+        found[first], found[second] = own
+    for name, point in given.points.items():
+        found.setdefault(point.link, set()).add(name)
+    return found
+
+
+def _on_link(pins: dict[int, set[str]], link: int, name: str | None, at: Where) -> Iterator[Finding]:
+    if link not in pins:
+        known = _listed(set(pins))
+        yield Finding("no-such-link", (*at, "link"), {"text": str(link), "known": known})
+    elif name is not None and name not in pins[link]:
+        words = {"text": name, "link": str(link), "known": ", ".join(sorted(pins[link]))}
+        yield Finding("not-on-link", (*at, "at"), words)
+
+
+def _bodies(given: file.Parameters) -> Iterator[Finding]:
+    """Masses belong to links and their own points, one to a link."""
+    pins, seen = _pins(given), set[int]()
+    for index, body in enumerate(given.masses):
+        at = (*TOP, "masses", index)
+        yield from _on_link(pins, body.link, body.at, at)
+        if body.link in seen:
+            yield Finding("mass-twice", (*at, "link"), {"text": str(body.link)})
+        seen.add(body.link)
+        if body.G is not None and body.m is not None:
+            yield Finding("both-given", (*at, "m"), {"first": "G", "second": "m"}, at="key")
+        if body.G is None and body.m is None and body.J is None:
+            yield Finding("missing-key", at, {"key": "G | m"})
+
+
+# --- loads ----------------------------------------------------------------------------------------
+
+
+def _loads(given: file.Parameters) -> Iterator[Finding]:
+    pins = _pins(given)
+    sliders = {link for group in given.groups for link in _rail_links(group)}
+    for index, load in enumerate(given.loads):
+        at = (*TOP, "loads", index)
+        if isinstance(load, file.OverStroke | file.Gas):
+            if load.link not in sliders:
+                yield Finding(
+                    "no-slider", (*at, "link"), {"text": str(load.link), "known": _listed(sliders) or "–"}
+                )
+            if isinstance(load, file.OverStroke):
+                yield from _table(at, "s", load.s, (1.0,), inward=load.inward, outward=load.outward)
+            elif given.turns != 2:
+                yield Finding("gas-needs-two-turns", (*at, "by"))
+            continue
+        yield from _on_link(pins, load.link, load.at, at)
+        if isinstance(load, file.OverAngle):
+            angles = tuple(math.degrees(angle.si) for angle in load.angle)
+            yield from _table(at, "angle", angles, (360.0 * given.turns,), " deg", values=load.values)
+            key, other = ("unit", "torque_unit") if load.at else ("torque_unit", "unit")
+            if getattr(load, key) is None:
+                yield Finding("missing-key", at, {"key": key})
+            if getattr(load, other) is not None:
+                yield Finding("force-or-torque", (*at, other), at="key")
+        else:
+            wanted, other = ("F", "M") if load.at else ("M", "F")
+            if getattr(load, wanted) is None:
+                yield Finding("missing-key", at, {"key": wanted if load.at or load.F is None else "at"})
+            if getattr(load, other) is not None and getattr(load, wanted) is not None:
+                yield Finding("force-or-torque", (*at, other), at="key")
+
+
+def _rail_links(group: file.Group) -> list[int]:
+    if isinstance(group, file.PRP):
+        return [link for link, guide in zip(group.links, group.guides, strict=True) if guide.on == GROUND]
+    on_frame = isinstance(group, file.RRP | file.RPP) and group.guide.on == GROUND
+    return [group.links[1]] if on_frame else []
+
+
+def _table(
+    at: Where,
+    key: str,
+    nodes: tuple[float, ...],
+    last: tuple[float],
+    unit: str = "",
+    **rows: tuple[float, ...],
+) -> Iterator[Finding]:
+    """Nodes grow from 0 to `last` and every row has a value for each."""
+    for name, row in rows.items():
+        if len(row) != len(nodes):
+            counts = {"key": name, "given": str(len(row)), "other": key, "wanted": str(len(nodes))}
+            yield Finding("row-length", (*at, name), counts)
+    fall = next((index for index, (one, other) in enumerate(pairwise(nodes), 1) if other <= one), None)
+    if fall is not None:
+        yield Finding("not-increasing", (*at, key, fall), {"key": key})
+        return
+    for index, wanted in ((0, 0.0), (len(nodes) - 1, last[0])):
+        if abs(nodes[index] - wanted) > 1e-9 * last[0]:
+            yield Finding("table-end", (*at, key, index), {"key": key, "end": f"{wanted:g}{unit}"})
+
+
+# --- structure as declared ------------------------------------------------------------------------
+
+
+def _declared(given: file.Parameters) -> Iterator[Finding]:
+    """Degree of freedom, class and groups as the author holds them for."""
+    declared, at = given.declared, (*TOP, "declared")
+    try:
+        found = mobility(linkage(given))
+    except (KeyError, ValueError):
+        return
+    for key, said, is_so in (("W", declared.W, found.W), ("class", declared.class_, found.mechanism_class)):
+        if said is not None and said != is_so:
+            yield Finding("not-as-declared", (*at, key), {"text": str(said), "found": str(is_so)})
+    if declared.groups is not None:
+        said_groups = {tuple(sorted(pair)) for pair in declared.groups}
+        is_groups = [tuple(sorted(dyad.links)) for dyad in found.groups]
+        if said_groups != set(is_groups):
+            text = ", ".join(map(str, declared.groups))
+            yield Finding(
+                "not-as-declared", (*at, "groups"), {"text": text, "found": ", ".join(map(str, is_groups))}
+            )
+
+
+# --- assembly -------------------------------------------------------------------------------------
+
+
+def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]:
+    made = linkage(given)
+    members = {
+        (group.links[0], group.links[1]): Member(_rods(group), (*TOP, "groups", index))
+        for index, group in enumerate(given.groups)
+    }
+    if not isinstance(made.driver, Crank):
+        return
+    found = list(reach.findings(made, members))
+    yield from found
+    if found:
+        return
+    start = 0.0 if positions.start is None else positions.start.si
+
+    def motion_at(angle: np.ndarray) -> Motion:
+        return solve_motion(made, start + positions.sign * angle, positions.sign * 1.0)
+
+    yield from _slots(given, made, motion_at(np.linspace(0.0, 2 * np.pi, STEPS + 1)))
+    for index, load in enumerate(given.loads):
+        if isinstance(load, file.OverStroke | file.Gas):
+            try:
+                linkage_loads.course(made, load.link, motion_at)
+            except linkage_loads.NotToAndFro as fault:
+                words = {"text": str(load.link), "count": str(fault.reversals)}
+                yield Finding("not-to-and-fro", (*TOP, "loads", index, "link"), words)
+
+
+def _rods(group: file.Group) -> str:
+    """A group's links by the letters of their joints."""
+    names = group.joints
+    match group.type:
+        case "RRR":
+            return f"{names[0]}{names[1]}, {names[1]}{names[2]}"
+        case "RRP" | "RPP":
+            return f"{names[0]}{names[1]}"
+        case "RPR":
+            return f"{names[0]}{names[2]}"
+        case _:
+            return names[0]
+
+
+def _slots(given: file.Parameters, made: Linkage, motion: Motion) -> Iterator[Finding]:
+    """Every block stays in its slot, where a slot's ends are given."""
+    for index, group in enumerate(given.groups):
+        at = (*TOP, "groups", index)
+        i, j = group.links
+        watched = [
+            (guide, where, (guide.on, link))
+            for (guide, where), link in zip(
+                _guides(group, at), group.links if group.type == "PRP" else (j,), strict=False
+            )
+        ]
+        ways = [(guide.slot, (*where, "slot"), key) for guide, where, key in watched]
+        if isinstance(group, file.RPR):
+            ways.append((group.slot, (*at, "slot"), (j, i)))
+        for slot, where, key in ways:
+            if slot is not None:
+                yield from _stays(slot, where, key, motion, f"({i}, {j})")
+
+
+def _stays(
+    slot: tuple[Given, ...], where: Where, key: tuple[int, int], motion: Motion, group: str
+) -> Iterator[Finding]:
+    way = motion.slides[key].s
+    beyond = np.maximum(slot[0].si - way, way - slot[1].si)
+    worst = int(np.argmax(beyond))
+    if beyond[worst] > 1e-9:
+        words = {
+            "block": str(key[1]),
+            "link": str(key[0]),
+            "group": group,
+            "angle": f"{math.degrees(cmath.phase(cmath.exp(1j * motion.driver[worst]))):.4g}",
+            "way": f"{way[worst] * 1e3:.4g}",
+        }
+        yield Finding("out-of-slot", where, words)

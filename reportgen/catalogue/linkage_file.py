@@ -1,0 +1,304 @@
+"""What a `linkage` file declares: frame points, driver, groups in the order of assembly, points, masses, loads."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from reportgen.assignment.common import Part
+from reportgen.assignment.fields import (
+    Acceleration,
+    Angle,
+    AngularVelocity,
+    CycleAngle,
+    Decimal,
+    Fraction,
+    Interval,
+    Length,
+    Mass,
+    MomentOfInertia,
+    Reader,
+    RotationalSpeed,
+    UnitOf,
+    Weight,
+    Whole,
+    fault,
+    quantity,
+)
+from reportgen.catalogue import gas
+from reportgen.mechanism.structure import DyadKind
+from reportgen.units import Given
+
+MOST_GROUPS = 12
+MOST_NAMES = 60
+MOST_NODES = 2000
+LAST_LINK = 40
+_NAME = re.compile(r"[A-OR-Z][0-9]{0,2}|[PQ][0-9]{1,2}")
+
+
+@dataclass(frozen=True, slots=True)
+class PointName(Reader):
+    """A capital letter and at most two digits; P and Q alone are letters of the plans."""
+
+    def read(self, value: object) -> str:
+        if not isinstance(value, str) or not _NAME.fullmatch(value):
+            raise fault("point-name", text=str(value))
+        return value
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "string", "pattern": f"^({_NAME.pattern})$"}
+
+
+Name = Annotated[str, PointName()]
+Link = Annotated[int, Whole(1, LAST_LINK)]
+Carrier = Annotated[int, Whole(0, LAST_LINK)]
+GroupLink = Annotated[int, Whole(2, LAST_LINK)]
+Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
+Speed = Annotated[Given, quantity("m/s", above=0, most=1e3)]
+Force = Annotated[Given, quantity("N", least=-1e9, most=1e9)]
+Torque = Annotated[Given, quantity("N m", least=-1e9, most=1e9)]
+Row = Annotated[
+    tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9))], ...],
+    Field(min_length=2, max_length=MOST_NODES),
+]
+Fractions = Annotated[tuple[Fraction, ...], Field(min_length=2, max_length=MOST_NODES)]
+CycleAngles = Annotated[tuple[CycleAngle, ...], Field(min_length=2, max_length=MOST_NODES)]
+
+NOWHERE = Given(0.0, 0.0, "mm", "0 mm")
+LEVEL = Given(0.0, 0.0, "deg", "0 deg")
+
+
+Place = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=2)]
+Pair = Annotated[tuple[GroupLink, ...], Field(min_length=2, max_length=2)]
+Two = Annotated[tuple[Name, ...], Field(min_length=2, max_length=2)]
+Three = Annotated[tuple[Name, ...], Field(min_length=3, max_length=3)]
+Lengths = Annotated[tuple[Length, ...], Field(min_length=2, max_length=2)]
+Ways = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=2)]
+
+
+def place(at: tuple[Given, ...]) -> complex:
+    """A pair of coordinates as a point (m)."""
+    return complex(at[0].si, at[1].si)
+
+
+class Guide(Part):
+    """A straight guide through `at` in direction `angle`, on the frame or in the axes of the link `on`.
+
+    `slot` are the least and the greatest way of the slider from `at` in that direction.
+    """
+
+    at: Place = (NOWHERE, NOWHERE)
+    angle: Angle = LEVEL
+    on: Carrier = 0
+    slot: Ways | None = None
+
+
+# --- driver and groups ----------------------------------------------------------------------------
+
+
+class CrankDriver(Part):
+    """Link 1 turns about a point of the frame."""
+
+    type: Literal["crank"]
+    centre: Name
+    pin: Name
+    length: Length
+    n: RotationalSpeed | None = None
+    omega1: AngularVelocity | None = None
+
+    @property
+    def rate(self) -> float:
+        """|ω1| (rad/s)."""
+        given = self.n or self.omega1
+        assert given is not None, "a file without speed is refused by the kind's checks"
+        return given.si
+
+
+class SlideDriver(Part):
+    """Link 1 moves along a guide of the frame from the way `start` to the way `end` at a constant speed."""
+
+    type: Literal["slider"]
+    pin: Name
+    guide: Guide = Guide()
+    start: Coordinate = NOWHERE
+    end: Coordinate
+    speed: Speed
+
+    @property
+    def rate(self) -> float:
+        """|v| (m/s)."""
+        return self.speed.si
+
+
+Driver = Annotated[CrankDriver | SlideDriver, Field(discriminator="type")]
+
+
+class RRR(Part):
+    """Two rods: `joints` are the outer joint of the first, their common joint, the outer joint of the second.
+
+    The common joint lies on one `side` of the way from the first outer joint to the second.
+    """
+
+    type: Literal["RRR"]
+    links: Pair
+    joints: Three
+    lengths: Lengths
+    side: Literal["left", "right"]
+
+
+class RRP(Part):
+    """A rod from the first of `joints` to the pin of a slider, the farther or nearer way along its guide."""
+
+    type: Literal["RRP"]
+    links: Pair
+    joints: Two
+    length: Length
+    guide: Guide
+    end: Literal["far", "near"] = "far"
+
+
+class RPR(Part):
+    """A block on the first of `joints` and a slotted link that turns about the third; the second names the
+    slotted link's point under the block.
+
+    The slot's line passes at `offset` to the left of the pivot; the link's axis points `towards` the block
+    or `away` from it.  `slot` are the least and the greatest way of the block along it.
+    """
+
+    type: Literal["RPR"]
+    links: Pair
+    joints: Three
+    offset: Coordinate = NOWHERE
+    axis: Literal["towards", "away"] = "towards"
+    slot: Ways | None = None
+
+
+class PRP(Part):
+    """Two sliders with a common pin, each on its guide."""
+
+    type: Literal["PRP"]
+    links: Pair
+    joints: Annotated[tuple[Name, ...], Field(min_length=1, max_length=1)]
+    guides: Annotated[tuple[Guide, ...], Field(min_length=2, max_length=2)]
+
+
+class RPP(Part):
+    """A block on the first of `joints`, sliding on a link that itself slides along a guide.
+
+    The second joint names a point of that link on the guide; the block's line passes through it, turned by
+    `across` from the guide.
+    """
+
+    type: Literal["RPP"]
+    links: Pair
+    joints: Two
+    guide: Guide
+    across: Angle = Given(math.pi / 2, 90.0, "deg", "90 deg")
+
+
+Group = Annotated[RRR | RRP | RPR | PRP | RPP, Field(discriminator="type")]
+ORDER: tuple[DyadKind, ...] = ("RRR", "RRP", "RPR", "PRP", "RPP")
+
+
+# --- points, masses, loads ------------------------------------------------------------------------
+
+
+class Point(Part):
+    """A point of a link: its distances from the link's first joint along the link and to the left of it."""
+
+    link: Link
+    at: Place
+
+
+class Body(Part):
+    """Weight or mass of a link, the named point that is its mass centre, its moment of inertia about it."""
+
+    link: Link
+    at: Name
+    G: Weight | None = None
+    m: Mass | None = None
+    J: MomentOfInertia | None = None
+
+    def mass(self, g: float) -> float:
+        """m = G/g (kg)."""
+        return self.G.si / g if self.G is not None else self.m.si if self.m is not None else 0.0
+
+
+class Constant(Part):
+    """A force F at a point in a fixed direction, or a torque M; `against` the motion only its size counts."""
+
+    by: Literal["constant"]
+    link: Link
+    at: Name | None = None
+    F: Force | None = None
+    direction: Angle = LEVEL
+    M: Torque | None = None
+    against: Literal["motion"] | None = None
+
+
+class OverAngle(Part):
+    """A force or a torque over the driver's turn from the first position."""
+
+    by: Literal["angle"]
+    link: Link
+    at: Name | None = None
+    direction: Angle = LEVEL
+    unit: Annotated[Given, UnitOf("N")] | None = None
+    torque_unit: Annotated[Given, UnitOf("N m")] | None = None
+    angle: CycleAngles
+    values: Row
+
+
+class OverStroke(Part):
+    """A force on a slider along its guide: a row for each way, over s/H from the end farther along the guide."""
+
+    by: Literal["stroke"]
+    link: Link
+    unit: Annotated[Given, UnitOf("N")]
+    s: Fractions
+    inward: Row
+    outward: Row
+
+
+class Gas(Part):
+    """The gas in a cylinder whose piston is the slider `link`; the guide points to the cylinder head.
+
+    Intake starts at the first or at the second passage of the top after the first position.
+    """
+
+    by: Literal["gas"]
+    link: Link
+    D: Length
+    intake: Literal["first top", "second top"] = "first top"
+    diagram: gas.Diagram
+
+
+Loading = Annotated[Constant | OverAngle | OverStroke | Gas, Field(discriminator="by")]
+
+
+class Declared(Part):
+    """What the author holds for true of the structure: checked against what follows from the links."""
+
+    W: Annotated[int, Whole(0, 9)] | None = None
+    class_: Annotated[int, Whole(1, 9)] | None = Field(default=None, alias="class")
+    groups: Annotated[tuple[Pair, ...], Field(max_length=MOST_GROUPS)] | None = None
+
+
+class Parameters(Part):
+    """A linkage as the user declares it."""
+
+    frame: Annotated[dict[Name, Place], Field(max_length=MOST_NAMES)] = Field(default_factory=dict)
+    driver: Driver
+    groups: Annotated[tuple[Group, ...], Field(min_length=1, max_length=MOST_GROUPS)]
+    points: Annotated[dict[Name, Point], Field(max_length=MOST_NAMES)] = Field(default_factory=dict)
+    masses: Annotated[tuple[Body, ...], Field(max_length=LAST_LINK)] = ()
+    loads: Annotated[tuple[Loading, ...], Field(max_length=LAST_LINK)] = ()
+    turns: Annotated[int, Whole(1, 2)] = 1
+    also_at: Annotated[tuple[Angle, ...], Field(max_length=24)] = ()
+    paths: Annotated[tuple[Name, ...], Field(max_length=MOST_NAMES)] = ()
+    g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
+    declared: Declared = Declared()
