@@ -8,7 +8,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from reportgen.catalogue.machine import Applied, Machine, Piston
+from reportgen.catalogue.machine import Applied, Machine, Piston, Torque
 from reportgen.cycle.indicator import indicated_work, stroke_at
 from reportgen.mechanism.forces import Forces, solve_forces
 from reportgen.mechanism.loads import Load, inertia_loads, weights
@@ -88,7 +88,10 @@ def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis
     linkage = machine.linkage
     motion = motion_at(machine, angles)
     gas = {piston.name: gas_in(piston, motion, angles) for piston in machine.pistons}
-    applied = tuple(_load(force, angles, motion) for force in machine.applied)
+    applied = (
+        *(_load(force, angles, motion) for force in machine.applied),
+        *(_couple(torque, angles, motion) for torque in machine.torques),
+    )
     heavy, inert = weights(linkage, motion), inertia_loads(linkage, motion)
     loads = (*heavy, *inert, *applied)
     forces = solve_forces(linkage, motion, loads)
@@ -122,17 +125,22 @@ def _load(force: Applied, cycle_angle: np.ndarray, motion: Motion) -> Load:
     )
 
 
+def _couple(torque: Torque, cycle_angle: np.ndarray, motion: Motion) -> Load:
+    still = np.zeros(cycle_angle.shape, dtype=np.complex128)
+    size = torque.law.value(cycle_angle, motion)
+    return Load(torque.name, torque.link, still, motion.origins[torque.link].p, size)
+
+
 def breaks(machine: Machine) -> np.ndarray:
     """Cycle angles where the loads have corners: dead centres and nodes of the tables."""
-    found = [
-        corner for force in machine.applied for corner in force.law.breaks(partial(motion_at, machine))
-    ]
+    laws = [*(force.law for force in machine.applied), *(torque.law for torque in machine.torques)]
+    found = [corner for law in laws for corner in law.breaks(partial(motion_at, machine))]
     whole = machine.turns * FULL_TURN
     return np.unique(np.mod(found, whole).round(13)) if found else np.array([])
 
 
 def _work(machine: Machine) -> float:
-    """The work of the applied forces over the cycle (J): of gas exact from its table, else ∫ F·v dt."""
+    """The work of the loads over the cycle (J): of gas exact from its table, else ∫ F·v dt and ∫ M ω dt."""
     whole = machine.turns * FULL_TURN
     pistons = {piston.name: piston for piston in machine.pistons}
     total = 0.0
@@ -148,6 +156,14 @@ def _work(machine: Machine) -> float:
 
         corners = force.law.breaks(partial(motion_at, machine))
         total += mean_over(power, np.mod(list(corners), whole), 0.0, whole) * whole / machine.speed
+    for torque in machine.torques:
+
+        def turning(angle: np.ndarray, torque: Torque = torque) -> np.ndarray:
+            motion = motion_at(machine, angle)
+            return np.asarray(torque.law.value(angle, motion) * motion.links[torque.link].omega)
+
+        corners = torque.law.breaks(partial(motion_at, machine))
+        total += mean_over(turning, np.mod(list(corners), whole), 0.0, whole) * whole / machine.speed
     return total
 
 

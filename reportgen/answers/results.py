@@ -75,7 +75,10 @@ def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
 
 
 def _applied(analysis: Analysis, k: int) -> dict[str, Any]:
-    return {load.name: _pair(load.force[k]) for load in analysis.applied}
+    """Forces as [x, y]; a torque, which has no force, as it is in `weights` and `inertia`."""
+    torques = {torque.name for torque in analysis.machine.torques}
+    forces = {load.name: _pair(load.force[k]) for load in analysis.applied if load.name not in torques}
+    return {**forces, **_loads(tuple(load for load in analysis.applied if load.name in torques), k)}
 
 
 def _loads(loads: tuple[Load, ...], k: int) -> Mapping[str, Any]:

@@ -199,6 +199,7 @@ def machine(assignment: Assignment) -> Machine:
         paths=tuple(point.name for point in coupler),
         compared=four_bar_formulas.compared(coupler),
         equations=four_bar_formulas.equations(),
+        facts={"left": turn * given.sign > 0},
     )
     phi = turn * (built.angles(built.cycle_angles) - frame)
     couplings = Couplings(coupler, turn, turn * given.sign)

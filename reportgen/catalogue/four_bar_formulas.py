@@ -22,6 +22,7 @@ from reportgen.notation.expressions import (
     Expression,
     Matrix,
     Number,
+    Product,
     Ref,
     Root,
     Symbol,
@@ -72,8 +73,8 @@ def proportions(sides: Sides) -> tuple[Item, ...]:
     ids = {AB: sides.ab, BC: sides.bc, CD: sides.cd, AD: sides.ad}
     first, *between, last = sorted(ids, key=lambda id: ids[id])
     sums = (
-        Item("sum.ends", Symbol("l", "min+max"), "length", definition=add(first, last)),
-        Item("sum.others", Symbol("l", "Σ"), "length", definition=add(*between)),
+        Item("sum.ends", Symbol("l", "", "′"), "length", definition=add(first, last)),
+        Item("sum.others", Symbol("l", "", "″"), "length", definition=add(*between)),
     )
     return (*sums, *_extremes(sides)) if sides.rocks else sums
 
@@ -128,9 +129,8 @@ def _cosine(one: str, other: str, opposite: str) -> Expression:
 def formulas(sides: Sides, phi: Floats, couplings: Couplings) -> tuple[Item, ...]:
     """Items at the crank angles `phi` [N] from x.
 
-    Ids: `f.phi.1`, `l.BD`, `f.delta`, `f.beta`, `f.gamma`, `f.phi.2`, `f.phi.3`; entries `A.11`, `B.1`,
-    `dA.11`, `dB.1` and the right-hand sides `c.1`; `A.det`; `f.omega.2`, …, `f.eps.3`; of every coupler
-    point `f.x.E.v`, `f.y.E.v`, `f.v.E`, likewise for a.
+    Ids: `f.phi.1`, `l.BD`, `f.phi.2`, `f.phi.3`; entries `A.11`, `B.1`, `dA.11`, `dB.1`; `A.det`;
+    `f.omega.2`, …, `q.2`, `f.eps.3`; of every coupler point `f.x.E.v`, `f.y.E.v`, `f.v.E`, likewise for a.
     """
     turned = np.mod(phi + ROUND, FULL_TURN) - ROUND
     given = Item("f.phi.1", Symbol("φ", "1"), "angle", turned, traits={"exact": _is_round(turned), "scale": 1.0})
@@ -139,20 +139,18 @@ def formulas(sides: Sides, phi: Floats, couplings: Couplings) -> tuple[Item, ...
 
 
 def _position(sides: Sides, side: int) -> tuple[Item, ...]:
-    """BD, δ, β, γ by the two triangles; φ₂ and φ₃."""
+    """BD, then φ₂ = sβ − δ and φ₃ = 180° − δ − sγ, each from BD at once: sums of rounded angles lose a digit."""
     phi = "f.phi.1"
     across, along = multiply(AB, call("sin", phi)), subtract(AD, multiply(AB, call("cos", phi)))
     delta = call("arctan", divide(across, along)) if sides.rocks else call("arctan2", across, along)
     diagonal = Root(
         subtract(add(power(AB, 2), power(AD, 2)), multiply(2, AB, AD, call("cos", phi)))
     )
-    second = subtract("f.beta", "f.delta") if side > 0 else subtract(negative("f.beta"), "f.delta")
-    third = subtract(STRAIGHT, "f.delta", "f.gamma") if side > 0 else add(subtract(STRAIGHT, "f.delta"), "f.gamma")
+    beta, gamma = call("arccos", _cosine(BC, "l.BD", CD)), call("arccos", _cosine(CD, "l.BD", BC))
+    second = subtract(beta if side > 0 else negative(beta), delta)
+    third = subtract(STRAIGHT, delta, gamma) if side > 0 else add(subtract(STRAIGHT, delta), gamma)
     return (
         Item("l.BD", Symbol("l", "BD"), "length", definition=diagonal),
-        _angle("f.delta", Symbol("δ"), delta),
-        _angle("f.beta", Symbol("β"), call("arccos", _cosine(BC, "l.BD", CD))),
-        _angle("f.gamma", Symbol("γ"), call("arccos", _cosine(CD, "l.BD", BC))),
         _angle("f.phi.2", Symbol("φ", "2"), second),
         _angle("f.phi.3", Symbol("φ", "3"), third),
     )
@@ -171,17 +169,28 @@ def _entries() -> tuple[Item, ...]:
         "B.2": negative(multiply(AB, c1)),
     }
     items = [_entry(id, "length", definition, 0.1) for id, definition in named.items()]
-    determinant = subtract(multiply("A.11", "A.22"), multiply("A.12", "A.21"))
-    return (*items, Item("A.det", Symbol("Δ"), "area", definition=determinant))
+    return (*items, Item("A.det", Symbol("Δ"), "area", definition=multiply(BC, CD, _between("2", "3"))))
+
+
+def _between(one: str, other: str, function: str = "sin") -> Expression:
+    """sin (φ₂ − φ₃), or another function of the difference of two links' angles."""
+    return call(function, subtract(f"f.phi.{one}", f"f.phi.{other}"))
 
 
 def _rates() -> tuple[Item, ...]:
-    """Cramer's rule for ω₂, ω₃; the entries of [Ȧ], [Ḃ], the right-hand side; Cramer's rule for ε₂, ε₃."""
+    """ω₂, ω₃ by Cramer's rule; the entries of [Ȧ], [Ḃ]; ε₂, ε₃ by Cramer's rule.
+
+    ω₂ = ω₁ l_AB sin(φ₃ − φ₁)/(l_BC sin(φ₂ − φ₃)),  ω₃ = ω₁ l_AB sin(φ₂ − φ₁)/(l_CD sin(φ₂ − φ₃)),
+    q₂ = ω₁² l_AB cos(φ₁ − φ₃) + ω₂² l_BC cos(φ₂ − φ₃) − ω₃² l_CD,  ε₂ = −q₂/(l_BC sin(φ₂ − φ₃)),
+    q₃ = ω₁² l_AB cos(φ₁ − φ₂) + ω₂² l_BC − ω₃² l_CD cos(φ₂ − φ₃),  ε₃ = −q₃/(l_CD sin(φ₂ − φ₃)).
+    """
     s1, s2, s3 = (call("sin", f"f.phi.{link}") for link in "123")
     c1, c2, c3 = (call("cos", f"f.phi.{link}") for link in "123")
     w1, w2, w3 = "omega.1", "f.omega.2", "f.omega.3"
-    first = {"2": ("B.1", "A.22", "B.2", "A.12"), "3": ("B.2", "A.11", "B.1", "A.21")}
-    second = {"2": ("c.1", "A.22", "c.2", "A.12"), "3": ("c.2", "A.11", "c.1", "A.21")}
+    first = {
+        "2": divide(multiply(w1, AB, _between("3", "1")), multiply(BC, _between("2", "3"))),
+        "3": divide(multiply(w1, AB, _between("2", "1")), multiply(CD, _between("2", "3"))),
+    }
     named = {
         "dA.11": negative(multiply(w2, BC, c2)),
         "dA.12": multiply(w3, CD, c3),
@@ -190,26 +199,35 @@ def _rates() -> tuple[Item, ...]:
         "dB.1": multiply(w1, AB, c1),
         "dB.2": multiply(w1, AB, s1),
     }
-    items = [
-        _rate(f"f.omega.{link}", Symbol("ω", link), "angular velocity", multiply(w1, _cramer(*entries)))
-        for link, entries in first.items()
-    ]
-    items += [_entry(id, "velocity", definition, 1.0) for id, definition in named.items()]
-    for row in "12":
-        right = add(
-            negative(multiply(f"dA.{row}1", w2)), negative(multiply(f"dA.{row}2", w3)), multiply(f"dB.{row}", w1)
+    crank, coupler, output = multiply(power(w1, 2), AB), multiply(power(w2, 2), BC), multiply(power(w3, 2), CD)
+    inward, between = _between("1", "3", "cos"), _between("2", "3", "cos")
+    tops = {
+        "2": add(_times(crank, inward), _times(coupler, between), negative(output)),
+        "3": add(_times(crank, _between("1", "2", "cos")), coupler, negative(_times(output, between))),
+    }
+    swings = [
+        item
+        for (link, top), length in zip(tops.items(), (BC, CD), strict=True)
+        for item in (
+            _rate(f"q.{link}", Symbol("q", link), "acceleration", top),
+            _rate(
+                f"f.eps.{link}",
+                Symbol("ε", link),
+                "angular acceleration",
+                negative(divide(f"q.{link}", multiply(length, _between("2", "3")))),
+            ),
         )
-        items.append(_rate(f"c.{row}", Symbol("c", row), "acceleration", right))
-    items += [
-        _rate(f"f.eps.{link}", Symbol("ε", link), "angular acceleration", _cramer(*entries))
-        for link, entries in second.items()
     ]
-    return tuple(items)
+    return (
+        *(_rate(f"f.omega.{link}", Symbol("ω", link), "angular velocity", rate) for link, rate in first.items()),
+        *(_entry(id, "velocity", definition, 1.0) for id, definition in named.items()),
+        *swings,
+    )
 
 
-def _cramer(a: str, b: str, c: str, d: str) -> Expression:
-    """(a b − c d)/Δ."""
-    return divide(subtract(multiply(a, b), multiply(c, d)), "A.det")
+def _times(product: Expression, factor: Expression) -> Expression:
+    assert isinstance(product, Product)
+    return Product((*product.factors, factor))
 
 
 def _coupler_point(point: LinkPoint, turn: int) -> tuple[Item, ...]:
@@ -304,6 +322,17 @@ def equations() -> dict[str, tuple[Chain, ...]]:
             Chain((add(multiply(ab, s1), multiply(bc, s2)), multiply(cd, s3))),
         ),
         "velocity": (Chain((multiply(a, omega), multiply(b, w1))),),
+        "determinant": (
+            Chain(
+                (
+                    Symbol("Δ"),
+                    subtract(
+                        multiply(Symbol("a", "11"), Symbol("a", "22")), multiply(Symbol("a", "12"), Symbol("a", "21"))
+                    ),
+                    multiply(bc, cd, call("sin", subtract(Symbol("φ", "2"), Symbol("φ", "3")))),
+                )
+            ),
+        ),
         "velocity-numbers": (Chain((multiply(filled["A"], omega), multiply(columns["B"], Ref("omega.1")))),),
         "acceleration": (_second(a, epsilon, rate, omega, b_rate, w1),),
         "acceleration-numbers": (

@@ -22,6 +22,8 @@ class BodyView:
     centre: str
     start: str
     ids: tuple[str, ...]
+    still: bool = False
+    """Whether that pin is fixed to the frame."""
 
 
 @dataclass(frozen=True)
@@ -182,8 +184,12 @@ class Facts:
                 (side.base for group in self.groups for side in group.sides if _turns(side, body.link)), ""
             )
             if len(ids) == 2:
-                views.append(BodyView(body.link, body.centre, start, tuple(ids)))
+                views.append(BodyView(body.link, body.centre, start, tuple(ids), start in self._fixed))
         return tuple(views)
+
+    @property
+    def _fixed(self) -> frozenset[str]:
+        return frozenset(self.analysis.machine.linkage.ground)
 
     def arm_ids(self, group: GroupView, centre: str = "", link: int = 0) -> list[str]:
         """Arms about a point (else the inner pin) of the loads on one link of a group (else the first)."""
@@ -232,6 +238,12 @@ class Facts:
     def crank_lines(self) -> list[str]:
         arms = [id for id in self.ledger.families if id.startswith("h.") and id.endswith(f".{self.driver.centre}")]
         return [*arms, "M.eq"]
+
+    @property
+    def crank_pins(self) -> list[str]:
+        """The crank's pin, and further points of the crank that a group hangs on."""
+        hung = {pin for group in self.groups for pin in (group.P, group.T)}
+        return [self.driver.pin, *(place.name for place in self.driver.others if place.name in hung)]
 
     @property
     def lever_couples(self) -> list[str]:

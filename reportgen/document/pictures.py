@@ -202,7 +202,7 @@ class Pictures:
     def _numbered(self) -> tuple[str, ...]:
         """Points that carry the positions' numbers: pins of the crank, joints, of a slotted lever its end."""
         centres = {body.centre for body in self.analysis.machine.linkage.inertias}
-        names = [self.facts.driver.pin, *(place.name for place in self.facts.driver.others)]
+        names = [*self.facts.crank_pins]
         for group in self.facts.groups:
             ends = [place.name for place in group.points_j if place.name not in centres]
             names += ends if group.kind == "RPR" else [group.Q]

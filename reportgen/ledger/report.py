@@ -16,6 +16,7 @@ from reportgen.ledger import flywheel, forces, kinematics, precision
 from reportgen.ledger.core import ZERO, Builder, Ledger
 from reportgen.ledger.forces import Polygon
 from reportgen.notation.expressions import Symbol, call, divide, multiply, subtract
+from reportgen.notation.symbols import MAX_DIGITS
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,9 @@ def keep(analysis: Analysis, units: Mapping[str, str] | None = None) -> Books:
         _gas(b, analysis)
         _applied(b, analysis)
         applied = {one.name: (one.link, one.point, one.direction) for one in machine.applied}
-        polygons = forces.describe(b, machine.linkage, machine.turn, applied)
+        polygons = forces.describe(
+            b, machine.linkage, machine.turn, applied, {one.name: one.link for one in machine.torques}
+        )
         _cycle(b, analysis)
         if machine.unevenness is not None:
             wheel = regulation.flywheel(machine, machine.unevenness)
@@ -81,15 +84,24 @@ def _gas(b: Builder, analysis: Analysis) -> None:
 
 
 def _applied(b: Builder, analysis: Analysis) -> None:
-    """Forces read from a table other than the indicator diagram, positive along their own direction."""
-    for force, load in zip(analysis.machine.applied, analysis.applied, strict=True):
+    """Forces other than of gas, positive along their own direction, and torques, anticlockwise positive."""
+    loads = {load.name: load for load in analysis.applied}
+    for force in analysis.machine.applied:
         if force.name not in b:
-            link, size = str(force.link), np.real(np.conj(force.direction) * load.force)
+            link, size = str(force.link), np.real(np.conj(force.direction) * loads[force.name].force)
             if isinstance(force.law, TableLaw):
                 course = force.law.course
                 way = course.fraction(analysis.motion) * course.stroke
                 b.give(f"s.{link}", Symbol("s", link), "length", way, exact=False, scale=course.stroke)
-            b.give(force.name, Symbol("P", link), "force", size, exact=False)
+            b.give(force.name, Symbol("P", link), "force", size, exact=_short(size))
+    for torque in analysis.machine.torques:
+        size = loads[torque.name].couple
+        b.give(torque.name, Symbol("M", str(torque.link)), "torque", size, exact=_short(size))
+
+
+def _short(values: np.ndarray) -> bool:
+    """Whether all values have few digits, as typed sizes have, and can be printed as they are."""
+    return all(abs(float(f"{value:.{MAX_DIGITS - 1}g}") - value) <= 1e-12 * abs(value) for value in values)
 
 
 def _cycle(b: Builder, analysis: Analysis) -> None:

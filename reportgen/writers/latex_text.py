@@ -50,7 +50,8 @@ MATHEMATICAL = {
     "⇒": r"\Rightarrow", "⇔": r"\Leftrightarrow", "⋅": r"\cdot", "′": r"{}^{\prime}",
     "″": r"{}^{\prime\prime}", "₀": "{}_0", "₁": "{}_1", "₂": "{}_2", "₃": "{}_3", "₄": "{}_4",
     "₅": "{}_5", "₆": "{}_6", "₇": "{}_7", "₈": "{}_8", "₉": "{}_9", "⁻": "{}^{-}", "⁴": "{}^4",
-    "ⁿ": "{}^n",
+    "ⁿ": "{}^n", "ȧ": r"\reportactual{0227}{\dot{a}}", "Ȧ": r"\reportactual{0226}{\dot{A}}",
+    "ḃ": r"\reportactual{1E03}{\dot{b}}", "Ḃ": r"\reportactual{1E02}{\dot{B}}",
 }
 """Characters that the frame declares as this mathematics, in text and in formulas alike."""
 

@@ -90,7 +90,8 @@ def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
         spin = _spin(statics, load.link)
         if not load.point:
             if spin is not None:
-                contribute(load.name, divide(multiply(statics.turn, load.size, spin), rate))
+                given = multiply(load.size, spin)
+                contribute(load.name, divide(given if statics.turn > 0 else negative(given), rate))
             continue
         work: Expression = call("dot", f"F.{load.name}", statics.image("v", load.point))
         couple = spin if statics.has_couple(load) else None
