@@ -3,8 +3,8 @@
 A crank centre, B pin, C pivot of the lever, D its end, E ram.  x runs against the way the ram works, y from C
 to A, φ are angles from x, a = l_AC, b the height of the ram's line over C, S = CB.  From the two closed loops
 S cos φ₃ = l₁ cos φ₁, S sin φ₃ = a + l₁ sin φ₁, l₃ sin φ₃ + l₄ sin φ₄ = b, x_E = l₃ cos φ₃ + l₄ cos φ₄:
-ω₃ = ω₁l₁ cos(φ₁ − φ₃)/S;  v_r = Ṡ = −ω₁l₁ sin(φ₁ − φ₃);  ω₄ = −ω₃l₃ cos φ₃/(l₄ cos φ₄);
-v_E = −(ω₃l₃ sin φ₃ + ω₄l₄ sin φ₄);  ε₃ = −(ω₁²l₁ sin(φ₁ − φ₃) + 2v_rω₃)/S;
+ω₃, v_r = Ṡ and ε₃ as in `slotted`;  ω₄ = −ω₃l₃ cos φ₃/(l₄ cos φ₄);
+v_E = −(ω₃l₃ sin φ₃ + ω₄l₄ sin φ₄);
 ε₄ = (ω₃²l₃ sin φ₃ − ε₃l₃ cos φ₃ + ω₄²l₄ sin φ₄)/(l₄ cos φ₄);
 a_E = −(ε₃l₃ sin φ₃ + ω₃²l₃ cos φ₃ + ε₄l₄ sin φ₄ + ω₄²l₄ cos φ₄).
 """
@@ -17,19 +17,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.catalogue import slotted
 from reportgen.catalogue.course import Course
 from reportgen.catalogue.laws import MotionAt
 from reportgen.catalogue.machine import Item
-from reportgen.catalogue.slotted import (
-    FULL_TURN,
-    ROUND,
-    Floats,
-    SlottedCrank,
-    angle_item,
-    closure,
-    formula,
-    scaled,
-)
+from reportgen.catalogue.slotted import FULL_TURN, ROUND, Floats, SlottedCrank, angle_item, formula, scaled
 from reportgen.cycle.cutting import Cutting
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import Dyad, Guide, Inertia, Linkage, LinkPoint
@@ -37,7 +29,6 @@ from reportgen.notation.expressions import (
     Chain,
     Expression,
     Number,
-    Root,
     Symbol,
     add,
     call,
@@ -130,10 +121,10 @@ L1, L3, L4 = "l.AB", "l.CD", "l.DE"
 def formulas(angle: Floats, speed: float, crank: float) -> tuple[Item, ...]:
     """The closed formulas at φ₁ = `angle` [N] for a crank (m) at a speed (rad/s).
 
-    Uses `l.AB`, `l.CD`, `l.DE`, `a`, `b`, `omega.1`.  Ids: `phi.A`, `f.S`, `phi.3`, `phi.4`, `f.x.E`, then
-    `f.v.r`, `f.omega.3`, `f.omega.4`, `f.v.E` and `f.eps.3`, `f.eps.4`, `f.a.E`.
+    Uses `l.AB`, `l.CD`, `l.DE`, `a`, `b`, `omega.1`.  Ids: `phi.A`, those of
+    `slotted.lever`, `phi.3`, `phi.4`, `f.x.E`, `f.omega.4`, `f.v.E`, `f.eps.4`, `f.a.E`.
     """
-    items = (*_places(), *_velocities(), *_accelerations())
+    items = (*slotted.lever(L1, "a"), *_places(), *_velocities(), *_accelerations())
     return (angle_item(angle), *scaled(items, speed, crank))
 
 
@@ -145,15 +136,10 @@ def _cos(link: int) -> Expression:
     return call("cos", "phi.A" if link == 1 else f"phi.{link}")
 
 
-_BETWEEN = subtract("phi.A", "phi.3")
-
-
 def _places() -> tuple[Item, ...]:
     half = Number(180.0, unit="°")
     rise = divide(subtract("b", multiply(L3, _sin(3))), L4)
-    reach = Root(add(power("a", 2), power(L1, 2), multiply(2, "a", L1, _sin(1))))
     return (
-        formula("f.S", Symbol("S"), "length", reach),
         formula("phi.3", Symbol("φ", "3"), "angle", call("arccos", divide(multiply(L1, _cos(1)), "f.S"))),
         formula("phi.4", Symbol("φ", "4"), "angle", subtract(half, call("arcsin", rise))),
         formula("f.x.E", Symbol("x", "E"), "length", add(multiply(L3, _cos(3)), multiply(L4, _cos(4)))),
@@ -161,11 +147,9 @@ def _places() -> tuple[Item, ...]:
 
 
 def _velocities() -> tuple[Item, ...]:
-    w1, w3, w4 = "omega.1", "f.omega.3", "f.omega.4"
+    w3, w4 = "f.omega.3", "f.omega.4"
     along_x = add(multiply(w3, L3, _sin(3)), multiply(w4, L4, _sin(4)))
     return (
-        formula("f.v.r", Symbol("v", "r"), "velocity", negative(multiply(w1, L1, call("sin", _BETWEEN)))),
-        formula(w3, Symbol("ω", "3"), "angular velocity", divide(multiply(w1, L1, call("cos", _BETWEEN)), "f.S")),
         formula(
             w4,
             Symbol("ω", "4"),
@@ -177,8 +161,7 @@ def _velocities() -> tuple[Item, ...]:
 
 
 def _accelerations() -> tuple[Item, ...]:
-    w1, w3, w4, e3, e4 = "omega.1", "f.omega.3", "f.omega.4", "f.eps.3", "f.eps.4"
-    turning = add(multiply(power(w1, 2), L1, call("sin", _BETWEEN)), multiply(2, "f.v.r", w3))
+    w3, w4, e3, e4 = "f.omega.3", "f.omega.4", "f.eps.3", "f.eps.4"
     across = add(
         multiply(power(w3, 2), L3, _sin(3)),
         negative(multiply(e3, L3, _cos(3))),
@@ -191,7 +174,6 @@ def _accelerations() -> tuple[Item, ...]:
         multiply(power(w4, 2), L4, _cos(4)),
     )
     return (
-        formula(e3, Symbol("ε", "3"), "angular acceleration", negative(divide(turning, "f.S"))),
         formula(e4, Symbol("ε", "4"), "angular acceleration", divide(across, multiply(L4, _cos(4)))),
         formula("f.a.E", Symbol("a", "E"), "acceleration", negative(along)),
     )
@@ -209,43 +191,39 @@ COMPARED = (
 
 def equations() -> dict[str, tuple[Chain, ...]]:
     """Both closed loops by components, and their first and second derivatives."""
-    first, third, fourth = (Symbol("φ", str(link)) for link in (1, 3, 4))
+    third, fourth = Symbol("φ", "3"), Symbol("φ", "4")
     l1, l3, l4 = (Symbol("l", str(link)) for link in (1, 3, 4))
     w3, w4, e3, e4 = Symbol("ω", "3"), Symbol("ω", "4"), Symbol("ε", "3"), Symbol("ε", "4")
     sin3, cos3, sin4, cos4 = call("sin", third), call("cos", third), call("sin", fourth), call("cos", fourth)
-    nothing = Number(0.0)
-    square3, square4, between = power(w3, 2), power(w4, 2), subtract(first, third)
-    reach, w1, v_r = Symbol("S"), Symbol("ω", "1"), Symbol("v", "r")
-    ram = (
-        Chain((Symbol("x", "E"), add(multiply(l3, cos3), multiply(l4, cos4)))),
-        Chain((add(multiply(l3, sin3), multiply(l4, sin4)), Symbol("b"))),
+    square3, square4, nothing = power(w3, 2), power(w4, 2), Number(0.0)
+    along = (
+        multiply(e3, l3, sin3),
+        multiply(square3, l3, cos3),
+        multiply(e4, l4, sin4),
+        multiply(square4, l4, cos4),
     )
-    ram_v = (
-        Chain((Symbol("v", "E"), negative(add(multiply(w3, l3, sin3), multiply(w4, l4, sin4))))),
-        Chain((add(multiply(w3, l3, cos3), multiply(w4, l4, cos4)), nothing)),
-    )
-    x_terms = (multiply(e3, l3, sin3), multiply(square3, l3, cos3), multiply(e4, l4, sin4), multiply(square4, l4, cos4))
-    y_terms = (
+    across = (
         multiply(e3, l3, cos3),
         negative(multiply(square3, l3, sin3)),
         multiply(e4, l4, cos4),
         negative(multiply(square4, l4, sin4)),
     )
-    ram_a = (Chain((Symbol("a", "E"), negative(add(*x_terms)))), Chain((add(*y_terms), nothing)))
-    lever_v = (
-        Chain((multiply(reach, w3), multiply(w1, l1, call("cos", between)))),
-        Chain((v_r, negative(multiply(w1, l1, call("sin", between))))),
-    )
-    lever_a = (
-        Chain(
-            (
-                add(multiply(reach, e3), multiply(2, v_r, w3)),
-                negative(multiply(power(w1, 2), l1, call("sin", between))),
-            )
-        ),
-    )
+    triangle = slotted.equations(l1, Symbol("a"))
     return {
-        "closure": (*closure(l1, Symbol("a")), *ram),
-        "velocity": (*lever_v, *ram_v),
-        "acceleration": (*lever_a, *ram_a),
+        "closure": (
+            *triangle["closure"],
+            Chain((Symbol("x", "E"), add(multiply(l3, cos3), multiply(l4, cos4)))),
+            Chain((add(multiply(l3, sin3), multiply(l4, sin4)), Symbol("b"))),
+        ),
+        "between": triangle["between"],
+        "velocity": (
+            *triangle["velocity"],
+            Chain((Symbol("v", "E"), negative(add(multiply(w3, l3, sin3), multiply(w4, l4, sin4))))),
+            Chain((add(multiply(w3, l3, cos3), multiply(w4, l4, cos4)), nothing)),
+        ),
+        "acceleration": (
+            *triangle["acceleration"],
+            Chain((Symbol("a", "E"), negative(add(*along)))),
+            Chain((add(*across), nothing)),
+        ),
     }

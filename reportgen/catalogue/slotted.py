@@ -28,6 +28,7 @@ from reportgen.notation.expressions import (
     call,
     divide,
     multiply,
+    negative,
     power,
     subtract,
 )
@@ -107,30 +108,35 @@ def drawn_crank(crank: float, height: float) -> float:
     return next((drawn for drawn in DRAWN_CRANKS if drawn * height / crank <= HIGHEST), DRAWN_CRANKS[-1])
 
 
+def lever(crank: str, centres: str) -> tuple[Item, ...]:
+    """`f.S`, `f.omega.3`, `f.v.r`, `f.eps.3`; uses the lengths r, d of these ids, `phi.A` and `omega.1`."""
+    r, d, w1, reach = crank, centres, "omega.1", "f.S"
+    sin, cos = call("sin", "phi.A"), call("cos", "phi.A")
+    square = add(power(d, 2), power(r, 2), multiply(2, d, r, sin))
+    arm = multiply(w1, r, add(r, multiply(d, sin)))
+    turned = multiply(power(w1, 2), d, r, subtract(power(d, 2), power(r, 2)), cos)
+    return (
+        formula(reach, Symbol("S"), "length", Root(square)),
+        formula("f.omega.3", Symbol("ω", "3"), "angular velocity", divide(arm, square)),
+        formula("f.v.r", Symbol("v", "r"), "velocity", divide(multiply(w1, d, r, cos), reach)),
+        formula("f.eps.3", Symbol("ε", "3"), "angular acceleration", divide(turned, power(square, 2))),
+    )
+
+
 def formulas(angle: Floats, speed: float, crank: float) -> tuple[Item, ...]:
     """The closed formulas at φ = `angle` [N] for a crank (m) at a speed (rad/s).
 
-    Uses `l.AB`, `l.AC`, `l.CD`, `omega.1`.  Ids: `phi.A`, `f.S`, `f.omega.3`, `f.v.B3B`, `f.v.D`,
-    `f.eps.3`, `f.a.B3B.k`, `f.a.B3B.r`, `f.a.D.n`, `f.a.D.t`, `f.a.D`.
+    Uses `l.AB`, `l.AC`, `l.CD`, `omega.1`.  Ids: `phi.A`, those of `lever`, `f.v.D`, `f.a.k`, `f.a.r`,
+    `f.a.D.n`, `f.a.D.t`, `f.a.D`.
     """
-    r, d, w1, w3, reach, slide = "l.AB", "l.AC", "omega.1", "f.omega.3", "f.S", "f.v.B3B"
-    sin, cos = call("sin", "phi.A"), call("cos", "phi.A")
-    arm = multiply(r, add(r, multiply(d, sin)))
-    square = add(power(d, 2), power(r, 2), multiply(2, d, r, sin))
-    turned = multiply(power(w1, 2), d, r, subtract(power(d, 2), power(r, 2)), cos)
+    r, d, w1, w3, reach = "l.AB", "l.AC", "omega.1", "f.omega.3", "f.S"
+    arm = multiply(r, add(r, multiply(d, call("sin", "phi.A"))))
+    sliding = subtract(multiply(power(w3, 2), reach), divide(multiply(power(w1, 2), arm), reach))
     items = (
-        formula(reach, Symbol("S"), "length", Root(square)),
-        formula(w3, Symbol("ω", "3"), "angular velocity", divide(multiply(w1, arm), square)),
-        formula(slide, Symbol("v", "r"), "velocity", divide(multiply(w1, d, r, cos), reach)),
+        *lever(r, d),
         formula("f.v.D", Symbol("v", "D"), "velocity", multiply(w3, "l.CD")),
-        formula("f.eps.3", Symbol("ε", "3"), "angular acceleration", divide(turned, power(square, 2))),
-        formula("f.a.B3B.k", Symbol("a", "k"), "acceleration", multiply(2, w3, slide)),
-        formula(
-            "f.a.B3B.r",
-            Symbol("a", "r"),
-            "acceleration",
-            subtract(multiply(power(w3, 2), reach), divide(multiply(power(w1, 2), arm), reach)),
-        ),
+        formula("f.a.k", Symbol("a", "k"), "acceleration", multiply(2, w3, "f.v.r")),
+        formula("f.a.r", Symbol("a", "r"), "acceleration", sliding),
         formula("f.a.D.n", Symbol("a", "D", "n"), "acceleration", multiply(power(w3, 2), "l.CD")),
         formula("f.a.D.t", Symbol("a", "D", "τ"), "acceleration", multiply("f.eps.3", "l.CD")),
         formula(
@@ -151,8 +157,11 @@ def swing_items(sine: Expression) -> tuple[Item, ...]:
     )
 
 
-COMPARED = tuple(
-    (plan, f"f.{plan}") for plan in ("omega.3", "v.B3B", "v.D", "a.B3B.k", "eps.3", "a.B3B.r", "a.D")
+COMPARED = (
+    *((plan, f"f.{plan}") for plan in ("omega.3", "v.D", "eps.3", "a.D")),
+    ("v.B3B", "f.v.r"),
+    ("a.B3B.k", "f.a.k"),
+    ("a.B3B.r", "f.a.r"),
 )
 """Plan quantities and the closed formulas that must give the same sizes."""
 
@@ -176,10 +185,23 @@ def scaled(items: Iterable[Item], speed: float, crank: float) -> tuple[Item, ...
     )
 
 
-def closure(crank: Symbol, centres: Symbol) -> tuple[Chain, Chain]:
-    """The triangle of crank, centres and lever: S cos φ₃ = r cos φ₁, S sin φ₃ = d + r sin φ₁."""
+def equations(r: Symbol, d: Symbol) -> dict[str, tuple[Chain, ...]]:
+    """The triangle ABC on x and y, along and across the lever, and what its derivatives say of the lever."""
     reach, first, third = Symbol("S"), Symbol("φ", "1"), Symbol("φ", "3")
-    return (
-        Chain((multiply(reach, call("cos", third)), multiply(crank, call("cos", first)))),
-        Chain((multiply(reach, call("sin", third)), add(centres, multiply(crank, call("sin", first))))),
-    )
+    w1, w3, slide, between = Symbol("ω", "1"), Symbol("ω", "3"), Symbol("v", "r"), subtract(first, third)
+    turned = add(multiply(reach, Symbol("ε", "3")), multiply(2, slide, w3))
+    return {
+        "closure": (
+            Chain((multiply(reach, call("cos", third)), multiply(r, call("cos", first)))),
+            Chain((multiply(reach, call("sin", third)), add(d, multiply(r, call("sin", first))))),
+        ),
+        "between": (
+            Chain((multiply(reach, call("cos", between)), add(r, multiply(d, call("sin", first))))),
+            Chain((multiply(reach, call("sin", between)), negative(multiply(d, call("cos", first))))),
+        ),
+        "velocity": (
+            Chain((multiply(reach, w3), multiply(w1, r, call("cos", between)))),
+            Chain((slide, negative(multiply(w1, r, call("sin", between))))),
+        ),
+        "acceleration": (Chain((turned, negative(multiply(power(w1, 2), r, call("sin", between))))),),
+    }

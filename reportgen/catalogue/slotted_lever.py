@@ -112,7 +112,7 @@ def machine(assignment: Assignment) -> Machine:
         outline=OUTLINE,
         paths=("D",),
         compared=slotted.COMPARED,
-        equations={"closure": slotted.closure(Symbol("l", "AB"), Symbol("l", "AC"))},
+        equations=slotted.equations(Symbol("l", "AB"), Symbol("l", "AC")),
     )
     angle = start + built.cycle_angles
     return replace(built, formulas=(*_extremes(geometry), *slotted.formulas(angle, given.speed, given.AB.si)))
