@@ -11,6 +11,7 @@ import numpy as np
 from reportgen.cycle.flywheel import Flywheel
 from reportgen.document.pictures import Drawn
 from reportgen.figures import charts
+from reportgen.figures.scene import Scene
 from reportgen.ledger.core import Ledger
 from reportgen.notation.expressions import Symbol
 
@@ -44,7 +45,7 @@ class FlywheelFigures:
 
     def _over_cycle(
         self, values: np.ndarray, name: str, levels: tuple[tuple[float, Symbol], ...] = ()
-    ) -> charts.Scene:
+    ) -> Scene:
         found, names = self._found, self.words["figure"]
         kept = np.union1d(np.arange(0, values.size, THINNED), values.size - 1)
         curve = charts.Series("", np.degrees(found.angle[kept]), values[kept])
