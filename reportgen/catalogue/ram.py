@@ -122,7 +122,7 @@ def formulas(angle: Floats, speed: float, crank: float) -> tuple[Item, ...]:
     """The closed formulas at φ₁ = `angle` [N] for a crank (m) at a speed (rad/s).
 
     Uses `l.AB`, `l.CD`, `l.DE`, `a`, `b`, `omega.1`.  Ids: `phi.A`, those of
-    `slotted.lever`, `phi.3`, `phi.4`, `f.x.E`, `f.omega.4`, `f.v.E`, `f.eps.4`, `f.a.E`.
+    `slotted.lever`, `phi.3`, `phi.4`, `f.x.E`, `f.omega.4`, `f.v.E`, `f.eps.4`, `f.a.Dx`, `f.a.E`.
     """
     items = (*slotted.lever(L1, "a"), *_places(), *_velocities(), *_accelerations())
     return (angle_item(angle), *scaled(items, speed, crank))
@@ -161,21 +161,20 @@ def _velocities() -> tuple[Item, ...]:
 
 
 def _accelerations() -> tuple[Item, ...]:
-    w3, w4, e3, e4 = "f.omega.3", "f.omega.4", "f.eps.3", "f.eps.4"
+    """That of D along x first: a_E = a_Dx − l₄(ε₄ sin φ₄ + ω₄² cos φ₄)."""
+    w3, w4, e3, e4, x = "f.omega.3", "f.omega.4", "f.eps.3", "f.eps.4", "f.a.Dx"
+    square3, square4 = power(w3, 2), power(w4, 2)
     across = add(
-        multiply(power(w3, 2), L3, _sin(3)),
+        multiply(square3, L3, _sin(3)),
         negative(multiply(e3, L3, _cos(3))),
-        multiply(power(w4, 2), L4, _sin(4)),
+        multiply(square4, L4, _sin(4)),
     )
-    along = add(
-        multiply(e3, L3, _sin(3)),
-        multiply(power(w3, 2), L3, _cos(3)),
-        multiply(e4, L4, _sin(4)),
-        multiply(power(w4, 2), L4, _cos(4)),
-    )
+    carried = negative(multiply(L3, add(multiply(e3, _sin(3)), multiply(square3, _cos(3)))))
+    along = subtract(x, multiply(L4, add(multiply(e4, _sin(4)), multiply(square4, _cos(4)))))
     return (
         formula(e4, Symbol("ε", "4"), "angular acceleration", divide(across, multiply(L4, _cos(4)))),
-        formula("f.a.E", Symbol("a", "E"), "acceleration", negative(along)),
+        formula(x, Symbol("a", "Dx"), "acceleration", carried),
+        formula("f.a.E", Symbol("a", "E"), "acceleration", along),
     )
 
 

@@ -216,7 +216,9 @@ class Tables:
         """x and y of every moving point at every position of one turn, in mm; several tables where they are many."""
         analysis = self.facts.analysis
         linkage = analysis.machine.linkage
-        names = [name for name in analysis.motion.points if name not in linkage.ground]
+        # The point of a lever under a block's pin lies where the pin is.
+        under = {dyad.middle for dyad in linkage.dyads if dyad.kind == "RPR"}
+        names = [name for name in analysis.motion.points if name not in {*linkage.ground, *under}]
         count = analysis.machine.count
         heads = [symbol for name in names for symbol in (_coordinate("x", name), _coordinate("y", name))]
         values = [
