@@ -13,7 +13,7 @@ from typing import Any
 from reportgen.assignment import Assignment
 from reportgen.document.facts import Facts
 from reportgen.document.flywheel import FlywheelFigures
-from reportgen.document.pictures import TEXT_BLOCK, Drawn, Pictures, beside_one_another
+from reportgen.document.pictures import Drawn, Pictures, TEXT_BLOCK, beside_one_another, on_paper
 from reportgen.document.views import GroupView, known_part, sought_part
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
 from reportgen.figures.sheet import sheets
@@ -138,7 +138,7 @@ class Drawings:
 
     def forces(self, k: int, group: GroupView) -> Drawn:
         assert group.polygon is not None
-        return Drawn((plan(self.force_plan(group.polygon, k)),))
+        return on_paper(plan(self.force_plan(group.polygon, k)))
 
     def force_stages(self, k: int, group: GroupView) -> Drawn:
         """The force plan step by step: loads, components found by moments, closing sides, what is read."""
