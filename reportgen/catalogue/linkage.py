@@ -22,15 +22,16 @@ from reportgen.catalogue.machine import Applied, Item, Machine, Torque, lettered
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import Linkage
 from reportgen.notation.expressions import Symbol
+from reportgen.notation.numbers import nice_up
 
 KIND = "linkage"
 TITLES = {"vi": "Cơ cấu phẳng nhiều khâu", "en": "Plane linkage"}
 TURNS = 1
 """A cycle of two turns counts the second turn's positions among those added to the first."""
 
-DRAWN_CRANKS = (0.05, 0.04, 0.03, 0.025, 0.02, 0.015, 0.0125, 0.01)
-"""Drawn lengths of a crank (m on paper), the best first."""
-BOX = (0.245, 0.300)
+LARGEST_CRANK = 0.05
+"""A crank is drawn no longer than this (m on paper)."""
+BOX = (0.210, 0.260)
 """What a mechanism may take of a large page (m)."""
 STEPS = 72
 
@@ -188,13 +189,8 @@ def _driver_items(given: Parameters, made: Linkage, built: Machine, drawn: float
 
 
 def _drawn(built: Machine, crank: float) -> float:
-    """The greatest drawn length of the crank with which the mechanism stays in its box on paper."""
+    """The drawn length of the crank (m): μ_l is the least of the series with which the mechanism fits its box."""
     motion = _motion_at(built)(np.linspace(0.0, FULL_TURN, STEPS))
     places = np.array([point.p for point in motion.points.values()])
     width, height = np.ptp(places.real), np.ptp(places.imag)
-    fits = (
-        paper
-        for paper in DRAWN_CRANKS
-        if width * paper / crank <= BOX[0] and height * paper / crank <= BOX[1]
-    )
-    return next(fits, DRAWN_CRANKS[-1])
+    return crank / nice_up(max(width / BOX[0], height / BOX[1], crank / LARGEST_CRANK))

@@ -94,6 +94,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...]) -> dict[str, Any]:
         "points": points(given),
         "motions": tuple(_motions(given)),
         "arms": arms,
+        "bodies": bool(given.masses),
         "loads": tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True)),
         "load_ids": loads,
     }
