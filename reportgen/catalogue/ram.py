@@ -5,8 +5,8 @@ to A, φ are angles from x, a = l_AC, b the height of the ram's line over C, S =
 S cos φ₃ = l₁ cos φ₁, S sin φ₃ = a + l₁ sin φ₁, l₃ sin φ₃ + l₄ sin φ₄ = b, x_E = l₃ cos φ₃ + l₄ cos φ₄:
 ω₃, v_r = Ṡ and ε₃ as in `slotted`;  ω₄ = −ω₃l₃ cos φ₃/(l₄ cos φ₄);
 v_E = −(ω₃l₃ sin φ₃ + ω₄l₄ sin φ₄);
-ε₄ = (ω₃²l₃ sin φ₃ − ε₃l₃ cos φ₃ + ω₄²l₄ sin φ₄)/(l₄ cos φ₄);
-a_E = −(ε₃l₃ sin φ₃ + ω₃²l₃ cos φ₃ + ε₄l₄ sin φ₄ + ω₄²l₄ cos φ₄).
+ε₄ = l₃(ω₃² sin φ₃ − ε₃ cos φ₃)/(l₄ cos φ₄) + ω₄² tan φ₄;
+a_Dx = −l₃(ε₃ sin φ₃ + ω₃² cos φ₃);  a_E = a_Dx − l₄(ε₄ sin φ₄ + ω₄² cos φ₄).
 """
 
 from __future__ import annotations
@@ -164,15 +164,14 @@ def _accelerations() -> tuple[Item, ...]:
     """That of D along x first: a_E = a_Dx − l₄(ε₄ sin φ₄ + ω₄² cos φ₄)."""
     w3, w4, e3, e4, x = "f.omega.3", "f.omega.4", "f.eps.3", "f.eps.4", "f.a.Dx"
     square3, square4 = power(w3, 2), power(w4, 2)
-    across = add(
-        multiply(square3, L3, _sin(3)),
-        negative(multiply(e3, L3, _cos(3))),
-        multiply(square4, L4, _sin(4)),
+    turned = subtract(multiply(square3, _sin(3)), multiply(e3, _cos(3)))
+    turning = add(
+        divide(multiply(L3, turned), multiply(L4, _cos(4))), multiply(square4, call("tan", "phi.4"))
     )
     carried = negative(multiply(L3, add(multiply(e3, _sin(3)), multiply(square3, _cos(3)))))
     along = subtract(x, multiply(L4, add(multiply(e4, _sin(4)), multiply(square4, _cos(4)))))
     return (
-        formula(e4, Symbol("ε", "4"), "angular acceleration", divide(across, multiply(L4, _cos(4)))),
+        formula(e4, Symbol("ε", "4"), "angular acceleration", turning),
         formula(x, Symbol("a", "Dx"), "acceleration", carried),
         formula("f.a.E", Symbol("a", "E"), "acceleration", along),
     )
