@@ -169,9 +169,19 @@ KINEMATICS = (
     "dimensions",
     "positions",
     "velocity",
+    "summary",
     "acceleration",
 )
 CLOSING = ("conclusion", "references", "checks")
+
+
+SUMMARY = (
+    ("v.A", "v.S1", "omega.1"),
+    ("v.C", "v.S2", "omega.2"),
+    ("v.E", "v.S3", "omega.3"),
+    ("v.F", "v.S4", "omega.4"),
+)
+"""The table of velocities: a joint, a mass centre and an angular velocity in each row."""
 
 
 def machine(assignment: Assignment) -> Machine:
@@ -193,6 +203,7 @@ def machine(assignment: Assignment) -> Machine:
         outline=_outline(bool(linkage.inertias), bool(applied)),
         applied=applied,
         paths=("S2", "E", "S4"),
+        facts={"summary": SUMMARY},
     )
 
 

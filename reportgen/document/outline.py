@@ -146,9 +146,9 @@ def _names(
         for owner, listed in (
             (
                 tables,
-                "given_table indicator_table force_table load_table joints_table lengths_table coordinates_table "
-                "dead_centres_table labels_table rotation_table strokes_table lever_table checks_table "
-                "mobility_line tables",
+                "given_table indicator_table force_table load_table summary_table joints_table lengths_table "
+                "coordinates_table dead_centres_table labels_table rotation_table strokes_table lever_table "
+                "checks_table mobility_line tables",
             ),
             (
                 facts,

@@ -305,6 +305,14 @@ class Tables:
         number = self.facts.ledger.number(id, k, size=True)
         return (Value(Number(number.value, number.decimals)),)
 
+    def summary_table(
+        self, key: str, caption: str, head: Sequence[str], ids: Sequence[Sequence[str]], k: int
+    ) -> Table:
+        """Quantities at one position as "symbol = value", in rows of as many as there are heads."""
+        ledger = self.facts.ledger
+        rows = [[Chain((ledger.symbol(id), ledger.number(id, k))) for id in row] for row in ids]
+        return self.voice.list_table(key, caption, head, rows, (46.0,) * len(head))
+
     def strokes_table(self, key: str, caption: str, first: str, positions: str) -> Table:
         """The stroke of every piston between dead centres of any of them."""
         gas = self.facts.analysis.gas

@@ -76,12 +76,20 @@ def mathematics(node: Expression, language: Language) -> str:
             return _call(node, "", language)
         case Matrix(rows):
             lines = (" & ".join(mathematics(entry, language) for entry in row) for row in rows)
-            return r"\begin{bmatrix}" + r" \\ ".join(lines) + r"\end{bmatrix}"
+            return _bracketed(r"\begin{matrix}" + r" \\ ".join(lines) + r"\end{matrix}")
         case Chain(parts, note):
             printed = r" \relbreak= ".join(mathematics(part, language) for part in parts)
             return printed + (rf" \relbreak\quad\text{{({escape(note)})}}" if note else "")
         case VectorEquation():
             return " ".join(f"{sign} {_symbol(term.symbol)}" for sign, term in _signed(node))
+
+
+def _bracketed(inner: str) -> str:
+    """Square brackets as tall as what they hold; copied from the page they are single characters."""
+    strut = rf"\vphantom{{{inner}}}"
+    opening = rf"\mathopen{{\reportactual{{005B}}{{\left[{strut}\right.\kern-\nulldelimiterspace}}}}"
+    closing = rf"\mathclose{{\reportactual{{005D}}{{\kern-\nulldelimiterspace\left.{strut}\right]}}}}"
+    return opening + inner + closing
 
 
 def aligned(node: Expression, language: Language) -> tuple[str, str]:

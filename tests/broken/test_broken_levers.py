@@ -1,79 +1,107 @@
-"""Wrong files of the slotted lever and the shaper: what their own keys and checks refuse, and in which words."""
+"""Wrong files of the four-bar linkage and the six-link lever mechanism, and machines that cannot go round."""
 
 from __future__ import annotations
 
+import math
+import re
 from pathlib import Path
 
 import pytest
 
 from reportgen.catalogue import check
 
-SHAPER = """\
-kind: shaper
+FOUR = """\
+kind: four-bar
+report: {language: en}
 parameters:
-  a: 270 mm
-  b: 520 mm
-  l3: 550 mm
-  l4: 100 mm
-  H: 420 mm
-  n: 89 rpm
-  cutting: {F: 1000 N, free: 0.05}
+  AB: 120 mm
+  BC: 340 mm
+  CD: 280 mm
+  AD: 400 mm
+  omega1: 20 rad/s
+  E: {along: 150 mm, across: 110 mm}
+  torque: {M: 40 N m}
 """
-LEVER = """\
-kind: slotted-lever
+SIX = """\
+kind: lever-six-bar
+report: {language: en}
 parameters:
-  AB: 40 mm
-  AC: 80 mm
-  CD: 150 mm
-  omega1: 1 rad/s
+  AB: 34 mm
+  AC: 90 mm
+  CD: 60 mm
+  CE: 30 mm
+  EF: 110 mm
+  D: {x: -10 mm, y: -106 mm}
+  guide: -73 mm
+  omega1: 89 rad/s
 """
-
-# (name, file, what is replaced, by what, the faults expected)
-EDITS = [
-    ("no stroke", SHAPER, "  H: 420 mm\n", "", ["2:1 missing-key"]),
-    ("speed twice", SHAPER, "  n: 89 rpm", "  n: 89 rpm\n  omega1: 9 rad/s", ["9:3 both-given"]),
-    ("weight and mass", SHAPER, "  n: 89 rpm", "  n: 89 rpm\n  G3: 1 N\n  m3: 1 kg", ["10:3 both-given"]),
-    ("force without unit", SHAPER, "F: 1000 N", "F: 1000", ["9:16 missing-unit"]),
-    ("nothing left to cut", SHAPER, "free: 0.05", "free: 0.5", ["9:30 out-of-range"]),
-    ("free without force", SHAPER, "{F: 1000 N, free: 0.05}", "{free: 0.05}", ["9:3 missing-key"]),
-    ("rocker that is a crank", SHAPER, "H: 420 mm", "H: 1100 mm", ["7:6 rocker-turns"]),
-    ("rocker too short for its block", SHAPER, "l3: 550 mm", "l3: 400 mm", ["5:7 leaves-slot", "6:7 never-assembled"]),
-    ("link too short", SHAPER, "l4: 100 mm", "l4: 25 mm", ["6:7 no-assembly"]),
-    ("link far too short", SHAPER, "b: 520 mm", "b: 700 mm", ["6:7 never-assembled"]),
-    ("link square to its guide", SHAPER, "l4: 100 mm", "l4: 30 mm", ["6:7 dead-point"]),
-    ("block on the pivot", LEVER, "AB: 40 mm", "AB: 80 mm", ["3:7 block-on-pivot", "5:7 leaves-slot"]),
-    ("lever too short for its block", LEVER, "CD: 150 mm", "CD: 120 mm", ["5:7 leaves-slot"]),
-    ("no lever", LEVER, "  CD: 150 mm\n", "", ["2:1 missing-key"]),
-    ("no speed", LEVER, "  omega1: 1 rad/s\n", "", ["2:1 missing-key"]),
+CASES = [
+    # keys and values
+    ("no speed", FOUR, "  omega1: 20 rad/s\n", "", ["3:1 missing-key"]),
+    ("speed twice", FOUR, "omega1: 20 rad/s", "omega1: 20 rad/s\n  n: 9 rpm", ["9:3 both-given"]),
+    ("weight and mass", FOUR, "BC: 340 mm", "BC: 340 mm\n  G2: 3 N\n  m2: 1 kg", ["7:3 both-given"]),
+    ("branch of no name", FOUR, "CD: 280 mm", "CD: 280 mm\n  branch: upper", ["7:11 choice"]),
+    ("half a coupler point", FOUR, "{along: 150 mm, across: 110 mm}", "{across: 110 mm}", ["9:3 missing-key"]),
+    ("torque in newtons", FOUR, "M: 40 N m", "M: 40 N", ["10:15 wrong-unit"]),
+    ("force without direction", FOUR, "torque: {M: 40 N m}", "force: {P: 40 N}", ["10:3 missing-key"]),
+    ("an indicator", FOUR, "kind: four-bar", "kind: four-bar\nindicator: {}", ["2:1 unknown-key"]),
+    ("no fixed point", SIX, "  D: {x: -10 mm, y: -106 mm}\n", "", ["3:1 missing-key"]),
+    ("E beyond A", SIX, "CE: 30 mm", "CE: 95 mm", ["7:7 out-of-range"]),
+    ("side of no name", SIX, "CE: 30 mm", "CE: 30 mm\n  F: above", ["8:6 choice"]),
+    # machines that do not go round
+    ("crank too long", FOUR, "AB: 120 mm", "AB: 300 mm", ["5:7 no-assembly"]),
+    ("links too short", FOUR, "AD: 400 mm", "AD: 900 mm", ["5:7 never-assembled"]),
+    ("change point", FOUR, "BC: 340 mm", "BC: 240 mm", ["5:7 dead-point"]),
+    ("no rocker", FOUR.replace("120 mm", "300 mm"), "AD: 400 mm", "AD: 100 mm\n  link3: rocker", ["8:10 not-a-rocker"]),
+    ("no crank", FOUR, "AD: 400 mm", "AD: 400 mm\n  link3: crank", ["8:10 not-a-crank"]),
+    ("coupler too short", SIX, "AC: 90 mm", "AC: 70 mm", ["6:7 no-assembly"]),
+    ("rod too short", SIX, "EF: 110 mm", "EF: 30 mm", ["8:7 no-assembly"]),
+    ("guide out of reach", SIX, "guide: -73 mm", "guide: 300 mm", ["8:7 never-assembled"]),
+    (
+        "rocker that is a crank",
+        SIX.replace("AB: 34 mm", "AB: 140 mm").replace("CD: 60 mm", "CD: 130 mm").replace("110 mm", "600 mm"),
+        "AC: 90 mm",
+        "AC: 120 mm",
+        ["6:7 not-a-rocker"],
+    ),
 ]
 
 
-def write(folder: Path, text: str) -> Path:
-    file = folder / "a.yaml"
-    file.write_text(text, encoding="utf-8")
-    return file
-
-
-@pytest.mark.parametrize(("base", "old", "new", "expected"), [e[1:] for e in EDITS], ids=[e[0] for e in EDITS])
-def test_edit_of_a_right_file(tmp_path: Path, base: str, old: str, new: str, expected: list[str]) -> None:
-    assert old in base
-    found = check(write(tmp_path, base.replace(old, new, 1)), "en")
-    assert [f"{p.mark.line}:{p.mark.column} {p.code}" for p in found] == expected
-
-
-@pytest.mark.parametrize("text", [SHAPER, LEVER], ids=["shaper", "slotted-lever"])
-def test_the_files_they_start_from_are_right(tmp_path: Path, text: str) -> None:
-    assert check(write(tmp_path, text)) == []
-
-
+@pytest.mark.parametrize(("base", "old", "new", "expected"), [case[1:] for case in CASES], ids=[c[0] for c in CASES])
 @pytest.mark.parametrize("language", ["vi", "en"])
-def test_link_group_and_angle_are_named(tmp_path: Path, language: str) -> None:
-    """A rocker of 400 mm ends before the block at its farthest, 270 + 141.75 mm, the crank upright."""
-    text = SHAPER.replace("l3: 550 mm", "l3: 400 mm").replace("b: 520 mm", "b: 385 mm")
-    (problem,) = check(write(tmp_path, text), "vi" if language == "vi" else "en")
-    for said in ("(2, 3)", "90°", "411.75 mm", "400 mm"):
-        assert said in problem.message
-    text = SHAPER.replace("l4: 100 mm", "l4: 25 mm")
-    (problem,) = check(write(tmp_path, text), "vi" if language == "vi" else "en")
-    assert "4, 5" in problem.message
-    assert "DE" in problem.message
+def test_faults(tmp_path: Path, base: str, old: str, new: str, expected: list[str], language: str) -> None:
+    assert old in base
+    file = tmp_path / "a.yaml"
+    file.write_text(base.replace(old, new).replace("language: en", f"language: {language}"))
+    found = check(file)
+    assert [f"{fault.mark.line}:{fault.mark.column} {fault.code}" for fault in found] == expected
+    assert all("{" not in fault.message for fault in found)
+
+
+def test_bases_are_in_order(tmp_path: Path) -> None:
+    for base in (FOUR, SIX):
+        file = tmp_path / "a.yaml"
+        file.write_text(base)
+        assert check(file) == []
+
+
+def test_the_range_of_the_crank_is_told(tmp_path: Path) -> None:
+    """With AB = 300 mm, BD would have to be longer than BC + CD = 620 mm beyond a crank angle."""
+    file = tmp_path / "a.yaml"
+    file.write_text(FOUR.replace("AB: 120 mm", "AB: 300 mm"))
+    (fault,) = check(file)
+    assert "(2, 3)" in fault.message
+    assert "BC, CD" in fault.message
+    numbers = [float(number) for number in re.findall(r"(-?[\d.]+)°", fault.message)]
+    limit = math.degrees(math.acos((300**2 + 400**2 - 620**2) / (2 * 300 * 400)))
+    # Printed with four figures.
+    assert sorted(numbers) == pytest.approx([-limit, limit], abs=0.05)
+
+
+def test_a_dead_point_is_told_with_its_angle(tmp_path: Path) -> None:
+    """AB + AD = BC + CD: at 180° coupler and link 3 lie in one line."""
+    file = tmp_path / "a.yaml"
+    file.write_text(FOUR.replace("BC: 340 mm", "BC: 240 mm"))
+    (fault,) = check(file)
+    angle = float(re.findall(r"(-?[\d.]+)°", fault.message)[0])
+    assert abs(angle) == pytest.approx(180, abs=0.1)
