@@ -32,6 +32,8 @@ from reportgen.notation.numbers import write
 POINT = 25.4 / 72.27
 """One printer's point in mm."""
 SCRIPT = 0.7
+SMALL_CUT = 1.17
+"""Letters cut for 6 points, as LaTeX sets scripts, are so much wider than larger ones scaled down."""
 SUPER_SHIFT, SUB_SHIFT = 0.38, 0.18
 """Shift of the scripts' baselines, in font sizes."""
 OVER = 0.25
@@ -51,6 +53,9 @@ class Box:
     def beside(self, other: Box) -> Box:
         """Both boxes on one baseline."""
         return Box(self.width + other.width, max(self.height, other.height), max(self.depth, other.depth))
+
+    def wider(self, factor: float) -> Box:
+        return Box(self.width * factor, self.height, self.depth)
 
     def raised(self, by: float) -> Box:
         return Box(self.width, self.height + by, self.depth - by)
@@ -98,7 +103,8 @@ def _symbol(symbol: Symbol, em: float) -> Box:
     base = _text(symbol.base, em, ITALIC)
     if symbol.over:
         base = Box(max(base.width, 0.5 * em), base.height + OVER * em, base.depth)
-    return _scripts(base, _text(symbol.sub, small), _text(symbol.sup, small), em)
+    sub, sup = (_text(script, small).wider(SMALL_CUT) for script in (symbol.sub, symbol.sup))
+    return _scripts(base, sub, sup, em)
 
 
 def _term(term: Term, em: float) -> Box:
