@@ -169,7 +169,7 @@ def _entries() -> tuple[Item, ...]:
         "B.2": negative(multiply(AB, c1)),
     }
     items = [_entry(id, "length", definition, 0.1) for id, definition in named.items()]
-    return (*items, Item("A.det", Symbol("Δ"), "area", definition=multiply(BC, CD, _between("2", "3"))))
+    return (*items, Item("A.det", Symbol("Δ"), "product of lengths", definition=multiply(BC, CD, _between("2", "3"))))
 
 
 def _between(one: str, other: str, function: str = "sin") -> Expression:

@@ -36,6 +36,7 @@ KINDS: dict[str, Kind] = {
     "length": Kind("m", digits=4),
     "diameter": Kind("cm", 1e-2, digits=4),
     "area": Kind("cm²", 1e-4, digits=5),
+    "product of lengths": Kind("m²", digits=4),
     "segment": Kind("mm", 1e-3, decimals=2),
     "length scale": Kind("m/mm", 1e3, digits=4),
     "velocity scale": Kind("m/(s·mm)", 1e3, digits=6),
