@@ -118,6 +118,7 @@ class Kind:
     turns: int = 1
     checks: tuple[Check, ...] = ()
     added: Added = none_added
+    indicator_optional: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,8 +184,11 @@ def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
     }
     if kind is None:
         return common
-    indicator = {"indicator": (kind.indicator, ...)} if kind.indicator is not None else {}
-    return {**common, "parameters": (kind.parameters, ...), **indicator}
+    parameters = {**common, "parameters": (kind.parameters, ...)}
+    if kind.indicator is None:
+        return parameters
+    optional = (kind.indicator | None, None)
+    return {**parameters, "indicator": optional if kind.indicator_optional else (kind.indicator, ...)}
 
 
 def file_model(kind: Kind) -> type[Part]:

@@ -27,6 +27,7 @@ MODULES: Mapping[str, str] = {
     "lever-six-bar": "lever_six_bar",
     "slotted-lever": "slotted_lever",
     "shaper": "shaper",
+    "engine-v": "engine_v",
     "linkage": "linkage",
 }
 """Module of this package by kind; a new machine adds its line here and nowhere else."""
@@ -47,6 +48,7 @@ def kind(name: str) -> Kind:
         machine.TURNS,
         machine.CHECKS,
         getattr(machine, "added_positions", none_added),
+        getattr(machine, "INDICATOR_OPTIONAL", False),
     )
 
 
