@@ -13,7 +13,7 @@ from typing import Any
 from reportgen.assignment import Assignment
 from reportgen.document.facts import Facts
 from reportgen.document.flywheel import FlywheelFigures
-from reportgen.document.pictures import Drawn, Pictures, TEXT_BLOCK, beside_one_another, on_paper
+from reportgen.document.pictures import TEXT_BLOCK, Drawn, Pictures, beside_one_another, on_paper
 from reportgen.document.views import GroupView, known_part, sought_part
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
 from reportgen.figures.sheet import sheets
