@@ -18,6 +18,7 @@ from reportgen.document.views import GroupView
 from reportgen.figures import charts, indicator
 from reportgen.figures.actions import ArmOf, Couple, Force
 from reportgen.figures.bodies import bodies
+from reportgen.figures.coriolis import Sliding, coriolis
 from reportgen.figures.draft import Draft
 from reportgen.figures.labels import label
 from reportgen.figures.lever import lever
@@ -29,6 +30,7 @@ from reportgen.figures.sheet import sheets
 from reportgen.figures.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces import Polygon
+from reportgen.ledger.kinematics import Slide
 from reportgen.ledger.kinematics import scheme as scheme_of
 from reportgen.mechanism.loads import Load, as_single_force, percussion_meeting
 from reportgen.mechanism.motion import Motion, solve_motion
@@ -97,6 +99,7 @@ class Pictures:
             "positions": self.positions,
             "extremes": self.extremes,
             "indicator": self.indicator,
+            "coriolis": self.coriolis,
             "bodies": self.bodies,
             "lever": self.lever,
             "motion": self.motion,
@@ -256,6 +259,20 @@ class Pictures:
             for k in range(machine.positions)
         ]
         return on_paper(self._position_plan(indicator.indicator(frame, branches, readings)))
+
+    def coriolis(self, k: int, side: Slide) -> Drawn:
+        """The relative velocity in a turning guide, turned by 90° in the sense of its ω."""
+        ledger, pair = self.ledger, f"{side.point}{side.shown}"
+        omega = float(ledger[f"turn.omega.{side.turning}"].at(k).real)
+        base = complex(self.analysis.motion.points[side.base].v[k - 1])
+        relative = complex(self.analysis.motion.points[side.point].v[k - 1]) - base
+        sliding = Sliding(
+            symbols.point(side.point),
+            (Symbol("v", pair, over="vector"), relative),
+            (Symbol("a", pair, "k", "vector"), 1j * omega * relative),
+            (ledger.symbol(f"omega.{side.turning}"), float(np.sign(omega))),
+        )
+        return Drawn((coriolis(sliding),))
 
     # --- forces
 
