@@ -69,7 +69,7 @@ def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...],
     """Uneven positions and their labels; none where every position is an even one."""
     if not given.also_at or not isinstance(given.driver, linkage_file.CrankDriver):
         return (), ()
-    extra = (positions.sign * (angle.si - _start(positions)) for angle in given.also_at)
+    extra = (positions.sign * (angle.si - _start(positions)) for angle in dict.fromkeys(given.also_at))
     return lettered(positions.count, given.turns, extra)
 
 

@@ -1,0 +1,92 @@
+"""The published V engine with an articulated rod: lAB 91, lBC 253, lBD 66, lDE 196 mm, 60π rad/s, α = 50°, β = 70°."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reportgen import api
+from reportgen.analysis import Analysis, analyse
+from reportgen.catalogue import module
+
+FILE = Path(__file__).parents[2] / "assignments" / "engine-v-01.yaml"
+ALPHA, BETA = math.radians(50), math.radians(70)
+
+
+@pytest.fixture(scope="module")
+def published() -> Analysis:
+    return api.analyse(api.load(FILE))
+
+
+def test_ten_positions_eight_even_and_the_dead_points_at_50_and_230_degrees(published: Analysis) -> None:
+    turned = np.degrees(published.cycle_angle)
+    assert turned == pytest.approx([0, 45, 50, 90, 135, 180, 225, 230, 270, 315], abs=1e-9)
+    assert published.machine.labels == ("0", "1", "a", "2", "3", "4", "5", "b", "6", "7")
+    dead = np.flatnonzero(np.abs(published.motion.points["C"].v) < 1e-9)
+    assert [published.machine.labels[k] for k in dead] == ["a", "b"]
+
+
+def test_both_pistons_top_out_level(published: Analysis) -> None:
+    """Printed to 0.1 mm: 344.0 and 343.5 mm from the crank's centre."""
+    first, second = (abs(course.top) * 1e3 for course in published.machine.sliders)
+    assert first == pytest.approx(344.0, abs=0.05)
+    assert second == pytest.approx(343.5, abs=0.05)
+
+
+def by_hand(phi: float) -> tuple[float, float]:
+    """The pistons' distances (m) from A by Pythagoras, D on the line BC."""
+    pin = 0.091 * cmath.exp(1j * phi)
+    in_first = pin * cmath.exp(-1j * ALPHA)
+    first = in_first.real + math.sqrt(0.253**2 - in_first.imag**2)
+    piston = first * cmath.exp(1j * ALPHA)
+    joint = pin + (piston - pin) * 66 / 253
+    in_second = joint * cmath.exp(-1j * BETA)
+    return first, in_second.real + math.sqrt(0.196**2 - in_second.imag**2)
+
+
+def test_the_torque_balances_the_power_of_both_forces(published: Analysis) -> None:
+    """M dφ = P_C dx_C + P_E dx_E; sixth-order differences over 0.01 rad are good to 1e-10."""
+    step = 0.01
+    for phi, torque in zip(published.motion.driver, published.torque, strict=True):
+        weights = {1: 3 / 4, 2: -3 / 20, 3: 1 / 60}
+        slopes = [
+            sum(w * (by_hand(phi + n * step)[i] - by_hand(phi - n * step)[i]) for n, w in weights.items()) / step
+            for i in (0, 1)
+        ]
+        # The forces push inwards, so that moving out needs the torque.
+        assert torque == pytest.approx(5600 * slopes[0] + 2200 * slopes[1], abs=1e-6)
+
+
+def test_closed_formulas_give_the_plans(published: Analysis) -> None:
+    from reportgen.ledger.report import keep
+
+    books = keep(published)
+    for plan, formula in published.machine.compared:
+        one, other = (np.abs(books.ledger[id].values) for id in (plan, formula))
+        assert one == pytest.approx(other, abs=1e-9 * other.max()), plan
+
+
+@pytest.mark.parametrize("direction", ["anticlockwise", "clockwise"])
+def test_both_rods_on_one_pin(tmp_path: Path, direction: str) -> None:
+    """The plain V: with equal rods and masses, cylinder E repeats cylinder C by the angle between them later."""
+    path = tmp_path / "v.yaml"
+    path.write_text(
+        "kind: engine-v\n"
+        f"positions: {{count: 12, direction: {direction}}}\n"
+        "parameters: {AB: 60 mm, BC: 200 mm, DE: 200 mm, alpha: 30 deg, beta: 90 deg, omega1: 100 rad/s,\n"
+        "  G2: 20 N, G3: 15 N, G4: 20 N, G5: 15 N, PC: 100 N, PE: 100 N}\n",
+        encoding="utf-8",
+    )
+    machine = module("engine-v").machine(api.load(path))
+    turn = machine.turn
+    angles = np.linspace(0.0, 2 * math.pi, 60, endpoint=False)
+    one, other = analyse(machine, angles), analyse(machine, np.mod(angles + turn * math.radians(60), 2 * math.pi))
+    axis = {"C": cmath.exp(1j * math.radians(30)), "E": 1j}
+    for part in ("p", "v", "a"):
+        first = getattr(one.motion.points["C"], part) / axis["C"]
+        second = getattr(other.motion.points["E"], part) / axis["E"]
+        assert second == pytest.approx(first, abs=1e-9 * np.abs(first).max())
