@@ -76,11 +76,12 @@ def on_paper(scene: Scene) -> Drawn:
 
 
 def beside_one_another(*scenes: Scene) -> Drawn:
-    """Scenes close together on one piece of paper if they fit a text block so, else as they are."""
+    """Scenes close together if they fit a text block so, else as they are; on pages of their own if they must."""
     together = sheets(scenes, *TEXT_BLOCK, trim=CLOSE)
     if len(together) == 1 and together[0].width <= TEXT_BLOCK[0] and together[0].height <= TEXT_BLOCK[1]:
         return Drawn(together)
-    return Drawn(scenes)
+    large = any(scene.width > TEXT_BLOCK[0] or scene.height > TEXT_BLOCK[1] for scene in scenes)
+    return Drawn(scenes, A3_ACROSS if large else None)
 
 
 @dataclass(frozen=True)
