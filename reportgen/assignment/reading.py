@@ -188,6 +188,11 @@ def _real(location: Where, content: Any) -> Iterator[str | int]:
 
 def _without(content: Any, places: Sequence[Where]) -> Any:
     """The content without the keys at `places`."""
+    if isinstance(content, list):
+        return [
+            _without(value, [place[1:] for place in places if place[0] == index and len(place) > 1])
+            for index, value in enumerate(content)
+        ]
     if not isinstance(content, dict):
         return content
     first = {place[0] for place in places if len(place) == 1}

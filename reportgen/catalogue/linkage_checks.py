@@ -30,7 +30,8 @@ def check(draft: Draft) -> Iterator[Finding]:
     given: file.Parameters | None = draft.sections.get("parameters")
     if given is None:
         return
-    told = [*_structure(given), *_bodies(given), *_loads(given), *_declared(given)]
+    told = [*_structure(given), *_bodies(given), *_loads(given)]
+    told += [] if told else _declared(given)
     yield from told
     if told:
         return
@@ -123,9 +124,10 @@ def _group(given: file.Parameters, group: file.Group, at: Where, placed: _Placed
     yield from placed.enter(group.joints[middle], (*joints, middle))
     if group.type == "RPR":
         placed.passing.add(group.joints[middle])
-    placed.links |= set(group.links)
-    for link in group.links:
-        yield from _fixed_points(given, link, placed)
+    for link in dict.fromkeys(group.links):
+        if link not in placed.links:
+            placed.links.add(link)
+            yield from _fixed_points(given, link, placed)
 
 
 def _guides(group: file.Group, at: Where) -> list[tuple[file.Guide, Where]]:
