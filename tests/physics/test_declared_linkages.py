@@ -1,0 +1,108 @@
+"""The V engine and the linkage of the user's own against the independent witness, all loads of the file included."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import linkages as made
+import newton_euler as ne
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+from reportgen import api
+from reportgen.analysis import Analysis
+
+AGREEMENT = 1e-9
+"""Of each quantity's greatest size over the positions."""
+CONDITION = 1e4
+"""The Jacobian mixes metres and radians: small machines condition it worse, and ε·10⁴·10 is still 1e-11."""
+EIGHT = Path(__file__).parents[2] / "assignments" / "linkage-8.yaml"
+quick = settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
+
+
+def prove(analysis: Analysis) -> None:
+    """Rates, reactions and the driver's effort at every position; weights and applied loads as plain numbers."""
+    linkage, motion = analysis.machine.linkage, analysis.motion
+    bodies, joints = made.bodies(linkage), made.joints(linkage)
+    keys = made.reaction_keys(linkage)
+    pairs: dict[str, list[tuple[complex, complex]]] = {}
+    for k in range(len(analysis.cycle_angle)):
+        pose = {
+            link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k]))
+            for link in linkage.links
+        }
+        loads = [
+            (load.link, complex(load.force[k]), complex(load.point[k]), float(load.couple[k]))
+            for load in (*analysis.weights, *analysis.applied)
+        ]
+        answer = ne.solve(bodies, joints, True, motion.rate, pose, loads, CONDITION)
+        assert answer is not None
+        assert answer.residual < 1e-12
+        for link in linkage.links:
+            pairs.setdefault("v", []).append((motion.origins[link].v[k], answer.velocity[link][0]))
+            pairs.setdefault("a", []).append((motion.origins[link].a[k], answer.acceleration[link][0]))
+            pairs.setdefault("ω", []).append((motion.links[link].omega[k], answer.velocity[link][1]))
+            pairs.setdefault("ε", []).append((motion.links[link].epsilon[k], answer.acceleration[link][1]))
+        for key, (force, _) in zip(keys, answer.wrenches, strict=True):
+            pairs.setdefault("R", []).append((analysis.forces.reactions[key].force[k], force))
+        pairs.setdefault("M", []).append((analysis.torque[k], answer.effort))
+        pairs.setdefault("M", []).append((analysis.torque_by_work[k], answer.effort))
+    for name, found in pairs.items():
+        greatest = max(abs(theirs) for _, theirs in found)
+        assert max(abs(ours - theirs) for ours, theirs in found) <= AGREEMENT * greatest, name
+
+
+def whole(first: int, last: int) -> st.SearchStrategy[int]:
+    return st.integers(first, last)
+
+
+@quick
+@given(
+    crank=whole(40, 100),
+    rod=whole(240, 400),
+    articulation=whole(0, 80),
+    second=whole(190, 300),
+    axes=st.tuples(whole(0, 90), whole(20, 120)),
+    rpm=whole(100, 4000),
+    direction=st.sampled_from(("anticlockwise", "clockwise")),
+)
+def test_v_engine(
+    tmp_path_factory: pytest.TempPathFactory,
+    crank: int,
+    rod: int,
+    articulation: int,
+    second: int,
+    axes: tuple[int, int],
+    rpm: int,
+    direction: str,
+) -> None:
+    path = tmp_path_factory.mktemp("v") / "v.yaml"
+    path.write_text(
+        f"kind: engine-v\npositions: {{direction: {direction}}}\n"
+        f"parameters: {{AB: {crank} mm, BC: {rod} mm, BD: {articulation} mm, DE: {second} mm,\n"
+        f"  alpha: {axes[0]} deg, beta: {axes[0] + axes[1]} deg, n: {rpm} rpm, PC: 5600 N, PE: 2200 N,\n"
+        "  G2: 25 N, s2: 0.3, G3: 20 N, m4: 1.5 kg, J4: 0.01 kg m2, G5: 18 N}\n",
+        encoding="utf-8",
+    )
+    assume(not api.check(path))
+    prove(api.analyse(api.load(path)))
+
+
+@quick
+@given(length=whole(40, 55), rpm=whole(10, 1000), direction=st.sampled_from(("anticlockwise", "clockwise")))
+def test_eight_links(tmp_path_factory: pytest.TempPathFactory, length: int, rpm: int, direction: str) -> None:
+    text = EIGHT.read_text(encoding="utf-8")
+    for old, new in (
+        ("length: 50 mm", f"length: {length} mm"),
+        ("n: 120 rpm", f"n: {rpm} rpm"),
+        ("direction: anticlockwise", f"direction: {direction}"),
+    ):
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    path = tmp_path_factory.mktemp("eight") / "eight.yaml"
+    path.write_text(text, encoding="utf-8")
+    assume(not api.check(path))
+    prove(api.analyse(api.load(path)))
+    assert np.isfinite(api.analyse(api.load(path)).torque).all()
