@@ -155,7 +155,7 @@ def _work(machine: Machine) -> float:
             return np.asarray(force.law.value(angle, motion) * along)
 
         corners = force.law.breaks(partial(motion_at, machine))
-        total += mean_over(power, np.mod(list(corners), whole), 0.0, whole) * whole / machine.speed
+        total += mean_over(power, np.mod(list(corners), whole), 0.0, whole) * machine.way / machine.speed
     for torque in machine.torques:
 
         def turning(angle: np.ndarray, torque: Torque = torque) -> np.ndarray:
@@ -163,7 +163,7 @@ def _work(machine: Machine) -> float:
             return np.asarray(torque.law.value(angle, motion) * motion.links[torque.link].omega)
 
         corners = torque.law.breaks(partial(motion_at, machine))
-        total += mean_over(turning, np.mod(list(corners), whole), 0.0, whole) * whole / machine.speed
+        total += mean_over(turning, np.mod(list(corners), whole), 0.0, whole) * machine.way / machine.speed
     return total
 
 
@@ -174,18 +174,32 @@ def _indicated(machine: Machine, piston: Piston) -> float:
     return indicated_work(piston.indicator, piston.area, piston.stroke, rate)
 
 
+def _energy_gained(machine: Machine) -> float:
+    """What the links gain in energy of motion and height over the way of a sliding driver (J); 0 over a turn."""
+    if not machine.span:
+        return 0.0
+    linkage, motion = machine.linkage, motion_at(machine, np.array([0.0, FULL_TURN]))
+    total = np.zeros(2)
+    for body in linkage.inertias:
+        centre = motion.points[body.centre]
+        height = np.real(np.conj(linkage.gravity) * centre.p)
+        total += body.mass * (np.abs(centre.v) ** 2 / 2 - height)
+        total += body.moment * motion.links[body.link].omega ** 2 / 2
+    return float(total[1] - total[0])
+
+
 def summarise(machine: Machine) -> Summary:
     """Mean, extremes and energy balance over the cycle: sgn(ω1)·mean(M_cb) = −W/(2π·turns)."""
     whole = machine.turns * FULL_TURN
     mean = mean_over(lambda angle: analyse(machine, angle).torque_by_work, breaks(machine), 0.0, whole)
-    work = _work(machine)
+    work, gained = _work(machine), _energy_gained(machine)
     fine = np.linspace(0.0, whole, 360 * machine.turns, endpoint=False)
     torque = analyse(machine, fine).torque
     return Summary(
         float(mean),
         abs(float(mean)) * machine.speed,
         float(work),
-        abs(machine.turn * mean + work / whole) / max(float(np.nanmax(np.abs(torque))), 1e-300),
+        abs(machine.turn * mean + (work - gained) / machine.way) / max(float(np.nanmax(np.abs(torque))), 1e-300),
         (_extreme(machine, fine, torque, -1), _extreme(machine, fine, torque, 1)),
     )
 

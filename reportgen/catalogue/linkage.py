@@ -124,7 +124,7 @@ def machine(assignment: Assignment) -> Machine:
         given=items,
         applied=tuple(load for load in loads if isinstance(load, Applied)),
         torques=tuple(load for load in loads if isinstance(load, Torque)),
-        outline=_outline(bool(made.inertias), bool(loads)),
+        outline=_outline(bool(made.inertias), bool(loads), "crank" if crank else "slide"),
         facts=linkage_told.facts(given, tuple(load.name for load in loads)),
     )
 
@@ -136,11 +136,11 @@ def _motion_at(machine: Machine) -> MotionAt:
     return motion_at
 
 
-def _outline(masses: bool, working: bool) -> tuple[str, ...]:
+def _outline(masses: bool, working: bool, driver: str) -> tuple[str, ...]:
     """Without mass and load the report ends with the kinematics."""
     if not (masses or working):
         return (*KINEMATICS, *CLOSING)
-    return (*KINEMATICS, "working", *(("loads",) if masses else ()), "groups", "crank", *CLOSING)
+    return (*KINEMATICS, "working", *(("loads",) if masses else ()), "groups", driver, *CLOSING)
 
 
 def _items(given: Parameters, made: Linkage, built: Machine, drawn: float | None) -> tuple[Item, ...]:

@@ -18,7 +18,7 @@ from reportgen.catalogue.linkage_build import linkage
 from reportgen.catalogue.reach import Member
 from reportgen.mechanism.mobility import mobility
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Linkage
+from reportgen.mechanism.structure import DRIVER, GROUND, Linkage
 from reportgen.units import Given
 
 TOP: Where = ("parameters",)
@@ -79,6 +79,8 @@ def _structure(given: file.Parameters) -> Iterator[Finding]:
     placed.points |= set(given.frame)
     at: Where = (*TOP, "driver")
     driver = given.driver
+    if isinstance(driver, file.SlideDriver) and driver.start.si == driver.end.si:
+        yield Finding("no-way", (*at, "end"), {"text": driver.end.text})
     if isinstance(driver, file.CrankDriver):
         if driver.centre not in given.frame:
             known = ", ".join(given.frame) or "–"
@@ -194,6 +196,9 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
     sliders = {link for group in given.groups for link in _rail_links(group)}
     for index, load in enumerate(given.loads):
         at = (*TOP, "loads", index)
+        if isinstance(given.driver, file.SlideDriver) and not isinstance(load, file.Constant):
+            yield Finding("needs-a-crank", (*at, "by"))
+            continue
         if isinstance(load, file.OverStroke | file.Gas):
             if load.link not in sliders:
                 yield Finding(
@@ -282,7 +287,8 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
         (group.links[0], group.links[1]): Member(_rods(group), (*TOP, "groups", index))
         for index, group in enumerate(given.groups)
     }
-    if not isinstance(made.driver, Crank):
+    if isinstance(given.driver, file.SlideDriver):
+        yield from _along_the_way(given.driver, made, members)
         return
     found = list(reach.findings(made, members))
     yield from found
@@ -301,6 +307,24 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
             except linkage_loads.NotToAndFro as fault:
                 words = {"text": str(load.link), "count": str(fault.reversals)}
                 yield Finding("not-to-and-fro", (*TOP, "loads", index, "link"), words)
+
+
+def _along_the_way(
+    driver: file.SlideDriver, made: Linkage, members: dict[tuple[int, int], Member]
+) -> Iterator[Finding]:
+    """The first group that does not follow a sliding driver over its whole way."""
+    way = np.linspace(driver.start.si, driver.end.si, STEPS + 1)
+    for stop in solve_motion(made, way, driver.rate).unreachable:
+        member = members[stop.links]
+        words = {
+            "group": f"{stop.links[0]}, {stop.links[1]}",
+            "rods": member.rods,
+            "first": f"{stop.first * 1e3:.4g}",
+            "last": f"{stop.last * 1e3:.4g}",
+        }
+        code = "no-assembly-slide" if stop.reason == "gap" else "dead-point-slide"
+        yield Finding(code, member.where, words)
+        return
 
 
 def _rods(group: file.Group) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,10 +13,26 @@ from reportgen.catalogue import resistance
 from reportgen.catalogue.course import FULL_TURN, Course, Floats
 from reportgen.catalogue.laws import AngleLaw, Law, MotionAt, TableLaw, by_stroke
 from reportgen.catalogue.machine import Applied, Torque
-from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
+from reportgen.mechanism.motion import Motion
+from reportgen.mechanism.structure import DRIVER, GROUND, Dyad, Guide, Linkage
 
 ROUND = 1e-9
 """A slider this near (rad of the driver) to its top stands there."""
+
+
+@dataclass(frozen=True)
+class Resistance:
+    """−`size`·sgn(rate) over the way of a sliding driver, which does not come back to its start."""
+
+    size: float
+    rate: Callable[[Motion], Floats]
+    reversals: tuple[float, ...]
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        return -self.size * np.sign(self.rate(motion))
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        return self.reversals
 
 
 class NotToAndFro(ValueError):
@@ -108,21 +125,28 @@ def _pushing(
         return _by_angle(load, load.unit.si if load.unit else 1.0)
     assert load.F is not None
 
-    def rate(angle: Floats) -> Floats:
-        return np.asarray(np.real(np.conj(direction) * motion_at(angle).points[point].v))
+    def rate(motion: Motion) -> Floats:
+        return np.asarray(np.real(np.conj(direction) * motion.points[point].v))
 
-    return _constant(load, load.F.si, rate)
+    return _constant(load, load.F.si, rate, motion_at)
 
 
 def _turning(load: file.Constant | file.OverAngle, motion_at: MotionAt) -> Law:
     if isinstance(load, file.OverAngle):
         return _by_angle(load, load.torque_unit.si if load.torque_unit else 1.0)
     assert load.M is not None
-    return _constant(load, load.M.si, lambda angle: motion_at(angle).links[load.link].omega)
+    return _constant(load, load.M.si, lambda motion: motion.links[load.link].omega, motion_at)
 
 
-def _constant(load: file.Constant, size: float, rate: Callable[[Floats], Floats]) -> Law:
-    return resistance.opposing(abs(size), rate) if load.against else resistance.Constant(size)
+def _constant(
+    load: file.Constant, size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt
+) -> Law:
+    if not load.against:
+        return resistance.Constant(size)
+    found = resistance.opposing(abs(size), lambda angle: rate(motion_at(angle)))
+    # A crank has an angular velocity of its own, a slide has none.
+    turns = bool(np.any(motion_at(np.zeros(1)).links[DRIVER].omega))
+    return found if turns else Resistance(abs(size), rate, found.reversals)
 
 
 def _by_angle(load: file.OverAngle, one: float) -> AngleLaw:

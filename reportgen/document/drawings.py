@@ -57,6 +57,7 @@ class Drawings:
             "force-stages": self.force_stages,
             "force-plates": self.force_plates,
             "crank": self.crank,
+            "slide": self.slide,
             **self.pictures.figures,
             **FlywheelFigures(self.facts.books.flywheel, self.ledger, self.words).figures,
         }
@@ -157,6 +158,10 @@ class Drawings:
             points=tuple(replace(p, stage=step(p.stage)) for p in drawing.points),
         )
         return self._stages(steps, f"mu.R{group.polygon.name}")
+
+    def slide(self, k: int) -> Drawn:
+        """The polygon of the forces on a sliding driver."""
+        return on_paper(plan(self.force_plan(self.facts.driver_polygon, k)))
 
     def crank(self, k: int) -> Drawn:
         """The driver with its forces, and their polygon."""

@@ -15,7 +15,7 @@ from reportgen.cycle.flywheel import Flywheel
 from reportgen.ledger import flywheel, forces, kinematics, precision
 from reportgen.ledger.core import ZERO, Builder, Ledger
 from reportgen.ledger.forces import Polygon
-from reportgen.notation.expressions import Symbol, call, divide, multiply, subtract
+from reportgen.notation.expressions import Ref, Symbol, call, divide, multiply, subtract
 from reportgen.notation.symbols import MAX_DIGITS
 
 
@@ -41,7 +41,10 @@ def keep(analysis: Analysis, units: Mapping[str, str] | None = None) -> Books:
     """The books of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures."""
     machine = analysis.machine
     b = Builder(machine.positions)
-    b.give("phi.1", Symbol("φ", "1"), "angle", machine.angles(analysis.cycle_angle))
+    if machine.span:
+        b.give("s.1", Symbol("s", "1"), "length", machine.angles(analysis.cycle_angle), exact=False)
+    else:
+        b.give("phi.1", Symbol("φ", "1"), "angle", machine.angles(analysis.cycle_angle))
     enter(b, machine.given)
     kinematics.describe(b, machine.linkage, machine.turn)
     enter(b, machine.formulas)
@@ -106,19 +109,23 @@ def _short(values: np.ndarray) -> bool:
 
 def _cycle(b: Builder, analysis: Analysis) -> None:
     """Mean, extremes, power and energy of the cycle."""
-    summary = analysis.summary
+    summary, machine = analysis.summary, analysis.machine
     size = float(np.nanmax(np.abs(analysis.torque)))
-    b.define("M.difference", Symbol("ΔM", "cb"), "torque", call("abs", subtract("M.eq", "M.vw")), scale=size)
-    b.define("M.mean.positions", Symbol("M", "N"), "torque", call("mean", "M.eq"))
-    b.give("M.mean", Symbol("M", "m"), "torque", _dustless(summary.mean_torque, size), exact=False)
-    b.give("M.least", Symbol("M", "min"), "torque", summary.extremes[0][1], exact=False)
-    b.give("M.greatest", Symbol("M", "max"), "torque", summary.extremes[1][1], exact=False)
-    turns = 2 * analysis.machine.turns
-    b.give("W", Symbol("W"), "work", _dustless(summary.work, size * turns * np.pi), exact=False)
-    b.define("power", Symbol("N"), "power", multiply(call("abs", "M.mean"), "omega.1"))
+    # A sliding driver is balanced by a force, and its way takes the place of the angle.
+    kind, letter = ("force", "P") if machine.span else ("torque", "M")
+    rate = f"v.{machine.linkage.driver.pin}" if machine.span else "omega.1"
+    turns = 2 * machine.turns
+    way = Ref("span") if machine.span else multiply(float(turns), Symbol("π", value=np.pi))
     b.define(
-        "M.energy", Symbol("M", "W"), "torque", divide("W", multiply(float(turns), Symbol("π", value=np.pi)))
+        "M.difference", Symbol(f"Δ{letter}", "cb"), kind, call("abs", subtract("M.eq", "M.vw")), scale=size
     )
+    b.define("M.mean.positions", Symbol(letter, "N"), kind, call("mean", "M.eq"))
+    b.give("M.mean", Symbol(letter, "m"), kind, _dustless(summary.mean_torque, size), exact=False)
+    b.give("M.least", Symbol(letter, "min"), kind, summary.extremes[0][1], exact=False)
+    b.give("M.greatest", Symbol(letter, "max"), kind, summary.extremes[1][1], exact=False)
+    b.give("W", Symbol("W"), "work", _dustless(summary.work, size * machine.way), exact=False)
+    b.define("power", Symbol("N"), "power", multiply(call("abs", "M.mean"), rate))
+    b.define("M.energy", Symbol(letter, "W"), kind, divide("W", way))
 
 
 def _dustless(value: float, size: float) -> float:
