@@ -13,8 +13,8 @@ import numpy as np
 
 MM = 72 / 25.4
 """PDF points in a millimetre."""
-BODY = 24 * MM
-"""Above and below this much of a page stand header and footer, except on plates."""
+BODY, FOOT = 24 * MM, 19 * MM
+"""Above and below this much of an A4 page stand header and footer."""
 EDGE = 6 * MM
 """What printers leave white along the edge of the paper, with some to spare."""
 INK = 0.1
@@ -37,6 +37,7 @@ class Glyph:
     size: float
     origin: tuple[float, float]
     bold: bool
+    italic: bool
     word: int
 
 
@@ -61,13 +62,22 @@ def glyphs(page: Any) -> list[Glyph]:
         for line in block.get("lines", ()):
             word += 1
             for span in line["spans"]:
-                bold = "bold" in span["font"].lower()
+                font = span["font"].lower()
+                bold, italic = "bold" in font, "italic" in font and "math" not in font
                 for char in span["chars"]:
                     if not char["c"].strip(" \n\t\N{NO-BREAK SPACE}\N{ZERO WIDTH SPACE}\N{WORD JOINER}"):
                         word += 1
                         continue
                     found.append(
-                        Glyph(char["c"], tuple(char["bbox"]), span["size"], tuple(char["origin"]), bold, word)
+                        Glyph(
+                            char["c"],
+                            tuple(char["bbox"]),
+                            span["size"],
+                            tuple(char["origin"]),
+                            bold,
+                            italic,
+                            word,
+                        )
                     )
     return found
 
@@ -79,14 +89,15 @@ def is_plate(page: Any) -> bool:
 
 def body(page: Any) -> list[Glyph]:
     """The glyphs of a page without its header and footer."""
-    edge = 13.5 * MM if is_plate(page) else BODY
-    return [glyph for glyph in glyphs(page) if edge < glyph.origin[1] < page.rect.height - edge]
+    above, below = (13.5 * MM, 13.5 * MM) if is_plate(page) else (BODY, FOOT)
+    return [glyph for glyph in glyphs(page) if above < glyph.origin[1] < page.rect.height - below]
 
 
-def without_repeated_head(page: Any, found: Sequence[Glyph]) -> Sequence[Glyph]:
+def without_repeated_head(page: Any, found: Sequence[Glyph], before: Sequence[Glyph]) -> Sequence[Glyph]:
     """The glyphs of a page's body without the head of a table that continues from the page before.
 
-    Such a page begins with a rule, and the head lasts until the next rule of that width.
+    Such a page begins with a rule, the head lasts until the next rule of that width, and the page
+    before, whose glyphs are `before`, has it too.
     """
     rules = sorted(
         (
@@ -102,7 +113,8 @@ def without_repeated_head(page: Any, found: Sequence[Glyph]) -> Sequence[Glyph]:
     below = next(
         (rule for rule in rules[1:] if rule.y0 > top and abs(rule.width - rules[0].width) < 1), rules[0]
     )
-    return [glyph for glyph in found if glyph.origin[1] > below.y1]
+    head = [glyph for glyph in found if glyph.origin[1] <= below.y1]
+    return found[len(head) :] if text(head) in text(before) else found
 
 
 def text(of: Iterable[Glyph]) -> str:

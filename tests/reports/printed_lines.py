@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import ast
 import math
+import operator
 import re
 import unicodedata
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,12 +19,12 @@ from tests.reports.recompute import Printed, misfit
 
 NUMBER = r"\d+(?:\.\d+)?"
 RESULT = re.compile(rf"(?P<sign>-?)(?P<number>{NUMBER})(?P<unit>(?:[^\d.()=+-].*)?)")
-OPERATOR = {
-    ast.Add: lambda a, b: a + b,
-    ast.Sub: lambda a, b: a - b,
-    ast.Mult: lambda a, b: a * b,
-    ast.Div: lambda a, b: a / b,
-    ast.Pow: lambda a, b: a**b,
+OPERATOR: dict[type[ast.operator], Callable[[float, float], float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
 }
 FUNCTION = {"sin": math.sin, "cos": math.cos, "tan": math.tan, "deg": math.radians, "sqrt": math.sqrt}
 
@@ -69,8 +70,8 @@ def _python(text: str) -> str:
 
 def _value(node: ast.AST, values: Sequence[float]) -> float:
     match node:
-        case ast.BinOp(left, operator, right):
-            return float(OPERATOR[type(operator)](_value(left, values), _value(right, values)))
+        case ast.BinOp(left, sign, right):
+            return float(OPERATOR[type(sign)](_value(left, values), _value(right, values)))
         case ast.UnaryOp(ast.USub(), of):
             return -_value(of, values)
         case ast.Subscript(ast.Name("x"), ast.Constant(int(index))):

@@ -12,7 +12,7 @@ import pytest
 from reportgen.writers.pdflatex import INSTALL
 from tests.reports import built
 
-SAMPLE = built.ROOT / "assignments" / "engine-twin-05.yaml"
+SAMPLE = built.SAMPLE
 OLD = b"the report of yesterday"
 
 

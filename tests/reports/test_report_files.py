@@ -133,8 +133,15 @@ def text_of(pdf: bytes) -> list[Any]:
     return [page.get_text() for page in pymupdf.open(stream=pdf, filetype="pdf")]
 
 
-@pytest.mark.parametrize("engine", built.ENGINE_CASES)
-@pytest.mark.parametrize("path", built.TYPESET, ids=lambda path: path.stem)
+COLD = [
+    pytest.param(path, engine, marks=built.MARKS[engine], id=f"{path.stem}-{engine}")
+    for index, path in enumerate(built.TYPESET)
+    for engine in (built.ENGINES if path == built.SAMPLE else (built.ENGINES[index % 2],))
+]
+"""The sample by both writers, the other kinds by one of them in turn: a new process takes seconds."""
+
+
+@pytest.mark.parametrize(("path", "engine"), COLD)
 def test_a_new_process_gives_the_same_bytes_and_a_source_that_compiles(
     path: Path, engine: api.Engine, tmp_path: Path
 ) -> None:

@@ -97,7 +97,7 @@ def sentences(text: str) -> int:
 
 @KINDS
 def test_both_languages_have_the_same_sentences(path: Path) -> None:
-    """As many in every paragraph, and English about as long as the Vietnamese."""
+    """As many in every paragraph, and neither language twice as long as the other."""
     vi, en = (
         [
             plain(block.inlines, language)
@@ -108,7 +108,7 @@ def test_both_languages_have_the_same_sentences(path: Path) -> None:
     )
     assert [(a, b) for a, b in zip(vi, en, strict=True) if sentences(a) != sentences(b)] == []
     assert [
-        (a, b) for a, b in zip(vi, en, strict=True) if len(a) > 60 and not 0.8 < len(b) / len(a) < 1.8
+        (a, b) for a, b in zip(vi, en, strict=True) if len(a) > 60 and not 0.5 < len(b) / len(a) < 2
     ] == []
 
 

@@ -20,16 +20,22 @@ pytest.importorskip("pymupdf")
 
 
 def rounded(written: Written) -> frozenset[str]:
-    """Texts (with decimal points) that stand for rounded numbers and never for exact ones."""
+    """Texts (with decimal points) that stand for rounded numbers.
+
+    A text that stands for an exact number elsewhere counts as exact, but not if it has all six figures.
+    """
     numbers = list(recompute.numbers(written.document))
-    texts = {
-        exact: {
-            write(abs(number.value), number.decimals, "en") for number in numbers if exact(number.decimals)
+    exact, others = (
+        {
+            write(abs(number.value), number.decimals, "en")
+            for number in numbers
+            if (number.decimals is None) is given
         }
-        for exact in (lambda decimals: decimals is None, lambda decimals: decimals is not None)
-    }
-    exact, others = texts.values()
-    return frozenset(others - exact)
+        for given in (True, False)
+    )
+    return frozenset(
+        text for text in others if text not in exact or len(re.sub(r"\D", "", text).lstrip("0")) > 5
+    )
 
 
 def lines(report: Report) -> list[PrintedLine]:

@@ -17,7 +17,7 @@ from reportgen.notation.numbers import Language
 from tests.reports import built
 
 FOLDER = built.ROOT / "tests" / "snapshots"
-SAMPLE = built.ROOT / "assignments" / "engine-twin-05.yaml"
+SAMPLE = built.SAMPLE
 SECTION = "1.3"
 """Synthesis: a section with words, worked lines and a table, and no drawing."""
 

@@ -11,7 +11,7 @@ import yaml
 from tests.reports import built
 
 Change = Callable[[dict[str, Any]], None]
-SAMPLE = built.ROOT / "assignments" / "engine-twin-05.yaml"
+SAMPLE = built.SAMPLE
 
 
 def put(path: str, value: Any) -> Change:
