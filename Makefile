@@ -15,7 +15,7 @@ reports: setup
 	$(BIN)/reportgen build $(wildcard assignments/*.yaml)
 
 test: $(VENV)/.developing
-	$(BIN)/python -m pytest -rs
+	$(BIN)/python -m pytest -rs -n auto --dist loadfile
 
 lint: $(VENV)/.developing
 	$(BIN)/ruff check .

@@ -15,7 +15,7 @@ from reportgen.figures.draft import Draft, finish
 from reportgen.figures.geometry import bounds, clusters, unit
 from reportgen.figures.inset import Tiny, insets
 from reportgen.figures.labels import Content, Request, label
-from reportgen.figures.scale import NOTHING, TINY
+from reportgen.figures.scale import INVISIBLE, NOTHING, TINY
 from reportgen.figures.scene import Arrow, Circle, Item, Line, Scene, Stroke
 from reportgen.figures.style import (
     CONSTRUCTION,
@@ -222,7 +222,7 @@ def _outward(at: complex, vectors: Sequence[PlanVector]) -> tuple[float, ...]:
 
 
 def _tiny(drawing: Plan, vectors: Sequence[PlanVector]) -> list[Tiny]:
-    """The vectors under 3 mm with the names of their ends."""
+    """The vectors under 3 mm that are worth enlarging, with the names of their ends."""
 
     def names(at: complex) -> tuple[Content, ...]:
         return tuple(joined([p for p in drawing.points if abs(p.at - at) < SAME]))
@@ -230,5 +230,5 @@ def _tiny(drawing: Plan, vectors: Sequence[PlanVector]) -> list[Tiny]:
     return [
         Tiny(v.start, v.end, PENS[v.style], v.name, v.label, names(v.start), names(v.end))
         for v in vectors
-        if abs(v.end - v.start) < TINY
+        if INVISIBLE < abs(v.end - v.start) < TINY
     ]

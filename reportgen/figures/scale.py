@@ -18,6 +18,7 @@ from reportgen.notation.numbers import SERIES
 from reportgen.notation.numbers import nice_up as nice
 
 __all__ = [
+    "INVISIBLE",
     "SERIES",
     "PlanScales",
     "choose_force_scale",
@@ -34,6 +35,8 @@ CRANK_DRAWN = 50.0
 """Drawn length of the crank in mm unless the assignment says otherwise."""
 TINY = 3.0
 """Vectors drawn shorter than this (mm) get an enlarged inset."""
+INVISIBLE = 0.005
+"""What is drawn shorter than this (mm) is a point on any paper and gets no inset."""
 NOTHING = 1e-9
 """A vector below this share of its figure's size is nothing and is not drawn."""
 
