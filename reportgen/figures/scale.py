@@ -35,7 +35,7 @@ CRANK_DRAWN = 50.0
 """Drawn length of the crank in mm unless the assignment says otherwise."""
 TINY = 3.0
 """Vectors drawn shorter than this (mm) get an enlarged inset."""
-INVISIBLE = 0.005
+INVISIBLE = 0.001
 """What is drawn shorter than this (mm) is a point on any paper and gets no inset."""
 NOTHING = 1e-9
 """A vector below this share of its figure's size is nothing and is not drawn."""
