@@ -205,10 +205,12 @@ def summarise(machine: Machine) -> Summary:
 
 
 def _extreme(machine: Machine, angles: np.ndarray, torque: np.ndarray, sense: int) -> tuple[float, float]:
-    """The greatest (`sense` +1) or least (−1) torque and its cycle angle: the best of a grid, looked at closer twice."""
+    """The greatest (`sense` +1) or least (−1) torque and its cycle angle: the best of a grid, looked at closer."""
     for _ in range(2):
         best, step = int(np.nanargmax(sense * torque)), float(angles[1] - angles[0])
         angles = np.linspace(angles[best] - step, angles[best] + step, 81)
+        if machine.span:  # a slide ends where its way ends
+            angles = np.unique(np.clip(angles, 0.0, FULL_TURN))
         torque = analyse(machine, angles).torque
     best = int(np.nanargmax(sense * torque))
     return float(angles[best] % (machine.turns * FULL_TURN)), float(torque[best])

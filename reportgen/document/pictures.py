@@ -540,10 +540,12 @@ class Pictures:
         """Curves over one turn of the driver, the numbered positions marked."""
         fine = self.dense_cycle
         count = int(np.searchsorted(fine.cycle_angle, FULL_TURN + SAME))
-        degrees = np.degrees(fine.cycle_angle[:count])
+        # A sliding driver is told by its way (mm) instead of its angle.
+        slides, name = bool(self.analysis.machine.span), self.words["figure"]["angle"]
+        x = fine.motion.driver[:count] * MM if slides else np.degrees(fine.cycle_angle[:count])
         marks = self._marks[: self.analysis.machine.count]
-        series = [charts.Series(symbol, degrees, values[:count], marks) for symbol, values in curves]
-        return charts.chart(series, self.words["figure"]["angle"], title)
+        series = [charts.Series(symbol, x, values[:count], marks) for symbol, values in curves]
+        return charts.chart(series, self.words["figure"]["way"] if slides else name, title, turn=not slides)
 
     def torque(self) -> Drawn:
         fine = self.dense_cycle
