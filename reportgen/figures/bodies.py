@@ -32,8 +32,8 @@ def bodies(
 ) -> Scene:
     """The chosen links at position `index`, true to `scale` (mm per m), with forces of schematic length.
 
-    `extra` is drawn with them.  Points of forces, couples and moments are in mm of the plan: metres times `scale`, about the
-    mechanism's origin.
+    `extra` is drawn with them.  Points of forces, couples and moments are in mm of the plan: metres times
+    `scale`, about the mechanism's origin.
     """
     looks = looks or Looks()
     bones = skeleton(linkage, motion, index, scale)

@@ -52,10 +52,8 @@ def paint(scene: Scene, language: Language) -> str:
 
 
 def _label(label: Label, language: Language) -> str:
-    if isinstance(label.content, str):
-        content = escape(label.content)
-    else:
-        content = f"${mathematics(label.content, language)}$"
+    words = label.content
+    content = escape(words) if isinstance(words, str) else f"${mathematics(words, language)}$"
     if label.size != LABEL_SIZE:
         content = rf"\fontsize{{{_number(label.size)}}}{{{_number(1.2 * label.size)}}}\selectfont {content}"
     if label.turn % 360 == 90:
