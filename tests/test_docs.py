@@ -39,6 +39,13 @@ def fences(document: str, language: str) -> list[str]:
     return [body for name, body in _FENCE.findall(text_of(document)) if name == language]
 
 
+def section(text: str, heading: str) -> str:
+    """What stands between a heading and the next one of any level."""
+    found = re.search(rf"^{re.escape(heading)}\n(.*?)(?=^##+ )", text, re.MULTILINE | re.DOTALL)
+    assert found, heading
+    return found[1]
+
+
 @dataclass(frozen=True, slots=True)
 class Command:
     """A line of a console block and what it is said to print."""
@@ -228,9 +235,14 @@ def test_the_readme_names_every_command_option_kind_and_result() -> None:
         assert all(option in row for option in options if option not in {"--help", "--output"})
     for kind in catalogue.MODULES:
         assert re.search(rf"^\| \[`{kind}`\]\(#{kind}\) \| !\[[^\]]+\]\(docs/{kind}\.png\) \| ", text, re.MULTILINE)
-        assert f"\n### `{kind}`\n" in text
+        told = section(text, "## Machines") + section(text, f"### `{kind}`")
         for name, field in catalogue.kind(kind).parameters.model_fields.items():
-            assert f"`{field.alias or name}`" in text
+            assert f"`{field.alias or name}`" in told, (kind, name)
+    (row,) = [line for line in text.splitlines() if line.startswith("| `flywheel` |")]
+    with_flywheel = {kind for kind in catalogue.MODULES if "flywheel" in catalogue.kind(kind).parameters.model_fields}
+    assert set(re.findall(r"`([a-z-]+)`", row)) - {"flywheel"} == with_flywheel
+    for example in re.findall(r"assignments/[\w-]+\.yaml", text):
+        assert (ROOT / example).is_file(), example
     results = api.solve(api.load(ROOT / "assignments" / "engine-twin-05.yaml"))
     for key in (*results, *results["positions"][0]):
         assert f"`{key}`" in text
