@@ -1,4 +1,4 @@
-"""What tests share: reports built once a session, and the option that renews snapshots."""
+"""What tests share: reports built once a run, and the option that renews snapshots."""
 
 from __future__ import annotations
 

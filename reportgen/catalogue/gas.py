@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -25,9 +26,9 @@ class _Diagram(Part):
     ambient: Pressure = Given(101325.0, 10.1325, "N/cm2", "10.1325 N/cm2")
 
     @property
+    @abstractmethod
     def one(self) -> float:
         """What 1 in the table stands for (Pa)."""
-        raise NotImplementedError
 
     def gauge(self, row: tuple[float, ...]) -> tuple[float, ...]:
         """Values of the table as gauge pressures (Pa)."""

@@ -11,9 +11,12 @@ from functools import cached_property
 from typing import Any
 
 from reportgen.assignment import Assignment
+from reportgen.document.acting import ForcePictures
+from reportgen.document.curves import Curves
 from reportgen.document.facts import Facts
 from reportgen.document.flywheel import FlywheelFigures
-from reportgen.document.pictures import TEXT_BLOCK, Drawn, Pictures, beside_one_another, on_paper
+from reportgen.document.pictured import TEXT_BLOCK, Drawn, beside_one_another, on_paper
+from reportgen.document.pictures import MachinePictures
 from reportgen.document.views import GroupView, known_part, sought_part
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
 from reportgen.figures.sheet import sheets
@@ -58,14 +61,24 @@ class Drawings:
             "force-plates": self.force_plates,
             "crank": self.crank,
             "slide": self.slide,
-            **self.pictures.figures,
+            **self.machine.figures,
+            **self.acting.figures,
+            **self.curves.figures,
             **FlywheelFigures(self.facts.books.flywheel, self.ledger, self.words).figures,
         }
         return figures[name](*arguments)
 
     @cached_property
-    def pictures(self) -> Pictures:
-        return Pictures(self.facts, self.words, self.velocity_plan)
+    def machine(self) -> MachinePictures:
+        return MachinePictures(self.facts, self.words, self.velocity_plan)
+
+    @cached_property
+    def acting(self) -> ForcePictures:
+        return ForcePictures(self.facts, self.words, self.velocity_plan)
+
+    @cached_property
+    def curves(self) -> Curves:
+        return Curves(self.facts, self.words, self.velocity_plan)
 
     # --- plans of velocity and acceleration
 
@@ -98,7 +111,9 @@ class Drawings:
 
     def _laid_out(self, drawing: Callable[[int], Plan], positions: Sequence[int], scale: str) -> Drawn:
         """Plans of one scale: as a figure if they fit one text block, else on A3 sheets."""
-        scenes = [plan(replace(drawing(k), scale=None, lines=()), title=self.at_position(k)) for k in positions]
+        scenes = [
+            plan(replace(drawing(k), scale=None, lines=()), title=self.at_position(k)) for k in positions
+        ]
         note = self.scale(scale)
         on_page = sheets(scenes, *TEXT_BLOCK, note)
         if len(on_page) == 1 and on_page[0].width <= TEXT_BLOCK[0] and on_page[0].height <= TEXT_BLOCK[1]:
@@ -166,7 +181,7 @@ class Drawings:
     def crank(self, k: int) -> Drawn:
         """The driver with its forces, and their polygon."""
         polygon = plan(self.force_plan(self.facts.driver_polygon, k))
-        return beside_one_another(self.pictures.crank(k), polygon)
+        return beside_one_another(self.acting.crank(k), polygon)
 
     def force_plates(self, group: GroupView) -> Drawn:
         polygon = group.polygon
@@ -194,7 +209,9 @@ class Drawings:
                     stage,
                 )
             )
-            if side.end != polygon.sides[0].start and not any(point.label == Symbol(side.end) for point in points):
+            if side.end != polygon.sides[0].start and not any(
+                point.label == Symbol(side.end) for point in points
+            ):
                 points.append(PlanPoint(Symbol(side.end), corner(side.end), stage))
         vectors += [
             PlanVector(
@@ -227,7 +244,15 @@ class _Sketch:
         return complex(self.ledger[f"plan.{self.what}.{name.lower()}"].at(self.k)) * MM
 
     def vector(
-        self, name: str, start: complex, end: complex, style: Style, base: str, sub: str, stage: int, sup: str = ""
+        self,
+        name: str,
+        start: complex,
+        end: complex,
+        style: Style,
+        base: str,
+        sub: str,
+        stage: int,
+        sup: str = "",
     ) -> None:
         label = Symbol(base, sub, sup, "vector")
         self.vectors.append(PlanVector(name, start, end, style, label, stage))

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.cycle.flywheel import Flywheel
-from reportgen.document.pictures import Drawn
+from reportgen.document.pictured import Drawn
 from reportgen.figures import charts
 from reportgen.figures.scene import Scene
 from reportgen.ledger.core import Ledger

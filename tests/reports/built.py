@@ -1,4 +1,4 @@
-"""Finished reports of every assignment file in the repository, each built once a session."""
+"""Finished reports of every assignment file in the repository, each built once a run."""
 
 from __future__ import annotations
 
