@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from reportgen.analysis import Analysis
@@ -12,7 +12,8 @@ from reportgen.document.drawings import Drawings
 from reportgen.document.facts import Facts
 from reportgen.document.numbering import number
 from reportgen.document.prose import Prose, search_path
-from reportgen.document.tables import Tables, lowered
+from reportgen.document.tabled import lowered
+from reportgen.document.tables import Tables
 from reportgen.document.tree import (
     Block,
     Contents,
@@ -141,26 +142,13 @@ def _names(
     worked = assignment.worked_positions
     kinematic = machine.numbered(dict.fromkeys((k - 1) % machine.count + 1 for k in worked))
     senses = words["sense"]
-    public: dict[str, Callable[..., Any]] = {
-        name: getattr(owner, name)
-        for owner, listed in (
-            (
-                tables,
-                "given_table indicator_table force_table load_table summary_table joints_table lengths_table "
-                "coordinates_table dead_centres_table labels_table rotation_table strokes_table lever_table "
-                "checks_table mobility_line tables",
-            ),
-            (
-                facts,
-                "driver_others turning velocity_lines acceleration_lines similar names centre_lines arm_ids "
-                "negative zero",
-            ),
-        )
-        for name in listed.split()
-    }
+    of_facts = (
+        "driver_others turning velocity_lines acceleration_lines similar names centre_lines arm_ids negative zero"
+    )
     return {
         **voice.functions(),
-        **public,
+        **tables.functions,
+        **{name: getattr(facts, name) for name in of_facts.split()},
         "words": words,
         "machine_title": title[:1].lower() + title[1:],
         "variant": assignment.variant,
