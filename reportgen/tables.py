@@ -1,4 +1,4 @@
-"""Results as tables on a terminal: a row for each position, vectors by their size."""
+"""Results as tables on a terminal: a row for each position by its label, vectors by their size."""
 
 from __future__ import annotations
 
@@ -14,10 +14,11 @@ DIGITS = 5
 MOST_DECIMALS = 4
 LEAD = 2
 MOST_COLUMNS = 7
-WORDS = frozenset({"position", "crank_angle", "equilibrium", "virtual_work"})
+MM = 1e3
+WORDS = frozenset({"position", "crank_angle", "driver_way", "equilibrium", "virtual_work"})
 """Headings that are words of a language; the others are symbols."""
 
-Row = dict[str, float | None]
+Row = dict[str, float | str | None]
 
 
 def print_tables(results: Mapping[str, Any], language: Language) -> None:
@@ -51,10 +52,7 @@ def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]
     for position in positions:
         if position is None:
             continue
-        lead: Row = {
-            "position": position["number"],
-            "crank_angle": round(math.degrees(position["crank_angle"]), 6) % 360,
-        }
+        lead: Row = {"position": position.get("label", str(position["number"])), **_driver(position)}
         points, links = position["points"], position["links"]
         rows: dict[str, Row] = {
             "velocities": {f"v {name}": _size(point["v"]) for name, point in points.items()},
@@ -67,11 +65,19 @@ def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]
             "loads": {name: _size(load) for name, load in position.get("loads", {}).items()},
             "reactions": _once({name: _size(force) for name, force in position.get("reactions", {}).items()}),
             "torque": dict(position.get("balancing_torque", {})),
+            "force": dict(position.get("balancing_force", {})),
         }
         for name, row in rows.items():
             if row:
                 found[name].append(lead | row)
     return {name: _moving(rows) for name, rows in found.items()}
+
+
+def _driver(position: Mapping[str, Any]) -> Row:
+    """Where the driver stands: the angle of a crank in degrees, the way of a slider in mm."""
+    if "driver_way" in position:
+        return {"driver_way": position["driver_way"] * MM}
+    return {"crank_angle": round(math.degrees(position["crank_angle"]), 6) % 360}
 
 
 def _once(reactions: Row) -> Row:
@@ -98,7 +104,14 @@ def _size(vector: Any) -> float | None:
 def _column(rows: Sequence[Row], heading: str, language: Language) -> list[str]:
     """The column's numbers with one count of decimals, that shows the largest with `DIGITS` figures."""
     values = [row.get(heading) for row in rows]
-    largest = max((abs(value) for value in values if value is not None), default=0.0)
-    whole = all(value is None or float(value).is_integer() for value in values)
+    numbers = [value for value in values if not (value is None or isinstance(value, str))]
+    largest = max(map(abs, numbers), default=0.0)
+    whole = all(float(value).is_integer() for value in numbers)
     decimals = 0 if whole else min(max(significant_decimals(largest, DIGITS), 0), MOST_DECIMALS)
-    return ["–" if value is None else write(value, decimals, language) for value in values]
+
+    def cell(value: float | str | None) -> str:
+        if value is None:
+            return "–"
+        return value if isinstance(value, str) else write(value, decimals, language)
+
+    return [cell(value) for value in values]

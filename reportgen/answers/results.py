@@ -30,12 +30,14 @@ def results(assignment: Assignment, analysis: Analysis) -> dict[str, Any]:
 
 def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
     motion, linkage = analysis.motion, analysis.machine.linkage
+    crank = isinstance(linkage.driver, Crank)
     if not motion.reachable[k]:
         return None
     entry: dict[str, Any] = {
         "number": k + 1,
         **({"label": analysis.machine.labels[k]} if analysis.machine.labels else {}),
         "crank_angle": float(motion.driver[k]),
+        **({} if crank else {"driver_way": float(motion.driver[k])}),
         "cycle_angle": float(analysis.cycle_angle[k]),
         "points": {
             name: {"p": _pair(point.p[k]), "v": _pair(point.v[k]), "a": _pair(point.a[k])}
@@ -66,8 +68,7 @@ def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
         for name, reaction in analysis.forces.reactions.items()
         if _slides(analysis, name)
     }
-    balance = "balancing_torque" if isinstance(linkage.driver, Crank) else "balancing_force"
-    entry[balance] = {
+    entry["balancing_torque" if crank else "balancing_force"] = {
         "equilibrium": float(analysis.torque[k]),
         "virtual_work": float(analysis.torque_by_work[k]),
     }
