@@ -36,4 +36,6 @@ def test_a_sliding_driver_is_told_by_its_way(capsys: pytest.CaptureFixture[str])
     assert "torque" not in found
     print_tables(results, "en")
     out = capsys.readouterr().out
-    assert "s (mm)" in out and "Balancing force (N)" in out and "φ" not in out
+    assert "s (mm)" in out
+    assert "Balancing force (N)" in out
+    assert "φ" not in out
