@@ -5,13 +5,21 @@ Its rows are the ledger's own families, so key, report and marker cannot disagre
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 
 import numpy as np
 
-from reportgen.notation.expressions import Symbol
+from reportgen.analysis import Analysis
+from reportgen.answers import bands
+from reportgen.assignment import Assignment
+from reportgen.document.prose import search_path
+from reportgen.document.words import load_words
+from reportgen.ledger.core import Family, Ledger
+from reportgen.notation.expressions import Symbol, refs
 
 
 class Part(StrEnum):
@@ -92,3 +100,117 @@ class Key:
     def asked(self) -> tuple[Row, ...]:
         """The rows of the answer sheet, in order."""
         return tuple(row for row in self.rows if row.positions)
+
+
+def make_key(assignment: Assignment, analysis: Analysis, ledger: Ledger) -> Key:
+    """The key of an assignment from its ledger, which is the one its report prints."""
+    machine = analysis.machine
+    words = load_words(search_path(assignment.language, assignment.kind))
+    on_paper, by_rounding = bands.drawn(ledger), bands.computed(ledger)
+    formulas = {item.id for item in machine.formulas}
+    worked = tuple(assignment.worked_positions)
+    complete = set(worked) == set(range(1, machine.positions + 1))
+
+    def row(id: str) -> Row:
+        family = ledger[id]
+        scale = family.how.scale
+        values = np.array([ledger[id].at(k + 1).real for k in range(len(family.values))])
+        if id.startswith("dir."):
+            values = np.where(_exists(ledger, id), values, np.nan)
+        if family.arm:
+            values = np.abs(values)
+        role, part = _role(family), _part(id, family, formulas)
+        asked = role is not Role.given and _is_asked(id, family) and (part is not Part.cycle or complete)
+        return Row(
+            id,
+            part,
+            role,
+            family.symbol,
+            family.kind,
+            ledger.units.get(family.how.unit, family.how.unit),
+            ledger.decimals[id],
+            values / scale,
+            on_paper[id] / scale,
+            by_rounding[id] / scale,
+            _asked_at(values, worked, machine.count) if asked else (),
+            tuple(_sense(id, value, words["sense"]) for value in values),
+        )
+
+    parts = list(Part)
+    rows = sorted(map(row, filter(partial(_is_shown, ledger), ledger.families)), key=lambda row: parts.index(row.part))
+    student = assignment.report.student
+    fields = {"name": student.name, "id": student.id, "class": student.class_}
+    return Key(
+        assignment.id,
+        assignment.kind,
+        assignment.variant,
+        assignment.language,
+        {name: text for name, text in fields.items() if text},
+        tuple(str(machine.position(k)) for k in range(1, machine.positions + 1)),
+        tuple(rows),
+    )
+
+
+def _is_shown(ledger: Ledger, id: str) -> bool:
+    """Whether a key has a row for it: not for points, for what mostly is not there, for the size of a signed twin."""
+    family = ledger[id]
+    return not (family.hidden or family.is_plane or family.optional or f"turn.{id}" in ledger)
+
+
+def _role(family: Family) -> Role:
+    chosen = family.kind == "segment" and family.definition is None
+    if chosen or family.kind.endswith("scale"):
+        return Role.scale
+    typed = family.exact if family.definition is None else not refs(family.definition)
+    return Role.given if typed else Role.asked
+
+
+def _is_asked(id: str, family: Family) -> bool:
+    """Whether it can be worked out on paper: what is read from a diagram can, an integral over the cycle cannot."""
+    if id == "M.difference":
+        return False
+    return family.definition is not None or len(family.values) > 1 or family.kind.endswith("scale")
+
+
+def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int) -> tuple[int, ...]:
+    """The worked positions; what repeats from turn to turn (all kinematics) is asked for in the first turn."""
+    if len(values) == 1:
+        return (0,)
+    repeats = len(values) > count and all(
+        np.allclose(values[:count], turn, rtol=1e-9, atol=1e-12, equal_nan=True) for turn in np.split(values, len(values) // count)
+    )
+    asked = ((k - 1) % count + 1 if repeats else k for k in worked)
+    return tuple(dict.fromkeys(k for k in asked if np.isfinite(values[k - 1])))
+
+
+def _exists(ledger: Ledger, id: str) -> np.ndarray:
+    """Where a direction `dir.v.B`, `dir.R05` is that of a vector which is something."""
+    name = id.removeprefix("dir.")
+    size = name if name in ledger else f"R.{name.removeprefix('R')}"
+    return np.array([ledger[size].at(k + 1) != 0 for k in range(len(ledger[id].values))])
+
+
+def _sense(id: str, value: float, words: Mapping[str, str]) -> str:
+    """The sense of a rotation in words; nothing for what has none."""
+    if not id.startswith("turn."):
+        return ""
+    return words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"]
+
+
+_PARTS = (
+    (r"(seg\.)?v\.|mu\.v$|dir\.v\.|(turn\.)?omega\.", Part.velocity),
+    (r"(seg\.)?a\.|mu\.a$|dir\.a\.|(turn\.)?eps\.", Part.acceleration),
+    (r"(M\.)?Pqt\w*$|e\.Pqt|l\.\w+K\d+$|[sp]\.\d+$|P\w*$|G\d+$", Part.loads),
+    (r"[hM]\..*\.p$|M\.(eq|vw)$", Part.torque),
+    (r"R\.|M\.\d+$|x\.\d\d+$|h\.|mu\.R|dir\.R|seg\.", Part.forces),
+    (r"(l|drawn|m|J)\.|mu\.l$|[RLF]$|lambda$", Part.geometry),
+)
+
+
+def _part(id: str, family: Family, formulas: set[str]) -> Part:
+    """The chapter a quantity belongs to: given data, closed formulas, else by its id."""
+    if _role(family) is Role.given and len(family.values) == 1:
+        return Part.data
+    if id in formulas:
+        return Part.formulas
+    return next((part for pattern, part in _PARTS if re.match(pattern, id)), Part.cycle)

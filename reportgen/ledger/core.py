@@ -7,7 +7,7 @@ at one position.  Definitions are expressions over other families, so the ledger
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -34,6 +34,9 @@ from reportgen.notation.symbols import KINDS, Kind
 
 ZERO = 1e-9
 """A value below this share of its own scale is nothing: it prints as 0."""
+
+Entered = Callable[[str, dict[str, np.ndarray]], None]
+"""What is called after each quantity of an evaluation, with its id and all values so far."""
 
 CONSTRUCTIONS = frozenset(
     {"meet", "circle_line", "circle_circle", "abs", "cis", "turned", "arg", "re", "im", "cross", "dot"}
@@ -250,20 +253,34 @@ class Ledger:
             self.families[id].optional and self.families[id].at(position) == 0 for id in refs(term)
         )
 
-    def evaluate(self, changes: Mapping[str, Any] | None = None) -> dict[str, np.ndarray]:
+    def evaluate(
+        self,
+        changes: Mapping[str, Any] | None = None,
+        *,
+        entered: Entered | None = None,
+        only: Container[str] | None = None,
+    ) -> dict[str, np.ndarray]:
         """All values again from given data and definitions, with some of them replaced.
 
-        `changes` maps ids to SI values (a number or one per position); whatever depends on them follows.
+        `changes` maps ids to SI values (a number or one per position), or to functions of the value
+        computed and of all before it; whatever depends on them follows.  Changes may have a further
+        axis in front, [cases, positions]: many changed worlds at once.  `entered` is called with each id and
+        the values so far; `only` leaves the other families as they are.
         """
         values: dict[str, np.ndarray] = {}
         for id, family in self.families.items():
-            if changes is not None and id in changes:
-                values[id] = np.atleast_1d(np.asarray(changes[id]))
-            elif family.definition is None:
-                values[id] = family.values
+            change = None if changes is None else changes.get(id)
+            if change is not None and not callable(change):
+                values[id] = np.atleast_1d(np.asarray(change))
             else:
-                with np.errstate(all="ignore"):
-                    values[id] = np.atleast_1d(np.asarray(evaluate(family.definition, values)))
+                values[id] = family.values
+                if family.definition is not None and (only is None or id in only):
+                    with np.errstate(all="ignore"):
+                        values[id] = np.atleast_1d(np.asarray(evaluate(family.definition, values)))
+                if change is not None:
+                    values[id] = np.atleast_1d(np.asarray(change(values[id], values)))
+            if entered is not None:
+                entered(id, values)
         return values
 
     def ancestors(self, id: str) -> tuple[str, ...]:

@@ -252,6 +252,11 @@ def if_zero(a: Value, b: Value) -> Value:
     return np.where(np.asarray(a) == 0, b, 0.0)
 
 
+def mean(values: Value) -> Value:
+    """The mean over positions, the last axis; it keeps that axis, so that it stands for all of them."""
+    return np.mean(np.atleast_1d(values), axis=-1, keepdims=True)
+
+
 def heading(vector: Value) -> Value:
     """A vector's direction from +x, in [0, 2π); rounding just below a full turn counts as 0."""
     return np.mod(np.angle(vector) + 1e-12, 2 * np.pi) - 1e-12
@@ -280,7 +285,7 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "turned": lambda vector: 1j * vector,
     "min": np.minimum,
     "max": np.maximum,
-    "mean": np.mean,
+    "mean": mean,
     "quotient": quotient,
     "if_zero": if_zero,
 }

@@ -1,0 +1,120 @@
+"""Within what a value is right: errors of drawing and of rounding, carried through the ledger.
+
+Each error is a small change of one quantity; the ledger evaluates all of them at once, [errors,
+positions], and tells how far every later quantity moves.  Independent errors add as the root of
+their squares; a quantity's own error, which nothing evens out, is added whole:
+
+    band = e_own + √(Σᵢ (∂f/∂xᵢ eᵢ)²)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from reportgen.ledger.core import Ledger
+from reportgen.notation.expressions import Call, Ref
+
+PAPER_ERROR = 0.5e-3
+"""How far off a drawn point may lie (m on paper), at each end of a measured length."""
+
+DIGITS = 3
+"""Significant figures that a value is computed with."""
+
+SHARE = 1e-4
+"""A change of this share of an error stands for its slope."""
+
+
+def drawn(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndarray]:
+    """Half widths (SI) [N] when every length on paper is off by `error` (m) at each of its ends."""
+    return carried_through(ledger, measuring_errors(ledger, error))
+
+
+def computed(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
+    """Half widths (SI) [N] when every printed value on the way is rounded to `digits` figures."""
+    return carried_through(ledger, rounding_errors(ledger, digits))
+
+
+def measuring_errors(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndarray]:
+    """The own errors (SI) of what is measured: two ends of a length; of a direction, two ends over its length."""
+    errors: dict[str, np.ndarray] = {}
+    for id, family in ledger.families.items():
+        if family.hidden or family.is_plane or not family.constructed:
+            continue
+        if family.kind == "segment":
+            errors[id] = np.full(len(family.values), 2 * error)
+        elif id.startswith("dir."):
+            length = np.abs(_on_paper(ledger, id))
+            with np.errstate(all="ignore"):
+                errors[id] = np.minimum(np.where(length > 0, 2 * error / length, np.pi), np.pi)
+    return errors
+
+
+def rounding_errors(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
+    """Half a unit of the last of so many figures (SI), for all that is not given."""
+    return {
+        id: half_unit(family.values, digits)
+        for id, family in ledger.families.items()
+        if not (family.hidden or family.is_plane or family.exact or family.definition is None)
+    }
+
+
+def half_unit(values: np.ndarray, digits: int) -> np.ndarray:
+    """Half a unit of the last of `digits` significant figures; 0 for 0."""
+    sizes = np.abs(values)
+    with np.errstate(all="ignore"):
+        unit = 10.0 ** (np.floor(np.log10(sizes) + 1e-12) - digits + 1)
+    return np.where(np.isfinite(unit) & (sizes > 0), unit / 2, 0.0)
+
+
+def carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Half widths (SI) [N] of every printed quantity from own errors of some."""
+    rows = {id: row for row, id in enumerate(errors)}
+    shown = [id for id, family in ledger.families.items() if not (family.hidden or family.is_plane)]
+    if not rows:
+        return {id: np.zeros(len(ledger[id].values)) for id in shown}
+
+    def moved(id: str) -> object:
+        error = np.nan_to_num(errors[id])
+
+        def move(value: np.ndarray, _: Mapping[str, np.ndarray]) -> np.ndarray:
+            step = np.zeros((len(rows), error.shape[-1]))
+            step[rows[id]] = SHARE * error
+            return value + step
+
+        return move
+
+    values = ledger.evaluate({id: moved(id) for id in errors})
+    bands: dict[str, np.ndarray] = {}
+    for id in shown:
+        family = ledger[id]
+        change = np.atleast_2d(values[id] - family.values)
+        if family.how.unit == "°":
+            change = np.mod(change + np.pi, 2 * np.pi) - np.pi
+        own = np.nan_to_num(np.broadcast_to(errors.get(id, 0.0), family.values.shape))
+        if id in rows:
+            change[rows[id]] = 0.0
+        inherited = np.sqrt((np.nan_to_num(change) ** 2).sum(axis=0)) / SHARE
+        # What stands for all positions depends on each of them alike.
+        bands[id] = own + (inherited.max(keepdims=True) if len(own) == 1 else inherited)
+    return bands
+
+
+def _on_paper(ledger: Ledger, id: str) -> np.ndarray:
+    """The drawn length (m) of the vector whose direction `dir.…` is measured."""
+    definition = ledger[id].definition
+    assert isinstance(definition, Call), f"{id} is no direction of a vector"
+    (vector,) = definition.arguments
+    assert isinstance(vector, Ref), f"{id} is no direction of a vector"
+    name = vector.id.removeprefix("F.")
+    if name == vector.id:
+        return ledger[vector.id].values
+    drawn = next(family for other, family in ledger.families.items() if _is_side(other, name))
+    return drawn.values
+
+
+def _is_side(id: str, name: str) -> bool:
+    """Whether a family is the side of a force plan that is drawn for a force: seg.45.R05 for R05."""
+    first, _, rest = id.partition(".")
+    return first == "seg" and rest.partition(".")[2] == name
