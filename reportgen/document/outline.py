@@ -47,17 +47,8 @@ def compose(assignment: Assignment, analysis: Analysis, books: Books, title: str
 
     `title` is the machine's name in the report's language.
     """
-    language = assignment.language
-    path = search_path(language, analysis.machine.kind, assignment.report.school or "")
-    words = load_words(path)
-    prose = Prose(path)
-    facts = Facts(
-        analysis, books, groups(analysis, books.polygons), driver(analysis), assignment.worked_positions
-    )
-    voice = Voice(books.ledger, prose, words)
-    tables = Tables(assignment, facts, voice)
-    drawings = Drawings(assignment, facts, words, plates_for(assignment))
-    names = _names(assignment, facts, voice, tables, drawings, title)
+    prose, names = prepare(assignment, analysis, books, title)
+    words = names["words"]
     blocks: list[Block] = [_cover(assignment, words, title)]
     for section in analysis.machine.outline:
         if section == "contents":
@@ -68,7 +59,7 @@ def compose(assignment: Assignment, analysis: Analysis, books: Books, title: str
     course = report.course or words["cover"]["course"]
     return number(
         Document(
-            language,
+            assignment.language,
             f"{words['cover']['title']} – {title}",
             report.student.name or "",
             (words["header"].format(course=course), _variant(assignment, words)),
@@ -77,6 +68,22 @@ def compose(assignment: Assignment, analysis: Analysis, books: Books, title: str
             tuple(blocks),
         )
     )
+
+
+def prepare(
+    assignment: Assignment, analysis: Analysis, books: Books, title: str
+) -> tuple[Prose, dict[str, Any]]:
+    """The templates of an assignment's language, machine and school, and all that they may name."""
+    path = search_path(assignment.language, analysis.machine.kind, assignment.report.school or "")
+    words = load_words(path)
+    prose = Prose(path)
+    facts = Facts(
+        analysis, books, groups(analysis, books.polygons), driver(analysis), assignment.worked_positions
+    )
+    voice = Voice(books.ledger, prose, words)
+    tables = Tables(assignment, facts, voice)
+    drawings = Drawings(assignment, facts, words, plates_for(assignment))
+    return prose, _names(assignment, facts, voice, tables, drawings, title)
 
 
 def plates_for(assignment: Assignment) -> tuple[int, ...]:
