@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 
-@dataclass(frozen=True, slots=True, order=True)
+@dataclass(frozen=True, slots=True)
 class Mark:
     """A place in a file; `line` and `column` count from 1."""
 
@@ -20,6 +20,38 @@ class Mark:
 
     def __str__(self) -> str:
         return f"{self.file}:{self.line}:{self.column}"
+
+    def __lt__(self, other: Mark) -> bool:
+        return self.place < other.place
+
+    @property
+    def place(self) -> tuple[str, int, int, int]:
+        """Where it stands in the order of places: file, sheet (0 in a text), line, column."""
+        return (self.file, 0, self.line, self.column)
+
+
+@dataclass(frozen=True, slots=True)
+class CellMark(Mark):
+    """A cell of a spreadsheet file: `line` is its row; `number` orders the sheets, from 1."""
+
+    sheet: str = ""
+    number: int = 1
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.sheet}!{column_letters(self.column)}{self.line}"
+
+    @property
+    def place(self) -> tuple[str, int, int, int]:
+        return (self.file, self.number, self.line, self.column)
+
+
+def column_letters(column: int) -> str:
+    """What spreadsheets call a column counted from 1: A … Z, AA, AB, …."""
+    letters = ""
+    while column > 0:
+        column, digit = divmod(column - 1, 26)
+        letters = chr(ord("A") + digit) + letters
+    return letters
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ import difflib
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from pydantic import TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
 from reportgen.assignment import checks
-from reportgen.assignment.common import Assignment, Draft, Kind, sections
+from reportgen.assignment.common import Assignment, Draft, Kind, file_model, sections
 from reportgen.assignment.faults import Fault, Finding, Where
 from reportgen.assignment.messages import as_problem
 from reportgen.assignment.source import List, Node, Scalar, Source, Table, plain, read_source
@@ -21,6 +22,7 @@ from reportgen.errors import AssignmentError, Mark, Problem
 from reportgen.notation.numbers import Language
 
 DEFAULT_LANGUAGE: Language = "vi"
+_SORTS = {"object": "table", "array": "list"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +39,7 @@ def load(path: Path, kinds: Kinds, language: Language | None = None) -> Assignme
     Raises `AssignmentError` with every fault of the file.
     """
     source = read_source(path)
-    assignment, faults = _read(source, path, kinds)
+    assignment, faults = assess(source, path, kinds)
     if assignment is None:
         raise AssignmentError(_in_words(source, faults, language))
     return assignment.with_language(language) if language else assignment
@@ -52,7 +54,8 @@ def check(path: Path, kinds: Kinds, language: Language | None = None) -> list[Pr
     return []
 
 
-def _read(source: Source, path: Path, kinds: Kinds) -> tuple[Assignment | None, list[Fault]]:
+def assess(source: Source, path: Path, kinds: Kinds) -> tuple[Assignment | None, list[Fault]]:
+    """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
     faults = list(source.faults)
     top = source.top
     if not isinstance(top, Table):
@@ -79,6 +82,34 @@ def _read(source: Source, path: Path, kinds: Kinds) -> tuple[Assignment | None, 
     return Assignment(
         kind.name, **filled, source=path, id=path.stem, turns=kind.turns, added=kind.added
     ), []
+
+
+def misread(top: Table, kind: Kind) -> list[Fault]:
+    """The faults that single values and keys show by themselves; no check looks at several of them."""
+    return [_placed(finding, top) for finding in _sections(plain(top), kind)[0]]
+
+
+def known_keys(kind: Kind, where: Where) -> list[str]:
+    """The keys that a table at `where` in a file of a kind may have; none if no table stands there."""
+    return _keys_at(file_schema(kind), where)
+
+
+def wants(kind: Kind, where: Where) -> frozenset[str]:
+    """What a file of a kind may hold at `where`: "table", "list", "scalar"; nothing at a place nobody knows."""
+    schema = file_schema(kind)
+    found = _at(schema, where)
+    return frozenset(_SORTS.get(str(name), "scalar") for one in found for name in _types(one))
+
+
+@cache
+def file_schema(kind: Kind) -> dict[str, Any]:
+    """The JSON Schema of a whole file of a kind."""
+    return file_model(kind).model_json_schema(by_alias=True)
+
+
+def _types(one: dict[str, Any]) -> list[Any]:
+    kinds = one.get("type", "string")
+    return [name for name in (kinds if isinstance(kinds, list) else [kinds]) if name != "null"]
 
 
 def _filled(draft: Draft) -> dict[str, Any]:
@@ -205,15 +236,16 @@ def _without(content: Any, places: Sequence[Where]) -> Any:
 
 def _keys_at(schema: dict[str, Any], where: Where) -> list[str]:
     """Keys that a JSON Schema allows at a place; of alternatives, all their keys."""
-    level = [schema]
-    for step in (*where, None):
-        opened: list[dict[str, Any]] = []
-        for one in level:
-            opened += _opened(one, schema)
-        if step is None:
-            return list(dict.fromkeys(name for one in opened for name in one.get("properties", {})))
-        level = [inner for one in opened for inner in _inside(one, step)]
-    return []
+    return list(dict.fromkeys(name for one in _at(schema, where) for name in one.get("properties", {})))
+
+
+def _at(schema: dict[str, Any], where: Where) -> list[dict[str, Any]]:
+    """What a JSON Schema says of a place, alternatives apart."""
+    level = list(_opened(schema, schema))
+    for step in where:
+        inner = [inner for one in level for inner in _inside(one, step)]
+        level = [opened for one in inner for opened in _opened(one, schema)]
+    return level
 
 
 def _inside(one: dict[str, Any], step: str | int) -> Iterator[dict[str, Any]]:
@@ -257,12 +289,12 @@ def _placed(finding: Finding, top: Table) -> Fault:
     return Fault(finding.code, mark, finding.arguments)
 
 
-def _in_words(source: Source, faults: list[Fault], language: Language | None) -> list[Problem]:
-    spoken = language or _language_of(source)
+def _in_words(source: Source, faults: Sequence[Fault], language: Language | None) -> list[Problem]:
+    spoken = language or language_of(source)
     return [as_problem(fault, spoken) for fault in faults]
 
 
-def _language_of(source: Source) -> Language:
+def language_of(source: Source) -> Language:
     """The language a faulty file asks for; also of one whose syntax is wrong, as far as a line shows it."""
     found = re.search(r"^[^#\n]*[\s{]language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
     return "en" if found and found[1] == "en" else DEFAULT_LANGUAGE

@@ -85,11 +85,11 @@ def read_source(path: Path) -> Source:
     if len(data) > LARGEST:
         return Source(file, faults=(Fault("too-large", start, {"largest": str(LARGEST // 1000)}),))
     if b"\0" in data:
-        return Source(file, faults=(Fault("binary", _mark_in(data, data.index(b"\0"), file)),))
+        return Source(file, faults=(Fault("binary", mark_in(data, data.index(b"\0"), file)),))
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as fault:
-        return Source(file, faults=(Fault("encoding", _mark_in(data, fault.start, file)),))
+        return Source(file, faults=(Fault("encoding", mark_in(data, fault.start, file)),))
     return read_text(text, file)
 
 
@@ -102,7 +102,7 @@ def read_text(text: str, file: str = "") -> Source:
         loader = _Loader(text, file)
     except yaml.reader.ReaderError as fault:
         before = text[: fault.position].encode()
-        return Source(file, text, faults=(Fault("control-character", _mark_in(before, len(before), file)),))
+        return Source(file, text, faults=(Fault("control-character", mark_in(before, len(before), file)),))
     try:
         root = loader.get_single_node()
     except yaml.MarkedYAMLError as fault:
@@ -229,7 +229,7 @@ def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:
     return Fault("syntax", mark, {"hint": hint})
 
 
-def _mark_in(data: bytes, offset: int, file: str) -> Mark:
+def mark_in(data: bytes, offset: int, file: str) -> Mark:
     """The place of a byte; columns count characters."""
     before = data[:offset]
     start = before.rfind(b"\n") + 1

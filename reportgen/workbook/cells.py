@@ -1,0 +1,80 @@
+"""What a table file holds: pages of rows of cells, each of which knows where it stands."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from reportgen.assignment.faults import Fault
+from reportgen.errors import Mark
+
+CellKind = Literal["empty", "text", "number", "boolean", "date", "error", "formula"]
+
+MOST_ROWS = 10_000
+MOST_COLUMNS = 500
+MOST_CELLS = 200_000
+LONGEST_CELL = 32_767
+"""Characters; no spreadsheet program writes more into a cell."""
+
+_LIVE = re.compile(r"'*\s*[=+\-@\t\r\n＝＋－＠]")
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """A cell as it shows: `value` is a number of kind "number", None of kind "empty", else text.
+
+    A date is ISO text, a boolean TRUE or FALSE, an error its code (#DIV/0!).  Of a formula, `formula` is its
+    text with the equals sign and `value` the result stored beside it, None if there is none.
+    """
+
+    value: str | float | None
+    mark: Mark
+    kind: CellKind
+    formula: str = ""
+
+    @property
+    def text(self) -> str:
+        """The value as a reader of the table sees it: whole numbers without a decimal point, empty as ""."""
+        if self.value is None:
+            return ""
+        return self.value if isinstance(self.value, str) else number_text(self.value)
+
+    @property
+    def blank(self) -> bool:
+        return self.value is None and self.kind == "empty"
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """A sheet, or a whole CSV file: rows from the first on, each as long as its last cell that holds something."""
+
+    name: str
+    rows: tuple[tuple[Cell, ...], ...]
+    hidden: bool = False
+
+
+class RefusedError(Exception):
+    """A file that is not read any further; carries the `Fault`."""
+
+    def __init__(self, code: str, mark: Mark, arguments: Mapping[str, str] | None = None) -> None:
+        super().__init__(code)
+        self.fault = Fault(code, mark, arguments or {})
+
+
+def number_text(value: float) -> str:
+    """A number as short as it can be read back from: 195520103001, 0.35, 1e-20."""
+    return str(int(value)) if value.is_integer() and abs(value) < 1e16 else repr(value)
+
+
+def guarded(text: str) -> str:
+    """The text with an apostrophe before it where a spreadsheet would take it for a formula; numbers stay."""
+    return f"'{text}" if _LIVE.match(text) and not _NUMBER.fullmatch(text) else text
+
+
+def unguarded(text: str) -> str:
+    """The text that `guarded` was given."""
+    rest = text[1:]
+    return rest if text.startswith("'") and _LIVE.match(rest) and not _NUMBER.fullmatch(rest) else text

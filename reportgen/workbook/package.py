@@ -1,0 +1,192 @@
+"""The zip package of an XLSX file: what is in it is judged before any of it is unpacked.
+
+Refused are packages that are encrypted, that hold macros or links to other files, that unpack to more than
+they should, and parts of XML with a document type, which alone can declare entities.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+import zlib
+from bisect import bisect_right
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+from xml.parsers import expat
+
+from reportgen.errors import Mark
+from reportgen.workbook.cells import RefusedError
+
+MOST_PARTS = 2_000
+MOST_UNPACKED = 60_000_000
+"""Bytes of all parts together."""
+MOST_RATIO = 250
+"""How many times its packed size a part of more than `SMALL` bytes may have; sheets of numbers reach 40."""
+SMALL = 1_000_000
+CHUNK = 1 << 16
+
+_OLD = b"\xd0\xcf\x11\xe0"
+_ENCRYPTED = "EncryptedPackage".encode("utf-16-le")
+_MACROS = re.compile(r"vbaproject|/macrosheets/|/activex/|\.bas$", re.IGNORECASE)
+_LINKS = re.compile(r"(^|/)externallinks/|(^|/)connections\.xml$", re.IGNORECASE)
+_FORBIDDEN_TYPES = re.compile(r"macroenabled|vbaproject|intlmacrosheet", re.IGNORECASE)
+_TRAITS = re.compile(r"\.(xml|rels|vml)$", re.IGNORECASE)
+
+Attributes = dict[str, str]
+Start = Callable[[str, Attributes], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Relation:
+    """What one part says of another: the last word of its type, where it is, whether outside the package."""
+
+    kind: str
+    target: str
+    external: bool
+
+
+class Package:
+    """An opened package whose directory has been found harmless; parts are read on demand, within limits."""
+
+    def __init__(self, data: bytes, file: str) -> None:
+        """Raises `RefusedError`."""
+        self.mark = Mark(file)
+        if data.startswith(_OLD):
+            raise self.refused("sheet-encrypted" if _ENCRYPTED in data else "sheet-old")
+        try:
+            self._zip = zipfile.ZipFile(io.BytesIO(data))
+        except (zipfile.BadZipFile, ValueError, OverflowError, NotImplementedError):
+            raise self.refused("sheet-no-zip") from None
+        self._parts = {info.filename: info for info in self._zip.infolist()}
+        self._judge(len(data))
+        for name in self._parts:
+            if _TRAITS.search(name):
+                self.walk(name, prologue_only=True)
+        self._judge_contents()
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._parts
+
+    def refused(self, code: str, **arguments: str) -> RefusedError:
+        return RefusedError(code, self.mark, arguments)
+
+    def _judge(self, size: int) -> None:
+        """What the directory of the zip shows."""
+        infos = self._zip.infolist()
+        unpacked = sum(info.file_size for info in infos)
+        # Parts that share their bytes unpack to more than any one of them shows.
+        starts = [*sorted(info.header_offset for info in infos), size]
+        ends = [info.header_offset + info.compress_size for info in infos]
+        shared = len(set(starts)) < len(starts) or any(
+            end > starts[min(bisect_right(starts, info.header_offset), len(infos))]
+            for end, info in zip(ends, infos, strict=True)
+        )
+        if len(infos) > MOST_PARTS or unpacked > MOST_UNPACKED or shared:
+            raise self.refused("sheet-bomb", largest=str(MOST_UNPACKED // 1_000_000))
+        for info in infos:
+            if info.file_size > SMALL and info.file_size > MOST_RATIO * max(info.compress_size, 1):
+                raise self.refused("sheet-bomb", largest=str(MOST_UNPACKED // 1_000_000))
+            if info.flag_bits & 1:
+                raise self.refused("sheet-encrypted")
+            if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+                raise self.refused("sheet-damaged")
+        if len(self._parts) < len(infos):
+            raise self.refused("sheet-damaged")
+        if "[Content_Types].xml" not in self._parts:
+            raise self.refused("sheet-no-zip")
+        if any(_MACROS.search(name) for name in self._parts):
+            raise self.refused("sheet-macros")
+        if any(_LINKS.search(name) for name in self._parts):
+            raise self.refused("sheet-links")
+
+    def _judge_contents(self) -> None:
+        """What the list of types and the relations show; a hyperlink is the one link that leads outside."""
+        for _, attributes in self.elements("[Content_Types].xml"):
+            if _FORBIDDEN_TYPES.search(attributes.get("ContentType", "")):
+                raise self.refused("sheet-macros")
+        for name in self._parts:
+            if name.lower().endswith(".rels"):
+                for relation in self.relations(name).values():
+                    if relation.external and relation.kind != "hyperlink":
+                        raise self.refused("sheet-links")
+
+    def relations(self, name: str) -> dict[str, Relation]:
+        """The relations of a .rels part by their ids; none if there is no such part."""
+        if name not in self._parts:
+            return {}
+        return {
+            attributes.get("Id", ""): Relation(
+                attributes.get("Type", "").rpartition("/")[2],
+                attributes.get("Target", ""),
+                attributes.get("TargetMode", "").lower() == "external",
+            )
+            for tag, attributes in self.elements(name)
+            if tag == "Relationship"
+        }
+
+    def elements(self, name: str) -> list[tuple[str, Attributes]]:
+        """All elements of a part, in order, by local name with their attributes."""
+        found: list[tuple[str, Attributes]] = []
+        self.walk(name, start=lambda tag, attributes: found.append((tag, attributes)))
+        return found
+
+    def walk(
+        self,
+        name: str,
+        start: Start | None = None,
+        end: Callable[[str], None] | None = None,
+        text: Callable[[str], None] | None = None,
+        *,
+        prologue_only: bool = False,
+    ) -> None:
+        """Hand the events of an XML part to the callables, names without namespaces.
+
+        Raises `RefusedError` for a document type, damage, or more bytes than the directory announced.
+        """
+        parser: Any = expat.ParserCreate(namespace_separator=" ")
+        parser.buffer_text = True
+        entered = False
+
+        def refuse(*_: object) -> None:
+            raise self.refused("sheet-entities", text=name)
+
+        def begin(tag: str, attributes: Attributes) -> None:
+            nonlocal entered
+            entered = True
+            if start is not None:
+                start(_local(tag), {_local(key): value for key, value in attributes.items()})
+
+        parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = refuse
+        parser.StartElementHandler = begin
+        if end is not None:
+            parser.EndElementHandler = lambda tag: end(_local(tag))
+        if text is not None:
+            parser.CharacterDataHandler = text
+        try:
+            for chunk in self._chunks(name):
+                parser.Parse(chunk, False)
+                if prologue_only and entered:
+                    return
+            parser.Parse(b"", True)
+        except (expat.ExpatError, UnicodeError, LookupError):
+            if not prologue_only:
+                raise self.refused("sheet-damaged", text=name) from None
+
+    def _chunks(self, name: str) -> Iterator[bytes]:
+        info = self._parts[name]
+        left = info.file_size
+        try:
+            with self._zip.open(info) as stream:
+                while chunk := stream.read(CHUNK):
+                    left -= len(chunk)
+                    if left < 0:
+                        raise self.refused("sheet-bomb", largest=str(MOST_UNPACKED // 1_000_000))
+                    yield chunk
+        except (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError, ValueError):
+            raise self.refused("sheet-damaged") from None
+
+
+def _local(name: str) -> str:
+    return name.rpartition(" ")[2]

@@ -1,0 +1,192 @@
+"""A plain description of tables → CSV or XLSX bytes: the same description, the same bytes.
+
+Text stays text: what a spreadsheet would take for a formula is written as a string in XLSX and behind an
+apostrophe in CSV.
+"""
+
+from __future__ import annotations
+
+import csv
+import datetime
+import io
+import re
+import unicodedata
+import zipfile
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from reportgen.workbook.cells import LONGEST_CELL, guarded, number_text
+
+if TYPE_CHECKING:
+    from openpyxl.worksheet.worksheet import Worksheet
+
+Style = Literal["", "title", "head", "bold", "note", "input", "good", "warn", "bad"]
+
+MOMENT = datetime.datetime(2000, 1, 1)
+"""What every file says of when it was made, so that its bytes depend on its content alone."""
+FILLS = {"head": "D9E2EC", "input": "FFF9DB", "good": "D3F0D7", "warn": "FFE8B8", "bad": "F9CFCB"}
+LONGEST_NAME = 31
+_FORBIDDEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+_ESCAPED = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
+_NAME = re.compile(r"[\[\]:*?/\\\x00-\x1f]")
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A cell to be written: its value, how it looks, a comment, a number format such as "0.00".
+
+    `unlocked` lets it be filled in where the sheet is protected.
+    """
+
+    value: str | float | None = None
+    style: Style = ""
+    comment: str = ""
+    format: str = ""
+    unlocked: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A page of a workbook: rows of entries or of bare values.
+
+    `widths` are those of the columns, in characters; `frozen` are the rows and columns that stay in view.
+    A `protected` sheet can be changed in its unlocked cells only (without a password: it guards against slips).
+    """
+
+    name: str
+    rows: Sequence[Sequence[Entry | str | float | None]]
+    widths: Sequence[float] = ()
+    frozen: tuple[int, int] = (0, 0)
+    protected: bool = False
+    hidden: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Book:
+    """A workbook of one or more sheets; their names are made valid and distinct."""
+
+    sheets: Sequence[Sheet]
+    title: str = ""
+
+
+def write_csv(rows: Iterable[Sequence[str | float | None]]) -> bytes:
+    """Rows as UTF-8 CSV with a byte order mark, by which spreadsheets know the encoding."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\r\n")
+    for row in rows:
+        writer.writerow([_csv_text(value) for value in row])
+    return b"\xef\xbb\xbf" + stream.getvalue().encode("utf-8", "replace")
+
+
+def _csv_text(value: str | float | None) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, str):
+        return guarded(unicodedata.normalize("NFC", value).replace("\0", "\N{REPLACEMENT CHARACTER}"))
+    return number_text(float(value))
+
+
+def write_xlsx(book: Book) -> bytes:
+    """A workbook as XLSX."""
+    from openpyxl import Workbook
+
+    made = Workbook()
+    made.remove(made.worksheets[0])
+    made.properties.creator, made.properties.title = "reportgen", _clean(book.title) or None
+    made.properties.created = MOMENT
+    taken: set[str] = set()
+    for sheet in book.sheets:
+        _fill(made.create_sheet(_sheet_name(sheet.name, taken)), sheet)
+    stream = io.BytesIO()
+    made.save(stream)
+    return _timeless(stream.getvalue())
+
+
+def _fill(page: Worksheet, sheet: Sheet) -> None:
+    from openpyxl.comments import Comment
+    from openpyxl.styles import Protection
+    from openpyxl.utils import get_column_letter
+
+    for number, width in enumerate(sheet.widths, start=1):
+        page.column_dimensions[get_column_letter(number)].width = width
+    for row, entries in enumerate(sheet.rows, start=1):
+        for column, one in enumerate(entries, start=1):
+            entry = one if isinstance(one, Entry) else Entry(one)
+            if entry == Entry():
+                continue
+            cell: Any = page.cell(row, column)
+            _put(cell, entry.value)
+            _dress(cell, entry)
+            if entry.comment:
+                cell.comment = Comment(_clean(entry.comment), "reportgen", height=110, width=320)
+            if entry.unlocked:
+                cell.protection = Protection(locked=False)
+    rows, columns = sheet.frozen
+    if rows or columns:
+        page.freeze_panes = f"{get_column_letter(columns + 1)}{rows + 1}"
+    page.protection.sheet = sheet.protected
+    page.sheet_state = "hidden" if sheet.hidden else "visible"
+
+
+def _put(cell: Any, value: str | float | None) -> None:
+    """Text as a string whatever it looks like: never a formula, never an error code."""
+    if isinstance(value, str):
+        text = _ESCAPED.sub("_x005F_", _clean(value))[:LONGEST_CELL]
+        cell.value = text
+        cell.data_type = "s"
+        if guarded(text) != text:
+            cell.quotePrefix = True
+    else:
+        cell.value = value
+
+
+def _dress(cell: Any, entry: Entry) -> None:
+    from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
+
+    style = entry.style
+    if style in ("title", "head", "bold"):
+        cell.font = Font(bold=True, size=14 if style == "title" else 11)
+    elif style == "note":
+        cell.font = Font(italic=True, color="555555")
+    if style in FILLS:
+        line = Side(style="thin", color="A0A0A0")
+        cell.fill = PatternFill("solid", start_color=FILLS[style])
+        cell.border = Border(left=line, right=line, top=line, bottom=line)
+    if style in ("head", "note"):
+        cell.alignment = Alignment(wrap_text=style == "head", vertical="center")
+    if entry.format:
+        cell.number_format = entry.format
+
+
+def _sheet_name(name: str, taken: set[str]) -> str:
+    """The name as programs allow it: 31 characters, none of []:*?/\\, no apostrophe at an end, each once."""
+    plain = _NAME.sub("_", _clean(name)).strip("' ")[:LONGEST_NAME] or "1"
+    chosen, number = plain, 2
+    while chosen.casefold() in taken:
+        ending = f" ({number})"
+        chosen, number = f"{plain[: LONGEST_NAME - len(ending)]}{ending}", number + 1
+    taken.add(chosen.casefold())
+    return chosen
+
+
+def _clean(text: str) -> str:
+    """Text that XML can carry."""
+    return _FORBIDDEN.sub("\N{REPLACEMENT CHARACTER}", unicodedata.normalize("NFC", text))
+
+
+def _timeless(data: bytes) -> bytes:
+    """The package again, with one fixed moment in place of when it was written."""
+    stream = io.BytesIO()
+    moment = MOMENT.timetuple()[:6]
+    stamp = f"{MOMENT.isoformat()}Z".encode()
+    with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as new:
+        for info in old.infolist():
+            content = old.read(info)
+            if info.filename == "docProps/core.xml":
+                content = re.sub(rb"(<dcterms:modified[^>]*>)[^<]*", rb"\g<1>" + stamp, content)
+            part = zipfile.ZipInfo(info.filename, (moment[0], moment[1], moment[2], moment[3], moment[4], moment[5]))
+            part.compress_type = zipfile.ZIP_DEFLATED
+            part.external_attr = 0o600 << 16
+            new.writestr(part, content)
+    return stream.getvalue()
