@@ -12,6 +12,9 @@ from reportgen.document.tree import Table, Value
 from reportgen.document.voice import TEXT_WIDTH
 from reportgen.notation.expressions import Number
 
+NARROWEST = 16.0
+"""Columns of words narrower than this (mm) are set as rows instead."""
+
 
 class ForceTables(Tabled):
     """What acts on the machine, in tables."""
@@ -32,19 +35,21 @@ class ForceTables(Tabled):
         strokes = np.array([state.stroke for state in gas.values()])
         starts = [0, *(int(i) + 1 for i in np.flatnonzero(np.any(np.diff(strokes, axis=1), axis=0)))]
         ends = [*starts[1:], machine.positions]
-        head = (
-            positions,
-            *(
-                f"{machine.position(start + 1)}–{machine.position(end % machine.positions + 1)}"
-                for start, end in zip(starts, ends, strict=True)
-            ),
-        )
-        rows = [
-            (f"{first} {state.piston.link}", *(names[int(state.stroke[start])] for start in starts))
-            for state in gas.values()
+        stretches = [
+            f"{machine.position(start + 1)}–{machine.position(end % machine.positions + 1)}"
+            for start, end in zip(starts, ends, strict=True)
         ]
-        width = min((TEXT_WIDTH - 30) / len(starts), 30.0)
-        return self.voice.list_table(key, caption, head, rows, (30.0, *(width,) * len(starts)))
+        told = [[names[int(state.stroke[start])] for start in starts] for state in gas.values()]
+        pistons = [f"{first} {state.piston.link}" for state in gas.values()]
+        width = (TEXT_WIDTH - 30) / len(starts)
+        if width < NARROWEST:
+            down = zip(stretches, *told, strict=True)
+            return self.voice.list_table(
+                key, caption, (positions, *pistons), down, (30.0, *(40.0,) * len(pistons))
+            )
+        across = [(piston, *row) for piston, row in zip(pistons, told, strict=True)]
+        widths = (30.0, *(min(width, 30.0),) * len(starts))
+        return self.voice.list_table(key, caption, (positions, *stretches), across, widths)
 
     def lever_table(self, key: str, caption: str, head: Sequence[str], k: int) -> Table:
         """Loads on the turned velocity plan: size, arm, moment about the pole by μ_l, anticlockwise positive."""

@@ -13,7 +13,10 @@ from reportgen.document.tree import Cell, Column, Table, Value
 from reportgen.document.voice import FIRST_COLUMN, TEXT_WIDTH
 from reportgen.notation.expressions import Chain, Number, Symbol
 
-MOST_COORDINATES = 10
+MOST_COORDINATES, MOST_WIDE = 10, 8
+"""Columns of coordinates in one table; fewer where one of them is −100 mm or less."""
+WIDE = -0.1
+"""A coordinate (m) that takes the widest column."""
 STILL = 1e-9
 """A rate below this share of its greatest value is nothing."""
 
@@ -67,7 +70,8 @@ class MotionTables(Tabled):
                 columns, (head,), rows, self.voice.prose.inlines(told), key if number == 1 else f"{key}.{number}"
             )
 
-        blocks = -(-len(kept) // MOST_COORDINATES)
+        wide = any(values[index][:count].min() <= WIDE for index in kept)
+        blocks = -(-len(kept) // (MOST_WIDE if wide else MOST_COORDINATES))
         size = 2 * -(-len(kept) // (2 * blocks))
         parts = [kept[start : start + size] for start in range(0, len(kept), size)]
         return tuple(table(number, part, len(parts)) for number, part in enumerate(parts, start=1))

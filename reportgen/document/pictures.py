@@ -15,6 +15,7 @@ from reportgen.catalogue.machine import Machine, Piston
 from reportgen.cycle.indicator import StrokeIndicator
 from reportgen.document.pictured import (
     DENSE,
+    SAME,
     SCHEME_BOX,
     SHOWN_AT,
     Drawn,
@@ -137,7 +138,7 @@ class MachinePictures(Pictured):
         top, bottom = first.top * scale, first.bottom * scale
         highest = max(float(np.max(gas.pressure)) for gas in self.analysis.gas.values())
         highest = max(highest, _highest(first.indicator)) / unit
-        side = -1j * (bottom - top) / abs(bottom - top) * -1
+        side = self._free_side(first)
         start, end, mu = indicator.beside(top, bottom, side, 75.0, highest)
         symbol = Symbol("μ", "p")
         frame = indicator.Frame(
@@ -159,12 +160,18 @@ class MachinePictures(Pictured):
                 ),
                 float(gas.fraction[k]),
                 float(gas.pressure[k]) / unit,
-                first.top * scale + (bottom - top) * float(gas.fraction[k]),
+                top + (bottom - top) * float(gas.fraction[k]) if _in_line(first, gas.piston) else None,
             )
             for gas in self.analysis.gas.values()
             for k in range(machine.positions)
         ]
         return on_paper(self._position_plan(indicator.indicator(frame, branches, readings)))
+
+    def _free_side(self, first: Piston) -> complex:
+        """The side of a cylinder that is free for its diagram: away from other cylinders, else to its right."""
+        right = 1j * first.inward
+        ways = [((one.top + one.bottom) / 2 - first.bottom) / right for one in self.analysis.machine.pistons]
+        return right if sum(way.real for way in ways) <= SAME else -right
 
     def coriolis(self, k: int, side: Slide) -> Drawn:
         """The relative velocity in a turning guide, turned by 90° in the sense of its ω."""
@@ -179,6 +186,11 @@ class MachinePictures(Pictured):
             (ledger.symbol(f"omega.{side.turning}"), float(np.sign(omega))),
         )
         return Drawn((coriolis(sliding),))
+
+
+def _in_line(first: Piston, other: Piston) -> bool:
+    """Whether a piston moves on the line of the first one, where its positions are projected from."""
+    return abs(((other.top - first.top) / first.inward).imag) + abs((other.inward / first.inward).imag) < SAME
 
 
 def _highest(table: Any) -> float:
