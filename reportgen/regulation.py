@@ -15,6 +15,7 @@ from reportgen.mechanism.power import virtual_work_torque
 SAMPLES = 1440
 """Angles of a turn at which the extremes of energy are looked for: a quarter degree misses less than 1e-5."""
 SAME = 1e-9
+"""Angles nearer than this (rad) are one; a torque below this share of what the loads could do is none."""
 
 
 def reduced_inertia(machine: Machine, motion: Motion) -> np.ndarray:
@@ -34,6 +35,16 @@ def reduced_torque(analysis: Analysis) -> np.ndarray:
     )
 
 
+def _possible(analysis: Analysis) -> float:
+    """The torque (N·m) of weights and loads if all acted on the fastest point and link, along their motion."""
+    motion, static = analysis.motion, (*analysis.weights, *analysis.applied)
+    fastest = max(float(np.abs(point.v).max()) for point in motion.points.values())
+    turning = max(float(np.abs(link.omega).max()) for link in motion.links.values())
+    force = sum(float(np.abs(load.force).max()) for load in static)
+    couple = sum(float(np.abs(load.couple).max()) for load in static)
+    return (force * fastest + couple * turning) / abs(motion.rate)
+
+
 def _torque_at(machine: Machine, angle: np.ndarray) -> np.ndarray:
     return reduced_torque(analyse(machine, angle))
 
@@ -46,10 +57,12 @@ def flywheel(machine: Machine, unevenness: float) -> Flywheel:
     every = np.sort(np.concatenate((grid, own)))
     angle = every[np.concatenate(([True], np.diff(every) > SAME))]
     analysis = analyse(machine, angle)
+    torque, least = reduced_torque(analysis), SAME * _possible(analysis)
+    idle = np.abs(torque).max() <= least
     return regulate(
         angle,
-        reduced_torque(analysis),
-        accumulated(partial(_torque_at, machine), angle),
+        np.zeros_like(torque) if idle else torque,
+        np.zeros_like(torque) if idle else accumulated(partial(_torque_at, machine), angle),
         reduced_inertia(machine, analysis.motion),
         machine.speed,
         unevenness,

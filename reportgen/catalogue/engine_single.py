@@ -14,22 +14,21 @@ from typing import Annotated
 import numpy as np
 
 from reportgen.assignment import checks
-from reportgen.assignment.common import Assignment, Draft, Part, Positions
+from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import (
     Acceleration,
-    AngularVelocity,
     Interval,
     Length,
     Mass,
     MomentOfInertia,
     Ratio,
-    RotationalSpeed,
     Share,
     Weight,
     quantity,
 )
-from reportgen.catalogue import gas, offset_slider, regulation
+from reportgen.catalogue import gas, offset_slider
+from reportgen.catalogue.driven import Driven, outline, rate_items
 from reportgen.catalogue.machine import (
     Item,
     Machine,
@@ -38,7 +37,6 @@ from reportgen.catalogue.machine import (
     lettered,
     mass_items,
     ratio_item,
-    speed_items,
 )
 from reportgen.catalogue.offset_slider import OffsetSlider
 from reportgen.mechanism.structure import Inertia
@@ -77,7 +75,7 @@ GyrationRatio = Annotated[Given, Ratio(Interval(above=0, most=1))]
 Indicator = gas.Diagram
 
 
-class Parameters(Part):
+class Parameters(Driven):
     """The cylinder, then crank and rod by H, e, K or by R and L; the speed; what moves."""
 
     D: Length
@@ -86,8 +84,6 @@ class Parameters(Part):
     R: Length | None = None
     L: Length | None = None
     e: Offset = Given(0.0, 0.0, "mm", "0 mm")
-    n: RotationalSpeed | None = None
-    omega1: AngularVelocity | None = None
     s: Share
     G1: Weight | None = None
     G2: Weight | None = None
@@ -98,14 +94,6 @@ class Parameters(Part):
     rho: GyrationRatio | None = None
     J2: MomentOfInertia | None = None
     g: Acceleration = Given(9.8, 9.8, "m/s2", "9.8 m/s2")
-    flywheel: regulation.Flywheel | None = None
-
-    @property
-    def speed(self) -> float:
-        """|ω1| (rad/s)."""
-        given = self.n or self.omega1
-        assert given is not None, "a file without speed is refused by `CHECKS`"
-        return given.si
 
     @property
     def has_lengths(self) -> bool:
@@ -134,12 +122,6 @@ class Parameters(Part):
             return self.J2.si
         square = 1 / 12 if self.rho is None else self.rho.si**2
         return self.mass(2) * square * self.lengths[1] ** 2
-
-    def mass(self, link: int) -> float:
-        """m = G/g (kg) of link 1…3, 0 if neither is given."""
-        weight: Given | None = getattr(self, f"G{link}")
-        mass: Given | None = getattr(self, f"m{link}")
-        return weight.si / self.g.si if weight is not None else mass.si if mass is not None else 0.0
 
     def geometry(self, positions: Positions) -> OffsetSlider:
         """The mechanism in the axes that turn with the rotation, the cylinder on their positive side."""
@@ -220,24 +202,6 @@ CHECKS = (
 
 # --- the machine ----------------------------------------------------------------------------------
 
-OUTLINE = (
-    "given",
-    "contents",
-    "foreword",
-    "structure",
-    "motion",
-    "synthesis",
-    "positions",
-    "velocity",
-    "acceleration",
-    "cycle",
-    "loads",
-    "groups",
-    "crank",
-    "conclusion",
-    "references",
-    "checks",
-)
 
 
 def machine(assignment: Assignment) -> Machine:
@@ -262,8 +226,8 @@ def machine(assignment: Assignment) -> Machine:
         turns=TURNS,
         given=_items(given, assignment.drawing.crank),
         formulas=offset_slider.formulas(angles, Ref("e") if geometry.e else None, True),
-        outline=regulation.with_chapter(OUTLINE, given.flywheel),
-        unevenness=None if given.flywheel is None else given.flywheel.delta.si,
+        outline=outline(True, True, given.flywheel, sizes="synthesis", load="cycle"),
+        unevenness=given.unevenness,
         pistons=(piston,),
         applied=gas_forces((piston,)),
         sliders=(piston,),
@@ -283,8 +247,7 @@ def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
         Item("D", Symbol("D"), "diameter", given.D.si),
         Item("s", Symbol("s"), "ratio", given.s.si),
         Item("g", Symbol("g"), "gravity", given.g.si),
-        *speed_items(given.n, given.omega1),
-        *regulation.items(given.flywheel),
+        *rate_items(given),
         Item("l.AB", Symbol("l", "AB"), "length", definition=Ref("R")),
         Item("l.BC", Symbol("l", "BC"), "length", definition=Ref("L")),
         Item("l.BS2", Symbol("l", "BS2"), "length", definition=multiply("s", "L")),

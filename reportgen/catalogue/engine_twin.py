@@ -14,22 +14,20 @@ import numpy as np
 from pydantic import Field
 
 from reportgen.assignment import checks
-from reportgen.assignment.common import Assignment, Draft, Part, Positions
+from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import (
-    Acceleration,
     Angle,
-    AngularVelocity,
     Length,
     Mass,
     MomentOfInertia,
     RodRatio,
-    RotationalSpeed,
     Share,
     Weight,
 )
-from reportgen.catalogue import crank_slider, gas, regulation
-from reportgen.catalogue.machine import Item, Machine, Piston, gas_forces, ratio_item, speed_items
+from reportgen.catalogue import crank_slider, gas
+from reportgen.catalogue.driven import Driven, outline, rate_items
+from reportgen.catalogue.machine import Item, Machine, Piston, gas_forces, ratio_item
 from reportgen.cycle.indicator import STROKES, Stroke, stroke_at
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import PI, Ref, Symbol, divide, multiply, power
@@ -46,13 +44,11 @@ TOP_OF_PISTON_3 = math.pi / 2
 """Crank angle (from +x) at which piston 3, above the crank, is at its top dead centre."""
 
 
-class Parameters(Part):
+class Parameters(Driven):
     """What the machine is given by: the stroke, the ratio λ = R/L, its speed, and what moves."""
 
     H: Length
     lambda_: RodRatio = Field(alias="lambda")
-    n: RotationalSpeed | None = None
-    omega1: AngularVelocity | None = None
     D: Length
     s: Share
     G2: Weight | None = None
@@ -66,15 +62,6 @@ class Parameters(Part):
     J2: MomentOfInertia | None = None
     J4: MomentOfInertia | None = None
     crank_angle: Angle = Given(math.pi, 180.0, "deg", "180 deg")
-    g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
-    flywheel: regulation.Flywheel | None = None
-
-    @property
-    def speed(self) -> float:
-        """|ω1| (rad/s)."""
-        given = self.n or self.omega1
-        assert given is not None, "a file without speed is refused by `CHECKS`"
-        return given.si
 
     @property
     def rod_length(self) -> float:
@@ -172,24 +159,6 @@ CHECKS = (
 
 # --- the machine ----------------------------------------------------------------------------------
 
-OUTLINE = (
-    "given",
-    "contents",
-    "foreword",
-    "structure",
-    "motion",
-    "synthesis",
-    "positions",
-    "velocity",
-    "acceleration",
-    "cycle",
-    "loads",
-    "groups",
-    "crank",
-    "conclusion",
-    "references",
-    "checks",
-)
 CRANK_DRAWN = 0.05
 """Drawn length of the crank (m on paper) when none is asked for."""
 
@@ -263,8 +232,8 @@ def machine(assignment: Assignment) -> Machine:
         turns=TURNS,
         given=_items(given, assignment.drawing.crank),
         formulas=formulas,
-        outline=regulation.with_chapter(OUTLINE, given.flywheel),
-        unevenness=None if given.flywheel is None else given.flywheel.delta.si,
+        outline=outline(True, True, given.flywheel, sizes="synthesis", load="cycle"),
+        unevenness=given.unevenness,
         pistons=pistons,
         applied=gas_forces(pistons),
         sliders=pistons,
@@ -282,8 +251,7 @@ def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
         Item("s", Symbol("s"), "ratio", given.s.si),
         Item("g", Symbol("g"), "gravity", given.g.si),
         Item("crank.angle", Symbol("δ"), "angle", given.crank_angle.si),
-        *speed_items(given.n, given.omega1),
-        *regulation.items(given.flywheel),
+        *rate_items(given),
         Item("R", Symbol("R"), "length", definition=divide("H", 2)),
         Item("L", Symbol("L"), "length", definition=divide("R", "lambda")),
         *(Item(f"l.{arm}", Symbol("l", arm), "length", definition=Ref("R")) for arm in ("O1A", "O1C")),

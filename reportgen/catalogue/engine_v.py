@@ -13,24 +13,22 @@ from typing import Annotated
 import numpy as np
 
 from reportgen.assignment import checks
-from reportgen.assignment.common import Assignment, Draft, Part, Positions
+from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import (
-    Acceleration,
     Angle,
-    AngularVelocity,
     Length,
     Mass,
     MomentOfInertia,
-    RotationalSpeed,
     Share,
     Weight,
     Whole,
     quantity,
 )
-from reportgen.catalogue import articulated, bars, crank_slider, gas, linkage_loads, reach
+from reportgen.catalogue import articulated, bars, crank_slider, gas, linkage_loads, reach, regulation
 from reportgen.catalogue.bars import Bar
 from reportgen.catalogue.course import FULL_TURN, Floats
+from reportgen.catalogue.driven import Driven, mass_keys, outline, rate_items
 from reportgen.catalogue.machine import (
     Applied,
     Item,
@@ -39,7 +37,6 @@ from reportgen.catalogue.machine import (
     gas_forces,
     lettered,
     mass_items,
-    speed_items,
 )
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.resistance import Constant
@@ -62,7 +59,7 @@ Articulation = Annotated[Given, quantity("mm", least=0, below=1e5)]
 Force = Annotated[Given, quantity("N", least=-1e7, most=1e7)]
 
 
-class Parameters(Part):
+class Parameters(Driven):
     """Lengths, the two axes, the speed; forces on the pistons, or their bore; what moves has mass if given one."""
 
     AB: Length
@@ -71,8 +68,6 @@ class Parameters(Part):
     DE: Length
     alpha: Angle
     beta: Angle
-    n: RotationalSpeed | None = None
-    omega1: AngularVelocity | None = None
     PC: Force | None = None
     PE: Force | None = None
     D: Length | None = None
@@ -89,14 +84,6 @@ class Parameters(Part):
     m5: Mass | None = None
     J2: MomentOfInertia | None = None
     J4: MomentOfInertia | None = None
-    g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
-
-    @property
-    def speed(self) -> float:
-        """|ω1| (rad/s)."""
-        given = self.n or self.omega1
-        assert given is not None, "a file without speed is refused by `CHECKS`"
-        return given.si
 
     @property
     def joint(self) -> str:
@@ -107,12 +94,6 @@ class Parameters(Part):
     def turns(self) -> int:
         """Turns in a cycle: two of a four-stroke engine with its gas, else one."""
         return 2 if self.D is not None else 1
-
-    def mass(self, link: int) -> float:
-        """m = G/g (kg) of link 2…5, 0 if neither is given."""
-        weight: Given | None = getattr(self, f"G{link}")
-        mass: Given | None = getattr(self, f"m{link}")
-        return weight.si / self.g.si if weight is not None else mass.si if mass is not None else 0.0
 
     @property
     def rods(self) -> tuple[Bar, Bar]:
@@ -200,24 +181,12 @@ CHECKS = (
     *bars.one_mass((2, 3, 4, 5)),
     *gas.CHECKS,
     _check_loads,
+    regulation.needs_loads((*mass_keys((2, 3, 4, 5)), "PC", "PE", "D")),
     _check_assembly,
 )
 
 
 # --- the machine ----------------------------------------------------------------------------------
-
-KINEMATICS = (
-    "given",
-    "contents",
-    "foreword",
-    "structure",
-    "motion",
-    "dimensions",
-    "positions",
-    "velocity",
-    "acceleration",
-)
-CLOSING = ("conclusion", "references", "checks")
 
 
 def machine(assignment: Assignment) -> Machine:
@@ -250,7 +219,8 @@ def machine(assignment: Assignment) -> Machine:
         turns=given.turns,
         given=_items(given, turn, assignment.drawing.crank),
         formulas=_formulas(given, angle),
-        outline=_outline(bool(linkage.inertias), bool(applied)),
+        outline=outline(bool(linkage.inertias), bool(applied), given.flywheel),
+        unevenness=given.unevenness,
         pistons=pistons,
         applied=applied,
         sliders=courses,
@@ -259,13 +229,6 @@ def machine(assignment: Assignment) -> Machine:
         places=places,
         labels=labels,
     )
-
-
-def _outline(masses: bool, working: bool) -> tuple[str, ...]:
-    """Without mass and force the report ends with the kinematics."""
-    if not (masses or working):
-        return (*KINEMATICS, *CLOSING)
-    return (*KINEMATICS, "working", *(("loads",) if masses else ()), "groups", "crank", *CLOSING)
 
 
 def _constant(given: Parameters) -> tuple[Applied, ...]:
@@ -303,7 +266,7 @@ def _items(given: Parameters, turn: int, crank: Given | None) -> tuple[Item, ...
         Item(rod, Symbol("l", f"{given.joint}E"), "length", given.DE.si),
         Item("alpha", Symbol("α"), "angle", given.alpha.si),
         Item("beta", Symbol("β"), "angle", given.beta.si),
-        *speed_items(given.n, given.omega1),
+        *rate_items(given),
         Item("drawn.AB", Symbol("AB", over="segment"), "segment", crank.si if crank else CRANK_DRAWN),
         Item("R", Symbol("R"), "length", definition=Ref("l.AB")),
         Item("L", Symbol("L"), "length", definition=Ref("l.BC")),

@@ -11,27 +11,22 @@ from dataclasses import replace
 from typing import Annotated, Literal
 
 from reportgen.assignment import checks
-from reportgen.assignment.common import Assignment, Draft, Part, Positions
+from reportgen.assignment.common import Assignment, Draft, Part
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import (
-    Acceleration,
     Angle,
-    AngularVelocity,
     Length,
     Mass,
     MomentOfInertia,
-    RotationalSpeed,
     Share,
     Weight,
     quantity,
 )
-from reportgen.catalogue import bars, four_bar_formulas, reach
-from reportgen.catalogue.course import Floats
+from reportgen.catalogue import bars, four_bar_formulas, link_torque, reach, regulation
+from reportgen.catalogue.driven import Driven, mass_keys, outline, rate_items
 from reportgen.catalogue.four_bar_formulas import Couplings, Sides
-from reportgen.catalogue.laws import Law
-from reportgen.catalogue.machine import Applied, Item, Machine, Torque, speed_items
-from reportgen.catalogue.resistance import Constant, opposing
-from reportgen.mechanism.motion import solve_motion
+from reportgen.catalogue.machine import Applied, Item, Machine
+from reportgen.catalogue.resistance import Constant
 from reportgen.mechanism.structure import Crank, Dyad, Linkage, LinkPoint
 from reportgen.notation.expressions import Symbol
 from reportgen.units import Given
@@ -44,7 +39,6 @@ CRANK_DRAWN = 0.04
 """Drawn length of the crank (m on paper) when none is asked for."""
 Offset = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
 Size = Annotated[Given, quantity("N", least=0, most=1e9)]
-TorqueSize = Annotated[Given, quantity("N m", least=0, most=1e9)]
 
 
 class CouplerPoint(Part):
@@ -54,13 +48,6 @@ class CouplerPoint(Part):
     across: Offset = Given(0.0, 0.0, "mm", "0 mm")
 
 
-class LinkTorque(Part):
-    """A torque on link 3, of one sense or against its motion."""
-
-    M: TorqueSize
-    sense: Literal["opposing", "anticlockwise", "clockwise"] = "opposing"
-
-
 class LinkForce(Part):
     """A force on link 3 at C, in a direction fixed in the plane."""
 
@@ -68,7 +55,7 @@ class LinkForce(Part):
     angle: Angle
 
 
-class Parameters(Part):
+class Parameters(Driven):
     """Lengths, the branch, the speed; coupler points, masses and loads only if they are given."""
 
     AB: Length
@@ -78,8 +65,6 @@ class Parameters(Part):
     frame: Angle = Given(0.0, 0.0, "deg", "0 deg")
     branch: Literal["open", "crossed"] = "open"
     link3: Literal["rocker", "crank"] | None = None
-    n: RotationalSpeed | None = None
-    omega1: AngularVelocity | None = None
     E: CouplerPoint | None = None
     BF: Length | None = None
     s1: Share | None = None
@@ -94,16 +79,8 @@ class Parameters(Part):
     J1: MomentOfInertia | None = None
     J2: MomentOfInertia | None = None
     J3: MomentOfInertia | None = None
-    g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
-    torque: LinkTorque | None = None
+    torque: link_torque.LinkTorque | None = None
     force: LinkForce | None = None
-
-    @property
-    def speed(self) -> float:
-        """|ω1| (rad/s)."""
-        given = self.n or self.omega1
-        assert given is not None, "a file without speed is refused by `CHECKS`"
-        return given.si
 
     @property
     def sign(self) -> int:
@@ -155,23 +132,15 @@ def _check_turning(draft: Draft) -> Iterator[Finding]:
             yield Finding(code, ("parameters", "link3"), {"link": "3", "rods": "CD"})
 
 
-CHECKS = (checks.one_of("parameters", "n", "omega1"), *bars.one_mass((1, 2, 3)), _check_turning)
+CHECKS = (
+    checks.one_of("parameters", "n", "omega1"),
+    *bars.one_mass((1, 2, 3)),
+    regulation.needs_loads((*mass_keys((1, 2, 3)), "torque", "force")),
+    _check_turning,
+)
 
 
 # --- the machine ----------------------------------------------------------------------------------
-
-KINEMATICS = (
-    "given",
-    "contents",
-    "foreword",
-    "structure",
-    "motion",
-    "dimensions",
-    "positions",
-    "velocity",
-    "acceleration",
-)
-CLOSING = ("conclusion", "references", "checks")
 
 
 def machine(assignment: Assignment) -> Machine:
@@ -180,7 +149,7 @@ def machine(assignment: Assignment) -> Machine:
     positions, linkage = assignment.positions, given.linkage
     frame, turn = given.frame.si, positions.sign
     start = frame if positions.start is None else positions.start.si
-    applied, torques = _force(given), _torque(given, positions, start)
+    applied, torques = _force(given), link_torque.acting(given.torque, 3, linkage, positions, start)
     sides = Sides(given.AB.si, given.BC.si, given.CD.si, given.AD.si)
     coupler = tuple(point for point in linkage.points if point.link == 2)
     built = Machine(
@@ -193,7 +162,8 @@ def machine(assignment: Assignment) -> Machine:
         turns=TURNS,
         given=(*_items(given, assignment.drawing.crank), *four_bar_formulas.proportions(sides)),
         formulas=(),
-        outline=_outline(bool(linkage.inertias), bool(applied or torques)),
+        outline=outline(bool(linkage.inertias), bool(applied or torques), given.flywheel),
+        unevenness=given.unevenness,
         applied=applied,
         torques=torques,
         paths=tuple(point.name for point in coupler),
@@ -206,30 +176,10 @@ def machine(assignment: Assignment) -> Machine:
     return replace(built, formulas=four_bar_formulas.formulas(sides, phi, couplings))
 
 
-def _outline(masses: bool, working: bool) -> tuple[str, ...]:
-    """Without mass and load the report ends with the kinematics."""
-    if not (masses or working):
-        return (*KINEMATICS, *CLOSING)
-    return (*KINEMATICS, "working", *(("loads",) if masses else ()), "groups", "crank", *CLOSING)
-
-
 def _force(given: Parameters) -> tuple[Applied, ...]:
     if given.force is None:
         return ()
     return (Applied("P3", 3, "C", cmath.rect(1.0, given.force.angle.si), Constant(given.force.P.si)),)
-
-
-def _torque(given: Parameters, positions: Positions, start: float) -> tuple[Torque, ...]:
-    if given.torque is None:
-        return ()
-    size, sense = given.torque.M.si, given.torque.sense
-    turn, linkage = positions.sign, given.linkage
-
-    def swing(angle: Floats) -> Floats:
-        return solve_motion(linkage, start + turn * angle, turn * given.speed).links[3].omega
-
-    law: Law = opposing(size, swing) if sense == "opposing" else Constant(size if sense == "anticlockwise" else -size)
-    return (Torque("M3", 3, law),)
 
 
 def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
@@ -240,7 +190,7 @@ def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
         Item("l.DC", Symbol("l", "CD"), "length", given.CD.si),
         Item("l.AD", Symbol("l", "AD"), "length", given.AD.si),
         *((Item("frame", Symbol("α"), "angle", given.frame.si),) if given.frame.si else ()),
-        *speed_items(given.n, given.omega1),
+        *rate_items(given),
         Item("drawn.AB", Symbol("AB", over="segment"), "segment", crank.si if crank else CRANK_DRAWN),
     ]
     if given.E is not None:

@@ -12,20 +12,18 @@ from reportgen.assignment import checks
 from reportgen.assignment.common import Assignment, Draft, Part, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import (
-    Acceleration,
-    AngularVelocity,
     Length,
     Mass,
     MomentOfInertia,
-    RotationalSpeed,
     Share,
     Weight,
     quantity,
 )
-from reportgen.catalogue import bars, reach
+from reportgen.catalogue import bars, reach, regulation
 from reportgen.catalogue.course import Floats
+from reportgen.catalogue.driven import Driven, mass_keys, outline, rate_items
 from reportgen.catalogue.laws import Law
-from reportgen.catalogue.machine import Applied, Item, Machine, mass_items, speed_items
+from reportgen.catalogue.machine import Applied, Item, Machine, mass_items
 from reportgen.catalogue.resistance import Constant, opposing
 from reportgen.mechanism.motion import solve_motion
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
@@ -56,7 +54,7 @@ class SliderForce(Part):
     sense: Literal["opposing", "right", "left"] = "opposing"
 
 
-class Parameters(Part):
+class Parameters(Driven):
     """Lengths, fixed points, the way the groups are assembled, the speed; masses and the load if given."""
 
     AB: Length
@@ -68,8 +66,6 @@ class Parameters(Part):
     guide: Coordinate
     C: Literal["left", "right"] = "left"
     F: Literal["left", "right"] = "left"
-    n: RotationalSpeed | None = None
-    omega1: AngularVelocity | None = None
     s1: Share | None = None
     s2: Share | None = None
     s3: Share | None = None
@@ -88,15 +84,7 @@ class Parameters(Part):
     J2: MomentOfInertia | None = None
     J3: MomentOfInertia | None = None
     J4: MomentOfInertia | None = None
-    g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
     force: SliderForce | None = None
-
-    @property
-    def speed(self) -> float:
-        """|ω1| (rad/s)."""
-        given = self.n or self.omega1
-        assert given is not None, "a file without speed is refused by `CHECKS`"
-        return given.si
 
     @property
     def bars(self) -> tuple[bars.Bar, ...]:
@@ -110,10 +98,8 @@ class Parameters(Part):
 
     @property
     def inertias(self) -> tuple[Inertia, ...]:
-        g = self.g.si
-        slider = self.G5.si / g if self.G5 is not None else self.m5.si if self.m5 is not None else 0.0
-        own = (Inertia(5, "F", slider),) if slider else ()
-        return (*(inertia for bar in self.bars for inertia in bar.inertia(g)), *own)
+        own = (Inertia(5, "F", self.mass(5)),) if self.mass(5) else ()
+        return (*(inertia for bar in self.bars for inertia in bar.inertia(self.g.si)), *own)
 
     @property
     def linkage(self) -> Linkage:
@@ -155,25 +141,15 @@ def _check_turning(draft: Draft) -> Iterator[Finding]:
         yield Finding("not-a-rocker", ("parameters", "CD"), {"link": "3", "rods": "CD"})
 
 
-CHECKS = (checks.one_of("parameters", "n", "omega1"), *bars.one_mass((1, 2, 3, 4, 5)), _check_turning)
+CHECKS = (
+    checks.one_of("parameters", "n", "omega1"),
+    *bars.one_mass((1, 2, 3, 4, 5)),
+    regulation.needs_loads((*mass_keys((1, 2, 3, 4, 5)), "force")),
+    _check_turning,
+)
 
 
 # --- the machine ----------------------------------------------------------------------------------
-
-KINEMATICS = (
-    "given",
-    "contents",
-    "foreword",
-    "structure",
-    "motion",
-    "dimensions",
-    "positions",
-    "velocity",
-    "summary",
-    "acceleration",
-)
-CLOSING = ("conclusion", "references", "checks")
-
 
 SUMMARY = (
     ("v.A", "v.S1", "omega.1"),
@@ -200,18 +176,12 @@ def machine(assignment: Assignment) -> Machine:
         turns=TURNS,
         given=_items(given, assignment.drawing.crank),
         formulas=(),
-        outline=_outline(bool(linkage.inertias), bool(applied)),
+        outline=outline(bool(linkage.inertias), bool(applied), given.flywheel, summary=("summary",)),
+        unevenness=given.unevenness,
         applied=applied,
         paths=("S2", "E", "S4"),
         facts={"summary": SUMMARY},
     )
-
-
-def _outline(masses: bool, working: bool) -> tuple[str, ...]:
-    """Without mass and force the report ends with the kinematics."""
-    if not (masses or working):
-        return (*KINEMATICS, *CLOSING)
-    return (*KINEMATICS, "working", *(("loads",) if masses else ()), "groups", "crank", *CLOSING)
 
 
 def _applied(given: Parameters, positions: Positions, start: float) -> tuple[Applied, ...]:
@@ -239,7 +209,7 @@ def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
         Item("D.x", Symbol("x", "D"), "length", given.D.x.si),
         Item("D.y", Symbol("y", "D"), "length", given.D.y.si),
         Item("F.y", Symbol("y", "F"), "length", given.guide.si),
-        *speed_items(given.n, given.omega1),
+        *rate_items(given),
         Item("drawn.BA", Symbol("AB", over="segment"), "segment", crank.si if crank else CRANK_DRAWN),
         Item("l.AE", Symbol("l", "AE"), "length", definition=subtract("l.AC", "l.CE")),
     ]

@@ -13,8 +13,9 @@ import numpy as np
 
 from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
-from reportgen.catalogue import linkage_checks, linkage_file, linkage_loads, linkage_told
+from reportgen.catalogue import linkage_checks, linkage_file, linkage_loads, linkage_told, regulation
 from reportgen.catalogue.course import FULL_TURN, Floats
+from reportgen.catalogue.driven import outline
 from reportgen.catalogue.laws import MotionAt
 from reportgen.catalogue.linkage_build import linkage
 from reportgen.catalogue.linkage_file import Parameters
@@ -50,7 +51,14 @@ def _check_speed(draft: Draft) -> Iterator[Finding]:
         yield Finding("missing-key", ("parameters", "driver", "n"), {"key": "n | omega1"})
 
 
-CHECKS = (_check_speed, linkage_checks.check)
+def _check_flywheel(draft: Draft) -> Iterator[Finding]:
+    """A flywheel turns with a crank."""
+    given: Parameters | None = draft.sections.get("parameters")
+    if given is not None and given.flywheel is not None and isinstance(given.driver, linkage_file.SlideDriver):
+        yield Finding("flywheel-of-slide", ("parameters", "flywheel"), at="key")
+
+
+CHECKS = (_check_speed, regulation.needs_loads(("masses", "loads")), _check_flywheel, linkage_checks.check)
 
 
 def added_positions(parameters: Parameters, positions: Positions) -> int:
@@ -74,19 +82,6 @@ def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...],
 
 
 # --- the machine ----------------------------------------------------------------------------------
-
-KINEMATICS = (
-    "given",
-    "contents",
-    "foreword",
-    "structure",
-    "motion",
-    "dimensions",
-    "positions",
-    "velocity",
-    "acceleration",
-)
-CLOSING = ("conclusion", "references", "checks")
 
 
 def machine(assignment: Assignment) -> Machine:
@@ -124,7 +119,8 @@ def machine(assignment: Assignment) -> Machine:
         given=items,
         applied=tuple(load for load in loads if isinstance(load, Applied)),
         torques=tuple(load for load in loads if isinstance(load, Torque)),
-        outline=_outline(bool(made.inertias), bool(loads), "crank" if crank else "slide"),
+        outline=outline(bool(made.inertias), bool(loads), given.flywheel, driver="crank" if crank else "slide"),
+        unevenness=None if given.flywheel is None else given.flywheel.delta.si,
         facts=linkage_told.facts(given, tuple(load.name for load in loads)),
     )
 
@@ -134,13 +130,6 @@ def _motion_at(machine: Machine) -> MotionAt:
         return solve_motion(machine.linkage, machine.angles(angle), machine.turn * machine.speed)
 
     return motion_at
-
-
-def _outline(masses: bool, working: bool, driver: str) -> tuple[str, ...]:
-    """Without mass and load the report ends with the kinematics."""
-    if not (masses or working):
-        return (*KINEMATICS, *CLOSING)
-    return (*KINEMATICS, "working", *(("loads",) if masses else ()), "groups", driver, *CLOSING)
 
 
 def _items(given: Parameters, made: Linkage, built: Machine, drawn: float | None) -> tuple[Item, ...]:
@@ -180,6 +169,7 @@ def _driver_items(given: Parameters, made: Linkage, built: Machine, drawn: float
         return [
             _length(driver.centre, driver.pin, driver.length.si),
             *speed_items(driver.n, driver.omega1),
+            *regulation.items(given.flywheel),
             Item(f"drawn.{arm}", Symbol(arm, over="segment"), "segment", paper),
         ]
     return [

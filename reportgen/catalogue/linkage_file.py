@@ -30,6 +30,7 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.catalogue import gas
+from reportgen.catalogue.regulation import Flywheel
 from reportgen.mechanism.structure import DyadKind
 from reportgen.units import Given
 
@@ -301,4 +302,5 @@ class Parameters(Part):
     also_at: Annotated[tuple[Angle, ...], Field(max_length=24)] = ()
     paths: Annotated[tuple[Name, ...], Field(max_length=MOST_NAMES)] = ()
     g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
+    flywheel: Flywheel | None = None
     declared: Declared = Declared()

@@ -1,10 +1,12 @@
-"""The flywheel as any assignment of a machine with loads over a cycle may ask for it."""
+"""The flywheel as any assignment of a machine with a crank may ask for it."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import Annotated
 
-from reportgen.assignment.common import Part
+from reportgen.assignment.common import Check, Draft, Part
+from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Interval, Ratio
 from reportgen.catalogue.machine import Item, ratio_item
 from reportgen.notation.expressions import Symbol
@@ -21,12 +23,19 @@ class Flywheel(Part):
 
 def items(flywheel: Flywheel | None) -> tuple[Item, ...]:
     """δ among the given data, if a flywheel is asked for."""
-    return () if flywheel is None else (ratio_item("delta", Symbol("δ", "ω"), flywheel.delta),)
+    return () if flywheel is None else (ratio_item("unevenness", Symbol("δ", "ω"), flywheel.delta),)
 
 
-def with_chapter(outline: tuple[str, ...], flywheel: Flywheel | None) -> tuple[str, ...]:
-    """The outline with the flywheel's chapter behind the driver's, if one is asked for and loads are known."""
-    if flywheel is None or "crank" not in outline:
-        return outline
-    after = outline.index("crank") + 1
-    return (*outline[:after], "flywheel", *outline[after:])
+def needs_loads(keys: Iterable[str]) -> Check:
+    """A flywheel is asked for only where one of the parameters `keys` gives a mass or a load to even out."""
+    known = tuple(keys)
+
+    def check(draft: Draft) -> Iterator[Finding]:
+        content = draft.raw.get("parameters")
+        if not isinstance(content, dict) or content.get("flywheel") is None:
+            return
+        if not any(content.get(key) for key in known):
+            where = ("parameters", "flywheel")
+            yield Finding("flywheel-without-loads", where, at="key")
+
+    return check

@@ -14,21 +14,19 @@ from reportgen.assignment import checks
 from reportgen.assignment.common import Assignment, Draft, Part
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import (
-    Acceleration,
-    AngularVelocity,
     Interval,
     Length,
     Mass,
     MomentOfInertia,
     Ratio,
-    RotationalSpeed,
     Share,
     Weight,
     quantity,
 )
-from reportgen.catalogue import ram, reach, slotted
+from reportgen.catalogue import ram, reach, regulation, slotted
 from reportgen.catalogue.course import Course
-from reportgen.catalogue.machine import Applied, Item, Machine, mass_items, speed_items
+from reportgen.catalogue.driven import Driven, mass_keys, outline, rate_items
+from reportgen.catalogue.machine import Applied, Item, Machine, mass_items
 from reportgen.catalogue.ram import CuttingLaw, Ram
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.slotted import HIGHEST, SlottedCrank
@@ -56,7 +54,7 @@ class CuttingForce(Part):
     free: FreeShare = Given(0.0, 0.0, "", "0")
 
 
-class Parameters(Part):
+class Parameters(Driven):
     """Lengths, the stroke, the speed; what moves has mass only if it is given one."""
 
     a: Length
@@ -64,8 +62,6 @@ class Parameters(Part):
     l3: Length
     l4: Length
     H: Length
-    n: RotationalSpeed | None = None
-    omega1: AngularVelocity | None = None
     cutting: CuttingForce | None = None
     s3: Share = Given(0.5, 0.5, "", "0.5")
     s4: Share = Given(0.5, 0.5, "", "0.5")
@@ -79,14 +75,6 @@ class Parameters(Part):
     m5: Mass | None = None
     J3: MomentOfInertia | None = None
     J4: MomentOfInertia | None = None
-    g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
-
-    @property
-    def speed(self) -> float:
-        """|ω1| (rad/s)."""
-        given = self.n or self.omega1
-        assert given is not None, "a file without speed is refused by `CHECKS`"
-        return given.si
 
     @property
     def crank(self) -> float:
@@ -100,12 +88,6 @@ class Parameters(Part):
     def share(self, link: int) -> float:
         """CS3/CD or DS4/DE."""
         return self.s3.si if link == ROCKER else self.s4.si
-
-    def mass(self, link: int) -> float:
-        """m = G/g (kg) of link 2…5, 0 if neither is given."""
-        weight: Given | None = getattr(self, f"G{link}")
-        mass: Given | None = getattr(self, f"m{link}")
-        return weight.si / self.g.si if weight is not None else mass.si if mass is not None else 0.0
 
     def moment(self, link: int) -> float:
         """J about the mass centre (kg·m²) of rocker 3 or link 4: as given, else m l²/12."""
@@ -140,25 +122,12 @@ def _check_assembly(draft: Draft) -> Iterator[Finding]:
 CHECKS = (
     checks.one_of("parameters", "n", "omega1"),
     *(checks.one_of("parameters", f"G{link}", f"m{link}", required=False) for link in LINKS),
+    regulation.needs_loads((*mass_keys(LINKS), "cutting")),
     _check_assembly,
 )
 
 
 # --- the machine ----------------------------------------------------------------------------------
-
-KINEMATICS = (
-    "given",
-    "contents",
-    "foreword",
-    "structure",
-    "motion",
-    "synthesis",
-    "positions",
-    "velocity",
-    "acceleration",
-    "course",
-)
-CLOSING = ("conclusion", "references", "checks")
 
 
 def machine(assignment: Assignment) -> Machine:
@@ -185,7 +154,8 @@ def machine(assignment: Assignment) -> Machine:
         turns=TURNS,
         given=(*_items(given), *_drawn(given, crank)),
         formulas=(),
-        outline=_outline(bool(inertias), bool(applied)),
+        outline=outline(bool(inertias), bool(applied), given.flywheel, sizes="synthesis", course=("course",)),
+        unevenness=given.unevenness,
         applied=applied,
         sliders=(course,),
         paths=("D",),
@@ -193,13 +163,6 @@ def machine(assignment: Assignment) -> Machine:
         equations=ram.equations(),
     )
     return replace(built, formulas=(*_stroke(), *ram.formulas(start + built.cycle_angles, given.speed, given.crank)))
-
-
-def _outline(masses: bool, working: bool) -> tuple[str, ...]:
-    """Without mass and force the report ends with the kinematics."""
-    if not (masses or working):
-        return (*KINEMATICS, *CLOSING)
-    return (*KINEMATICS, "working", *(("loads",) if masses else ()), "groups", "crank", *CLOSING)
 
 
 def _inertias(given: Parameters) -> tuple[Inertia, ...]:
@@ -228,7 +191,7 @@ def _items(given: Parameters) -> tuple[Item, ...]:
         Item("l.CD", Symbol("l", "3"), "length", given.l3.si),
         Item("l.DE", Symbol("l", "4"), "length", given.l4.si),
         Item("H", Symbol("H"), "length", given.H.si),
-        *speed_items(given.n, given.omega1),
+        *rate_items(given),
         Item(
             "l.AB",
             Symbol("l", "1"),

@@ -11,24 +11,22 @@ from dataclasses import replace
 from typing import Annotated
 
 from reportgen.assignment import checks
-from reportgen.assignment.common import Assignment, Draft, Part, Positions
+from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import (
-    Acceleration,
     Angle,
-    AngularVelocity,
     Length,
     Mass,
     MomentOfInertia,
-    RotationalSpeed,
     Share,
     Weight,
     quantity,
 )
 from reportgen.catalogue import offset_slider, regulation, working
 from reportgen.catalogue.course import Course
+from reportgen.catalogue.driven import Driven, mass_keys, outline, rate_items
 from reportgen.catalogue.laws import TableLaw
-from reportgen.catalogue.machine import Applied, Item, Machine, mass_items, speed_items
+from reportgen.catalogue.machine import Applied, Item, Machine, mass_items
 from reportgen.catalogue.offset_slider import OffsetSlider
 from reportgen.mechanism.structure import Inertia
 from reportgen.notation.expressions import Symbol, divide, multiply, power
@@ -43,31 +41,20 @@ CRANK_DRAWN = 0.04
 Offset = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
 
 
-class Parameters(Part):
+class Parameters(Driven):
     """Lengths, the guide, the speed; what moves has mass only if it is given one."""
 
     r: Length
     l: Length  # noqa: E741 - the length's own letter
     e: Offset = Given(0.0, 0.0, "mm", "0 mm")
     guide: Angle = Given(0.0, 0.0, "deg", "0 deg")
-    n: RotationalSpeed | None = None
-    omega1: AngularVelocity | None = None
     s: Share | None = None
     G2: Weight | None = None
     G3: Weight | None = None
     m2: Mass | None = None
     m3: Mass | None = None
     J2: MomentOfInertia | None = None
-    g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
     force: working.WorkingForce | None = None
-    flywheel: regulation.Flywheel | None = None
-
-    @property
-    def speed(self) -> float:
-        """|ω1| (rad/s)."""
-        given = self.n or self.omega1
-        assert given is not None, "a file without speed is refused by `CHECKS`"
-        return given.si
 
     @property
     def centre(self) -> float | None:
@@ -80,12 +67,6 @@ class Parameters(Part):
     def moment(self) -> float:
         """J of the rod about S2 (kg·m²): as given, else m l²/12."""
         return self.mass(2) * self.l.si**2 / 12 if self.J2 is None else self.J2.si
-
-    def mass(self, link: int) -> float:
-        """m = G/g (kg) of link 2 or 3, 0 if neither is given."""
-        weight: Given | None = getattr(self, f"G{link}")
-        mass: Given | None = getattr(self, f"m{link}")
-        return weight.si / self.g.si if weight is not None else mass.si if mass is not None else 0.0
 
     def geometry(self, positions: Positions) -> OffsetSlider:
         """The mechanism in the axes that turn with the rotation."""
@@ -106,24 +87,12 @@ CHECKS = (
     checks.one_of("parameters", "G2", "m2", required=False),
     checks.one_of("parameters", "G3", "m3", required=False),
     *working.CHECKS,
+    regulation.needs_loads((*mass_keys((2, 3)), "force")),
     _check_turning,
 )
 
 
 # --- the machine ----------------------------------------------------------------------------------
-
-KINEMATICS = (
-    "given",
-    "contents",
-    "foreword",
-    "structure",
-    "motion",
-    "dimensions",
-    "positions",
-    "velocity",
-    "acceleration",
-)
-CLOSING = ("conclusion", "references", "checks")
 
 
 def machine(assignment: Assignment) -> Machine:
@@ -146,8 +115,8 @@ def machine(assignment: Assignment) -> Machine:
         turns=TURNS,
         given=_items(given, assignment.drawing.crank),
         formulas=(),
-        outline=regulation.with_chapter(_outline(bool(inertias), bool(applied)), given.flywheel),
-        unevenness=None if given.flywheel is None else given.flywheel.delta.si,
+        outline=outline(bool(inertias), bool(applied), given.flywheel),
+        unevenness=given.unevenness,
         applied=applied,
         sliders=(course,),
         paths=() if given.centre is None else ("S2",),
@@ -157,13 +126,6 @@ def machine(assignment: Assignment) -> Machine:
     angle = start + built.cycle_angles
     offset = offset_slider.offset_term(geometry, given.e.si)
     return replace(built, formulas=offset_slider.formulas(angle, offset, given.centre is not None))
-
-
-def _outline(masses: bool, working: bool) -> tuple[str, ...]:
-    """Without mass and force the report ends with the kinematics."""
-    if not (masses or working):
-        return (*KINEMATICS, *CLOSING)
-    return (*KINEMATICS, "working", *(("loads",) if masses else ()), "groups", "crank", *CLOSING)
 
 
 def _inertias(given: Parameters) -> tuple[Inertia, ...]:
@@ -186,8 +148,7 @@ def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
         Item("l.BC", Symbol("l", "BC"), "length", given.l.si),
         *((Item("e", Symbol("e"), "length", given.e.si),) if given.e.si else ()),
         *((Item("guide.angle", Symbol("α"), "angle", given.guide.si),) if given.guide.si else ()),
-        *speed_items(given.n, given.omega1),
-        *regulation.items(given.flywheel),
+        *rate_items(given),
         Item("drawn.AB", Symbol("AB", over="segment"), "segment", crank.si if crank else CRANK_DRAWN),
     ]
     if given.centre is not None:

@@ -10,13 +10,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from reportgen.assignment import checks
-from reportgen.assignment.common import Assignment, Draft, Part
+from reportgen.assignment.common import Assignment, Draft
 from reportgen.assignment.faults import Finding
-from reportgen.assignment.fields import Angle, AngularVelocity, Length, RotationalSpeed
-from reportgen.catalogue import slotted
-from reportgen.catalogue.machine import Item, Machine, speed_items
+from reportgen.assignment.fields import Angle, Length, Mass, MomentOfInertia, Share, Weight
+from reportgen.catalogue import bars, link_torque, regulation, slotted
+from reportgen.catalogue.driven import Driven, mass_keys, outline, rate_items
+from reportgen.catalogue.machine import Item, Machine, mass_items
 from reportgen.catalogue.slotted import SlottedCrank
-from reportgen.mechanism.structure import Linkage, LinkPoint
+from reportgen.mechanism.structure import Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import Symbol, divide
 from reportgen.units import Given
 
@@ -24,42 +25,46 @@ KIND = "slotted-lever"
 TITLES = {"vi": "Cơ cấu culít", "en": "Crank and slotted lever"}
 TURNS = 1
 
-OUTLINE = (
-    "given",
-    "contents",
-    "foreword",
-    "structure",
-    "motion",
-    "dimensions",
-    "positions",
-    "velocity",
-    "acceleration",
-    "conclusion",
-    "references",
-    "checks",
-)
 
+class Parameters(Driven):
+    """Lengths of crank AB, of AC between the fixed points and of the lever CD; the direction of CA; the speed.
 
-class Parameters(Part):
-    """Lengths of crank AB, of AC between the fixed points and of the lever CD; the direction of CA; the speed."""
+    Masses of block and lever and the torque on the lever only if they are given.
+    """
 
     AB: Length
     AC: Length
     CD: Length
     axis: Angle = Given(math.pi / 2, 90.0, "deg", "90 deg")
-    n: RotationalSpeed | None = None
-    omega1: AngularVelocity | None = None
-
-    @property
-    def speed(self) -> float:
-        """|ω1| (rad/s)."""
-        given = self.n or self.omega1
-        assert given is not None, "a file without speed is refused by `CHECKS`"
-        return given.si
+    s3: Share | None = None
+    G2: Weight | None = None
+    G3: Weight | None = None
+    m2: Mass | None = None
+    m3: Mass | None = None
+    J3: MomentOfInertia | None = None
+    torque: link_torque.LinkTorque | None = None
 
     def geometry(self, turn: int) -> SlottedCrank:
         """The mechanism in the axes that turn with the rotation."""
         return SlottedCrank(self.AB.si, self.AC.si, self.axis.si, turn)
+
+    @property
+    def lever(self) -> bars.Bar:
+        """Lever 3 with its mass."""
+        return bars.bar(self, 3, "C", "D", self.CD.si)
+
+    def linkage(self, turn: int) -> Linkage:
+        """The mechanism with A in the origin; the block's mass centre is the pin."""
+        geometry = self.geometry(turn)
+        block = (Inertia(2, "B", self.mass(2)),) if self.mass(2) else ()
+        return Linkage(
+            ground=geometry.ground,
+            driver=geometry.driver,
+            dyads=(geometry.group,),
+            points=(LinkPoint("D", 3, complex(self.CD.si)), *self.lever.point()),
+            inertias=(*block, *self.lever.inertia(self.g.si)),
+            gravity=-1j * self.g.si,
+        )
 
 
 def _check_block(draft: Draft) -> Iterator[Finding]:
@@ -82,7 +87,12 @@ def _told(angle: float) -> dict[str, str]:
     return {"block": "2", "link": "3", "group": "(2, 3)", "pivot": "C", "angle": f"{angle:.6g}"}
 
 
-CHECKS = (checks.one_of("parameters", "n", "omega1"), _check_block)
+CHECKS = (
+    checks.one_of("parameters", "n", "omega1"),
+    *bars.one_mass((2, 3)),
+    regulation.needs_loads((*mass_keys((2, 3)), "torque")),
+    _check_block,
+)
 
 
 def machine(assignment: Assignment) -> Machine:
@@ -90,15 +100,11 @@ def machine(assignment: Assignment) -> Machine:
     given: Parameters = assignment.parameters
     positions, crank = assignment.positions, assignment.drawing.crank
     geometry = given.geometry(positions.sign)
-    linkage = Linkage(
-        ground=geometry.ground,
-        driver=geometry.driver,
-        dyads=(geometry.group,),
-        points=(LinkPoint("D", 3, complex(given.CD.si)),),
-    )
+    linkage = given.linkage(positions.sign)
     start = math.pi / 2 if positions.start is None else geometry.phi(positions.start.si)
     height = max(given.CD.si, given.AC.si + given.AB.si) + max(given.AB.si - given.AC.si, 0.0)
     drawn = crank.si if crank else slotted.drawn_crank(given.AB.si, height)
+    torques = link_torque.acting(given.torque, 3, linkage, positions, geometry.crank_angle(start))
     built = Machine(
         kind=KIND,
         linkage=linkage,
@@ -109,7 +115,9 @@ def machine(assignment: Assignment) -> Machine:
         turns=TURNS,
         given=_items(given, drawn),
         formulas=(),
-        outline=OUTLINE,
+        outline=outline(bool(linkage.inertias), bool(torques), given.flywheel),
+        unevenness=given.unevenness,
+        torques=torques,
         paths=("D",),
         compared=slotted.COMPARED,
         equations=slotted.equations(Symbol("l", "AB"), Symbol("l", "AC")),
@@ -119,14 +127,18 @@ def machine(assignment: Assignment) -> Machine:
 
 
 def _items(given: Parameters, drawn: float) -> tuple[Item, ...]:
-    """Given data."""
+    """Given data, the mass centre of the lever, masses and the moment of inertia."""
+    masses = (*mass_items(2, given.G2, given.m2), *given.lever.items())
     return (
         Item("l.AB", Symbol("l", "AB"), "length", given.AB.si),
         Item("l.AC", Symbol("l", "AC"), "length", given.AC.si),
         Item("l.CD", Symbol("l", "CD"), "length", given.CD.si),
         *((Item("axis.CA", Symbol("α"), "angle", given.axis.si),) if given.axis.value != 90.0 else ()),
-        *speed_items(given.n, given.omega1),
+        *rate_items(given),
         Item("drawn.AB", Symbol("AB", over="segment"), "segment", drawn),
+        *((Item("g", Symbol("g"), "gravity", given.g.si),) if masses else ()),
+        *masses,
+        *((Item("M.given", Symbol("M", "3"), "torque", given.torque.M.si),) if given.torque else ()),
     )
 
 

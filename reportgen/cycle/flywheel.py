@@ -58,7 +58,8 @@ def regulate(
 ) -> Flywheel:
     """The flywheel for mean speed ω_m and unevenness δ, from M_r, its work ∫M_r dφ and J_r at angles [N].
 
-    The angles span the whole cycle.  `moment` is 0 or less where the links alone are even enough.
+    The angles span the whole cycle.  `moment` is 0 or less where the links alone are even enough; the speed is
+    then not that of a flywheel, and nan.
     """
     mean = float(work[-1] / (angle[-1] - angle[0]))
     excess = work - mean * (angle - angle[0])
@@ -68,6 +69,7 @@ def regulate(
     upper, lower = float(above[high]), float(below[low])
     moment = (upper - lower) / (unevenness * speed**2)
     energy = fastest**2 * moment / 2 - upper
+    squared = 2 * (energy + excess) / (moment + inertia) if moment > 0 else np.full(angle.shape, np.nan)
     return Flywheel(
         angle,
         torque,
@@ -77,7 +79,7 @@ def regulate(
         upper,
         lower,
         moment,
-        np.sqrt(2 * (energy + excess) / (moment + inertia)),
+        np.sqrt(squared),
         fastest,
         slowest,
         high,

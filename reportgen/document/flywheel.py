@@ -17,6 +17,8 @@ from reportgen.notation.expressions import Symbol
 
 THINNED = 4
 """Every fourth of the samples is enough for a curve."""
+NARROW = 1e-3
+"""Below this share of J_r its variation is no width for a diagram, and the lines are drawn from the axis on."""
 
 
 @dataclass(frozen=True)
@@ -58,16 +60,17 @@ class FlywheelFigures:
         return Drawn((self._over_cycle(found.torque, "reduced_torque", (level,)),))
 
     def work(self) -> Drawn:
-        """J_r and A over the cycle."""
+        """J_r, if moving links have mass, and A over the cycle."""
         found = self._found
-        return Drawn(
-            (self._over_cycle(found.inertia, "reduced_inertia"), self._over_cycle(found.work, "excess_work"))
-        )
+        inertia = (self._over_cycle(found.inertia, "reduced_inertia"),) if "J.r" in self.ledger else ()
+        return Drawn((*inertia, self._over_cycle(found.work, "excess_work")))
 
     def wittenbauer(self) -> Drawn:
         """A over J_r with the two lines whose slopes are half the squares of the bounds of speed."""
         found, names = self._found, self.words["figure"]
         ends = np.array([found.inertia.min(), found.inertia.max()])
+        if np.ptp(ends) < NARROW * ends[1]:
+            ends = np.array([0.0, 1.2 * ends[1]])
         lines = [
             charts.Series(self.ledger.symbol(id), ends, height + bound**2 / 2 * ends)
             for id, height, bound in (

@@ -1,7 +1,8 @@
 """The flywheel's quantities: what a report derives it from, position by position and over the cycle.
 
-Ids: `J.r` reduced inertia, `M.r` reduced torque, `A.excess` excess work, `omega.of` the regulated speed at each
-position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`, `A.lower`, and `J.d` the flywheel.
+Ids: `J.r` reduced inertia (only where a moving link has mass), `M.r` reduced torque, `A.excess` excess work,
+`omega.of` the regulated speed at each position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`,
+`A.lower`, and `J.d` the flywheel.
 """
 
 from __future__ import annotations
@@ -23,13 +24,16 @@ from reportgen.notation.expressions import (
 
 
 def describe(b: Builder, linkage: Linkage, flywheel: Flywheel, positions: np.ndarray) -> None:
-    """Enter the flywheel of a machine whose positions are the cycle angles `positions`; δ is `delta`."""
+    """Enter the flywheel of a machine whose positions are the cycle angles `positions`; δ is `unevenness`."""
     at = np.searchsorted(flywheel.angle, positions - 1e-9)
-    b.define("J.r", Symbol("J", "r"), "moment of inertia", _reduced(b, linkage))
-    b.give("M.r", Symbol("M", "r"), "torque", flywheel.torque[at], exact=False, scale=_size(flywheel.torque))
-    b.give("M.c", Symbol("M", "c"), "torque", flywheel.constant, exact=False)
+    inertia = _reduced(b, linkage)
+    if inertia is not None:
+        b.define("J.r", Symbol("J", "r"), "moment of inertia", inertia)
+    size = _size(flywheel.torque)
+    b.give("M.r", Symbol("M", "r"), "torque", flywheel.torque[at], exact=False, scale=size)
+    b.give("M.c", Symbol("M", "c"), "torque", flywheel.constant, exact=False, scale=size)
     b.give("A.excess", Symbol("A"), "work", flywheel.work[at], exact=False, scale=_size(flywheel.work))
-    half = divide("delta", 2)
+    half = divide("unevenness", 2)
     b.define("omega.max", Symbol("ω", "max"), "angular velocity", multiply("omega.1", add(1, half)))
     b.define("omega.min", Symbol("ω", "min"), "angular velocity", multiply("omega.1", subtract(1, half)))
     b.give("A.upper", Symbol("a"), "work", flywheel.upper, exact=False)
@@ -38,21 +42,23 @@ def describe(b: Builder, linkage: Linkage, flywheel: Flywheel, positions: np.nda
         "J.d",
         Symbol("J", "d"),
         "moment of inertia",
-        divide(subtract("A.upper", "A.lower"), multiply("delta", power("omega.1", 2))),
+        divide(subtract("A.upper", "A.lower"), multiply("unevenness", power("omega.1", 2))),
     )
     if flywheel.moment > 0:
         b.give("omega.of", Symbol("ω"), "angular velocity", flywheel.speed[at], exact=False)
 
 
-def _reduced(b: Builder, linkage: Linkage) -> Expression:
-    """J_r = Σ m v_S²/ω₁² + J ω²/ω₁² over the links that move so."""
+def _reduced(b: Builder, linkage: Linkage) -> Expression | None:
+    """J_r = Σ m v_S²/ω₁² + J ω²/ω₁² over the links that move so; None where no link with mass moves."""
     terms: list[Expression] = []
     for body in linkage.inertias:
         if body.mass > 0 and f"v.{body.centre}" in b:
             terms.append(multiply(f"m.{body.link}", power(f"v.{body.centre}", 2)))
         if body.moment > 0 and f"omega.{body.link}" in b:
             terms.append(multiply(f"J.{body.link}", power(f"omega.{body.link}", 2)))
-    return divide(add(*terms) if len(terms) != 1 else terms[0], power("omega.1", 2))
+    if not terms:
+        return None
+    return divide(add(*terms) if len(terms) > 1 else terms[0], power("omega.1", 2))
 
 
 def _size(values: np.ndarray) -> float:

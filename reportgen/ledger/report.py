@@ -119,10 +119,13 @@ def _cycle(b: Builder, analysis: Analysis) -> None:
     b.define(
         "M.difference", Symbol(f"Δ{letter}", "cb"), kind, call("abs", subtract("M.eq", "M.vw")), scale=size
     )
-    b.define("M.mean.positions", Symbol(letter, "N"), kind, call("mean", "M.eq"))
+    nothing = abs(float(np.nanmean(b.value("M.eq")))) < ZERO * size
+    b.define(
+        "M.mean.positions", Symbol(letter, "N"), kind, call("mean", "M.eq"), scale=size if nothing else 0.0
+    )
     b.give("M.mean", Symbol(letter, "m"), kind, _dustless(summary.mean_torque, size), exact=False)
-    b.give("M.least", Symbol(letter, "min"), kind, summary.extremes[0][1], exact=False)
-    b.give("M.greatest", Symbol(letter, "max"), kind, summary.extremes[1][1], exact=False)
+    b.give("M.least", Symbol(letter, "min"), kind, summary.extremes[0][1], exact=False, scale=size)
+    b.give("M.greatest", Symbol(letter, "max"), kind, summary.extremes[1][1], exact=False, scale=size)
     b.give("W", Symbol("W"), "work", _dustless(summary.work, size * machine.way), exact=False)
     b.define("power", Symbol("N"), "power", multiply(call("abs", "M.mean"), rate))
     b.define("M.energy", Symbol(letter, "W"), kind, divide("W", way))

@@ -48,6 +48,7 @@ CASES = [
     ("no fixed point", SIX, "  D: {x: -10 mm, y: -106 mm}\n", "", ["3:1 missing-key"]),
     ("E beyond A", SIX, "CE: 30 mm", "CE: 95 mm", ["7:7 out-of-range"]),
     ("side of no name", SIX, "CE: 30 mm", "CE: 30 mm\n  F: above", ["8:6 choice"]),
+    ("flywheel, no loads", SIX, "CE: 30 mm", "CE: 30 mm\n  flywheel: {delta: 0.1}", ["8:3 flywheel-without-loads"]),
     # machines that do not go round
     ("crank too long", FOUR, "AB: 120 mm", "AB: 300 mm", ["5:7 no-assembly"]),
     ("links too short", FOUR, "AD: 400 mm", "AD: 900 mm", ["5:7 never-assembled"]),

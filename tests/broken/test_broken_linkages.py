@@ -60,6 +60,13 @@ EDITS = [
     ),
     ("mass on another link", BASE, "at: S2, G", "at: F, G", ["16:21 not-on-link"]),
     ("mass by nothing", BASE, "at: S2, G: 30 N", "at: S2", ["16:7 missing-key"]),
+    (
+        "flywheel without loads",
+        V,
+        "PC: 1 kN",
+        "flywheel: {delta: 1/50}",
+        ["2:102 flywheel-without-loads"],
+    ),
     ("load on no slider", BASE, "stroke, link: 5", "stroke, link: 3", ["19:26 no-slider"]),
     ("force and torque", BASE, "M: 5 N m", "M: 5 N m, F: 3 N", ["18:41 force-or-torque"]),
     ("load without size", BASE, "link: 3, M: 5 N m", "link: 3", ["18:7 missing-key"]),
@@ -125,3 +132,11 @@ def test_what_does_not_assemble_is_named_with_links_and_angles(tmp_path: Path) -
     assert "group (2, 3)" in message
     assert "BC, CD" in message
     assert "133.2" in message
+
+
+def test_a_slide_has_no_flywheel(tmp_path: Path) -> None:
+    text = (Path(__file__).parents[2] / "assignments" / "linkage-slide.yaml").read_text(encoding="utf-8")
+    path = tmp_path / "slide.yaml"
+    path.write_text(text.replace("parameters:\n", "parameters:\n  flywheel: {delta: 1/50}\n"), encoding="utf-8")
+    line = 1 + path.read_text(encoding="utf-8").splitlines().index("  flywheel: {delta: 1/50}")
+    assert [(p.mark.line, p.mark.column, p.code) for p in check(path)] == [(line, 3, "flywheel-of-slide")]
