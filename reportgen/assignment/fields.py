@@ -200,6 +200,19 @@ class Whole(Reader):
 
 
 @dataclass(frozen=True, slots=True)
+class Flag(Reader):
+    """`true` or `false`."""
+
+    def read(self, value: object) -> bool:
+        if value not in ("true", "false"):
+            raise fault("choice", allowed="true, false")
+        return value == "true"
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "boolean"}
+
+
+@dataclass(frozen=True, slots=True)
 class Text(Reader):
     """One line of text, kept exactly as typed."""
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
 from reportgen.assignment import checks
@@ -22,6 +22,8 @@ from reportgen.errors import AssignmentError, Mark, Problem
 from reportgen.notation.numbers import Language
 
 DEFAULT_LANGUAGE: Language = "vi"
+Model = TypeVar("Model", bound=BaseModel)
+_WHOLE = "file"
 _SORTS = {"object": "table", "array": "list"}
 
 
@@ -82,6 +84,25 @@ def assess(source: Source, path: Path, kinds: Kinds) -> tuple[Assignment | None,
     return Assignment(
         kind.name, **filled, source=path, id=path.stem, turns=kind.turns, added=kind.added
     ), []
+
+
+def read_model(path: Path, model: type[Model], language: Language | None = None) -> Model:
+    """The content of a file that is no assignment, e.g. a marking policy.
+
+    Raises `AssignmentError` with every fault of the file.
+    """
+    source = read_source(path)
+    faults = list(source.faults)
+    value: Model | None = None
+    if isinstance(source.top, Table):
+        top = source.top
+        value, findings = _section(_WHOLE, model, plain(top))
+        faults += [_placed(replace(finding, where=finding.where[1:]), top) for finding in findings]
+    elif source.top is not None and not faults:
+        faults.append(Fault("wrong-type", source.top.mark, {"expected": "mapping"}))
+    if faults or value is None:
+        raise AssignmentError(_in_words(source, faults, language))
+    return value
 
 
 def misread(top: Table, kind: Kind) -> list[Fault]:
