@@ -20,6 +20,7 @@ from reportgen.document.prose import search_path
 from reportgen.document.words import load_words
 from reportgen.ledger.core import Family, Ledger
 from reportgen.notation.expressions import Symbol, refs
+from reportgen.notation.numbers import Language
 
 
 class Part(StrEnum):
@@ -84,7 +85,7 @@ class Key:
     id: str
     kind: str
     variant: str
-    language: str
+    language: Language
     student: Mapping[str, str]
     labels: tuple[str, ...]
     rows: tuple[Row, ...]

@@ -21,11 +21,22 @@ from reportgen.workbook.cells import LONGEST_CELL, guarded, number_text
 if TYPE_CHECKING:
     from openpyxl.worksheet.worksheet import Worksheet
 
-Style = Literal["", "title", "head", "bold", "note", "input", "good", "warn", "bad"]
+Style = Literal[
+    "", "title", "head", "bold", "note", "input", "unasked", "good", "linked", "warn", "bad", "doubt"
+]
 
 MOMENT = datetime.datetime(2000, 1, 1)
 """What every file says of when it was made, so that its bytes depend on its content alone."""
-FILLS = {"head": "D9E2EC", "input": "FFF9DB", "good": "D3F0D7", "warn": "FFE8B8", "bad": "F9CFCB"}
+FILLS = {
+    "head": "D9E2EC",
+    "input": "FFF9DB",
+    "unasked": "E7E7E7",
+    "good": "D3F0D7",
+    "linked": "D3E4F8",
+    "warn": "FFE0B0",
+    "bad": "F9CFCB",
+    "doubt": "E7DAF3",
+}
 LONGEST_NAME = 31
 _FORBIDDEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _ESCAPED = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")

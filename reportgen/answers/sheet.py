@@ -1,0 +1,227 @@
+"""The answer sheet: what a student fills in, as a workbook, as CSV and as tables on paper.
+
+All sheets of an assignment share one layout, which is found again by its words: a head row, then a row for
+each quantity, its id in the first column; a column for single values, then one for each position asked.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import groupby
+from typing import Any
+
+from reportgen.answers.key import Key, Role, Row
+from reportgen.document.plain import formula
+from reportgen.document.prose import search_path
+from reportgen.document.tree import Cell, Column, InlineMath, Inlines, LineBreak, Table, Text, Value
+from reportgen.document.voice import TEXT_WIDTH
+from reportgen.document.words import load_words
+from reportgen.notation.expressions import Number
+from reportgen.workbook import Book, Entry, Sheet
+
+NAMES = 4
+"""Columns before those of the positions: id, symbol, unit, single value."""
+HEAD = 3
+"""Rows down to the head of the columns: title, note, head."""
+MOST_POSITIONS = 8
+"""Columns of positions beside one another on paper."""
+SYMBOL, UNIT, VALUE = 16.0, 20.0, 17.0
+"""Widths (mm) of the columns on paper."""
+
+Filling = Callable[[Row, int], Entry]
+"""What stands in the cell of a row at a position (0 for a single value)."""
+Tail = Callable[[Row], Sequence[Entry]]
+
+
+def words_of(key: Key) -> Mapping[str, Any]:
+    """The words of a key's language and machine."""
+    return load_words(search_path(key.language, key.kind))
+
+
+def symbol_text(row: Row, key: Key) -> str:
+    """A quantity's symbol in one line of plain text, e.g. v_BA."""
+    return formula(row.symbol, key.language)
+
+
+def asked_positions(key: Key) -> tuple[int, ...]:
+    """The positions that any row of the sheet is asked at, in their order."""
+    return tuple(sorted({k for row in key.asked for k in row.positions if k}))
+
+
+def rows_shown(key: Key) -> tuple[Row, ...]:
+    """The rows of the sheet: what is given, what is asked, scales."""
+    return tuple(row for row in key.rows if row.positions or row.role is Role.given)
+
+
+def given_number(row: Row, position: int) -> Number | None:
+    """What the sheet shows filled in: a given value, to the report's decimals; None for a cell to fill in."""
+    value = float(row.values[row.at(position)])
+    return Number(value, row.decimals) if row.role is Role.given and value == value else None
+
+
+def number_format(row: Row) -> str:
+    """A spreadsheet's format with the report's decimals."""
+    decimals = row.decimals
+    return "General" if decimals is None else f"0.{'0' * decimals}" if decimals > 0 else "0"
+
+
+def number_entry(row: Row, value: float, style: Any = "", comment: str = "") -> Entry:
+    """A number in a row's unit that shows the report's decimals; nothing for one that does not exist."""
+    return Entry(value, style, comment, number_format(row)) if value == value else Entry(None, style, comment)
+
+
+def is_cell(row: Row, position: int) -> bool:
+    """Whether the sheet has something at a position of a row: a value to fill in or a given one."""
+    if position in row.positions:
+        return True
+    return row.role is Role.given and row.single == (position == 0)
+
+
+def grid(
+    key: Key, note: str, filling: Filling, tail_head: Sequence[str] = (), tail: Tail | None = None
+) -> tuple[tuple[Entry, ...], ...]:
+    """The rows of a page in the sheet's layout; `tail` are further cells behind each row, under `tail_head`."""
+    words = words_of(key)
+    sheet, parts = words["answer_sheet"], words["parts"]
+    positions = asked_positions(key)
+    heads = (
+        *(sheet[name] for name in ("id", "symbol", "unit", "value")),
+        *(sheet["position"].format(label=key.labels[k - 1]) for k in positions),
+        *tail_head,
+    )
+    rows: list[tuple[Entry, ...]] = [
+        (Entry(f"{sheet['title']} – {key.id}", "title"),),
+        (Entry(note, "note"),),
+        tuple(Entry(head, "head") for head in heads),
+    ]
+    for part, members in groupby(rows_shown(key), lambda row: row.part):
+        rows.append((Entry(), Entry(str(parts[part]), "bold")))
+        for row in members:
+            cells = (filling(row, k) if is_cell(row, k) else Entry(None, "unasked") for k in (0, *positions))
+            names = (Entry(row.id, "note"), Entry(symbol_text(row, key)), Entry(row.unit))
+            rows.append((*names, *cells, *(tail(row) if tail else ())))
+    return tuple(rows)
+
+
+def page(name: str, rows: Sequence[Sequence[Entry]], key: Key, tails: int = 0) -> Sheet:
+    """A protected page in the sheet's layout."""
+    widths = (11.0, 13.0, 13.0, 12.0, *(12.0,) * len(asked_positions(key)), *(10.0,) * tails)
+    return Sheet(name, rows, widths, (HEAD, NAMES - 1), protected=True)
+
+
+def info_rows(key: Key) -> tuple[tuple[str, str], ...]:
+    """What names a sheet: label and text of assignment, machine, variant, student."""
+    labels = words_of(key)["answer_sheet"]
+    student = key.student
+    return (
+        (labels["assignment"], key.id),
+        (labels["kind"], key.kind),
+        (labels["variant"], key.variant),
+        (labels["name"], student.get("name", "")),
+        (labels["number"], student.get("id", "")),
+        (labels["class"], student.get("class", "")),
+    )
+
+
+def student_rows(key: Key) -> tuple[tuple[str, str], ...]:
+    """What a paper says of whose it is: label and text of assignment, variant (if any), student."""
+    assignment, _, variant, *student = info_rows(key)
+    return (assignment, *((variant,) if key.variant else ()), *student)
+
+
+def info_page(key: Key) -> Sheet:
+    """The page that names assignment and student."""
+    rows = tuple((Entry(label, "bold"), Entry(text)) for label, text in info_rows(key))
+    return Sheet(words_of(key)["answer_sheet"]["info"], rows, (24.0, 44.0), protected=True)
+
+
+def answer_book(key: Key) -> Book:
+    """The empty sheet as a workbook: given values filled in, cells to fill in unlocked, the rest protected."""
+    sheet = words_of(key)["answer_sheet"]
+    rows = grid(key, sheet["note"], _empty)
+    return Book((page(sheet["answers"], rows, key), info_page(key)), f"{sheet['title']} {key.id}")
+
+
+def answer_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
+    """The empty sheet as rows of CSV: what names it, a blank line, then the layout of the workbook's page."""
+    rows = grid(key, "", _empty)[HEAD - 1 :]
+    return (*info_rows(key), (), *(tuple(entry.value for entry in row) for row in rows))
+
+
+def _empty(row: Row, position: int) -> Entry:
+    number = given_number(row, position)
+    if number is None:
+        return Entry(None, "input", unlocked=True)
+    return Entry(number.shown, format=number_format(row))
+
+
+# --- on paper -------------------------------------------------------------------------------------
+
+
+def answer_blocks(key: Key) -> Iterator[Table]:
+    """The empty sheet as tables to fill in by hand, a table or more for each part with something to fill in."""
+    words = words_of(key)
+    for part, members in groupby(key.rows, lambda row: row.part):
+        caption = (Text(str(words["parts"][part])),)
+        rows = [row for row in members if row.positions]
+        shared = Counter(row.symbol for row in rows)
+        singles = [row for row in rows if row.single]
+        many = [row for row in rows if not row.single]
+        for group, positions in ((singles, [0]), (many, sorted({k for row in many for k in row.positions}))):
+            for some in _split(positions):
+                asked = [row for row in group if set(row.positions) & set(some)]
+                named = [(row, shared[row.symbol] > 1) for row in asked]
+                if asked:
+                    yield _table(_heads(key, words, some), named, some, caption)
+
+
+def _split(positions: Sequence[int]) -> Iterator[tuple[int, ...]]:
+    """Positions in as few sets of nearly one size as fit a page."""
+    count = -(-len(positions) // MOST_POSITIONS)
+    for start in range(count):
+        yield tuple(positions[start * len(positions) // count : (start + 1) * len(positions) // count])
+
+
+def _heads(key: Key, words: Mapping[str, Any], positions: Sequence[int]) -> tuple[str, ...]:
+    """The words over the columns of a table."""
+    table, sheet = words["table"], words["answer_sheet"]
+    labels = [key.labels[k - 1] for k in positions if k]
+    if len(labels) == 1:
+        labels = [sheet["at"].format(label=labels[0])]
+    return (table["symbol"], table["unit"], *(labels or [table["value"]]))
+
+
+def _table(
+    heads: Sequence[str], rows: Sequence[tuple[Row, bool]], positions: Sequence[int], caption: Inlines
+) -> Table:
+    """Quantities below one another, in as many sets side by side as the page has room for.
+
+    Beside each row stands whether its id is to be told, because another one has the same symbol.
+    """
+    beside = max(int(TEXT_WIDTH // (SYMBOL + UNIT + VALUE * len(positions))), 1)
+    beside = min(beside, len(rows))
+    value = min((TEXT_WIDTH / beside - SYMBOL - UNIT) / len(positions), 1.5 * VALUE)
+    columns = (Column(SYMBOL), Column(UNIT), *(Column(value),) * len(positions))
+    height = -(-len(rows) // beside)
+    filled = [_cells(row, told, positions) for row, told in rows]
+    filled += [(Cell(),) * len(columns)] * (beside * height - len(rows))
+    body = (tuple(cell for cells in filled[line::height] for cell in cells) for line in range(height))
+    head = tuple(Cell((Text(text),)) for text in heads)
+    return Table(columns * beside, (head * beside,), tuple(body), caption)
+
+
+def _cells(row: Row, told: bool, positions: Sequence[int]) -> tuple[Cell, ...]:
+    places = (Cell() if k in row.positions else Cell((Text("–"),)) for k in positions)
+    id = (LineBreak(), Text(row.id)) if told else ()
+    return (Cell((InlineMath(row.symbol), *id)), Cell(plain_inlines(row.unit)), *places)
+
+
+def plain_inlines(text: str) -> Inlines:
+    """A text as it stands, nothing for none."""
+    return (Text(text),) if text else ()
+
+
+def value_inlines(row: Row, value: float) -> Inlines:
+    """A number as the report prints it, a dash for what does not exist."""
+    return (Value(Number(value, row.decimals)),) if value == value else (Text("–"),)

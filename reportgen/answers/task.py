@@ -1,0 +1,34 @@
+"""The task: what a student is handed, from the given data to the empty answer sheet; no answer is in it."""
+
+from __future__ import annotations
+
+from reportgen.analysis import Analysis
+from reportgen.answers.key import Key
+from reportgen.answers.paper import fields, paper
+from reportgen.answers.sheet import answer_blocks, asked_positions, student_rows
+from reportgen.assignment import Assignment
+from reportgen.document.outline import prepare
+from reportgen.document.tree import Block, Document, Paragraph, Strong, Text
+from reportgen.ledger.report import Books
+
+
+def task(assignment: Assignment, analysis: Analysis, books: Books, title: str, key: Key) -> Document:
+    """The handout of an assignment; `title` is the machine's name.  Raises `TemplateError`."""
+    prose, names = prepare(assignment, analysis, books, title)
+    words = names["words"]
+    (heading, *given) = prose.render("given.md", names)
+    names |= {
+        "sheet": tuple(answer_blocks(key)),
+        "asked": tuple(key.labels[k - 1] for k in asked_positions(key)),
+    }
+    report = assignment.report
+    course = report.course or words["cover"]["course"]
+    blocks: list[Block] = [
+        heading,
+        Paragraph((Strong((Text(title),)),), "center"),
+        *fields(student_rows(key)),
+        *given,
+        *prose.render("task.md", names),
+    ]
+    variant = words["variant"].format(variant=assignment.variant) if assignment.variant else ""
+    return paper(assignment.language, words, course, report.student.name or "", variant, blocks)
