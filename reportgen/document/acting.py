@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -146,8 +145,9 @@ class ForcePictures(Pictured):
         turning = (
             Couple(self.ledger.symbol("M.eq"), about, float(np.sign(self.ledger.number("M.eq", k).value))),
         )
-        looks = replace(self.looks(scale), centres=())
-        return self._bodies(k, scale, (DRIVER,), acting, arms=arms, turning=turning, looks=looks)
+        return self._bodies(
+            k, scale, (DRIVER,), acting, arms=arms, turning=turning, looks=self.looks(scale)
+        )
 
     def _reaction(self, name: str, id: str, place: str, k: int, scale: float) -> Force:
         at = complex(self.analysis.motion.points[place].p[k - 1]) * scale

@@ -96,9 +96,12 @@ def mechanism(
                 rails.append(Line(slide.at - on, slide.at + on, AXIS))
             blocks += symbols.block(slide.at, slide.angle, size)
     names: list[str] = []
+    marked: list[str] = []
     for link in shown:
         joints = bones.bars.get(link, ())
-        bars += symbols.body(_body_points(bones, link), pen)
+        own = _marked(bones, link, looks)
+        marked += own
+        bars += symbols.body([*_body_points(bones, link), *(bones.points[name] for name in own)], pen)
         names += [name for name in joints if name not in names]
         if numbered and link != GROUND:
             requests += _number(bones, link, looks)
@@ -111,7 +114,8 @@ def mechanism(
     pins = [item for name in names for item in _pin(bones, name, name in standing)]
     centres = [name for name in looks.centres if bones.owners.get(name) in shown]
     marks = [item for name in centres for item in symbols.mass_centre(bones.points[name])]
-    requests += _names([*names, *centres], bones, looks)
+    marks += [item for name in marked for item in symbols.point(bones.points[name])]
+    requests += _names([*names, *centres, *marked], bones, looks)
     return Draft((*rails, *bars, *blocks, *pins, *marks), tuple(requests))
 
 
@@ -158,6 +162,12 @@ def _body_points(bones: Skeleton, link: int) -> list[complex]:
             ends = (way.low, way.high)
             points.append(min(ends, key=lambda p: abs(p - points[0])))
     return points
+
+
+def _marked(bones: Skeleton, link: int, looks: Looks) -> list[str]:
+    """The named points of a link that are neither joints nor mass centres: coupler points, ends of levers."""
+    owned = [name for name, owner in bones.owners.items() if owner == link != GROUND]
+    return [name for name in owned if name not in {*bones.joints, *looks.centres, *looks.hidden}]
 
 
 def _on_block(bones: Skeleton, name: str, shown: Sequence[int]) -> bool:

@@ -13,6 +13,8 @@ from reportgen.figures.style import BLACK, HEAVY, PAPER, THIN, TINT, VISIBLE
 
 JOINT = 1.2
 """Radius of a revolute joint, mm."""
+POINT = 0.7
+"""Radius of a point that is no joint."""
 BLOCK = (9.0, 5.0)
 """Length along the guide and width of a block, mm."""
 STRIP = 1.7
@@ -23,6 +25,11 @@ PLAY = 0.35
 
 def joint(at: complex) -> tuple[Item, ...]:
     return (Circle(at, JOINT, VISIBLE, PAPER),)
+
+
+def point(at: complex) -> tuple[Item, ...]:
+    """A named point of a link where nothing is joined to it."""
+    return (Circle(at, POINT, None, BLACK),)
 
 
 def pivot(at: complex) -> tuple[Item, ...]:
@@ -58,7 +65,7 @@ def block(at: complex, angle: float, size: tuple[float, float] = BLOCK) -> tuple
 
 
 def body(points: Sequence[complex], pen: Stroke = HEAVY, fill: str | None = TINT) -> tuple[Item, ...]:
-    """A link through its joints: a bar where they are in line, else a triangle or polygon."""
+    """A link through its joints: a bar where they are in line, else the triangle or polygon around them."""
     if len(points) < 2:
         return ()
     p = np.asarray(points)
@@ -66,9 +73,22 @@ def body(points: Sequence[complex], pen: Stroke = HEAVY, fill: str | None = TINT
     u = unit(base[1] - base[0])
     if len(points) == 2 or np.abs(((p - base[0]) * u.conjugate()).imag).max() < 0.05:
         return (Line(base[0], base[1], pen),)
-    centre = p.mean()
-    corners = tuple(complex(q) for q in p[np.argsort(np.angle(p - centre), kind="stable")])
-    return (Polyline(corners, pen, closed=True, fill=fill),)
+    return (Polyline(tuple(_around(points)), pen, closed=True, fill=fill),)
+
+
+def _around(points: Sequence[complex]) -> list[complex]:
+    """The corners of the convex polygon around points, anticlockwise."""
+    ordered = sorted(set(points), key=lambda p: (p.real, p.imag))
+
+    def chain(ways: Sequence[complex]) -> list[complex]:
+        kept: list[complex] = []
+        for p in ways:
+            while len(kept) > 1 and ((kept[-1] - kept[-2]).conjugate() * (p - kept[-1])).imag <= 0:
+                kept.pop()
+            kept.append(p)
+        return kept[:-1]
+
+    return [*chain(ordered), *chain(ordered[::-1])]
 
 
 def mass_centre(at: complex, radius: float = 1.2) -> tuple[Item, ...]:
