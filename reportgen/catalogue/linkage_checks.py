@@ -288,7 +288,8 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
         for index, group in enumerate(given.groups)
     }
     if isinstance(given.driver, file.SlideDriver):
-        yield from _along_the_way(given.driver, made, members)
+        way = reach.Way(given.driver.start.si, given.driver.end.si, turning=False)
+        yield from reach.findings(made, members, way)
         return
     found = list(reach.findings(made, members))
     yield from found
@@ -307,24 +308,6 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
             except linkage_loads.NotToAndFro as fault:
                 words = {"text": str(load.link), "count": str(fault.reversals)}
                 yield Finding("not-to-and-fro", (*TOP, "loads", index, "link"), words)
-
-
-def _along_the_way(
-    driver: file.SlideDriver, made: Linkage, members: dict[tuple[int, int], Member]
-) -> Iterator[Finding]:
-    """The first group that does not follow a sliding driver over its whole way."""
-    way = np.linspace(driver.start.si, driver.end.si, STEPS + 1)
-    for stop in solve_motion(made, way, driver.rate).unreachable:
-        member = members[stop.links]
-        words = {
-            "group": f"{stop.links[0]}, {stop.links[1]}",
-            "rods": member.rods,
-            "first": f"{stop.first * 1e3:.4g}",
-            "last": f"{stop.last * 1e3:.4g}",
-        }
-        code = "no-assembly-slide" if stop.reason == "gap" else "dead-point-slide"
-        yield Finding(code, member.where, words)
-        return
 
 
 def _rods(group: file.Group) -> str:

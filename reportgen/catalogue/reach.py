@@ -1,8 +1,12 @@
-"""Whether a linkage goes round: groups that do not assemble, dead points, rockers that are cranks."""
+"""Whether a linkage goes all its way: groups that do not assemble, dead points, rockers that are cranks.
+
+A group's clearance is sin² of the angle that its forces are transmitted at, as a function of its ends alone.
+It goes on below 0 where the group does not reach, so that its least values are found between the samples too.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,13 +14,21 @@ import numpy as np
 from reportgen.assignment.faults import Finding, Where
 from reportgen.catalogue.course import FULL_TURN
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.plane import SINGULAR, Floats, unit
-from reportgen.mechanism.structure import Dyad, Linkage
+from reportgen.mechanism.plane import SINGULAR, Complexes, Floats, cross, unit
+from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
 
 STEPS = 720
 HALVINGS = 40
-NEAR = 0.1
+NEAR = 0.3
 """Only where the sine of a group's angle of transmission falls below this is its least value sought."""
+ROUND = 1e-12
+"""A clearance this little below 0 is rounding."""
+ZOOMS, NODES = 4, 41
+"""How often a neighbourhood is looked at closer, and at how many places: 20⁴ times finer than the samples."""
+
+
+Clear = Callable[[Floats], Floats]
+"""A group's clearance at places of the driver."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,24 +39,55 @@ class Member:
     where: Where
 
 
-def findings(linkage: Linkage, members: Mapping[tuple[int, int], Member]) -> Iterator[Finding]:
-    """The first group that the crank cannot carry through a whole turn: with its links and crank angles."""
-    angles = np.linspace(0.0, FULL_TURN, STEPS, endpoint=False)
-    motion = solve_motion(linkage, angles, 1.0)
+@dataclass(frozen=True, slots=True)
+class Way:
+    """The driver's coordinates to go through: a whole turn of a crank (rad), or a slide's way (m)."""
+
+    start: float = 0.0
+    end: float = FULL_TURN
+    turning: bool = True
+
+    def told(self, place: float) -> str:
+        """A place in degrees, −180…180, or in millimetres, without trailing zeros."""
+        return f"{np.degrees(np.angle(np.exp(1j * place))) if self.turning else place * 1e3:.4g}"
+
+
+WHOLE_TURN = Way()
+
+
+def findings(
+    linkage: Linkage, members: Mapping[tuple[int, int], Member], way: Way = WHOLE_TURN
+) -> Iterator[Finding]:
+    """The first group that the driver cannot carry through all its way: with its links and the driver's places."""
+    places = np.linspace(way.start, way.end, STEPS + 1)
+    motion = solve_motion(linkage, places, 1.0)
+    size = _size(motion)
+    of_slide = "" if way.turning else "-slide"
     for dyad in linkage.dyads:
         member = members[dyad.links]
         about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "rods": member.rods}
-        placed = _placed(motion, dyad)
-        if not placed.any():
+        found = clearance(dyad, motion, size)
+        inside = found >= -ROUND
+
+        def clear(at: Floats, dyad: Dyad = dyad) -> Floats:
+            return clearance(dyad, solve_motion(linkage, at, 1.0), size)
+
+        if way.turning and not inside.any():
             yield Finding("never-assembled", member.where, about)
             return
-        if not placed.all():
-            first, last = _gap(linkage, dyad, angles, placed)
-            yield Finding("no-assembly", member.where, {**about, "first": _degrees(first), "last": _degrees(last)})
+        gap = None if inside.all() else _first_gap(clear, way, places, inside)
+        place, least = _least(clear, way, places, found) if gap is None else (0.0, 0.0)
+        if least < -ROUND:
+            step = (way.end - way.start) / STEPS
+            around = np.array([place - step, place, place + step])
+            gap = _gap(clear, around, np.array([True, False, True]))
+        if gap is not None:
+            ends = dict(zip(("first", "last"), map(way.told, gap), strict=True))
+            yield Finding(f"no-assembly{of_slide}", member.where, {**about, **ends})
             return
-        least = _least_transmission(linkage, dyad, angles, motion)
-        if least is not None:
-            yield Finding("dead-point", member.where, {**about, "angle": _degrees(least)})
+        if least < SINGULAR**2:
+            at = {"angle" if way.turning else "first": way.told(place)}
+            yield Finding(f"dead-point{of_slide}", member.where, {**about, **at})
             return
 
 
@@ -54,59 +97,93 @@ def turns_fully(linkage: Linkage, link: int) -> bool:
     return bool(abs(angle[-1] - angle[0]) > np.pi)
 
 
-def _placed(motion: Motion, dyad: Dyad) -> np.ndarray:
-    return np.isfinite(motion.points[dyad.middle].p) & np.isfinite(motion.links[dyad.links[1]].angle)
+def clearance(dyad: Dyad, motion: Motion, size: float) -> Floats:
+    """How clear a group is of a dead point [N], from its ends: negative where it does not assemble.
+
+    sin² of the angle between the rods (RRR), of a rod and the guide's normal (RRP), between pin's way and slot
+    (RPR with an offset, else the square of the pin's distance from the pivot over the linkage's `size` in m), of
+    the two slides (PRP, RPP).
+    """
+    one, two = dyad.lengths
+    match dyad.kind, dyad.start, dyad.end:
+        case "RRR", str(p), str(t):
+            span = np.abs(motion.points[p].p - motion.points[t].p)
+            return np.asarray(1 - ((one**2 + two**2 - span**2) / (2 * one * two)) ** 2)
+        case "RRP", str(p), Guide() as guide:
+            at, along = _rail(guide, motion)
+            return np.asarray(1 - (cross(motion.points[p].p - at, along) / one) ** 2)
+        case "RPR", str(p), str(t):
+            reach = np.abs(motion.points[p].p - motion.points[t].p)
+            if two:
+                return np.asarray(1 - (two / np.maximum(reach, ROUND * size)) ** 2)
+            return np.asarray((reach / size) ** 2)
+        case "PRP", Guide() as first, Guide() as second:
+            return np.asarray(cross(_rail(first, motion)[1], _rail(second, motion)[1]) ** 2)
+        case _:
+            return np.full(motion.driver.shape, np.sin(dyad.slide_angle) ** 2)
 
 
-def _gap(linkage: Linkage, dyad: Dyad, angles: Floats, placed: np.ndarray) -> tuple[float, float]:
-    """The ends of the first range of crank angles where the group does not assemble."""
-    order = np.roll(np.arange(angles.size), -int(np.flatnonzero(placed)[0]))
-    outside = np.flatnonzero(~placed[order])
-    start = int(outside[0])
-    length = int(np.argmax(placed[order][start:])) if placed[order][start:].any() else len(order) - start
-    step = FULL_TURN / STEPS
-    first = float(angles[order[start]])
-    last = first + (length - 1) * step
-    return _edge(linkage, dyad, first - step, first), _edge(linkage, dyad, last + step, last)
+def _rail(guide: Guide, motion: Motion) -> tuple[Complexes | complex, Complexes]:
+    """A point of a guide and its direction."""
+    if guide.link == GROUND:
+        return guide.at, unit(guide.angle)
+    turned = unit(motion.links[guide.link].angle)
+    return motion.origins[guide.link].p + guide.at * turned, turned * unit(guide.angle)
 
 
-def _edge(linkage: Linkage, dyad: Dyad, inside: float, outside: float) -> float:
-    """The crank angle between a reachable and an unreachable one at which the links just reach each other."""
+def _size(motion: Motion) -> float:
+    """The greatest extent of all that the linkage's points come to (m)."""
+    places = np.concatenate([point.p for point in motion.points.values()])
+    places = places[np.isfinite(places)]
+    return max(float(np.ptp(places.real)), float(np.ptp(places.imag)))
+
+
+def _first_gap(clear: Clear, way: Way, places: Floats, inside: np.ndarray) -> tuple[float, float]:
+    """The ends of the first range where the group does not assemble; of a turn, the first after it assembles."""
+    if way.turning:
+        places = places + places[int(np.flatnonzero(inside)[0])] - way.start
+        inside = clear(places) >= -ROUND
+    return _gap(clear, places, inside)
+
+
+def _gap(clear: Clear, places: Floats, inside: np.ndarray) -> tuple[float, float]:
+    """The ends of the first run of places that are not `inside`."""
+    first = int(np.flatnonzero(~inside)[0])
+    later = np.flatnonzero(inside[first:])
+    last = first + int(later[0]) - 1 if later.size else places.size - 1
+    start, end = float(places[first]), float(places[last])
+    if first > 0:
+        start = _edge(clear, float(places[first - 1]), start)
+    if last < places.size - 1:
+        end = _edge(clear, float(places[last + 1]), end)
+    return start, end
+
+
+def _edge(clear: Clear, inside: float, outside: float) -> float:
+    """The place between a reachable and an unreachable one at which the links just reach each other."""
     for _ in range(HALVINGS):
         middle = (inside + outside) / 2
-        if _placed(solve_motion(linkage, middle, 1.0), dyad)[0]:
+        if clear(np.array([middle]))[0] >= 0:
             inside = middle
         else:
             outside = middle
     return inside
 
 
-def _least_transmission(linkage: Linkage, dyad: Dyad, angles: Floats, motion: Motion) -> float | None:
-    """The crank angle of a dead point of the group, None if it has none."""
-    sine = transmission(dyad, motion)
-    k = int(np.argmin(sine))
-    if sine[k] > NEAR:
-        return None
-    low, high = angles[k] - FULL_TURN / STEPS, angles[k] + FULL_TURN / STEPS
-    for _ in range(HALVINGS):
-        third = (high - low) / 3
-        left, right = transmission(dyad, solve_motion(linkage, np.array([low + third, high - third]), 1.0))
-        low, high = (low, high - third) if left < right else (low + third, high)
-    least = float(transmission(dyad, solve_motion(linkage, (low + high) / 2, 1.0))[0])
-    return float((low + high) / 2) if min(least, float(sine[k])) < SINGULAR else None
-
-
-def transmission(dyad: Dyad, motion: Motion) -> Floats:
-    """|sin| of a group's angle of transmission [N]: between its rods, or of the rod and the guide's normal."""
-    i, j = (unit(motion.links[link].angle) for link in dyad.links)
-    along = np.conj(i) * j
-    if dyad.kind == "RRR":
-        return np.asarray(np.abs(along.imag))
-    if dyad.kind == "RRP":
-        return np.asarray(np.abs(along.real))
-    return np.ones(i.shape)
-
-
-def _degrees(angle: float) -> str:
-    """An angle in degrees, −180…180, without trailing zeros."""
-    return f"{np.degrees(np.angle(np.exp(1j * angle))):.4g}"
+def _least(clear: Clear, way: Way, places: Floats, found: Floats) -> tuple[float, float]:
+    """Where the group's clearance is least and how much it is there; looked at closer where it is small."""
+    best = float(places[np.argmin(found)]), float(found.min())
+    before, after = np.roll(found[:-1], 1), np.roll(found[:-1], -1)
+    if not way.turning:
+        before[0], after[-1] = np.inf, found[-1]
+    low = (found[:-1] < before) & (found[:-1] <= after) & (found[:-1] < NEAR**2)
+    for k in np.flatnonzero(low):
+        place, half = float(places[k]), abs(way.end - way.start) / STEPS
+        for _ in range(ZOOMS):
+            near = np.linspace(place - half, place + half, NODES)
+            if not way.turning:
+                near = np.clip(near, min(way.start, way.end), max(way.start, way.end))
+            there = clear(near)
+            place, half = float(near[np.argmin(there)]), 2 * half / (NODES - 1)
+            best = min(best, (place, float(there.min())), key=lambda pair: pair[1])
+    return best
