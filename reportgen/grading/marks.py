@@ -24,12 +24,17 @@ class Given:
 
 @dataclass(frozen=True)
 class Submission:
-    """A filled answer sheet: its values by place; cells that could not be read are `problems`."""
+    """A filled answer sheet: its values by place; cells that could not be read are `problems`.
+
+    `notes` say what was found beside: rows and positions that the assignment does not ask for, values of
+    formulas, numbers that could be read in two ways.
+    """
 
     assignment: str
     file: str
     values: Mapping[Place, Given]
     problems: Mapping[Place, Problem]
+    notes: tuple[Problem, ...] = ()
 
 
 class Verdict(StrEnum):
