@@ -19,7 +19,7 @@ import typer
 from reportgen.errors import AssignmentError, ReportgenError
 from reportgen.notation.numbers import Language
 
-AT_FAULT, USAGE, SYSTEM = 1, 2, 3
+AT_FAULT, USAGE, SYSTEM, INTERRUPTED = 1, 2, 3, 130
 
 app = typer.Typer(
     name="reportgen",
@@ -64,8 +64,7 @@ def build(
     code = 0
     for file in files:
         with _outcome(lang) as outcome:
-            typesetter: Literal["typst", "latex"] = "latex" if engine is Engine.latex else "typst"
-            print(api.build(file, out, typesetter, _language(lang), keep_source), flush=True)
+            print(api.build(file, out, _typesetter(engine), _language(lang), keep_source), flush=True)
         code = max(code, outcome.code)
     raise typer.Exit(code)
 
@@ -112,6 +111,26 @@ def check(files: Files, lang: LangOption = None) -> None:
 
 
 @app.command()
+def variants(
+    spec: Annotated[Path, typer.Argument(metavar="SPEC", help="Assignment file with choices.", show_default=False)],
+    roster: Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)],
+    out: Annotated[
+        Path, typer.Option("-o", "--out", metavar="DIR", help="Folder of the assignment files.")
+    ] = Path("out/variants"),
+    force: Annotated[bool, typer.Option("--force", help="Also replace files edited by hand.")] = False,
+    lang: LangOption = None,
+) -> None:
+    """Draw a variant for each student of ROSTER and freeze it into DIR/<id>.yaml."""
+    from reportgen.batch.variants import make_variants
+
+    with _outcome(lang) as outcome:
+        made = make_variants(spec, roster, out, force, _language(lang))
+        print(*(file.path for file in made.files), "", *made.summary, sep="\n")
+        print(*made.remarks, sep="\n", end="\n" * bool(made.remarks), file=sys.stderr)
+    raise typer.Exit(outcome.code)
+
+
+@app.command()
 def new(
     kind: Annotated[str, typer.Argument(metavar="KIND", help="A kind of machine, see `kinds`.")],
     output: Annotated[
@@ -149,6 +168,60 @@ def schema() -> None:
     from reportgen import catalogue
 
     print(json.dumps(catalogue.schema(), ensure_ascii=False, indent=2))
+
+
+@app.command()
+def batch(
+    roster: Annotated[
+        Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)
+    ],
+    spec: Annotated[
+        Path | None,
+        typer.Option("--spec", metavar="SPEC.yaml", help="Draw the variants of this.", show_default=False),
+    ] = None,
+    assignments: Annotated[
+        Path | None,
+        typer.Option("--assignments", metavar="DIR", help="Assignment files by id.", show_default=False),
+    ] = None,
+    make: Annotated[str, typer.Option("--make", help="What to make, parted by commas.")] = "report",
+    jobs: Annotated[
+        int | None, typer.Option("--jobs", metavar="N", min=1, help="Processes.", show_default="one a core")
+    ] = None,
+    engine: Annotated[Engine, typer.Option("--engine", help="Typesetter.")] = Engine.typst,
+    lang: LangOption = None,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out"),
+    cluster: Annotated[
+        str | None,
+        typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler to work for us."),
+    ] = None,
+) -> None:
+    """Make task, report or key of everybody on ROSTER; go on where an earlier run was stopped."""
+    from reportgen.assignment.messages import word
+    from reportgen.batch.jobs import MAKERS
+    from reportgen.batch.start import Order, start, told
+
+    language = _language(lang) or "vi"
+    products = tuple(dict.fromkeys(name.strip() for name in make.split(",")))
+    if (spec is None) == (assignments is None):
+        raise typer.BadParameter(word("one_of_spec", language))
+    for name in products:
+        if name not in MAKERS:
+            raise typer.BadParameter(
+                word("no_product", language).format(text=name, known=", ".join(MAKERS)), param_hint="--make"
+            )
+    order = Order(
+        roster, spec, assignments, out, products, _typesetter(engine), _language(lang), jobs or 0, cluster
+    )
+    with _outcome(lang) as outcome:
+        try:
+            done = start(order, sys.stderr)
+        except KeyboardInterrupt:
+            _complain("batch_stopped", lang)
+            raise typer.Exit(INTERRUPTED) from None
+        print(*told(done, language), sep="\n", file=sys.stderr)
+        print(done.result.manifest, flush=True)
+        outcome.code = done.result.exit_code
+    raise typer.Exit(outcome.code)
 
 
 class _Outcome:
@@ -193,6 +266,10 @@ def _complain(name: str, lang: Lang | None, /, **arguments: str) -> None:
 
 def _language(lang: Lang | None) -> Language | None:
     return None if lang is None else "en" if lang is Lang.en else "vi"
+
+
+def _typesetter(engine: Engine) -> Literal["typst", "latex"]:
+    return "latex" if engine is Engine.latex else "typst"
 
 
 def _refuse_same_names(files: list[Path], language: Language | None) -> None:

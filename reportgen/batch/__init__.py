@@ -1,0 +1,1 @@
+"""A class at once: roster and spec in, one assignment file a student out."""
