@@ -9,7 +9,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -90,12 +90,17 @@ class Key:
     labels: tuple[str, ...]
     rows: tuple[Row, ...]
 
+    def find(self, id: str) -> Row | None:
+        """The row of a quantity, None if there is none."""
+        return self._by_id.get(id)
+
     def row(self, id: str) -> Row:
         """The row of a quantity.  Raises `KeyError` if there is none."""
-        for row in self.rows:
-            if row.id == id:
-                return row
-        raise KeyError(id)
+        return self._by_id[id]
+
+    @cached_property
+    def _by_id(self) -> Mapping[str, Row]:
+        return {row.id: row for row in self.rows}
 
     @property
     def asked(self) -> tuple[Row, ...]:
@@ -121,7 +126,8 @@ def make_key(assignment: Assignment, analysis: Analysis, ledger: Ledger) -> Key:
         if family.arm:
             values = np.abs(values)
         role, part = _role(family), _part(id, family, formulas)
-        asked = role is not Role.given and _is_asked(id, family) and (part is not Part.cycle or complete)
+        workable = _is_workable(id, family) and (part is not Part.cycle or complete)
+        asked = role is Role.scale or (role is Role.asked and workable)
         return Row(
             id,
             part,
@@ -166,20 +172,19 @@ def _role(family: Family) -> Role:
     return Role.given if typed else Role.asked
 
 
-def _is_asked(id: str, family: Family) -> bool:
+def _is_workable(id: str, family: Family) -> bool:
     """Whether it can be worked out on paper: what is read from a diagram can, an integral over the cycle cannot."""
     if id == "M.difference":
         return False
-    return family.definition is not None or len(family.values) > 1 or family.kind.endswith("scale")
+    return family.definition is not None or len(family.values) > 1
 
 
 def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int) -> tuple[int, ...]:
     """The worked positions; what repeats from turn to turn (all kinematics) is asked for in the first turn."""
     if len(values) == 1:
         return (0,)
-    repeats = len(values) > count and all(
-        np.allclose(values[:count], turn, rtol=1e-9, atol=1e-12, equal_nan=True) for turn in np.split(values, len(values) // count)
-    )
+    turns = np.reshape(values, (-1, count)) if len(values) > count else np.empty((0, count))
+    repeats = len(turns) > 0 and np.allclose(turns, turns[0], rtol=1e-9, atol=1e-12, equal_nan=True)
     asked = ((k - 1) % count + 1 if repeats else k for k in worked)
     return tuple(dict.fromkeys(k for k in asked if np.isfinite(values[k - 1])))
 

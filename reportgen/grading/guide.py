@@ -60,9 +60,9 @@ class Guide:
 
     @cached_property
     def judged(self) -> tuple[Row, ...]:
-        """The rows that earn marks, in the ledger's order: a scale is the student's own choice."""
+        """The rows that earn marks, in the ledger's order; how long the crank is drawn is the student's own choice."""
         order = {id: index for index, id in enumerate(self.ledger.families)}
-        kept = (row for row in self.key.asked if row.role is not Role.scale)
+        kept = (row for row in self.key.asked if row.kind != "segment" or row.role is not Role.scale)
         return tuple(sorted(kept, key=lambda row: order[row.id]))
 
     @cached_property

@@ -51,7 +51,7 @@ def follow(
     ledger: Ledger, changes: Mapping[str, Any], *, only: Container[str] | None = None
 ) -> dict[str, np.ndarray]:
     """As `Ledger.evaluate`, with each vector as long as the sizes say that were read from it."""
-    vectors = carried(ledger)
+    vectors = {size: one for size, one in carried(ledger).items() if only is None or size in only}
     sizes: dict[str, list[str]] = {}
     for size, vector in vectors.items():
         sizes.setdefault(vector, []).append(size)

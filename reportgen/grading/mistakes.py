@@ -1,0 +1,230 @@
+"""The mistakes that are known by name: each is a change of the ledger that is run again, not a number looked up.
+
+A `Site` is one place where one mistake can be made: which families change, and how, given what they
+come to and all values before them (SI).
+"""
+
+from __future__ import annotations
+
+import re
+from collections import ChainMap
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import takewhile
+
+import numpy as np
+
+from reportgen.grading.guide import Guide
+from reportgen.ledger.core import Family
+from reportgen.notation.expressions import Call, Expression, Negative, Sum, evaluate, rebuild, refs, walk
+
+Values = Mapping[str, np.ndarray]
+Change = Callable[[np.ndarray, Values], np.ndarray]
+
+DECIMAL_PLACES = (1, 2, 3, 4, 5)
+"""Decimals that a mark read as that of thousands takes along."""
+
+TRIGONOMETRIC = {"sin", "cos", "tan"}
+INVERSE = {"arcsin", "arccos", "arctan", "arctan2"}
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """One mistake at one place: `where` is the quantity in which it is made."""
+
+    mistake: str
+    where: str
+    changes: Mapping[str, Change]
+
+
+def sites_in(guide: Guide, id: str, scales: Mapping[str, float]) -> Iterator[Site]:
+    """All mistakes that can be made in working out one quantity; `scales` are the student's own, in SI.
+
+    What stands printed for every position (the crank's angle) can only be taken at another one.
+    """
+    family = guide.ledger[id]
+    if family.exact and len(family.values) > 1:
+        return
+    for mistake, change in _own_mistakes(guide, id, scales):
+        yield Site(mistake, id, {id: change})
+
+
+def sites_anywhere(guide: Guide) -> Iterator[Site]:
+    """Mistakes about the positions as such, and a Coriolis acceleration that is left out."""
+    ledger = guide.ledger
+    read = [id for id, family in ledger.families.items() if family.definition is None and len(family.values) > 1]
+    count = len(ledger[read[0]].values) if read else 0
+    order = np.arange(count)
+    for mistake, taken in (
+        ("counted-backwards", -order % max(count, 1)),
+        ("shifted-forward", np.roll(order, -1)),
+        ("shifted-back", np.roll(order, 1)),
+    ):
+        if count:
+            yield Site(mistake, read[0], {id: _from(ledger[id].values[taken]) for id in read})
+    coriolis = [id for id in ledger.families if re.fullmatch(r"a\.\w+\.k", id)]
+    for id in coriolis:
+        yield Site("no-coriolis", id, {id: lambda value, _: value * 0})
+
+
+def _own_mistakes(guide: Guide, id: str, scales: Mapping[str, float]) -> Iterator[tuple[str, Change]]:
+    family = guide.ledger[id]
+    if family.definition is not None:
+        yield from _in_a_definition(guide, family, scales)
+    elif family.kind == "pressure":
+        yield from _in_reading_a_pressure(guide, id)
+    if (whole := _whole_rod(guide, id)) is not None:
+        rod = whole
+        yield "wrong-end", lambda value, values: values[rod] - value
+    if id.startswith("turn."):
+        yield "direction-reversed", lambda value, _: -value
+    elif id.startswith("dir."):
+        yield "direction-reversed", lambda value, _: value + np.pi
+    elif not family.arm and family.kind != "segment":
+        yield "sign-reversed", lambda value, _: -value
+    if not id.startswith("dir."):
+        for places in DECIMAL_PLACES:
+            yield "thousands-mark", _times(10.0**places)
+
+
+def _in_a_definition(guide: Guide, family: Family, scales: Mapping[str, float]) -> Iterator[tuple[str, Change]]:
+    ledger, definition = guide.ledger, family.definition
+    assert definition is not None
+    used = [ledger[ref] for ref in dict.fromkeys(refs(definition))]
+    for given in used:
+        yield from _with_a_wrong_input(guide, family, given, scales)
+    if family.kind == "angle" and _calls(definition, INVERSE):
+        yield "radians-for-degrees", _times(np.pi / 180)
+    if _calls(definition, TRIGONOMETRIC):
+        angles = [given.id for given in used if given.kind == "angle"]
+        yield "degrees-for-radians", _with(definition, {id: _degrees(id) for id in angles})
+    if not family.constructed:
+        yield from (("sign-reversed", _instead(other)) for other in _other_signs(definition))
+
+
+def _with_a_wrong_input(
+    guide: Guide, family: Family, given: Family, scales: Mapping[str, float]
+) -> Iterator[tuple[str, Change]]:
+    """Mistakes about one input of a definition."""
+    ledger, definition, id = guide.ledger, family.definition, given.id
+    assert definition is not None
+
+    def as_printed(_: np.ndarray, values: Values) -> np.ndarray:
+        """The input's printed number taken for the result's."""
+        return values[id] / given.how.scale * family.how.scale
+
+    def instead(other: Callable[[Values], np.ndarray]) -> Change:
+        return _with(definition, {id: other})
+
+    if id == "H" and family.kind == "length":
+        yield "stroke-for-radius", lambda _, values: values[id]
+    elif given.kind == "ratio" and not given.hidden and not given.is_plane:
+        yield "ratio-inverted", instead(lambda values: 1 / values[id])
+    elif given.kind == "diameter":
+        yield "diameter-for-radius", instead(lambda values: 2 * values[id])
+    elif given.kind == "speed of rotation":
+        yield "rpm-for-radians", as_printed
+    elif id == "omega.1" and "n" in ledger:
+        yield "rpm-for-radians", instead(lambda values: values["n"])
+    elif given.kind == "weight" and family.kind == "mass":
+        yield "weight-for-mass", as_printed
+    elif given.kind == "mass" and (weight := f"G{id.removeprefix('m.')}") in ledger:
+        yield "weight-for-mass", instead(lambda values: values[weight])
+    elif given.kind.endswith("scale") and not family.constructed and (power := _power(guide, family, id)):
+        number = scales.get(id, float(given.values[0])) / given.how.scale
+        # v = seg and v = μ²·seg instead of v = μ·seg.
+        yield "scale-forgotten", _times(number**-power)
+        yield "scale-twice", _times(number**power)
+
+
+def _power(guide: Guide, family: Family, scale: str) -> int:
+    """The power (±1) in which a scale stands in a definition as a whole; 0 if it does not."""
+    assert family.definition is not None
+    values = {id: guide.ledger[id].values for id in refs(family.definition)}
+    with np.errstate(all="ignore"):
+        once = np.atleast_1d(evaluate(family.definition, values))
+        twice = np.atleast_1d(evaluate(family.definition, values | {scale: 2 * values[scale]}))
+        ratio = (twice / once)[np.isfinite(twice / once)]
+    for power in (1, -1):
+        if ratio.size and np.allclose(ratio, 2.0**power):
+            return power
+    return 0
+
+
+def _in_reading_a_pressure(guide: Guide, id: str) -> Iterator[tuple[str, Change]]:
+    """The pressure of another piston, or of another stroke at the piston's own place."""
+    gas = guide.analysis.gas
+    here = next((state for state in gas.values() if f"p.{state.piston.link}" == id), None)
+    if here is None:
+        return
+    for state in gas.values():
+        if state is not here:
+            yield "other-piston", _from(state.pressure)
+    piston = here.piston
+    for angle in (here.angle + 2 * np.pi, -here.angle, 2 * np.pi - here.angle):
+        yield (
+            "wrong-stroke",
+            _from(piston.law.table.pressure(angle, here.fraction, piston.dead_centres)),
+        )
+
+
+def _whole_rod(guide: Guide, id: str) -> str | None:
+    """The length of the rod on which `l.AS2` places a mass centre."""
+    match = re.fullmatch(r"l\.([A-Z]\d*)([A-Z]\d*)", id)
+    linkage = guide.analysis.machine.linkage
+    if match is None or match[2] not in {body.centre for body in linkage.inertias}:
+        return None
+    for dyad in linkage.dyads:
+        for end in (dyad.start, dyad.end):
+            if end == match[1]:
+                names = {f"l.{end}{dyad.middle}", f"l.{dyad.middle}{end}"}
+                earlier = takewhile(lambda name: name != id, guide.ledger.families)
+                return next((name for name in earlier if name in names), None)
+    return None
+
+
+# --- changes ----------------------------------------------------------------------------------------
+
+
+def _times(factor: float) -> Change:
+    return lambda value, _: value * factor
+
+
+def _from(values: np.ndarray) -> Change:
+    return lambda _, __: values
+
+
+def _instead(definition: Expression) -> Change:
+    return lambda _, values: np.atleast_1d(evaluate(definition, values))
+
+
+def _degrees(id: str) -> Callable[[Values], np.ndarray]:
+    return lambda values: np.degrees(values[id])
+
+
+def _with(definition: Expression, others: Mapping[str, Callable[[Values], np.ndarray]]) -> Change:
+    """The definition worked out with other values of some of its inputs."""
+
+    def change(_: np.ndarray, values: Values) -> np.ndarray:
+        changed = {id: other(values) for id, other in others.items()}
+        return np.atleast_1d(evaluate(definition, ChainMap(changed, dict(values))))
+
+    return change
+
+
+def _calls(definition: Expression, names: set[str]) -> bool:
+    return any(isinstance(part, Call) and part.name in names for part in walk(definition))
+
+
+def _other_signs(definition: Expression) -> Iterator[Expression]:
+    """The definition with the sign of one term turned, for every term of its sums."""
+    for part in walk(definition):
+        if isinstance(part, Sum) and len(part.terms) > 1:
+            for index, term in enumerate(part.terms):
+                turned = term.of if isinstance(term, Negative) else Negative(term)
+                changed = Sum((*part.terms[:index], turned, *part.terms[index + 1 :]))
+                yield _put(definition, part, changed)
+
+
+def _put(node: Expression, old: Expression, new: Expression) -> Expression:
+    return new if node is old else rebuild(node, lambda child: _put(child, old, new))

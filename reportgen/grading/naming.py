@@ -1,0 +1,136 @@
+"""What went wrong, by name: the mistakes that could have been made, run through the ledger and compared.
+
+A mistake may have been made in the wrong quantity itself, or in one before it that the sheet does not show.
+All of them are evaluated at once, [sites, positions]; the one that meets most of the wrong values of a
+quantity, and meets them best, gives its name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from reportgen.grading.guide import Guide
+from reportgen.grading.marks import Marked, Place
+from reportgen.grading.mistakes import Change, Site, sites_anywhere, sites_in
+from reportgen.grading.working import SIGNED, Working
+from reportgen.ledger.following import follow
+
+
+def name_mistakes(working: Working, cells: Mapping[Place, Marked]) -> dict[Place, Marked]:
+    """The first wrong values of each chain whose mistake is known, with its name."""
+    by_row: dict[str, list[int]] = {}
+    for (id, position), cell in cells.items():
+        if cell.first:
+            by_row.setdefault(id, []).append(position)
+    named: dict[Place, Marked] = {}
+    for id, positions in by_row.items():
+        for position, site in _explained(working, cells, id, positions).items():
+            place = (id, position)
+            named[place] = replace(cells[place], mistake=site.mistake, where=site.where)
+    return named
+
+
+def _explained(
+    working: Working, cells: Mapping[Place, Marked], id: str, positions: Sequence[int]
+) -> dict[int, Site]:
+    guide = working.guide
+    sites = list(_candidates(working, id))
+    if not sites:
+        return {}
+    row = guide.rows[id]
+    index = [row.at(position) for position in positions]
+    given = working.values[id][index]
+    unit = guide.ledger[id].how.scale
+    band = np.array([cells[(id, position)].band for position in positions]) * unit
+    expected = np.array([[cells[(id, p)].own, cells[(id, p)].expected] for p in positions]).T * unit
+    foreseen = _foreseen(working, id, sites)[:, index]
+    with np.errstate(all="ignore"):
+        wider = np.maximum(1.0, np.abs(foreseen) / (guide.size(id) or 1.0))
+        off = _apart(guide, id, given, foreseen) / (band * wider)
+        plain = np.min([_apart(guide, id, one, foreseen) for one in expected], axis=0)
+    met = (off <= 1) & (plain > band)
+    chosen: dict[int, Site] = {}
+    worth = met.sum(axis=1)
+    for column, position in enumerate(positions):
+        fitting = np.flatnonzero(met[:, column])
+        if fitting.size:
+            best = min(fitting, key=lambda s: (-worth[s], round(float(off[s, column]), 2), s))
+            chosen[position] = sites[best]
+    return chosen
+
+
+def _apart(guide: Guide, id: str, one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """How far values lie apart: directions around the circle, arms by their sizes."""
+    if id.startswith("dir."):
+        return np.asarray(np.abs(np.mod(one - other + np.pi, 2 * np.pi) - np.pi))
+    return np.asarray(np.abs(np.abs(one) - np.abs(other)) if guide.ledger[id].arm else np.abs(one - other))
+
+
+def _candidates(working: Working, id: str) -> Iterator[Site]:
+    """Mistakes in the quantity itself, then in unseen ones before it, nearest first, then about positions."""
+    guide = working.guide
+    yield from sites_in(guide, id, working.scales)
+    size = id.removeprefix(SIGNED)
+    if size != id:
+        yield from sites_in(guide, size, working.scales)
+    shown = {name for name, values in working.values.items() if np.isfinite(values).any()}
+    shown |= {name.removeprefix(SIGNED) for name in shown}
+    before = guide.before[id]
+    for other in before:
+        family = guide.ledger[other]
+        if other not in shown and other != size and not (family.hidden or family.is_plane):
+            yield from sites_in(guide, other, working.scales)
+    above = {*before, id}
+    for site in sites_anywhere(guide):
+        if above & site.changes.keys():
+            yield site
+
+
+def _foreseen(working: Working, id: str, sites: Sequence[Site]) -> np.ndarray:
+    """What a quantity comes to with each mistake, from the student's own earlier values [sites, positions]."""
+    guide = working.guide
+    ledger = guide.ledger
+    made: dict[str, list[tuple[int, Change]]] = {}
+    for number, site in enumerate(sites):
+        for name, change in site.changes.items():
+            made.setdefault(name, []).append((number, change))
+    judged = {id, id.removeprefix(SIGNED)}
+
+    def laid(name: str) -> Change:
+        def change(computed: np.ndarray, values: Mapping[str, np.ndarray]) -> np.ndarray:
+            base = computed if name in judged else working.over(name, computed, computed)
+            if name not in made:
+                return base
+            rows = np.array(np.broadcast_to(base, (len(sites), np.shape(base)[-1])), copy=True)
+            width = max(rows.shape[1], len(ledger[name].values))
+            rows = np.array(np.broadcast_to(rows, (len(sites), width)), dtype=np.result_type(rows, float))
+            for number, mistaken in made[name]:
+                rows[number] = mistaken(rows[number], _Case(values, number))
+            return rows
+
+        return change
+
+    wanted = {*guide.before[id], id}
+    names = {name for name in (*working.entered, *made) if name in wanted}
+    values = follow(ledger, {name: laid(name) for name in names}, only=wanted)
+    return np.broadcast_to(values[id], (len(sites), len(ledger[id].values))).real
+
+
+class _Case(Mapping[str, np.ndarray]):
+    """One case of values that have a row for each."""
+
+    def __init__(self, values: Mapping[str, np.ndarray], number: int) -> None:
+        self.values_of_all, self.number = values, number
+
+    def __getitem__(self, id: str) -> np.ndarray:
+        value = self.values_of_all[id]
+        return value if value.ndim == 1 else value[self.number % len(value)]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.values_of_all)
+
+    def __len__(self) -> int:
+        return len(self.values_of_all)
