@@ -158,7 +158,7 @@ def overlap(centres: Complexes, half: Complexes, strokes: Complexes, clearance: 
 
     The separating axes of a box and a segment are x, y and the segment's normal.
     """
-    middle, reach = strokes.mean(axis=1), (strokes[:, 1] - strokes[:, 0]) / 2
+    middle, reach = (strokes[:, 0] + strokes[:, 1]) / 2, (strokes[:, 1] - strokes[:, 0]) / 2
     along, up = reach.real.copy(), reach.imag.copy()
     hw, hh = half.real[:, None] + clearance, half.imag[:, None] + clearance
     rx, ry = np.abs(along), np.abs(up)

@@ -2,7 +2,8 @@
 
 Each label tries spots around its point, the preferred directions first, nearest first.  The label with
 the fewest free spots chooses first.  Where nothing near is free the label moves out and a thin
-leader ties it to its point.  Everything is deterministic.
+leader ties it to its point; where that fails too, the labels without room choose first in a new
+attempt.  Everything is deterministic.
 """
 
 from __future__ import annotations
@@ -22,13 +23,17 @@ from reportgen.notation.expressions import Expression
 Content = Expression | str
 
 DIRECTIONS = np.exp(2j * np.pi * np.arange(24) / 24)
+CORNERS = np.clip(DIRECTIONS.real * math.sqrt(2), -1, 1) + 1j * np.clip(DIRECTIONS.imag * math.sqrt(2), -1, 1)
+"""Where a box of half size 1 has its middle when the box stands off its point in each direction."""
 NEAR = (0.0, 0.7, 1.6)
 """Extra distances (mm) at which a label still reads as belonging to its point."""
 FAR = (3.5, 6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0)
 CLEAR = 0.55
 """White kept between a label's ink and strokes; it also takes up what two typesetters differ by."""
-MANY = 20_000
-"""Pairs of a box and a stroke above which it pays to part the boxes by place."""
+FIRST = 72
+"""Candidates weighed at once; the others only where none of these is free."""
+ATTEMPTS = 4
+"""How often the labels that found no room are let choose first."""
 APART = 0.7
 """White kept between two labels."""
 
@@ -82,41 +87,132 @@ def _around(boxes: Sequence[Box]) -> Box:
     return Box(sum(b.width for b in boxes), max(b.height for b in boxes), max(b.depth for b in boxes))
 
 
-@dataclass(frozen=True, slots=True)
-class _Spots:
-    """A label's candidates in order of preference: centres [K], the points they belong to, free or not."""
+class _Ink:
+    """The strokes of a figure with the corners of their boxes, kept so that those near a place are found fast."""
 
-    centres: Complexes
-    anchors: Complexes
-    half: complex
-    free: Flags
+    def __init__(self, strokes: Complexes) -> None:
+        first, last = strokes[:, 0], strokes[:, 1]
+        self.strokes = strokes
+        self.left, self.right = np.minimum(first.real, last.real), np.maximum(first.real, last.real)
+        self.low, self.high = np.minimum(first.imag, last.imag), np.maximum(first.imag, last.imag)
+
+    def near(self, centres: Complexes, half: complex) -> Complexes:
+        """Only the strokes that any of the boxes could touch."""
+        x, y = half.real + CLEAR, half.imag + CLEAR
+        keep = (self.left <= centres.real.max() + x) & (self.right >= centres.real.min() - x)
+        keep &= (self.low <= centres.imag.max() + y) & (self.high >= centres.imag.min() - y)
+        return np.asarray(self.strokes[keep])
+
+
+class _Taken:
+    """The labels already placed, as boxes, and the leaders of some of them."""
+
+    def __init__(self, frames: Sequence[tuple[complex, float, float]]) -> None:
+        self.centres = [centre for centre, _, _ in frames]
+        self.halves = [complex(width, height) / 2 for _, width, height in frames]
+        self.ties: list[tuple[complex, complex]] = []
+
+    def add(self, centre: complex, half: complex, tie: tuple[complex, complex] | None) -> None:
+        self.centres.append(centre)
+        self.halves.append(half)
+        if tie:
+            self.ties.append(tie)
+
+    def clear(self, centres: Complexes, half: complex) -> Flags:
+        """Which of the boxes keep apart from every label and leader."""
+        free: Flags = np.ones(len(centres), dtype=np.bool_)
+        if self.centres:
+            apart = centres[:, None] - np.asarray(self.centres)
+            room = np.asarray(self.halves) + (half + APART * (1 + 1j))
+            free = ((np.abs(apart.real) >= room.real) | (np.abs(apart.imag) >= room.imag)).all(axis=1)
+        if self.ties:
+            free &= ~_touched(centres, half, np.array(self.ties))
+        return free
+
+    def crossed(self, leaders: Complexes) -> Flags:
+        """Which leaders run through a label."""
+        if not self.centres:
+            return np.zeros(len(leaders), dtype=np.bool_)
+        return np.asarray(overlap(np.array(self.centres), np.array(self.halves), leaders, 0.2).any(axis=0))
+
+
+class _Spots:
+    """A label's candidates in the order of preference, the first of them weighed against the strokes at once."""
+
+    def __init__(self, request: Request, ink: _Ink) -> None:
+        self.half = _half(request)
+        anchors = np.array([request.at, *request.also])
+        offsets = _ring(self.half, np.asarray(NEAR) + request.gap).ravel()
+        cost = (np.asarray(NEAR)[:, None] * 0.45 + _turned(request)).ravel()
+        total = (0.25 * np.arange(len(anchors))[:, None] + cost).ravel()
+        best = np.argsort(total, kind="stable")
+        self.centres = (anchors[:, None] + offsets).ravel()[best]
+        self.ink = ink
+        self.first = self._clear_of_ink(0)
+
+    @property
+    def room(self) -> int:
+        """How many of the first candidates are free of strokes."""
+        return int(np.count_nonzero(self.first))
+
+    def best(self, taken: _Taken) -> complex | None:
+        """The first candidate free of strokes, labels and leaders; None where there is none."""
+        for start in range(0, len(self.centres), FIRST):
+            free = self.first if start == 0 else self._clear_of_ink(start)
+            found = np.flatnonzero(free) + start
+            if found.size and (clear := taken.clear(self.centres[found], self.half)).any():
+                return complex(self.centres[found[int(np.argmax(clear))]])
+        return None
+
+    def _clear_of_ink(self, start: int) -> Flags:
+        centres = self.centres[start : start + FIRST]
+        return ~_touched(centres, self.half, self.ink.near(centres, self.half))
 
 
 def place(items: Sequence[Item], requests: Sequence[Request]) -> tuple[Item, ...]:
     """Labels (and leaders) for the requests among the items, in the order of the requests."""
-    strokes = segments(items)
-    taken = [frame(item) for item in items if isinstance(item, Label)]
-    spots = [_near(request, strokes) for request in requests]
-    order = sorted(range(len(requests)), key=lambda i: (int(spots[i].free.sum()), i))
+    ink = _Ink(segments(items))
+    frames = [frame(item) for item in items if isinstance(item, Label)]
+    spots = [_Spots(request, ink) for request in requests]
+    order = sorted(range(len(requests)), key=lambda i: (spots[i].room, i))
+    placed, crowded = _place_in(order, requests, spots, frames)
+    for _ in range(ATTEMPTS):
+        if not crowded:
+            break
+        # What found no room chooses first.
+        order = [*crowded, *(i for i in order if i not in crowded)]
+        again, still = _place_in(order, requests, spots, frames)
+        if len(still) < len(crowded):
+            placed = again
+        crowded = still
+    return tuple(item for i in range(len(requests)) for item in placed[i])
+
+
+def _place_in(
+    order: Sequence[int],
+    requests: Sequence[Request],
+    spots: Sequence[_Spots],
+    frames: Sequence[tuple[complex, float, float]],
+) -> tuple[dict[int, tuple[Item, ...]], list[int]]:
+    """The labels placed one after the other, and those for which no place is free."""
+    taken = _Taken(frames)
     placed: dict[int, tuple[Item, ...]] = {}
-    ties: list[tuple[complex, complex]] = []
+    crowded: list[int] = []
     for i in order:
         request, spot = requests[i], spots[i]
-        free = spot.free & _clear(spot, taken) & ~_hit(spot, ties)
-        tie: tuple[complex, complex] | None = None
-        if free.any():
-            centre = complex(spot.centres[int(np.argmax(free))])
-        else:
-            centre, tie = _away(request, spot.half, strokes, taken, ties)
+        centre, tie = spot.best(taken), None
+        if centre is None:
+            centre, tie, free = _away(request, spot, taken)
+            if not free:
+                crowded.append(i)
         labels: tuple[Item, ...] = row(centre, request.parts, request.size)
         if request.ring:
             labels = (Circle(centre, spot.half.real, THIN), *labels)
         if tie:
-            ties.append(tie)
             labels = (Line(*tie, LEADER), *labels)
-        taken.append((centre, 2 * spot.half.real, 2 * spot.half.imag))
+        taken.add(centre, spot.half, tie)
         placed[i] = labels
-    return tuple(item for i in range(len(requests)) for item in placed[i])
+    return placed, crowded
 
 
 def _half(request: Request) -> complex:
@@ -127,9 +223,7 @@ def _half(request: Request) -> complex:
 
 def _ring(half: complex, distances: Floats) -> Complexes:
     """Offsets [D, 24] of a box from its point: its nearest edge or corner at the distance."""
-    x = np.clip(DIRECTIONS.real * math.sqrt(2), -1, 1) * half.real
-    y = np.clip(DIRECTIONS.imag * math.sqrt(2), -1, 1) * half.imag
-    return np.asarray(x + 1j * y + distances[:, None] * DIRECTIONS)
+    return np.asarray(CORNERS.real * half.real + 1j * CORNERS.imag * half.imag + distances[:, None] * DIRECTIONS)
 
 
 def _turned(request: Request) -> Floats:
@@ -141,94 +235,51 @@ def _turned(request: Request) -> Floats:
     return np.asarray((1 - (DIRECTIONS[:, None] * wanted).real).min(axis=1))
 
 
-def _near(request: Request, strokes: Complexes) -> _Spots:
-    half = _half(request)
-    anchors = np.array([request.at, *request.also])
-    ring = _ring(half, np.asarray(NEAR) + request.gap)
-    cost = np.asarray(NEAR)[:, None] * 0.45 + _turned(request)
-    offsets, cost = ring.ravel(), cost.ravel()
-    centres = (anchors[:, None] + offsets).ravel()
-    total = (0.25 * np.arange(len(anchors))[:, None] + cost).ravel()
-    owner = np.repeat(anchors, len(offsets))
-    best = np.argsort(total, kind="stable")
-    centres, owner = centres[best], owner[best]
-    free = ~_touched(centres, half, _around_here(strokes, centres, half))
-    return _Spots(centres, owner, half, free)
-
-
-def _around_here(strokes: Complexes, centres: Complexes, half: complex) -> Complexes:
-    """Only the strokes that any of the candidate boxes could touch."""
-    low = complex(centres.real.min(), centres.imag.min()) - half - CLEAR * (1 + 1j)
-    high = complex(centres.real.max(), centres.imag.max()) + half + CLEAR * (1 + 1j)
-    first, last = strokes[:, 0], strokes[:, 1]
-    keep = (np.minimum(first.real, last.real) <= high.real) & (np.maximum(first.real, last.real) >= low.real)
-    keep &= (np.minimum(first.imag, last.imag) <= high.imag) & (np.maximum(first.imag, last.imag) >= low.imag)
-    return strokes[keep]
-
-
-def _clear(spot: _Spots, taken: Sequence[tuple[complex, float, float]]) -> Flags:
-    """Which candidates keep apart from the labels already placed."""
-    free: Flags = np.ones(len(spot.centres), dtype=np.bool_)
-    for centre, width, height in taken:
-        apart = spot.centres - centre
-        free &= (np.abs(apart.real) >= spot.half.real + width / 2 + APART) | (
-            np.abs(apart.imag) >= spot.half.imag + height / 2 + APART
-        )
-    return free
-
-
-def _hit(spot: _Spots, ties: Sequence[tuple[complex, complex]]) -> Flags:
-    if not ties:
-        return np.zeros(len(spot.centres), dtype=np.bool_)
-    return _touched(spot.centres, spot.half, np.array(ties))
-
-
 def _touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
     """Which boxes come too close to any stroke."""
-    if len(centres) * len(strokes) > MANY and len(centres) > 1:
-        # Half of the boxes are near far fewer of the strokes.
-        order = np.argsort(centres.real if np.ptp(centres.real) > np.ptp(centres.imag) else centres.imag)
-        touched: Flags = np.empty(len(centres), dtype=np.bool_)
-        for part in np.array_split(order, 2):
-            touched[part] = _touched(centres[part], half, _around_here(strokes, centres[part], half))
-        return touched
     return np.asarray(overlap(centres, np.array([half]), strokes, CLEAR).any(axis=1), dtype=np.bool_)
 
 
 def _away(
-    request: Request,
-    half: complex,
-    strokes: Complexes,
-    taken: Sequence[tuple[complex, float, float]],
-    ties: Sequence[tuple[complex, complex]],
-) -> tuple[complex, tuple[complex, complex]]:
-    """The nearest free spot farther out and the leader to it, which crosses no label."""
-    distances = np.asarray(FAR) + request.gap
-    centres = (request.at + _ring(half, distances)).ravel()
+    request: Request, spot: _Spots, taken: _Taken
+) -> tuple[complex, tuple[complex, complex], bool]:
+    """The nearest free spot farther out, the leader to it, which crosses no label, and whether it is free.
+
+    The leader starts at the label's point, or at a further point of it where no spot about that is free.
+    """
+    first = _off(request, request.at, spot, taken)
+    if first[2]:
+        return first
+    others = (_off(request, at, spot, taken) for at in request.also)
+    return next((other for other in others if other[2]), first)
+
+
+def _off(
+    request: Request, at: complex, spot: _Spots, taken: _Taken
+) -> tuple[complex, tuple[complex, complex], bool]:
+    """The best spot some way off one point of a label."""
+    half = spot.half
+    centres = (at + _ring(half, np.asarray(FAR) + request.gap)).ravel()
     cost = (np.asarray(FAR)[:, None] * 0.2 + _turned(request)).ravel()
-    leaders = _leaders(request, centres, half)
-    near = _around_here(strokes, centres, half)
-    busy = _touched(centres, half, near)
-    spot = _Spots(centres, centres, half, ~busy)
-    free = ~busy & _clear(spot, taken) & ~_hit(spot, ties)
-    for centre, width, height in taken:
-        free &= ~overlap(np.array([centre]), np.array([complex(width, height) / 2]), leaders, 0.2)[0]
+    leaders = _leaders(at, request.gap, centres, half)
+    near = spot.ink.near(centres, half)
+    free = ~_touched(centres, half, near) & taken.clear(centres, half) & ~taken.crossed(leaders)
     # Where any spot is free only those are weighed: the rest would stand far behind them.
     weighed = np.flatnonzero(free) if free.any() else np.arange(len(centres))
     tried = leaders[weighed]
     cost = cost[weighed] + 0.3 * _crossings(tried, near) + 0.8 * _grazes(tried, near)
     best = int(weighed[np.argmin(cost)])
-    return complex(centres[best]), (complex(leaders[best, 0]), complex(leaders[best, 1]))
+    return complex(centres[best]), (complex(leaders[best, 0]), complex(leaders[best, 1])), bool(free[best])
 
 
-def _leaders(request: Request, centres: Complexes, half: complex) -> Complexes:
+def _leaders(at: complex, gap: float, centres: Complexes, half: complex) -> Complexes:
     """From the point's edge to the nearest place on each box, just short of it: segments [K, 2]."""
-    away = centres - request.at
+    away = centres - at
     foot = (away.real - np.clip(away.real, -half.real, half.real)) + 1j * (
         away.imag - np.clip(away.imag, -half.imag, half.imag)
     )
     u = foot / np.abs(foot)
-    return np.column_stack((request.at + u * min(request.gap, 0.8), request.at + foot - u * (CLEAR + 0.1)))
+    return np.column_stack((at + u * min(gap, 0.8), at + foot - u * (CLEAR + 0.1)))
 
 
 def _crossings(leaders: Complexes, strokes: Complexes) -> Floats:
