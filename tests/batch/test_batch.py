@@ -1,0 +1,353 @@
+"""Batches: a failure costs nobody else, a second run makes only what is missing, killed ones lose nothing."""
+
+from __future__ import annotations
+
+import errno
+import io
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from reportgen import api
+from reportgen.batch import pool as pools
+from reportgen.batch import progress
+from reportgen.batch.jobs import MAKERS, Job, making, run_job
+from reportgen.batch.pool import local
+from reportgen.batch.run import held
+from reportgen.batch.start import Order, start
+from reportgen.errors import AssignmentError
+from tests.batch.classes import Batch, tree, write_class
+from tests.batch.little import little
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_each_student_gets_a_folder(tmp_path: Path) -> None:
+    batch = Batch(tmp_path, {"K1": "seconds: 0", "K2": "seconds: 0.0"})
+    done = batch.run("little")
+    assert set(tree(batch.out)) == {
+        *("K1", "K1/a.pdf", "K1/b.xlsx", "K2", "K2/a.pdf", "K2/b.xlsx"),
+        "manifest.json",
+    }
+    assert batch.events == [("K1", "little", "done"), ("K2", "little", "done")]
+    assert (done.result.made, done.result.kept, done.result.exit_code, done.notes) == (2, 0, 0, ())
+
+
+def test_a_failure_is_a_result(tmp_path: Path) -> None:
+    batch = Batch(tmp_path, {"K1": "wrong: not so", "K2": "seconds: 0", "K3": "seconds: 0.0"})
+    (batch.given / "K3.yaml").unlink()
+    done = batch.run()
+    assert batch.told("done") == ["K2"]
+    assert [(failure.student, *map(str, failure.problems)) for failure in done.result.failures] == [
+        ("K1", f"{batch.given / 'K1.yaml'}:1:8: error[wrong]: not so"),
+        ("K3", f"{batch.roster}:4:1: error[no-assignment]: there is no assignment file for “K3”"),
+    ]
+    assert done.result.exit_code == 1
+
+
+def test_a_fault_of_the_program_costs_one_student(tmp_path: Path) -> None:
+    batch = Batch(tmp_path, {"K1": "crash: yes", "K2": "seconds: 0"})
+    done = batch.run()
+    assert batch.told("done") == ["K2"]
+    ((problem,),) = [failure.problems for failure in done.result.failures]
+    assert str(problem).endswith("ZeroDivisionError: in K1.yaml")
+    assert done.result.exit_code == 3
+
+
+def test_files_are_matched_by_id_whatever_the_spelling(tmp_path: Path) -> None:
+    batch = Batch(tmp_path, {"K1": "seconds: 0", "e\u0301 9": "seconds: 0"})
+    (batch.given / "é 9.yaml").unlink(missing_ok=True)
+    (batch.given / "e\u0301 9.yaml").unlink(missing_ok=True)
+    (batch.given / "sub").mkdir()
+    (batch.given / "K1.yaml").rename(batch.given / "sub" / "k1.yml")
+    (batch.given / "É 9.yaml").write_text("seconds: 0", encoding="utf-8")
+    (batch.given / "K7.yaml").write_text("seconds: 0", encoding="utf-8")
+    done = batch.run()
+    assert len(batch.told("done")) == 2
+    assert done.notes == (f"no student of the roster has this assignment file: {batch.given / 'K7.yaml'}",)
+    assert done.result.exit_code == 0
+
+
+@pytest.mark.parametrize("second", ["K1.yml", "sub/K1.yaml", "k1.YAML"])
+def test_two_files_of_one_stem_are_a_fault(tmp_path: Path, second: str) -> None:
+    batch = Batch(tmp_path, {"K1": "seconds: 0"})
+    (batch.given / second).parent.mkdir(exist_ok=True)
+    (batch.given / second).write_text("seconds: 0", encoding="utf-8")
+    with pytest.raises(AssignmentError, match="same-stem"):
+        batch.run()
+    assert batch.events == []
+
+
+def test_a_second_run_makes_only_what_is_missing_or_changed(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    batch = Batch(tmp_path, {f"K{k}": f"log: {log}" for k in range(5)})
+    batch.run()
+    log.unlink()
+    (batch.out / "K1" / "a.pdf").unlink()
+    (batch.out / "K2" / "b.xlsx").write_bytes(b"altered")
+    (batch.given / "K3.yaml").write_text(f"log: {log}\nseconds: 0", encoding="utf-8")
+    batch.run()
+    assert log.read_text().splitlines() == ["K1 begun", "K2 begun", "K3 begun"]
+    assert (batch.told("kept"), batch.told("done")) == (["K0", "K4"], ["K1", "K2", "K3"])
+    before = tree(batch.out)
+    done = batch.run()
+    assert (done.result.made, done.result.kept) == (0, 5)
+    assert tree(batch.out) == before
+
+
+def test_what_failed_is_tried_again(tmp_path: Path) -> None:
+    batch = Batch(tmp_path, {"K1": "wrong: not so"})
+    assert batch.run().result.exit_code == 1
+    (batch.given / "K1.yaml").write_text("seconds: 0", encoding="utf-8")
+    assert batch.run().result.exit_code == 0
+
+
+def test_products_of_earlier_runs_stay_in_the_manifest(tmp_path: Path) -> None:
+    batch = Batch(tmp_path, {"K1": "seconds: 0"})
+    batch.run("little")
+    batch.run("other")
+    done = batch.run("little", "other")
+    assert (done.result.made, done.result.kept) == (0, 2)
+
+
+def test_another_engine_language_or_template_makes_all_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log = tmp_path / "log"
+    batch = Batch(tmp_path, {"K1": f"log: {log}"})
+    order = Order(batch.roster, None, batch.given, batch.out, ("little",), language="en", jobs=1)
+    variants = [order, replace(order, engine="latex"), replace(order, language="vi"), order]
+    for variant in variants:
+        start(variant, io.StringIO(), {"little": little})
+    monkeypatch.setattr("reportgen.batch.jobs.templates_hash", lambda: "other words")
+    batch.run()
+    assert len(log.read_text().splitlines()) == len(variants) + 1
+
+
+def test_students_who_left_keep_their_folder(tmp_path: Path) -> None:
+    batch = Batch(tmp_path, {"K1": "seconds: 0", "K2": "seconds: 0.0"})
+    batch.run()
+    write_class(tmp_path, {"K1": "seconds: 0"})
+    (batch.given / "K2.yaml").unlink()
+    done = batch.run()
+    assert done.result.gone == 1
+    assert len(done.notes) == 1
+    assert (batch.out / "K2" / "a.pdf").exists()
+    assert "K2" not in done.result.manifest.read_text(encoding="utf-8")
+
+
+def test_a_dead_worker_costs_only_its_own_job(tmp_path: Path) -> None:
+    flag = tmp_path / "died"
+    students = {f"K{k}": "seconds: 0" for k in range(4)}
+    batch = Batch(tmp_path, {**students, "K1": "dies: always", "K3": f"dies: {flag}"})
+    done = batch.run(pool=local(2))
+    assert sorted(batch.told("done")) == ["K0", "K2", "K3"]
+    assert sorted(batch.told("retried")) == ["K1", "K3"]
+    assert [failure.student for failure in done.result.failures] == ["K1"]
+    assert done.result.exit_code == 3
+
+
+def test_workers_are_replaced_before_they_grow(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    students: list[int] = []
+    hire = pools._Crew.hire
+
+    def counted(crew: pools._Crew) -> pools._Worker:
+        worker = hire(crew)
+        students.append(worker.process.pid or 0)
+        return worker
+
+    monkeypatch.setattr(pools._Crew, "hire", counted)
+    count = 2 * pools.MOST_JOBS + 1
+    batch = Batch(tmp_path, {f"K{k}": "seconds: 0" for k in range(count)})
+    done = batch.run(pool=local(1))
+    assert done.result.made == count
+    assert len(students) == 3
+
+
+def test_a_full_disk_stops_the_batch(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    batch = Batch(tmp_path, {"K1": "seconds: 0", "K2": "seconds: 0.0"})
+
+    def full(target: Path, content: bytes) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(target))
+
+    monkeypatch.setattr(api, "replace", full)
+    with pytest.raises(api.OutputError, match="No space") as raised:
+        batch.run()
+    assert raised.value.exit_code == 3
+
+
+def test_a_folder_that_cannot_be_written_costs_one_student(tmp_path: Path) -> None:
+    batch = Batch(tmp_path, {"K1": "seconds: 0", "K2": "seconds: 0.0"})
+    batch.out.mkdir()
+    (batch.out / "K1").write_text("a file where the folder should be", encoding="utf-8")
+    done = batch.run()
+    assert batch.told("done") == ["K2"]
+    assert [failure.student for failure in done.result.failures] == ["K1"]
+
+
+def test_one_batch_at_a_time_writes_to_a_folder(tmp_path: Path) -> None:
+    batch = Batch(tmp_path, {"K1": "seconds: 0"})
+    with held(batch.out, "en"), pytest.raises(api.OutputError, match="another batch"):
+        batch.run()
+    assert batch.run().result.exit_code == 0
+
+
+def test_a_worker_with_other_templates_makes_nothing() -> None:
+    job = Job("K1", "K1", "little", little, "K1.yaml", b"seconds: 0", making("typst", "en"))
+    other = replace(job, making=replace(job.making, templates="0"))
+    assert run_job(job).exit_code == 0
+    assert (run_job(other).exit_code, run_job(other).files) == (3, {})
+
+
+def test_names_of_students_are_in_no_event(tmp_path: Path) -> None:
+    batch = Batch(tmp_path, {"K1": "wrong: Nguyễn Văn A", "K2": "seconds: 0"})
+    batch.run()
+    assert all(len(event) == 3 for event in batch.events)
+    assert not any("Sinh viên" in part or "Nguyễn" in part for event in batch.events for part in event)
+
+
+def test_a_terminal_sees_a_bar(tmp_path: Path) -> None:
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    terminal = Terminal()
+    with progress.watching(3, terminal, "en") as watch:
+        watch("K1", "report", "kept")
+        watch("K2", "report", "failed")
+        watch("K3", "report", "done")
+    assert "2/2" in terminal.getvalue()
+    assert "1 failed" in terminal.getvalue()
+    assert "a minute" in terminal.getvalue()
+
+
+class Process:
+    """A batch in a process group of its own, to be killed."""
+
+    def __init__(self, tmp_path: Path, out: Path) -> None:
+        command = (sys.executable, "-m", "tests.batch.little", tmp_path / "roster.csv", tmp_path / "given", out)
+        self.process = subprocess.Popen(
+            list(map(str, command)), cwd=ROOT, stderr=subprocess.PIPE, text=True, start_new_session=True
+        )
+
+    def events(self, count: int) -> list[list[str]]:
+        assert self.process.stderr is not None
+        return [self.process.stderr.readline().split() for _ in range(count)]
+
+    def finish(self, seconds: float = 60) -> int:
+        assert self.process.stderr is not None
+        self.process.stderr.read()
+        return self.process.wait(seconds)
+
+
+def test_killed_again_and_again_nothing_is_lost(tmp_path: Path) -> None:
+    """Whatever was told as done before the kill is not made again; the tree ends as if nothing had happened."""
+    log, count = tmp_path / "log", 8
+    write_class(tmp_path, {f"K{k}": f"log: {log}\nseconds: 0.05" for k in range(count)})
+    out = tmp_path / "out"
+    told: dict[str, int] = {}
+
+    def begun() -> list[str]:
+        return [line.split()[0] for line in log.read_text().splitlines()]
+
+    for _ in range(3):
+        batch = Process(tmp_path, out)
+        while (event := batch.events(1)[0])[2] != "done":
+            assert event[2] == "kept"
+        batch.process.kill()
+        batch.finish()
+        told[event[0]] = len(begun())
+        (out / event[0] / ".a.pdf.abc_d3fg").write_bytes(b"half of it")
+    assert Process(tmp_path, out).finish() == 0
+    assert len(told) == 3
+    assert all(student not in begun()[since:] for student, since in told.items())
+    # At most what the two workers had in hand at each kill, and one result on its way, was begun again.
+    assert len(begun()) <= count + 3 * 3
+    assert len(set(begun())) == count
+    assert Process(tmp_path, tmp_path / "straight").finish() == 0
+    assert tree(out) == tree(tmp_path / "straight")
+
+
+def test_ctrl_c_ends_all_processes_and_keeps_what_is_done(tmp_path: Path) -> None:
+    text = (ROOT / "assignments" / "slider-crank-01.yaml").read_text(encoding="utf-8")
+    roster, given = write_class(tmp_path, {f"K{k}": text for k in range(9)})
+    command = (sys.executable, "-m", "reportgen.cli", "batch", roster, "--assignments", given)
+    with subprocess.Popen(
+        [*map(str, command), "--out", str(tmp_path / "out"), "--jobs", "2", "--lang", "en"],
+        cwd=ROOT,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    ) as process:
+        assert process.stderr is not None
+        student, product, event = process.stderr.readline().split()
+        assert (product, event) == ("report", "done")
+        # To all of the terminal's foreground processes, as a terminal does.
+        os.killpg(process.pid, signal.SIGINT)
+        *_, last = process.stderr.read().splitlines()
+        assert last == "reportgen: stopped; run the same command again to go on"
+        assert process.wait(20) == 130
+    assert (tmp_path / "out" / student / "report.pdf").read_bytes().startswith(b"%PDF")
+    deadline = time.monotonic() + 10
+    while lives(process.pid):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+def lives(group: int) -> bool:
+    """Whether there still is a process in the group."""
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def test_reports_are_the_same_whoever_makes_them(tmp_path: Path) -> None:
+    """Two real reports, by one process and by two."""
+    text = (ROOT / "assignments" / "slider-crank-01.yaml").read_text(encoding="utf-8")
+    roster, given = write_class(tmp_path, {"K1": text, "K2": text.replace("variant:", "variant: 9 #", 1)})
+    for jobs in (1, 2):
+        order = Order(roster, None, given, tmp_path / str(jobs), ("report",), jobs=jobs)
+        assert start(order, io.StringIO(), MAKERS).result.exit_code == 0
+    one, two = (tree(tmp_path / str(jobs)) for jobs in (1, 2))
+    assert one == two
+    assert one["K1/report.pdf"].startswith(b"%PDF")
+    assert one["K1/report.pdf"] != one["K2/report.pdf"]
+
+
+def batch_command(*arguments: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "reportgen.cli", "batch", *map(str, arguments)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        timeout=120,
+        check=False,
+    )
+
+
+def test_the_command_tells_events_failures_and_the_manifest(tmp_path: Path) -> None:
+    roster, given = write_class(tmp_path, {"K1": "kind: ship\n"})
+    done = batch_command(roster, "--assignments", given, "--out", tmp_path / "out", "--lang", "en")
+    assert (done.returncode, done.stdout) == (1, f"{tmp_path / 'out' / 'manifest.json'}\n")
+    lines = done.stderr.splitlines()
+    assert lines[0] == "K1\treport\tfailed"
+    assert f"{given / 'K1.yaml'}:1:7: error[unknown-kind]: unknown kind of machine “ship”" in lines
+    assert lines[-1] == "0 made, 0 kept, 1 failed"
+
+
+@pytest.mark.parametrize(
+    "options",
+    [(), ("--spec", "a.yaml", "--assignments", "."), ("--assignments", ".", "--make", "report,dance")],
+)
+def test_wrong_usage_ends_with_2(tmp_path: Path, options: tuple[str, ...]) -> None:
+    done = batch_command("roster.csv", *options)
+    assert (done.returncode, done.stdout) == (2, "")
