@@ -7,7 +7,7 @@ each quantity, its id in the first column; a column for single values, then one 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
@@ -17,7 +17,7 @@ from reportgen.document.prose import search_path
 from reportgen.document.tree import Cell, Column, InlineMath, Inlines, LineBreak, Table, Text, Value
 from reportgen.document.voice import TEXT_WIDTH
 from reportgen.document.words import load_words
-from reportgen.notation.expressions import Number
+from reportgen.notation.expressions import Number, Symbol
 from reportgen.workbook import Book, Entry, Sheet
 
 NAMES = 4
@@ -29,8 +29,8 @@ MOST_POSITIONS = 8
 SYMBOL, UNIT, VALUE = 16.0, 20.0, 17.0
 """Widths (mm) of the columns on paper."""
 
-Filling = Callable[[Row, int], Entry]
-"""What stands in the cell of a row at a position (0 for a single value)."""
+Filling = Callable[[Row, int], Entry | None]
+"""What stands in the cell of a row at a position (0 for a single value); None where it has no cell."""
 Tail = Callable[[Row], Sequence[Entry]]
 
 
@@ -57,7 +57,12 @@ def rows_shown(key: Key) -> tuple[Row, ...]:
 def given_number(row: Row, position: int) -> Number | None:
     """What the sheet shows filled in: a given value, to the report's decimals; None for a cell to fill in."""
     value = float(row.values[row.at(position)])
-    return Number(value, row.decimals) if row.role is Role.given and value == value else None
+    return shown_number(row, value) if row.role is Role.given and value == value else None
+
+
+def shown_number(row: Row, value: float) -> Number:
+    """A number of a row as the report prints it: to its decimals, or without the dust of floats."""
+    return Number(value if row.decimals is not None else float(f"{value:.12g}"), row.decimals)
 
 
 def number_format(row: Row) -> str:
@@ -67,11 +72,11 @@ def number_format(row: Row) -> str:
 
 
 def number_entry(row: Row, value: float, style: Any = "", comment: str = "") -> Entry:
-    """A number in a row's unit that shows the report's decimals; nothing for one that does not exist."""
+    """A number in a row's unit that shows the report's decimals; an empty cell for one that does not exist."""
     return Entry(value, style, comment, number_format(row)) if value == value else Entry(None, style, comment)
 
 
-def is_cell(row: Row, position: int) -> bool:
+def is_shown(row: Row, position: int) -> bool:
     """Whether the sheet has something at a position of a row: a value to fill in or a given one."""
     if position in row.positions:
         return True
@@ -79,34 +84,41 @@ def is_cell(row: Row, position: int) -> bool:
 
 
 def grid(
-    key: Key, note: str, filling: Filling, tail_head: Sequence[str] = (), tail: Tail | None = None
+    key: Key,
+    title: str,
+    note: str,
+    filling: Filling,
+    rows: Sequence[Row],
+    positions: Sequence[int],
+    tail_head: Sequence[str] = (),
+    tail: Tail | None = None,
 ) -> tuple[tuple[Entry, ...], ...]:
     """The rows of a page in the sheet's layout; `tail` are further cells behind each row, under `tail_head`."""
     words = words_of(key)
     sheet, parts = words["answer_sheet"], words["parts"]
-    positions = asked_positions(key)
     heads = (
         *(sheet[name] for name in ("id", "symbol", "unit", "value")),
         *(sheet["position"].format(label=key.labels[k - 1]) for k in positions),
         *tail_head,
     )
-    rows: list[tuple[Entry, ...]] = [
-        (Entry(f"{sheet['title']} – {key.id}", "title"),),
+    lines: list[tuple[Entry, ...]] = [
+        (Entry(f"{title} – {key.id}", "title"),),
         (Entry(note, "note"),),
         tuple(Entry(head, "head") for head in heads),
     ]
-    for part, members in groupby(rows_shown(key), lambda row: row.part):
-        rows.append((Entry(), Entry(str(parts[part]), "bold")))
+    for part, members in groupby(rows, lambda row: row.part):
+        lines.append((Entry(), Entry(str(parts[part]), "bold")))
         for row in members:
-            cells = (filling(row, k) if is_cell(row, k) else Entry(None, "unasked") for k in (0, *positions))
+            cells = (filling(row, k) or Entry(None, "unasked") for k in (0, *positions))
             names = (Entry(row.id, "note"), Entry(symbol_text(row, key)), Entry(row.unit))
-            rows.append((*names, *cells, *(tail(row) if tail else ())))
-    return tuple(rows)
+            lines.append((*names, *cells, *(tail(row) if tail else ())))
+    return tuple(lines)
 
 
-def page(name: str, rows: Sequence[Sequence[Entry]], key: Key, tails: int = 0) -> Sheet:
+def page(name: str, rows: Sequence[Sequence[Entry]]) -> Sheet:
     """A protected page in the sheet's layout."""
-    widths = (11.0, 13.0, 13.0, 12.0, *(12.0,) * len(asked_positions(key)), *(10.0,) * tails)
+    columns = len(rows[HEAD - 1])
+    widths = (11.0, 13.0, 13.0, *(12.0,) * (columns - NAMES + 1))
     return Sheet(name, rows, widths, (HEAD, NAMES - 1), protected=True)
 
 
@@ -139,17 +151,23 @@ def info_page(key: Key) -> Sheet:
 def answer_book(key: Key) -> Book:
     """The empty sheet as a workbook: given values filled in, cells to fill in unlocked, the rest protected."""
     sheet = words_of(key)["answer_sheet"]
-    rows = grid(key, sheet["note"], _empty)
-    return Book((page(sheet["answers"], rows, key), info_page(key)), f"{sheet['title']} {key.id}")
+    return Book((page(sheet["answers"], _empty_grid(key)), info_page(key)), f"{sheet['title']} {key.id}")
 
 
 def answer_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
     """The empty sheet as rows of CSV: what names it, a blank line, then the layout of the workbook's page."""
-    rows = grid(key, "", _empty)[HEAD - 1 :]
+    rows = _empty_grid(key)[HEAD - 1 :]
     return (*info_rows(key), (), *(tuple(entry.value for entry in row) for row in rows))
 
 
-def _empty(row: Row, position: int) -> Entry:
+def _empty_grid(key: Key) -> tuple[tuple[Entry, ...], ...]:
+    sheet = words_of(key)["answer_sheet"]
+    return grid(key, sheet["title"], sheet["note"], _empty, rows_shown(key), asked_positions(key))
+
+
+def _empty(row: Row, position: int) -> Entry | None:
+    if not is_shown(row, position):
+        return None
     number = given_number(row, position)
     if number is None:
         return Entry(None, "input", unlocked=True)
@@ -165,13 +183,13 @@ def answer_blocks(key: Key) -> Iterator[Table]:
     for part, members in groupby(key.rows, lambda row: row.part):
         caption = (Text(str(words["parts"][part])),)
         rows = [row for row in members if row.positions]
-        shared = Counter(row.symbol for row in rows)
+        shared = shared_symbols(rows)
         singles = [row for row in rows if row.single]
         many = [row for row in rows if not row.single]
         for group, positions in ((singles, [0]), (many, sorted({k for row in many for k in row.positions}))):
             for some in _split(positions):
                 asked = [row for row in group if set(row.positions) & set(some)]
-                named = [(row, shared[row.symbol] > 1) for row in asked]
+                named = [(row, row.symbol in shared) for row in asked]
                 if asked:
                     yield _table(_heads(key, words, some), named, some, caption)
 
@@ -213,8 +231,17 @@ def _table(
 
 def _cells(row: Row, told: bool, positions: Sequence[int]) -> tuple[Cell, ...]:
     places = (Cell() if k in row.positions else Cell((Text("–"),)) for k in positions)
-    id = (LineBreak(), Text(row.id)) if told else ()
-    return (Cell((InlineMath(row.symbol), *id)), Cell(plain_inlines(row.unit)), *places)
+    return (Cell(symbol_inlines(row, told)), Cell(plain_inlines(row.unit)), *places)
+
+
+def symbol_inlines(row: Row, told: bool) -> Inlines:
+    """A quantity's symbol; with `told` its id stands below."""
+    return (InlineMath(row.symbol), *((LineBreak(), Text(row.id)) if told else ()))
+
+
+def shared_symbols(rows: Iterable[Row]) -> frozenset[Symbol]:
+    """Symbols that several of the rows have."""
+    return frozenset(symbol for symbol, count in Counter(row.symbol for row in rows).items() if count > 1)
 
 
 def plain_inlines(text: str) -> Inlines:
@@ -224,4 +251,4 @@ def plain_inlines(text: str) -> Inlines:
 
 def value_inlines(row: Row, value: float) -> Inlines:
     """A number as the report prints it, a dash for what does not exist."""
-    return (Value(Number(value, row.decimals)),) if value == value else (Text("–"),)
+    return (Value(shown_number(row, value)),) if value == value else (Text("–"),)

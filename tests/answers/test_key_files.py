@@ -1,0 +1,89 @@
+"""The key as workbook, CSV, JSON and document: one set of numbers, as the report prints them."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from openpyxl import load_workbook
+
+from reportgen import api, catalogue
+from reportgen.answers.key import make_key
+from reportgen.answers.key_document import key_document
+from reportgen.answers.key_json import key_data
+from reportgen.answers.key_tables import band, key_book, key_rows
+from reportgen.document.plain import text_of
+from reportgen.document.tree import Table
+from reportgen.grading.submission import read_submission
+from reportgen.ledger.report import keep
+from reportgen.notation.numbers import Language
+from reportgen.workbook import write_xlsx
+from tests.grading.keys import small_key
+
+
+def test_json_has_unrounded_values_and_null_for_what_does_not_exist() -> None:
+    data = json.loads(json.dumps(key_data(small_key("en")), allow_nan=False))
+    assert data["format"] == "reportgen-key/1"
+    assert data["positions"] == ["1", "2", "3", "4"]
+    rows = {row["id"]: row for row in data["rows"]}
+    assert rows["omega.1"]["values"] == [31.41592653589793]
+    assert rows["omega.1"]["unit"] == "rad/s"
+    assert rows["omega.1"]["asked"] == [""]
+    assert rows["dir.v.B"]["values"] == [90.0, 180.0, 270.0, None]
+    assert rows["dir.v.B"]["asked"] == ["1", "2", "3"]
+    assert rows["M.eq"]["drawn"] == [0.5] * 4
+    assert rows["l.AB"]["role"] == "given"
+
+
+def test_csv_has_a_row_for_each_value_as_printed() -> None:
+    head, *rows = key_rows(small_key("en"))
+    by_place = {(row[0], row[4]): dict(zip(head, row, strict=True)) for row in rows}
+    assert by_place["omega.1", ""]["Value"] == 31.42
+    assert by_place["v.B", "3"]["Value"] == -1.2
+    assert by_place["dir.v.B", "4"]["Value"] is None
+    assert by_place["M.eq", "2"]["Direction"] == "b"
+    assert by_place["M.eq", "2"]["Part"] == "Balancing torque"
+    assert len(rows) == sum(len(row.values) for row in small_key().rows)
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+def test_the_workbook_of_a_key_reads_as_a_perfect_sheet(language: Language, tmp_path: Path) -> None:
+    key = small_key(language)
+    path = tmp_path / "key.xlsx"
+    path.write_bytes(write_xlsx(key_book(key)))
+    submission = read_submission(path, key)
+    assert {place: given.value for place, given in submission.values.items()} == {
+        (row.id, k): row.values[row.at(k)] for row in key.asked for k in row.positions
+    }
+    assert not submission.problems
+    book = load_workbook(path)
+    assert len(book.worksheets) == 5
+    assert book.worksheets[1]["D5"].value == 0.5
+
+
+def test_a_band_that_is_nothing_beside_its_row_is_nothing() -> None:
+    row = small_key().row("v.B")
+    assert band(row, 1e-12) == 0
+    assert band(row, 0.01234) == 0.012
+    assert band(row, float("nan")) is None
+
+
+@pytest.mark.parametrize("name", ["slider-crank-01", "engine-twin-05", "linkage-slide"])
+def test_the_document_has_every_quantity_at_every_position_on_pages_that_hold_it(name: str) -> None:
+    assignment = api.load(f"assignments/{name}.yaml", "en")
+    analysis = api.analyse(assignment)
+    key = make_key(assignment, analysis, keep(analysis).ledger)
+    tree = key_document(key, catalogue.titles("en")[assignment.kind])
+    tables = [block for block in tree.blocks if isinstance(block, Table)]
+    assert all(sum(column.width for column in table.columns) < 160.001 for table in tables)
+    # A list has a quantity a row; a table by position spans a quantity over its columns.
+    listed = sum(len(table.rows) for table in tables if len(table.head) == 1)
+    beside = sum(cell.span > 1 for table in tables if len(table.head) == 2 for cell in table.head[0])
+    assert listed == sum(row.single for row in key.rows)
+    assert beside == sum(not row.single for row in key.rows)
+    assert all(len(table.rows) == len(key.labels) for table in tables if len(table.head) == 2)
+    text = text_of(tree)
+    for row in key.rows[:40]:
+        if row.decimals is not None and row.values[0] > 0:
+            assert f"{row.values[0]:.{row.decimals}f}" in text or row.decimals == 0

@@ -1,0 +1,153 @@
+"""The empty answer sheet and the task: all that is asked, nothing that is to be found out."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from openpyxl import load_workbook
+
+from reportgen import api, catalogue
+from reportgen.answers.key import Key, Role, make_key
+from reportgen.answers.sheet import answer_blocks, answer_book, answer_rows, number_format
+from reportgen.answers.task import task
+from reportgen.document.plain import plain, text_of
+from reportgen.document.tree import Document, Table
+from reportgen.ledger.report import keep
+from reportgen.notation.numbers import Language, write
+from reportgen.workbook import write_xlsx
+from tests.grading.keys import small_key
+
+
+def cells(key: Key, tmp_path: Path) -> Iterator[tuple[str, str, object, bool]]:
+    """id, head of the column, value and whether it can be filled in, of every cell of the sheet."""
+    path = tmp_path / "sheet.xlsx"
+    path.write_bytes(write_xlsx(answer_book(key)))
+    page = load_workbook(path).worksheets[0]
+    assert page.protection.sheet
+    heads = [cell.value for cell in page[3]]
+    for line in page.iter_rows(min_row=4):
+        for head, cell in zip(heads, line, strict=True):
+            yield str(line[0].value or ""), str(head), cell.value, not cell.protection.locked
+
+
+def test_what_is_asked_can_be_filled_in_and_nothing_else(tmp_path: Path) -> None:
+    key = small_key("en")
+    empty = {(id, head) for id, head, value, unlocked in cells(key, tmp_path) if unlocked and value is None}
+    assert empty == {
+        (row.id, f"Position {key.labels[k - 1]}" if k else "Value") for row in key.asked for k in row.positions
+    }
+    shown = {(id, head): value for id, head, value, _ in cells(key, tmp_path)}
+    assert shown["l.AB", "Value"] == 0.15
+    assert shown["v.B", "Symbol"] == "v_B"
+    assert shown["v.B", "Unit"] == "m/s"
+
+
+def test_the_sheet_names_assignment_and_student_and_is_the_same_bytes_each_time(tmp_path: Path) -> None:
+    path = tmp_path / "sheet.xlsx"
+    data = write_xlsx(answer_book(small_key("en", student="=cmd|'/c calc'!A1")))
+    assert data == write_xlsx(answer_book(small_key("en", student="=cmd|'/c calc'!A1")))
+    path.write_bytes(data)
+    info = load_workbook(path)["Info"]
+    rows = {row[0].value: row[1] for row in info.iter_rows()}
+    assert rows["Assignment"].value == "crank-07"
+    assert rows["Variant"].value == "7"
+    # A name that looks like a formula stays text.
+    assert rows["Student"].value == "=cmd|'/c calc'!A1"
+    assert rows["Student"].data_type == "s"
+
+
+def test_the_csv_has_the_rows_of_the_workbook(tmp_path: Path) -> None:
+    key = small_key("en")
+    page = {(id, head): value for id, head, value, _ in cells(key, tmp_path) if id}
+    rows = answer_rows(key)
+    start = next(number for number, row in enumerate(rows) if row and row[0] == "id")
+    assert rows[0] == ("Assignment", "crank-07")
+    found = {
+        (str(row[0]), str(head)): value or None
+        for row in rows[start + 1 :]
+        for head, value in zip(rows[start], row, strict=False)
+        if row[0]
+    }
+    assert found == {place: value or None for place, value in page.items()}
+
+
+def test_a_format_shows_the_decimals_of_the_report() -> None:
+    formats = {row.id: number_format(row) for row in small_key().rows}
+    assert formats["v.B"] == "0.00"
+    assert formats["l.AB"] == "General"
+
+
+def test_rows_that_share_a_symbol_are_told_apart_on_paper() -> None:
+    key = small_key("en")
+    twin = next(row for row in key.rows if row.id == "v.B")
+    both = replace(key, rows=(*key.rows[:5], replace(twin, id="f.v.B")))
+    texts = [plain(cell.inlines, "en") for table in answer_blocks(both) for row in table.rows for cell in row]
+    assert [text for text in texts if text.startswith("v_B")] == ["v_B v.B", "v_B f.v.B"]
+
+
+def test_many_positions_are_split_over_tables_that_fit_the_page() -> None:
+    key = small_key("en")
+    (wide,) = (row for row in key.rows if row.id == "v.B")
+    labels = tuple(map(str, range(1, 21)))
+    row = replace(wide, values=np.ones(20), positions=tuple(range(1, 21)), sense=("",) * 20)
+    many = Key("x", "slider-crank", "", "en", {}, labels, (row,))
+    tables = list(answer_blocks(many))
+    heads = [plain(cell.inlines, "en") for table in tables for cell in table.head[0]]
+    assert [head for head in heads if head.isdigit()] == list(labels)
+    assert all(sum(column.width for column in table.columns) < 160.001 for table in tables)
+
+
+# --- the task -------------------------------------------------------------------------------------
+
+
+def handout(name: str, language: Language) -> tuple[Key, Document]:
+    assignment = api.load(f"assignments/{name}.yaml", language)
+    analysis = api.analyse(assignment)
+    books = keep(analysis)
+    key = make_key(assignment, analysis, books.ledger)
+    title = catalogue.titles(language)[assignment.kind]
+    return key, task(assignment, analysis, books, title, key)
+
+
+NAMES = ("engine-twin-05", "slider-crank-01", "shaper-01", "linkage-8", "linkage-slide", "four-bar-01")
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+@pytest.mark.parametrize("name", NAMES)
+def test_a_task_gives_no_answer_away(name: str, language: Language) -> None:
+    key, tree = handout(name, language)
+    text = text_of(tree)
+    told = set(re.findall(r"[\d.,]+\d", text))
+    for row in key.asked:
+        if row.role is Role.scale:
+            continue
+        for k in row.positions:
+            value = float(row.values[row.at(k)])
+            shown = write(abs(value), row.decimals, language)
+            # Short numbers occur by chance (counts, given data); five figures do not.
+            if sum(map(str.isdigit, shown.lstrip("0.,"))) >= 5:
+                assert shown not in told, row.id
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_task_has_a_place_for_every_value_that_is_asked(name: str) -> None:
+    key, tree = handout(name, "en")
+    (last,) = [i for i, block in enumerate(tree.blocks) if "Answer sheet" in str(getattr(block, "title", ""))]
+    tables = [block for block in tree.blocks[last:] if isinstance(block, Table)]
+    empty = 0
+    for table in tables:
+        for line in table.rows:
+            head = [plain(cell.inlines, "en") for cell in table.head[0]]
+            symbol = ""
+            for title, cell in zip(head, line, strict=True):
+                text = plain(cell.inlines, "en")
+                if title == "Symbol":
+                    symbol = text
+                elif title != "Unit" and symbol and not text:
+                    empty += 1
+    assert empty == sum(len(row.positions) for row in key.asked)
