@@ -73,7 +73,7 @@ def read_roster(path: Path, language: Language = "vi") -> Roster:
     for one in records(page, used, start + 1):
         if isinstance(one, Fault):
             faults.append(one)
-        elif one.values:
+        elif one.values or one.refused:
             rows.append(one)
     faults += [fault for row in rows for fault in _unfit(row)]
     faults += _ids(rows)
@@ -127,7 +127,8 @@ def _ids(rows: Iterable[Record]) -> Iterable[Fault]:
     for row in rows:
         id = row.values.get("id")
         if id is None:
-            yield Fault("missing-id", row.mark)
+            if "id" not in row.refused:
+                yield Fault("missing-id", row.cells.get("id", row.mark))
             continue
         same = unicodedata.normalize("NFC", id.text.casefold())
         if same in seen:

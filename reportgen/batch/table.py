@@ -35,10 +35,15 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """A row: what stands under each heading, empty cells left out; `mark` is its first cell."""
+    """A row: what stands under each heading, empty cells left out; `mark` is its first cell.
+
+    `cells` are the places of all its cells, `refused` the columns where a cell shows no value.
+    """
 
     values: Mapping[str, Scalar]
     mark: Mark
+    cells: Mapping[str, Mark]
+    refused: frozenset[str] = frozenset()
 
 
 @cache
@@ -80,17 +85,20 @@ def records(page: Page, headings: Sequence[Column], start: int) -> Iterator[Reco
     """The rows from index `start` on that hold something; a fault for each cell that shows no value."""
     for row in page.rows[start:]:
         values: dict[str, Scalar] = {}
-        for column in headings:
-            cell = row[column.index] if column.index < len(row) else None
-            if cell is None or not (cell.text.strip() or cell.kind == "formula"):
+        refused: set[str] = set()
+        present = [(column, row[column.index]) for column in headings if column.index < len(row)]
+        for column, cell in present:
+            if not (cell.text.strip() or cell.kind == "formula"):
                 continue
             if cell.kind in ("error", "formula") and (cell.value is None or str(cell.value).startswith("#")):
                 yield Fault("no-cell-value", cell.mark, {"text": cell.formula or cell.text})
+                refused.add(column.name)
                 continue
             values[column.name] = Scalar(_text(cell, column.unit), cell.mark)
         first = next((cell for cell in row if not cell.blank), None)
         if first is not None:
-            yield Record(values, first.mark)
+            cells = {column.name: cell.mark for column, cell in present}
+            yield Record(values, first.mark, cells, frozenset(refused))
 
 
 def twice(headings: Sequence[Column]) -> Iterator[Fault]:

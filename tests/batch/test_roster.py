@@ -1,0 +1,185 @@
+"""The roster: headings in two languages, ids that are there once, faults at their cells; ids as file names."""
+
+from __future__ import annotations
+
+import io
+import re
+import unicodedata
+from collections.abc import Callable
+from pathlib import Path
+
+import openpyxl
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from reportgen.assignment.messages import messages
+from reportgen.batch.names import folder_name
+from reportgen.batch.roster import PERSONAL, read_roster
+from reportgen.batch.table import folded
+from reportgen.errors import AssignmentError
+from reportgen.workbook import Book, Sheet, write_xlsx
+
+Put = Callable[..., Path]
+
+
+@pytest.fixture
+def put(tmp_path: Path) -> Put:
+    def write(content: str | bytes, name: str = "roster.csv") -> Path:
+        path = tmp_path / name
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return path
+
+    return write
+
+
+def told(path: Path) -> list[str]:
+    """Each fault as place and code."""
+    with pytest.raises(AssignmentError) as caught:
+        read_roster(path, "en")
+    lines = [str(problem).splitlines()[0].replace(str(path), "FILE") for problem in caught.value.problems]
+    return [re.sub(r": error\[(.*?)\].*", r" \1", line) for line in lines]
+
+
+# --- names ------------------------------------------------------------------------------------------
+
+RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{port}{k}" for port in ("COM", "LPT") for k in range(10))}
+
+
+@pytest.mark.parametrize("id", ["K195520103001", "DTK1051010023", "20173456", "K58-01_2"])
+def test_an_ordinary_id_is_its_own_name(id: str) -> None:
+    assert folder_name(id) == id
+
+
+@given(st.text(max_size=320))
+@example("../../x")
+@example("CON")
+@example("con")
+@example("NUL.txt")
+@example("a/b\\c")
+@example("x" * 300)
+@example("trailing...")
+@example("")
+@example("~root")
+@example("-rf")
+@example("a\0b\n")
+@example("\ud800")
+def test_any_id_is_one_harmless_component(id: str) -> None:
+    name = folder_name(id)
+    assert re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}", name)
+    assert name.upper() not in RESERVED
+
+
+@given(st.text(max_size=40), st.text(max_size=40))
+@example("abc", "ABC")
+@example("Đ1", "D1")
+@example("a/b", "a_b")
+def test_two_ids_never_share_a_name(one: str, other: str) -> None:
+    """Not even where capitals and small letters are one; composed and decomposed are the same id."""
+    same = unicodedata.normalize("NFC", one) == unicodedata.normalize("NFC", other)
+    assert (folder_name(one).casefold() == folder_name(other).casefold()) == same
+
+
+def test_an_id_made_to_look_hashed_is_hashed_again() -> None:
+    forged = folder_name("../x").upper()
+    assert folder_name(forged) != forged
+
+
+def test_composed_and_decomposed_ids_are_one() -> None:
+    assert folder_name(unicodedata.normalize("NFD", "Sinh viên Ế")) == folder_name("Sinh viên Ế")
+
+
+# --- tables -----------------------------------------------------------------------------------------
+
+
+def test_vietnamese_headings_composed_or_not(put: Put) -> None:
+    header = "STT;Mã sinh viên;HỌ VÀ TÊN ;Lớp;Nhóm;Thư điện tử;Ghi chú"
+    for form in ("NFC", "NFD"):
+        text = unicodedata.normalize(form, f"{header}\n1;K1;Đỗ Hữu Ước;K58;2;u@x.vn;lớp trưởng\n")
+        (student,) = read_roster(put(b"\xef\xbb\xbf" + text.encode())).students
+        assert (student.id, student.name, student.class_) == ("K1", "Đỗ Hữu Ước", "K58")
+        assert (student.section, student.email, student.overrides) == ("2", "u@x.vn", {})
+
+
+def test_every_language_has_headings_for_the_same_columns() -> None:
+    tables = {language: messages(language)["columns"] for language in ("vi", "en")}
+    assert set(tables["vi"]) == set(tables["en"]) == {*PERSONAL, "variant"}
+    for table in tables.values():
+        headings = [folded(heading) for names in table.values() for heading in names]
+        assert len(set(headings)) == len(headings)
+
+
+def test_blank_lines_quoted_commas_and_a_title_above(put: Put) -> None:
+    path = put('Danh sách lớp\n\n,\nid,name,\n\n01,"Nam, Trần"\n  , \n02,Lan\n')
+    roster = read_roster(path)
+    assert [(one.id, one.name) for one in roster.students] == [("01", "Nam, Trần"), ("02", "Lan")]
+    assert str(roster.students[1].mark) == f"{path}:8:1"
+
+
+def test_a_workbook_of_numbers_with_sheets_before_it(put: Put) -> None:
+    book = Book(
+        (
+            Sheet("Ghi chú", (("read me",),)),
+            Sheet("Lớp", (("MSSV", "Họ tên", "parameters.H (mm)"), (195520103001, "An", 95), ("007", "=1+1", None))),
+        )
+    )
+    path = put(write_xlsx(book), "roster.xlsx")
+    roster = read_roster(path)
+    assert [(one.id, one.name) for one in roster.students] == [("195520103001", "An"), ("007", "=1+1")]
+    first = roster.students[0].overrides["parameters.H"]
+    assert (first.text, str(first.mark)) == ("95 mm", f"{path}:Lớp!C2")
+    assert roster.students[1].overrides == {}
+
+
+def test_all_faults_are_told_at_once_with_their_cells(put: Put) -> None:
+    path = put(
+        "id,name,Paramters.H,id\n"
+        "K1,An\n"
+        "k1,Other\n"
+        ",Nobody\n"
+        f"K2,{'x' * 301}\n"
+        "K3,a\x07b\n"
+        "Ế,composed\n"
+        f"{unicodedata.normalize('NFD', 'ế')},decomposed\n"
+    )
+    assert told(path) == [
+        "FILE:1:9 unknown-column",
+        "FILE:1:21 column-twice",
+        "FILE:3:1 duplicate-id",
+        "FILE:4:1 missing-id",
+        "FILE:5:4 text-too-long",
+        "FILE:6:4 control-character",
+        "FILE:8:1 duplicate-id",
+    ]
+
+
+def test_a_duplicate_names_the_first(put: Put) -> None:
+    with pytest.raises(AssignmentError) as caught:
+        read_roster(put("id\nK1\nK2\nK1\n"), "en")
+    assert "the id “K1” was given before, at 2:1" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("content", "fault"),
+    [
+        ("name,class\nAn,1\n", "FILE:1:1 no-id-column"),
+        ("id,name\n", "FILE:1:1 empty-roster"),
+        ("", "FILE:1:1 empty"),
+    ],
+)
+def test_a_table_without_ids_or_students(put: Put, content: str, fault: str) -> None:
+    assert told(put(content)) == [fault]
+
+
+def test_cells_without_a_value_are_faults(put: Put) -> None:
+    book = openpyxl.Workbook()
+    page = book.worksheets[0]
+    page.append(["id", "name"])
+    page.append(["K1", "=B9"])
+    page.append(["#N/A", "x"])
+    stream = io.BytesIO()
+    book.save(stream)
+    assert told(put(stream.getvalue(), "r.xlsx")) == [
+        "FILE:Sheet!B2 no-cell-value",
+        "FILE:Sheet!A3 no-cell-value",
+    ]
