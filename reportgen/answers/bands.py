@@ -1,10 +1,11 @@
 """Within what a value is right: errors of drawing and of rounding, carried through the ledger.
 
 Each error is a small change of one quantity; the ledger evaluates all of them at once, [errors,
-positions], and tells how far every later quantity moves.  Independent errors add as the root of
-their squares; a quantity's own error, which nothing evens out, is added whole:
+positions], and tells how far every later quantity moves.  An error that may lie anywhere within ±e
+has the standard deviation e/√3; independent ones add by their squares, and the band reaches to three
+of their sum's deviations.  A quantity's own error, which nothing evens out, is added whole:
 
-    band = e_own + √(Σᵢ (∂f/∂xᵢ eᵢ)²)
+    band = e_own + 3 √(Σᵢ (∂f/∂xᵢ eᵢ/√3)²)
 """
 
 from __future__ import annotations
@@ -22,13 +23,28 @@ PAPER_ERROR = 0.5e-3
 DIGITS = 3
 """Significant figures that a value is computed with."""
 
+WHOLE_DEGREE = np.pi / 180
+
+REACH = 3 / np.sqrt(3)
+"""Three standard deviations of errors that are spread evenly over ±1."""
+
 SHARE = 1e-4
 """A change of this share of an error stands for its slope."""
 
 
 def drawn(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndarray]:
-    """Half widths (SI) [N] when every length on paper is off by `error` (m) at each of its ends."""
-    return carried_through(ledger, measuring_errors(ledger, error))
+    """Half widths (SI) [N] when every length on paper is off by `error` (m) at each of its ends.
+
+    What is read or worked out from the drawing is also written down with so many figures only.
+    """
+    bands = carried_through(ledger, measuring_errors(ledger, error))
+    return {id: band + np.where(band > 0, _written(ledger, id), 0.0) for id, band in bands.items()}
+
+
+def _written(ledger: Ledger, id: str) -> np.ndarray:
+    """Half a unit of the last figure written down: of `DIGITS` figures, of a whole degree for a direction."""
+    values = ledger[id].values
+    return np.full(len(values), WHOLE_DEGREE / 2) if id.startswith("dir.") else half_unit(values, DIGITS)
 
 
 def computed(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
@@ -95,7 +111,7 @@ def carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[st
         own = np.nan_to_num(np.broadcast_to(errors.get(id, 0.0), family.values.shape))
         if id in rows:
             change[rows[id]] = 0.0
-        inherited = np.sqrt((np.nan_to_num(change) ** 2).sum(axis=0)) / SHARE
+        inherited = REACH * np.sqrt((np.nan_to_num(change) ** 2).sum(axis=0)) / SHARE
         # What stands for all positions depends on each of them alike.
         bands[id] = own + (inherited.max(keepdims=True) if len(own) == 1 else inherited)
     return bands

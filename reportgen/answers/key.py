@@ -122,7 +122,7 @@ def make_key(assignment: Assignment, analysis: Analysis, ledger: Ledger) -> Key:
         scale = family.how.scale
         values = np.array([ledger[id].at(k + 1).real for k in range(len(family.values))])
         if id.startswith("dir."):
-            values = np.where(_exists(ledger, id), values, np.nan)
+            values = np.where(_exists(ledger, id), np.abs(values), np.nan)
         if family.arm:
             values = np.abs(values)
         role, part = _role(family), _part(id, family, formulas)

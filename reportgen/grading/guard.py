@@ -17,6 +17,7 @@ import numpy as np
 from reportgen.answers.key import Key
 from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Marked, Place, Verdict
+from reportgen.grading.misread import WRONG_DATUM
 from reportgen.grading.working import Working
 
 SAME = 0.8
@@ -31,8 +32,11 @@ APART = 3.0
 OUT_OF_PROPORTION = 20.0
 """A first wrong value without a name that is this many times too large or too small is no working."""
 
-ROOTS = 2
-"""So many unnamed wrong values that come from the given data alone belong to another variant."""
+MISREAD = 2
+"""So many given data taken wrongly, all else following from them, make another variant."""
+
+CONSISTENT = 0.9
+"""The share of the values not right that follow, where a sheet is another's."""
 
 Cells = Mapping[Place, Marked]
 
@@ -49,20 +53,17 @@ def guard(working: Working, cells: Cells, classmates: Sequence[Key]) -> tuple[di
     if constant:
         warnings.append("constant")
         result = _emptied(result, [place for place in filled if place[0] in constant])
-    result = {place: replace(cell, classmates=_equal_to(guide, cell, classmates)) for place, cell in result.items()}
-    copied = Counter(name for cell in result.values() for name in cell.classmates)
-    sources = {name for name, count in copied.items() if count >= FEWEST}
-    causes = {place for place, cell in result.items() if sources & set(cell.classmates)}
-    if causes:
-        warnings.append("classmate")
-    roots = [place for place in _roots(guide, result) if not result[place].mistake]
-    if len(roots) >= ROOTS:
-        warnings.append("other-variant")
-        causes |= set(roots)
+    equal, copied = _copied_from(guide, result, classmates)
+    result |= {place: replace(result[place], classmates=tuple(names)) for place, names in equal.items()}
+    if copied:
+        return _emptied(result, filled), (*warnings, "classmate")
+    causes = {place for place in filled if place[0] in constant}
+    if len(_misread(result)) >= MISREAD and _follows_throughout(result):
+        return _emptied(result, filled), (*warnings, "other-variant")
     wild = {place for place, cell in result.items() if cell.first and not cell.mistake and _is_wild(guide, cell)}
     if wild:
         warnings.append("proportion")
-    causes |= wild | {place for place in filled if place[0] in constant}
+    causes |= wild
     return _emptied(result, [place for place in filled if _is_spoiled(guide, result, place, causes)]), tuple(warnings)
 
 
@@ -92,29 +93,43 @@ def _constant_rows(guide: Guide, cells: Cells) -> set[str]:
     }
 
 
-def _equal_to(guide: Guide, cell: Marked, classmates: Sequence[Key]) -> tuple[str, ...]:
-    """Classmates whose key this value equals, where the two keys differ by three tolerances."""
-    if cell.given is None or cell.verdict is Verdict.right:
-        return ()
-    found = []
+def _theirs(guide: Guide, cell: Marked, key: Key) -> float | None:
+    """A classmate's value of a cell, where the two keys differ by three tolerances."""
+    row = key.find(cell.id)
+    if cell.given is None or row is None or key.id == guide.key.id or cell.position > len(row.values):
+        return None
+    theirs = float(row.values[row.at(cell.position)])
+    return theirs if abs(theirs - cell.expected) >= APART * cell.band else None
+
+
+def _copied_from(guide: Guide, cells: Cells, classmates: Sequence[Key]) -> tuple[dict[Place, list[str]], bool]:
+    """The classmates whose key each value equals, and whether one of them is the source of the sheet."""
+    equal: dict[Place, list[str]] = {}
+    source = False
     for key in classmates:
-        row = key.find(cell.id)
-        if row is None or key.id == guide.key.id or cell.position > len(row.values):
-            continue
-        theirs = float(row.values[row.at(cell.position)])
-        if abs(theirs - cell.expected) >= APART * cell.band and abs(cell.given - theirs) <= cell.band:
-            found.append(key.id)
-    return tuple(found)
+        telling = {place: theirs for place, cell in cells.items() if (theirs := _theirs(guide, cell, key)) is not None}
+        met = [place for place, theirs in telling.items() if _meets(cells[place], theirs)]
+        for place in met:
+            equal.setdefault(place, []).append(key.id)
+        source = source or len(met) >= max(FEWEST, SAME * len(telling))
+    return equal, source
 
 
-def _roots(guide: Guide, cells: Cells) -> list[Place]:
-    """First wrong values that come from the given data alone, one for each row."""
-    asked = guide.rows.keys()
-    roots: dict[str, Place] = {}
-    for place, cell in cells.items():
-        if cell.first and not asked & set(guide.before[cell.id]):
-            roots.setdefault(cell.id, place)
-    return list(roots.values())
+def _meets(cell: Marked, value: float) -> bool:
+    return cell.verdict is not Verdict.right and cell.given is not None and abs(cell.given - value) <= cell.band
+
+
+def _misread(cells: Cells) -> set[str]:
+    """The given data that were taken wrongly."""
+    return {cell.where for cell in cells.values() if cell.mistake == WRONG_DATUM}
+
+
+def _follows_throughout(cells: Cells) -> bool:
+    """Whether all but the values with a misread datum follow, as they do in a sheet made for other data."""
+    off = [cell for cell in cells.values() if cell.given is not None and cell.verdict is not Verdict.right]
+    other = [cell for cell in off if cell.mistake != WRONG_DATUM]
+    following = sum(cell.verdict is Verdict.follows for cell in other)
+    return following >= CONSISTENT * len(other)
 
 
 def _is_wild(guide: Guide, cell: Marked) -> bool:

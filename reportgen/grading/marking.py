@@ -16,6 +16,7 @@ from reportgen.answers.key import Key, Row
 from reportgen.grading.guard import guard
 from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Marked, Marking, Place, Submission, Verdict
+from reportgen.grading.misread import name_misread
 from reportgen.grading.naming import name_mistakes
 from reportgen.grading.working import SIGNED, Working, lay_out
 
@@ -31,6 +32,7 @@ def mark(guide: Guide, submission: Submission, classmates: Sequence[Key] = ()) -
     }
     cells |= {place: replace(cells[place], first=True) for place in _firsts(guide, cells)}
     cells |= name_mistakes(working, cells)
+    cells |= name_misread(working, cells)
     warnings: tuple[str, ...] = ()
     if guide.policy.guard:
         cells, warnings = guard(working, cells, classmates)

@@ -24,6 +24,9 @@ Change = Callable[[np.ndarray, Values], np.ndarray]
 DECIMAL_PLACES = (1, 2, 3, 4, 5)
 """Decimals that a mark read as that of thousands takes along."""
 
+ELSEWHERE = frozenset({"counted-backwards", "shifted-forward", "shifted-back"})
+"""Mistakes about where a position lies: one value alone may meet another position's by chance."""
+
 TRIGONOMETRIC = {"sin", "cos", "tan"}
 INVERSE = {"arcsin", "arccos", "arctan", "arctan2"}
 

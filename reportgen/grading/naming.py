@@ -14,7 +14,7 @@ import numpy as np
 
 from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Marked, Place
-from reportgen.grading.mistakes import Change, Site, sites_anywhere, sites_in
+from reportgen.grading.mistakes import ELSEWHERE, Change, Site, sites_anywhere, sites_in
 from reportgen.grading.working import SIGNED, Working
 from reportgen.ledger.following import follow
 
@@ -48,15 +48,17 @@ def _explained(
     expected = np.array([[cells[(id, p)].own, cells[(id, p)].expected] for p in positions]).T * unit
     foreseen = _foreseen(working, id, sites)[:, index]
     with np.errstate(all="ignore"):
-        wider = np.maximum(1.0, np.abs(foreseen) / (guide.size(id) or 1.0))
+        # What a mistake makes larger, it makes less certain in the same measure.
+        wider = np.maximum(1.0, np.abs(foreseen) / np.maximum(np.abs(expected[0]), band))
         off = _apart(guide, id, given, foreseen) / (band * wider)
         plain = np.min([_apart(guide, id, one, foreseen) for one in expected], axis=0)
     met = (off <= 1) & (plain > band)
     chosen: dict[int, Site] = {}
     worth = met.sum(axis=1)
+    needs_more = [len(row.positions) > 1 and site.mistake in ELSEWHERE for site in sites]
     for column, position in enumerate(positions):
-        fitting = np.flatnonzero(met[:, column])
-        if fitting.size:
+        fitting = [s for s in np.flatnonzero(met[:, column]) if worth[s] > 1 or not needs_more[s]]
+        if fitting:
             best = min(fitting, key=lambda s: (-worth[s], round(float(off[s, column]), 2), s))
             chosen[position] = sites[best]
     return chosen

@@ -80,8 +80,8 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
     """The working of a submission, with every plan read as it was drawn.
 
     The scale of a plan is what its first length stands for (μ = v_A/pa), the one written down, or the
-    report's: the one that another confirms, or that makes most of the plan right.  A scale written down that is not the plan's
-    own is a wrong value like any other.
+    report's: the one that another confirms, or that makes most of the plan right.  A scale written down that
+    is not the plan's own is a wrong value like any other.
     """
     values = {row.id: _column(guide, row, submission) for row in guide.key.asked}
     values = {id: column for id, column in values.items() if not np.isnan(column).all()}

@@ -1,0 +1,118 @@
+"""Given data taken wrongly: the one datum whose other value explains a wrong value that comes from the data alone.
+
+A datum is sought by working backwards: the ledger is run over many values of it at once, and the one
+that meets the student's value counts if it is a number that somebody would have written (three figures).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reportgen.grading.guide import Guide
+from reportgen.grading.marks import Marked, Place
+from reportgen.grading.working import Working
+from reportgen.ledger.following import follow
+
+WRONG_DATUM = "wrong-datum"
+
+NEAT = 3
+"""Significant figures of a datum that somebody would have written."""
+
+FACTORS = np.geomspace(1 / 5, 5, 400)
+"""A datum that is taken wrongly lies within these of the right one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Datum:
+    """A given quantity and the value (SI) that it seems to have been taken for."""
+
+    id: str
+    value: float
+
+
+def name_misread(working: Working, cells: Mapping[Place, Marked]) -> dict[Place, Marked]:
+    """The unnamed first wrong values that another value of one given datum explains, with that name."""
+    guide = working.guide
+    named: dict[Place, Marked] = {}
+    known: list[Datum] = []
+    for place, cell in cells.items():
+        if not cell.first or cell.mistake or guide.rows.keys() & set(guide.before[cell.id]):
+            continue
+        datum = next((one for one in known if _explains(working, cell, one)), None)
+        if datum is None:
+            datum = next((one for one in _possible(working, cell) if _explains(working, cell, one)), None)
+            known += [datum] if datum else []
+        if datum is not None:
+            named[place] = replace(cell, mistake=WRONG_DATUM, where=datum.id)
+    return named
+
+
+def _possible(working: Working, cell: Marked) -> list[Datum]:
+    """Neat values of each datum at which a quantity passes through the student's value."""
+    found = []
+    for id in _data(working.guide, cell.id):
+        right = float(working.guide.ledger[id].values[0])
+        values = _at(working.guide, cell, id, FACTORS * right) - _given(working, cell)
+        crossing = np.flatnonzero(np.diff(np.sign(values)) != 0)
+        for index in crossing[np.isfinite(values[crossing]) & np.isfinite(values[crossing + 1])]:
+            one, other = values[index], values[index + 1]
+            share = one / (one - other)
+            factor = float(FACTORS[index : index + 2] @ (1 - share, share))
+            found.append(Datum(id, _neat(working.guide, id, right * factor)))
+    return found
+
+
+def _data(guide: Guide, id: str) -> list[str]:
+    """The numbers on the assignment page that a quantity stands on."""
+    families = (guide.ledger[name] for name in guide.before[id])
+    return [
+        family.id
+        for family in families
+        if len(family.values) == 1
+        and not (family.hidden or family.is_plane or family.id in guide.rows)
+        and family.values[0] > 0
+    ]
+
+
+def _explains(working: Working, cell: Marked, datum: Datum) -> bool:
+    """Whether the quantity comes to the student's value, not the key's, with this value of the datum."""
+    guide = working.guide
+    if datum.id not in guide.before[cell.id]:
+        return False
+    band = cell.band * guide.ledger[cell.id].how.scale
+    foreseen = float(_at(guide, cell, datum.id, np.array([datum.value]))[0])
+    key = float(guide.ledger[cell.id].values[_index(guide, cell)].real)
+    return abs(foreseen - _given(working, cell)) <= band < abs(foreseen - key)
+
+
+def _at(guide: Guide, cell: Marked, id: str, values: np.ndarray) -> np.ndarray:
+    """A quantity (SI) over values of a datum [M]."""
+    wanted = {*guide.before[cell.id], cell.id}
+    result = follow(guide.ledger, {id: values[:, None]}, only=wanted)[cell.id].real
+    return np.broadcast_to(result, (len(values), len(guide.ledger[cell.id].values)))[:, _index(guide, cell)]
+
+
+def _given(working: Working, cell: Marked) -> float:
+    return float(working.values[cell.id][_index(working.guide, cell)])
+
+
+def _index(guide: Guide, cell: Marked) -> int:
+    return guide.rows[cell.id].at(cell.position)
+
+
+def _neat(guide: Guide, id: str, value: float) -> float:
+    """The nearest number of three figures, or its inverse for a ratio, in the datum's printed unit."""
+    family = guide.ledger[id]
+    printed = value / family.how.scale
+    if family.kind == "ratio" and printed < 1:
+        return 1 / float(f"{1 / printed:.{NEAT - 1}e}") if _is_inverse(guide, id) else float(f"{printed:.{NEAT - 1}e}")
+    # Lengths stand in metres in the ledger and in millimetres on the page: the same figures.
+    return float(f"{printed:.{NEAT - 1}e}") * family.how.scale
+
+
+def _is_inverse(guide: Guide, id: str) -> bool:
+    """Whether a ratio was given as 1/3.6, which the ledger works out."""
+    return guide.ledger[id].definition is not None
