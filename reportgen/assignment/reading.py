@@ -283,6 +283,7 @@ def _inside(one: dict[str, Any], step: str | int) -> Iterator[dict[str, Any]]:
 def _opened(one: dict[str, Any], schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
     if "$ref" in one:
         yield from _opened(schema["$defs"][one["$ref"].rsplit("/", 1)[-1]], schema)
+        return
     alternatives = [*one.get("oneOf", ()), *one.get("anyOf", ())]
     for alternative in alternatives:
         yield from _opened(alternative, schema)

@@ -81,7 +81,7 @@ def _is_block(key: Scalar, table: Table) -> bool:
 def _spans(table: Table, lines: Sequence[str]) -> dict[str, Sequence[str]]:
     """The lines of each entry, up to the next; none for entries that share lines."""
     starts = [key.mark.line for key, _ in table.entries]
-    if len(set(starts)) < len(starts) or any(
+    if not starts or len(set(starts)) < len(starts) or any(
         lines[line - 1][: key.mark.column - 1].strip() for line, (key, _) in zip(starts, table.entries, strict=True)
     ):
         return {}
