@@ -63,7 +63,7 @@ def _results(client: Any, jobs: Iterator[Job], lost: Callable[[], ClusterError])
         handed_out.update(new)
         return list(new)
 
-    running = as_completed(hand_out())
+    running = as_completed(hand_out(), loop=client.loop)
     for future in running:
         job = handed_out.pop(future)
         try:

@@ -14,14 +14,18 @@ from reportgen.batch.jobs import MAKERS, Maker, making
 from reportgen.batch.matching import Assigned, matched
 from reportgen.batch.pool import Pool, local
 from reportgen.batch.roster import Roster, read_roster
-from reportgen.batch.run import Result, held, run
+from reportgen.batch.run import Result, held, run, sweep
+from reportgen.batch.variants import make_variants
 from reportgen.errors import Problem
 from reportgen.notation.numbers import Language
+
+DRAWN = "assignments"
+"""The folder, among the results, of the assignment files that are drawn."""
 
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """What is asked for: assignments drawn of `spec` or found in `assignments`, one of both.
+    """What is asked for: assignments drawn of `spec` into `out`, or found in `assignments`; one of both.
 
     `jobs` processes of this machine (0: one for each core), unless a scheduler's address `cluster` is given.
     """
@@ -101,8 +105,15 @@ def cores() -> int:
 def _assigned(
     order: Order, roster: Roster, language: Language
 ) -> tuple[Sequence[Assigned], tuple[str, ...]]:
-    """Each student with a file, and what to say of files and columns that served nobody."""
-    assert order.assignments is not None
+    """Each student with a file, and what to say besides, as of files and columns that served nobody."""
+    if order.spec is not None:
+        folder = order.out / DRAWN
+        sweep(folder)
+        variants = make_variants(order.spec, order.roster, folder, language=order.language)
+        files = zip(roster.students, variants.files, strict=True)
+        return [Assigned(student, file.path) for student, file in files], variants.remarks
+    if order.assignments is None:
+        raise ValueError("assignments are either drawn or given")
     assigned, nobodys = matched(roster.students, order.assignments, language)
     notes = [word("batch_nobodys", language).format(path=path) for path in nobodys]
     if roster.columns:

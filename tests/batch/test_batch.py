@@ -9,12 +9,14 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from reportgen import api
+from reportgen.api import Engine
 from reportgen.batch import pool as pools
 from reportgen.batch import progress
 from reportgen.batch.jobs import MAKERS, Job, making, run_job
@@ -22,6 +24,7 @@ from reportgen.batch.pool import local
 from reportgen.batch.run import held
 from reportgen.batch.start import Order, start
 from reportgen.errors import AssignmentError
+from reportgen.notation.numbers import Language
 from tests.batch.classes import Batch, tree, write_class
 from tests.batch.little import little
 
@@ -351,3 +354,32 @@ def test_the_command_tells_events_failures_and_the_manifest(tmp_path: Path) -> N
 def test_wrong_usage_ends_with_2(tmp_path: Path, options: tuple[str, ...]) -> None:
     done = batch_command("roster.csv", *options)
     assert (done.returncode, done.stdout) == (2, "")
+
+
+SPEC = ROOT / "assignments" / "class-demo" / "spec.yaml"
+
+
+def test_a_class_is_drawn_from_a_spec_and_drawn_no_second_time(tmp_path: Path) -> None:
+    """The student's file decides, once it is there: one edited by hand is what the report is made of."""
+    roster, _ = write_class(tmp_path, {"K1": "", "K2": ""})
+    out = tmp_path / "out"
+    order = Order(roster, SPEC, None, out, ("little",), language="en", jobs=1)
+    makers = {"little": text_of_file}
+    assert start(order, io.StringIO(), makers).result.exit_code == 0
+    mine, others = (out / "assignments" / f"{name}.yaml" for name in ("K1", "K2"))
+    assert (out / "K1" / "text.pdf").read_bytes() == mine.read_bytes()
+    before = tree(out)
+    (out / "assignments" / ".K1.yaml.a1b2c3d4").write_text("half", encoding="utf-8")
+    assert start(order, io.StringIO(), makers).result.kept == 2
+    assert tree(out) == before
+    mine.write_text(mine.read_text(encoding="utf-8").replace("s: 0.5", "s: 0.4"), encoding="utf-8")
+    done = start(order, io.StringIO(), makers)
+    assert (done.result.made, done.result.kept) == (1, 1)
+    assert (out / "K1" / "text.pdf").read_bytes() == mine.read_bytes()
+    assert b"s: 0.4" in mine.read_bytes()
+    assert tree(out)["assignments/K2.yaml"] == others.read_bytes() == before["assignments/K2.yaml"]
+
+
+def text_of_file(path: Path, _engine: Engine, _language: Language | None) -> Mapping[str, bytes]:
+    """A product that shows what it was made of."""
+    return {"text.pdf": path.read_bytes()}
