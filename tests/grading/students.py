@@ -1,0 +1,131 @@
+"""Students of the tests: sheets worked out from a ledger, rightly, by a drawing, or with one mistake in it."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+
+from reportgen import api
+from reportgen.answers import bands
+from reportgen.answers.key import Row
+from reportgen.assignment import Assignment
+from reportgen.errors import Mark
+from reportgen.grading.guide import Guide, open_guide
+from reportgen.grading.marks import Given, Submission
+from reportgen.grading.mistakes import Site as Site
+from reportgen.ledger.following import follow
+
+ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
+
+World = Mapping[str, np.ndarray]
+"""All values (SI) by id, [N] or [1]."""
+
+Cell = Callable[[Row, int, float], float | None]
+"""What a student writes for a row at a position, given the right value in its printed unit."""
+
+
+def assignment(name: str, worked: tuple[int, ...] | None = None, **parameters: str) -> Assignment:
+    """An assignment of the repository with other parameters; `worked` positions, None for all."""
+    content = yaml.load((ASSIGNMENTS / f"{name}.yaml").read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+    content["parameters"] |= parameters
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, f"{name}.yaml")
+        path.write_text(yaml.safe_dump(content, allow_unicode=True), encoding="utf-8")
+        loaded = api.load(path)
+    return replace(loaded, report=loaded.report.model_copy(update={"worked_positions": worked}))
+
+
+@cache
+def guide(name: str, worked: tuple[int, ...] | None = None) -> Guide:
+    return open_guide(assignment(name, worked))
+
+
+def sheet(guide: Guide, cell: Cell) -> Submission:
+    """A sheet with what `cell` says in every place that is asked for."""
+    values = {}
+    for row in guide.key.asked:
+        for position in row.positions:
+            value = cell(row, position, float(row.values[row.at(position)]))
+            if value is not None:
+                values[(row.id, position)] = Given(value, str(value), Mark("sheet.csv"))
+    return Submission(guide.key.id, "sheet.csv", values, {})
+
+
+def right(row: Row, position: int, value: float) -> float:
+    return value
+
+
+def figures(value: float, digits: int = 3) -> float:
+    """A value written down with so many significant figures."""
+    return float(f"{value:.{digits - 1}e}")
+
+
+def written(guide: Guide, world: World) -> Submission:
+    """The sheet of a student for whom everything came out as in `world`, written with three figures."""
+
+    def cell(row: Row, position: int, _: float) -> float | None:
+        family = guide.ledger[row.id]
+        value = float(world[row.id][row.at(position)].real) / family.how.scale
+        if row.id.startswith("dir."):
+            value = round(value % 360)
+        if not np.isfinite(value):
+            return None
+        return figures(abs(value) if family.arm else value)
+
+    return sheet(guide, cell)
+
+
+def worked_out(guide: Guide, site: Site | None = None, drawn: np.random.Generator | None = None) -> World:
+    """The ledger run through with a mistake, and with lengths measured off by up to 0.5 mm at each end."""
+    errors = bands.measuring_errors(guide.ledger, bands.PAPER_ERROR) if drawn is not None else {}
+    changes: dict[str, Any] = {}
+    for id in (*errors, *(site.changes if site else ())):
+        changes[id] = _change(errors.get(id), site.changes.get(id) if site else None, drawn)
+    values = follow(guide.ledger, changes)
+    return {id: np.broadcast_to(values[id], family.values.shape) for id, family in guide.ledger.families.items()}
+
+
+def _change(error: np.ndarray | None, mistake: Any, drawn: np.random.Generator | None) -> Any:
+    def change(value: np.ndarray, values: Mapping[str, np.ndarray]) -> np.ndarray:
+        if error is not None and drawn is not None:
+            ends = drawn.uniform(-0.5, 0.5, (2, *np.shape(error))).sum(axis=0)
+            value = value + ends * np.nan_to_num(error)
+        return value if mistake is None else mistake(value, values)
+
+    return change
+
+
+@dataclass(frozen=True)
+class Effect:
+    """Where a mistake shows: the first judged row that it moves by two bands, and the positions."""
+
+    id: str
+    positions: tuple[int, ...]
+
+
+def effect(guide: Guide, world: World) -> Effect | None:
+    """The first row that a mistake moves, None if it moves nothing that is asked for."""
+    for row in guide.judged:
+        moved = tuple(position for position in row.positions if off(guide, row, world, position) > 2)
+        if moved:
+            return Effect(row.id, moved)
+    return None
+
+
+def off(guide: Guide, row: Row, world: World, position: int, other: World | None = None) -> float:
+    """How far a value lies from the key's, or another world's, in bands."""
+    family, index = guide.ledger[row.id], row.at(position)
+    one = float(world[row.id][index].real)
+    two = float((family.values if other is None else other[row.id])[index].real)
+    band = float(np.broadcast_to(guide.bands[row.id], family.values.shape)[index])
+    if family.arm:
+        one, two = abs(one), abs(two)
+    distance = abs((one - two + np.pi) % (2 * np.pi) - np.pi) if row.id.startswith("dir.") else abs(one - two)
+    return distance / band if np.isfinite(distance) and band else 0.0
