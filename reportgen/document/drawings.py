@@ -12,6 +12,7 @@ from typing import Any
 
 from reportgen.assignment import Assignment
 from reportgen.document.acting import ForcePictures
+from reportgen.document.centres import CentrePictures
 from reportgen.document.curves import Curves
 from reportgen.document.facts import Facts
 from reportgen.document.flywheel import FlywheelFigures
@@ -62,6 +63,7 @@ class Drawings:
             "crank": self.crank,
             "slide": self.slide,
             **self.machine.figures,
+            **self.centres.figures,
             **self.acting.figures,
             **self.curves.figures,
             **FlywheelFigures(self.facts.books.flywheel, self.ledger, self.words).figures,
@@ -71,6 +73,10 @@ class Drawings:
     @cached_property
     def machine(self) -> MachinePictures:
         return MachinePictures(self.facts, self.words, self.velocity_plan)
+
+    @cached_property
+    def centres(self) -> CentrePictures:
+        return CentrePictures(self.facts, self.words, self.velocity_plan)
 
     @cached_property
     def acting(self) -> ForcePictures:
@@ -175,8 +181,9 @@ class Drawings:
         return self._stages(steps, f"mu.R{group.polygon.name}")
 
     def slide(self, k: int) -> Drawn:
-        """The polygon of the forces on a sliding driver."""
-        return on_paper(plan(self.force_plan(self.facts.driver_polygon, k)))
+        """A sliding driver with its forces, and their polygon."""
+        polygon = plan(self.force_plan(self.facts.driver_polygon, k))
+        return beside_one_another(self.acting.slider(k), polygon)
 
     def crank(self, k: int) -> Drawn:
         """The driver with its forces, and their polygon."""

@@ -8,6 +8,7 @@ from typing import Any
 from reportgen.analysis import Analysis
 from reportgen.assignment import Assignment
 from reportgen.catalogue.gas import ByOrdinates
+from reportgen.document.centres import plane_links, with_centres
 from reportgen.document.drawings import Drawings
 from reportgen.document.facts import Facts
 from reportgen.document.numbering import number
@@ -50,7 +51,7 @@ def compose(assignment: Assignment, analysis: Analysis, books: Books, title: str
     prose, names = prepare(assignment, analysis, books, title)
     words = names["words"]
     blocks: list[Block] = [_cover(assignment, words, title)]
-    for section in analysis.machine.outline:
+    for section in with_centres(analysis.machine.outline, names["plane_links"]):
         if section == "contents":
             blocks += [PageBreak(), Contents(words["document"]["contents"])]
         else:
@@ -171,6 +172,9 @@ def _names(
         "computed": [id for id, family in facts.ledger.families.items() if family.definition is not None],
         "mobility": mobility(machine.linkage),
         "groups": facts.groups,
+        "plane_links": plane_links(facts),
+        "centre_state": drawings.centres.state,
+        "centres_drawn": drawings.centres.drawn,
         "driver": facts.driver,
         "own": machine.facts,
         "pistons": machine.pistons,

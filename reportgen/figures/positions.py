@@ -1,4 +1,7 @@
-"""The position plan: all positions of a mechanism on one another, true to scale, with paths of points."""
+"""The position plan: all positions of a mechanism on one another, true to scale, with paths of points.
+
+Also the mechanism at one position with the instant centres of its links.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +15,9 @@ from reportgen.figures.draft import Draft, finish
 from reportgen.figures.geometry import clusters
 from reportgen.figures.labels import Content, Request, label
 from reportgen.figures.scene import Circle, Item, Line, Polyline, Scene, Stroke
-from reportgen.figures.scheme import Looks
+from reportgen.figures.scheme import Looks, driver_marks, mechanism
 from reportgen.figures.skeleton import Skeleton, skeleton
-from reportgen.figures.style import AXIS, BLUE, HEAVY, LABEL, PAPER, SMALL, THIN
+from reportgen.figures.style import AXIS, BLUE, HEAVY, LABEL, PAPER, RED, SMALL, THIN
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import GROUND, Crank, Linkage
 from reportgen.notation.expressions import Symbol
@@ -25,6 +28,9 @@ CROWDED = 24
 """Above this number of positions only the emphasised one is numbered."""
 DOT = 0.55
 PATH = Stroke(0.25, BLUE)
+NORMAL = Stroke(0.18, RED, (1.8, 1.0))
+BEYOND = 3.0
+"""How far (mm) a normal goes on beyond the centre."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +101,41 @@ def positions(
     numbers = range(count) if count <= CROWDED else [k for k in (shows.emphasised,) if k is not None]
     marks, names = _numbers(every, numbers, shows)
     return Draft((*items, *marks), (*requests, *names))
+
+
+@dataclass(frozen=True, slots=True)
+class Centre:
+    """The instant centre of a link, at `at` (mm), where the normals of the velocities of two `points` meet."""
+
+    name: Content
+    at: complex
+    points: tuple[str, str]
+
+
+def centre_plan(
+    linkage: Linkage,
+    motion: Motion,
+    index: int,
+    scale: float,
+    links: Sequence[int],
+    centres: Sequence[Centre],
+    looks: Looks,
+) -> Scene:
+    """The mechanism at position `index` of `motion` with its links' instant centres and the normals to them."""
+    bones = skeleton(linkage, motion, index, scale)
+    draft = mechanism(bones, links, looks) + driver_marks(linkage, motion, bones, looks)
+    normals: list[Item] = []
+    marks: list[Item] = []
+    names: list[Request] = []
+    for centre in centres:
+        for start in (bones.points[name] for name in centre.points):
+            way = centre.at - start
+            if abs(way) > symbols.JOINT:
+                normals.append(Line(start, centre.at + way / abs(way) * BEYOND, NORMAL))
+        marks.append(Circle(centre.at, DOT, Stroke(0.2, RED), PAPER))
+        names.append(label(centre.at, centre.name, gap=DOT + 0.5))
+    whole = Draft((*normals, *draft.items, *marks), (*draft.requests, *names))
+    return finish(whole, notes=() if looks.scale is None else (looks.scale,))
 
 
 def _radii(dense: Motion, centre: str, numbered: Sequence[str], scale: float) -> list[float]:

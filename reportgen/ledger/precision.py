@@ -82,16 +82,23 @@ def _slopes(family: Family, inputs: tuple[str, ...], families: Mapping[str, Fami
 
 
 def choose(
-    families: Mapping[str, Family], alike: tuple[tuple[str, str], ...] = ()
+    families: Mapping[str, Family],
+    alike: tuple[tuple[str, str], ...] = (),
+    fixed: Mapping[str, int | None] | None = None,
 ) -> tuple[dict[str, int | None], tuple[str, ...]]:
     """Decimals for every family (None: exact) and the ids of lines that cannot be made to recompute.
 
-    Pairs `alike` are two ways to one number and are printed with the decimals of the coarser.
+    Pairs `alike` are two ways to one number and are printed with the decimals of the coarser.  Decimals `fixed`
+    before stay as they are, and the lines of those families are not judged again.
     """
+    fixed = fixed or {}
     decimals: dict[str, int | None] = {}
     ceiling: dict[str, int] = {}
     floor: dict[str, int] = {}
     for id, family in families.items():
+        if id in fixed:
+            decimals[id], ceiling[id] = fixed[id], fixed[id] or 0
+            continue
         if family.exact or family.is_plane or family.hidden or _is_short(family):
             decimals[id] = None
             continue
@@ -104,7 +111,9 @@ def choose(
     lines = [
         _Line(id, inputs, _slopes(family, inputs, families))
         for id, family in families.items()
-        if family.definition is not None and not (family.constructed or family.is_plane or family.hidden)
+        if id not in fixed
+        and family.definition is not None
+        and not (family.constructed or family.is_plane or family.hidden)
         for inputs in (refs(family.definition),)
         if inputs and not any(families[name].is_plane for name in inputs)
     ]
@@ -150,7 +159,7 @@ def choose(
         for id in line.inputs:
             uses.setdefault(id, []).append(line)
     own_lines = {line.id: line for line in lines}
-    for id in reversed(tuple(families)):
+    for id in reversed([id for id in families if id not in fixed]):
         concerned = [*uses.get(id, []), *([own_lines[id]] if id in own_lines else [])]
         concerned = [line for line in concerned if line.id not in cancellations]
         aim = max(_wanted(families[id]), 0)

@@ -62,7 +62,11 @@ def keep(analysis: Analysis, units: Mapping[str, str] | None = None) -> Books:
         if machine.unevenness is not None:
             wheel = regulation.flywheel(machine, machine.unevenness)
             flywheel.describe(b, machine.linkage, wheel, machine.cycle_angles)
-    decimals, cancellations = precision.choose(b.families, (("M.eq", "M.vw"),) if "M.eq" in b else ())
+    # The checks by instant centres take the other numbers as they are printed.
+    main = {id: family for id, family in b.families.items() if not id.startswith(kinematics.PREFIX)}
+    settled, listed = precision.choose(main, (("M.eq", "M.vw"),) if "M.eq" in b else ())
+    decimals, more = precision.choose(b.families, fixed=settled)
+    cancellations = listed + more
     return Books(Ledger(b.families, decimals, machine.positions, cancellations, units or {}), polygons, wheel)
 
 

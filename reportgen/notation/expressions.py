@@ -252,6 +252,12 @@ def if_zero(a: Value, b: Value) -> Value:
     return np.where(np.asarray(a) == 0, b, 0.0)
 
 
+def within(value: Value, least: Value, most: Value) -> Value:
+    """The value itself, nan where it is less than `least` or more than `most`."""
+    value = np.asarray(value)
+    return np.where((value >= least) & (value <= most), value, np.nan)
+
+
 def mean(values: Value) -> Value:
     """The mean over positions, the last axis; it keeps that axis, so that it stands for all of them."""
     return np.mean(np.atleast_1d(values), axis=-1, keepdims=True)
@@ -288,6 +294,7 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "mean": mean,
     "quotient": quotient,
     "if_zero": if_zero,
+    "within": within,
 }
 """What a `Call` may name.  sin, cos and tan take radians; a `Number` in degrees converts itself."""
 
