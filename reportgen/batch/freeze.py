@@ -88,7 +88,8 @@ def _body(spec: Spec, drawn: Drawn) -> str:
     table: Node = put(assembled(spec.top, drawn.settings), ("report", "student"), card)
     if at(table, ("report", "language")) is None:
         table = put(table, ("report", "language"), _scalar(spec.language))
-    table = put(table, ("variant",), _scalar(spec.label(drawn.combination)))
+    if spec.axes:
+        table = put(table, ("variant",), _scalar(spec.label(drawn.combination)))
     assert isinstance(table, Table), "keys are put into a table"
     return text_of(_in_order(table), spec.text, spec.whole)
 

@@ -2,7 +2,9 @@
 
 Columns are id, name, class, section, email (or their Vietnamese names, see `columns` of `messages.yaml`), and any
 path such as `parameters.H`, `positions.start` or `report.supervisor`, which sets that value for the student.  Other
-columns are left alone.  Headings may follow a title; rows without anything in them are passed over.
+columns are left alone, and so is a second one for the same thing (a class and a class of the course).  A name may
+stand in two columns, one for the family name and one for the given name, and is put together in their order.
+Headings may follow a title; rows without anything in them are passed over.
 """
 
 from __future__ import annotations
@@ -10,7 +12,7 @@ from __future__ import annotations
 import difflib
 import re
 import unicodedata
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -27,6 +29,7 @@ from reportgen.notation.numbers import Language
 from reportgen.workbook import Page, read
 
 PERSONAL = ("id", "name", "class", "section", "email")
+NAME_PARTS = ("family", "given")
 SECTIONS = ("parameters", "positions", "drawing", "indicator", "report")
 _DOTTED = re.compile(r"([A-Za-z_]+)((?:\.\w+)+)")
 
@@ -67,7 +70,7 @@ def read_roster(path: Path, language: Language = "vi") -> Roster:
         first = next((cell.mark for row in page.rows for cell in row if not cell.blank), Mark(str(path)))
         raise AssignmentError([as_problem(Fault("no-id-column", first), language)])
     headings = [_dotted(column, faults) for column in columns(page.rows[start])]
-    used = [column for column in headings if column.name in PERSONAL or _DOTTED.fullmatch(column.name)]
+    used = _used(headings)
     faults += twice(used)
     rows: list[Record] = []
     for one in records(page, used, start + 1):
@@ -81,7 +84,7 @@ def read_roster(path: Path, language: Language = "vi") -> Roster:
         faults.append(Fault("empty-roster", headings[0].mark))
     if faults:
         raise AssignmentError([as_problem(fault, language) for fault in faults])
-    overriding = tuple(column for column in used if column.name not in PERSONAL)
+    overriding = tuple(column for column in used if _DOTTED.fullmatch(column.name))
     return Roster(tuple(map(_student, rows)), overriding, str(path))
 
 
@@ -93,6 +96,18 @@ def _page(pages: Iterable[Page]) -> tuple[Page, int | None]:
         if start is not None:
             return page, start
     return (full[0] if full else Page("", ())), None
+
+
+def _used(headings: Sequence[Column]) -> list[Column]:
+    """The headings that count: ids and paths, of which there may be one each, and the first of the others."""
+    used: list[Column] = []
+    taken: set[str] = set()
+    for column in headings:
+        optional = column.name in (*PERSONAL[1:], *NAME_PARTS)
+        if column.name == "id" or _DOTTED.fullmatch(column.name) or (optional and column.name not in taken):
+            used.append(column)
+            taken.add(column.name)
+    return used
 
 
 def _dotted(column: Column, faults: list[Fault]) -> Column:
@@ -112,7 +127,7 @@ def _dotted(column: Column, faults: list[Fault]) -> Column:
 
 def _unfit(row: Record) -> Iterable[Fault]:
     """Personal data that no assignment file could hold."""
-    for name in PERSONAL:
+    for name in (*PERSONAL, *NAME_PARTS):
         if name in row.values:
             try:
                 Text().read(row.values[name].text)
@@ -139,6 +154,8 @@ def _ids(rows: Iterable[Record]) -> Iterable[Fault]:
 
 def _student(row: Record) -> Student:
     personal = {name: row.values[name].text if name in row.values else "" for name in PERSONAL}
-    overrides = {name: value for name, value in row.values.items() if name not in PERSONAL}
+    parts = (value.text for name, value in row.values.items() if name in NAME_PARTS)
+    personal["name"] = personal["name"] or " ".join(parts)
+    overrides = {name: value for name, value in row.values.items() if _DOTTED.fullmatch(name)}
     class_ = personal.pop("class")
     return Student(**personal, class_=class_, overrides=overrides, mark=row.mark)

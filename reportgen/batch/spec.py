@@ -104,7 +104,13 @@ class Spec:
         return number
 
     def label(self, indices: Sequence[int]) -> str:
-        """What a variant is called: by its row alone if there is nothing else to draw, else by its number."""
+        """What a variant is called: by its row if nothing else is drawn, else by its number, from 1.
+
+        Where nothing is drawn at all, it keeps the spec's own name.
+        """
+        own = at(self.top, ("variant",))
+        if not self.axes:
+            return own.text if isinstance(own, Scalar) else ""
         rows = [axis.choices[k].text for axis, k in zip(self.axes, indices, strict=True) if axis.name == "variants"]
         number = str(self.number(indices) + 1)
         return rows[0] if rows and len(self.axes) == 1 else "-".join([*rows, number])
@@ -122,7 +128,8 @@ class Spec:
 
     def column_faults(self, overriding: Iterable[Column]) -> list[Fault]:
         """Faults of a roster's headings that set what this kind of machine does not have."""
-        return [fault for one in overriding if (fault := _no_place(self.kind, place(self.kind, one.name), one))]
+        found = (_no_place(self.kind, self.top, place(self.kind, one.name), one) for one in overriding)
+        return [fault for fault in found if fault]
 
 
 def read_spec(path: Path, language: Language | None = None) -> Spec:
@@ -142,7 +149,7 @@ def read_spec(path: Path, language: Language | None = None) -> Spec:
     digest = hashlib.sha256(source.text.encode())
     if table is not None:
         file = path.parent / table.text
-        rows = _rows(file, kind, table.mark, faults, spoken)
+        rows = _rows(file, kind, base, faults, spoken)
         faults += _given_twice(base, axes, rows)
         axes.append(Axis("variants", rows))
         if not faults:
@@ -230,7 +237,7 @@ def _listed(node: List, faults: list[Fault]) -> tuple[Scalar, ...]:
     return tuple(values)
 
 
-def _rows(file: Path, kind: Kind, mark: Mark, faults: list[Fault], language: Language) -> tuple[Choice, ...]:
+def _rows(file: Path, kind: Kind, base: Table, faults: list[Fault], language: Language) -> tuple[Choice, ...]:
     """The rows of a table of variants; raises `AssignmentError` if it cannot be read at all."""
     pages = read(file, language)
     page = next((page for page in pages if any(page.rows)), pages[0])
@@ -238,7 +245,7 @@ def _rows(file: Path, kind: Kind, mark: Mark, faults: list[Fault], language: Lan
     headings = columns(page.rows[start])
     faults += twice(headings)
     places = {one.name: place(kind, one.name) for one in headings if one.name != "variant"}
-    found = [_no_place(kind, places[one.name], one) for one in headings if one.name in places]
+    found = [_no_place(kind, base, places[one.name], one) for one in headings if one.name in places]
     faults += [fault for fault in found if fault]
     rows: list[Choice] = []
     names: set[str] = set()
@@ -252,7 +259,7 @@ def _rows(file: Path, kind: Kind, mark: Mark, faults: list[Fault], language: Lan
         names.add(name)
         rows.append(Choice(name, {places[key]: value for key, value in one.values.items() if key in places}))
     if not rows:
-        faults.append(Fault("empty-roster", headings[0].mark if headings else mark))
+        faults.append(Fault("empty-roster", headings[0].mark))
     return tuple(rows)
 
 
@@ -260,9 +267,10 @@ def _row_name(row: Record, number: int) -> str:
     return row.values["variant"].text if "variant" in row.values else str(number)
 
 
-def _no_place(kind: Kind, where: Where, column: Column) -> Fault | None:
-    """The fault of a heading that stands for nothing that a single cell can say."""
-    if "scalar" in wants(kind, where):
+def _no_place(kind: Kind, base: Table, where: Where, column: Column) -> Fault | None:
+    """The fault of a heading that stands for nothing that a single cell can say, or for an item no list has."""
+    items = [where[: k + 1] for k, step in enumerate(where) if isinstance(step, int)]
+    if "scalar" in wants(kind, where) and all(at(base, item) is not None for item in items):
         return None
     known = known_keys(kind, where[:-1])
     close = difflib.get_close_matches(str(where[-1]), known, n=1, cutoff=0.6) or [

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from reportgen.assignment.messages import messages
 from reportgen.batch.names import folder_name
-from reportgen.batch.roster import PERSONAL, read_roster
+from reportgen.batch.roster import NAME_PARTS, PERSONAL, read_roster
 from reportgen.batch.table import folded
 from reportgen.errors import AssignmentError
 from reportgen.workbook import Book, Sheet, write_xlsx
@@ -101,9 +101,15 @@ def test_vietnamese_headings_composed_or_not(put: Put) -> None:
         assert (student.section, student.email, student.overrides) == ("2", "u@x.vn", {})
 
 
+def test_names_in_two_columns_and_two_kinds_of_class(put: Put) -> None:
+    path = put("Mã SV,Họ đệm,Tên,Lớp,Lớp học phần\nK1,Nguyễn Thị,Ánh,K58,CK12\nK2,,Nam,,CK12\n")
+    students = read_roster(path).students
+    assert [(one.name, one.class_) for one in students] == [("Nguyễn Thị Ánh", "K58"), ("Nam", "")]
+
+
 def test_every_language_has_headings_for_the_same_columns() -> None:
     tables = {language: messages(language)["columns"] for language in ("vi", "en")}
-    assert set(tables["vi"]) == set(tables["en"]) == {*PERSONAL, "variant"}
+    assert set(tables["vi"]) == set(tables["en"]) == {*PERSONAL, *NAME_PARTS, "variant"}
     for table in tables.values():
         headings = [folded(heading) for names in table.values() for heading in names]
         assert len(set(headings)) == len(headings)

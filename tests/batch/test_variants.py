@@ -438,6 +438,20 @@ def test_values_that_fail_are_faults_of_their_cells(put_file: Put, text: str, fa
     assert not (path.parent / "out").exists()
 
 
+def test_values_in_the_lists_of_a_linkage(put_file: Put) -> None:
+    """An item there is can be set, one there is not is a fault: it would be lost without a word."""
+    path = put_file((ROOT / "assignments" / "linkage-8.yaml").read_text(encoding="utf-8"))
+    groups = plain(read_text(path.read_text(encoding="utf-8")).top)["parameters"]["groups"]
+    first = next(k for k, group in enumerate(groups) if "lengths" in group)
+    name = f"parameters.groups.{first}.lengths.1"
+    size = float(groups[first]["lengths"][1].split()[0]) + 1
+    (file,) = made(path, put_file(f"id,{name} (mm)\nK1,{size:g}\n", "r.csv")).files
+    assert api.load(file.path).parameters.groups[first].lengths[1].si == pytest.approx(size / 1e3)
+    assert api.load(file.path).variant == api.load(path).variant
+    with pytest.raises(AssignmentError, match="unknown-column"):
+        made(path, put_file("id,parameters.groups.99.lengths.1\nK1,5 mm\n", "r.csv"))
+
+
 def test_the_eight_published_engines_go_round_a_class(put_file: Put) -> None:
     """A table of their parameters: 8 students have all eight, 20 have each two or three times."""
     sources = sorted((ROOT / "assignments").glob("engine-single-*.yaml"))
