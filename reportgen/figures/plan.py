@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -127,8 +128,11 @@ def plan(drawing: Plan, *, title: str = "", notes: Sequence[Content] = (), enlar
 
 
 def stages(drawing: Plan, factor: float = 1.0, titles: Sequence[str] = ()) -> tuple[Scene, ...]:
-    """Panels of the construction: stage after stage, what is new in blue, on paper of one size."""
-    whole = drawing.scaled(factor)
+    """Panels of the construction: stage after stage, what is new in blue, on paper of one size.
+
+    A stage that would draw nothing new goes with the next one.
+    """
+    whole = merged(drawing.scaled(factor))
     corner = bounds((*_lines(whole), *_arrows(whole.drawn())))
     pad = complex(4, 4)
     panels = []
@@ -144,6 +148,28 @@ def stages(drawing: Plan, factor: float = 1.0, titles: Sequence[str] = ()) -> tu
         draft = Draft(items, _labels(part, vectors, SMALL))
         panels.append(finish(draft, title=title, margin=2.0, frame=(corner[0] - pad, corner[1] + pad)))
     return _alike(panels)
+
+
+def merged(drawing: Plan) -> Plan:
+    """The plan with its stages renumbered, so that each draws an arrow or a line that was not there before."""
+    least = NOTHING * drawing.size
+    arrows = [(v.stage, v.start, v.end) for v in drawing.drawn()]
+    lines = [(k.stage, k.start, k.end) for k in drawing.lines if abs(k.end - k.start) > least]
+
+    def repeats(stage: int, start: complex, end: complex) -> bool:
+        return any(s < stage and abs(start - p) + abs(end - q) < SAME for s, p, q in arrows)
+
+    kept = sorted({piece[0] for piece in lines} | {piece[0] for piece in arrows if not repeats(*piece)})
+
+    def number(stage: int) -> int:
+        return min(bisect_left(kept, stage), max(len(kept) - 1, 0))
+
+    return replace(
+        drawing,
+        vectors=tuple(replace(v, stage=number(v.stage)) for v in drawing.vectors),
+        points=tuple(replace(p, stage=number(p.stage)) for p in drawing.points),
+        lines=tuple(replace(k, stage=number(k.stage)) for k in drawing.lines),
+    )
 
 
 def _alike(panels: Sequence[Scene]) -> tuple[Scene, ...]:

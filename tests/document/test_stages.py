@@ -1,0 +1,61 @@
+"""The stages in which plans are constructed: every panel adds something to look at, for all assignments."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from reportgen import api
+from reportgen.document.drawings import Drawings
+from reportgen.document.facts import Facts
+from reportgen.document.prose import search_path
+from reportgen.document.views import driver, groups
+from reportgen.document.words import load_words
+from reportgen.figures.plan import Plan, merged, stages
+from reportgen.figures.scene import Arrow, Line
+from reportgen.figures.style import NEW
+from reportgen.ledger.report import keep
+
+FILES = sorted((Path(__file__).parents[2] / "assignments").glob("*.yaml"))
+VISIBLE = 1e-6
+"""What is shorter (mm) is a point on any paper."""
+SAME = 0.05
+"""Ends nearer than this (mm) are one for the eye."""
+
+
+def additions(drawing: Plan, stage: int) -> list[tuple[complex, complex]]:
+    """Arrows and lines of a stage that no arrow of an earlier stage covers."""
+    pieces = [(v.start, v.end) for v in drawing.vectors if v.stage == stage]
+    before = [(v.start, v.end) for v in drawing.vectors if v.stage < stage]
+    new = [
+        (start, end)
+        for start, end in pieces
+        if all(abs(start - one) + abs(end - other) >= SAME for one, other in before)
+    ]
+    lines = [(k.start, k.end) for k in drawing.lines if k.stage == stage]
+    return [(start, end) for start, end in (*new, *lines) if abs(end - start) > VISIBLE]
+
+
+@pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])
+def test_every_stage_adds_an_arrow_or_a_line(file: Path) -> None:
+    assignment = api.load(file)
+    analysis = api.analyse(assignment)
+    books = keep(analysis)
+    worked = assignment.worked_positions
+    facts = Facts(analysis, books, groups(analysis, books.polygons), driver(analysis), worked)
+    drawings = Drawings(assignment, facts, load_words(search_path("en", assignment.kind)), worked)
+    for k in range(1, analysis.machine.count + 1):
+        for drawing in (drawings.velocity_plan(k), drawings.acceleration_plan(k)):
+            parts = merged(drawing)
+            assert all(additions(parts, stage) for stage in range(parts.last_stage + 1))
+            # Nothing is lost or put before what it stands on.
+            assert len(parts.vectors) == len(drawing.vectors)
+            order = [piece.stage for piece in (*drawing.vectors, *drawing.lines, *drawing.points)]
+            after = [piece.stage for piece in (*parts.vectors, *parts.lines, *parts.points)]
+            renumbered = [new for _, new in sorted(zip(order, after, strict=True))]
+            assert renumbered == sorted(after)
+    k = (worked[0] - 1) % analysis.machine.count + 1
+    for panel in stages(drawings.velocity_plan(k), 0.5):
+        pens = [item.stroke.colour for item in panel.items if isinstance(item, Arrow | Line)]
+        assert NEW.colour in pens
