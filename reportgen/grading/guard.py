@@ -57,7 +57,7 @@ def guard(working: Working, cells: Cells, classmates: Sequence[Key]) -> tuple[di
     result |= {place: replace(result[place], classmates=tuple(names)) for place, names in equal.items()}
     if copied:
         return _emptied(result, filled), (*warnings, "classmate")
-    causes = {place for place in filled if place[0] in constant}
+    causes = {place for place in filled if place[0] in constant} | _often_equal(equal)
     if len(_misread(result)) >= MISREAD and _follows_throughout(result):
         return _emptied(result, filled), (*warnings, "other-variant")
     wild = {place for place, cell in result.items() if cell.first and not cell.mistake and _is_wild(guide, cell)}
@@ -113,6 +113,12 @@ def _copied_from(guide: Guide, cells: Cells, classmates: Sequence[Key]) -> tuple
             equal.setdefault(place, []).append(key.id)
         source = source or len(met) >= max(FEWEST, SAME * len(telling))
     return equal, source
+
+
+def _often_equal(equal: Mapping[Place, Sequence[str]]) -> set[Place]:
+    """The values that equal the key of a classmate whom several of them equal."""
+    counted = Counter(name for names in equal.values() for name in names)
+    return {place for place, names in equal.items() if any(counted[name] >= FEWEST for name in names)}
 
 
 def _meets(cell: Marked, value: float) -> bool:

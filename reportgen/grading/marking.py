@@ -7,16 +7,18 @@ of its chain, and the mistake behind it is sought by name.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from reportgen.answers.bands import half_unit
 from reportgen.answers.key import Key, Row
 from reportgen.grading.guard import guard
 from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Marked, Marking, Place, Submission, Verdict
-from reportgen.grading.misread import name_misread
+from reportgen.grading.misread import misread_data
+from reportgen.grading.mistakes import Site
 from reportgen.grading.naming import name_mistakes
 from reportgen.grading.working import SIGNED, Working, lay_out
 
@@ -31,8 +33,10 @@ def mark(guide: Guide, submission: Submission, classmates: Sequence[Key] = ()) -
         for position in row.positions
     }
     cells |= {place: replace(cells[place], first=True) for place in _firsts(guide, cells)}
-    cells |= name_mistakes(working, cells)
-    cells |= name_misread(working, cells)
+    for named in (name_mistakes, misread_data):
+        sites = named(working, cells)
+        cells |= {place: _named(cells[place], site) for place, site in sites.items()}
+        cells |= _charged_once(working, cells, sites)
     warnings: tuple[str, ...] = ()
     if guide.policy.guard:
         cells, warnings = guard(working, cells, classmates)
@@ -68,7 +72,7 @@ def _judged(
         met = [
             one
             for one in mine
-            if distance(row.id, family.arm, value, one) <= band * _wider(one, guide.size(row.id))
+            if distance(row.id, family.arm, value, one) <= _room(guide, row.id, band, one)
         ]
         if met:
             verdict, points, own = Verdict.follows, worth * guide.policy.follows, met[0]
@@ -85,6 +89,55 @@ def _judged(
     )
 
 
+def _named(cell: Marked, site: Site) -> Marked:
+    return replace(cell, mistake=site.mistake, where=site.where)
+
+
+def _charged_once(
+    working: Working, cells: Mapping[Place, Marked], sites: Mapping[Place, Site]
+) -> dict[Place, Marked]:
+    """Of all wrong values that come from one mistake before the sheet, only the first costs its mark.
+
+    Whoever took the stroke for the radius without writing the radius down went wrong once, though no
+    value on the sheet stands on another that shows it.
+    """
+    guide = working.guide
+    order = {row.id: index for index, row in enumerate(guide.judged)}
+    changed: dict[Place, Marked] = {}
+    unseen = {(site.mistake, site.where): site for site in sites.values() if not working.shows(site.where)}
+    for (mistake, where), site in unseen.items():
+        single = len(guide.ledger[where].values) == 1
+        own = working.own(made=site.changes)
+        caused = [place for place, one in sites.items() if (one.mistake, one.where) == (mistake, where)]
+        charged = {
+            min((place for place in caused if single or place[1] == position), key=lambda place: order[place[0]])
+            for position in {place[1] for place in caused}
+        }
+        charged = {min(charged, key=lambda place: order[place[0]])} if single else charged
+        for place, cell in cells.items():
+            if cell.verdict is Verdict.wrong and place not in charged and place not in changed:
+                row = guide.rows[place[0]]
+                here = _own(guide, own, row.id, row.at(place[1]))
+                changed |= {place: _following(guide, cell, here)} if _meets(working, cell, here) else {}
+    return changed
+
+
+def _following(guide: Guide, cell: Marked, own: float) -> Marked:
+    unit = guide.ledger[cell.id].how.scale
+    points = guide.policy.worth(cell.id) * guide.policy.follows
+    return replace(
+        cell, verdict=Verdict.follows, own=own / unit, points=points, first=False, mistake="", where=""
+    )
+
+
+def _meets(working: Working, cell: Marked, own: float) -> bool:
+    """Whether a student's value is `own` (SI) within its band."""
+    guide = working.guide
+    family, row = guide.ledger[cell.id], guide.rows[cell.id]
+    value = float(working.values[cell.id][row.at(cell.position)])
+    return distance(cell.id, family.arm, value, own) <= _room(guide, cell.id, cell.band * family.how.scale, own)
+
+
 def distance(id: str, arm: bool, value: float, other: float) -> float:
     """How far two values (SI) lie apart: directions around the circle, arms by their sizes."""
     if id.startswith("dir."):
@@ -99,9 +152,12 @@ def _own(guide: Guide, chance: dict[str, np.ndarray], id: str, index: int) -> fl
     return own if size is None else float(np.copysign(abs(size[index].real), own))
 
 
-def _wider(own: float, size: float) -> float:
-    """A band grows with what it is measured from, where that is larger than anything right."""
-    return max(1.0, abs(own) / size) if size and np.isfinite(own) else 1.0
+def _room(guide: Guide, id: str, band: float, own: float) -> float:
+    """The band about a value that follows: as wide in proportion where that is larger than anything right."""
+    size = guide.size(id)
+    if not (size and np.isfinite(own)):
+        return band
+    return band * max(1.0, abs(own) / size) + float(half_unit(np.array([own]), guide.policy.digits)[0])
 
 
 def _firsts(guide: Guide, cells: dict[Place, Marked]) -> list[Place]:

@@ -7,12 +7,13 @@ that meets the student's value counts if it is a number that somebody would have
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Marked, Place
+from reportgen.grading.mistakes import Site
 from reportgen.grading.working import Working
 from reportgen.ledger.following import follow
 
@@ -32,22 +33,28 @@ class Datum:
     id: str
     value: float
 
+    @property
+    def site(self) -> Site:
+        return Site(WRONG_DATUM, self.id, {self.id: lambda value, _: np.full_like(value, self.value)})
 
-def name_misread(working: Working, cells: Mapping[Place, Marked]) -> dict[Place, Marked]:
-    """The unnamed first wrong values that another value of one given datum explains, with that name."""
-    guide = working.guide
-    named: dict[Place, Marked] = {}
+
+def misread_data(working: Working, cells: Mapping[Place, Marked]) -> dict[Place, Site]:
+    """The misread data behind first wrong values that have no other name.
+
+    Only what is the same at all positions is traced back: a length, a mass, the crank's speed.
+    """
+    found: dict[Place, Site] = {}
     known: list[Datum] = []
     for place, cell in cells.items():
-        if not cell.first or cell.mistake or guide.rows.keys() & set(guide.before[cell.id]):
+        if not cell.first or cell.mistake or not working.guide.rows[cell.id].single:
             continue
         datum = next((one for one in known if _explains(working, cell, one)), None)
         if datum is None:
             datum = next((one for one in _possible(working, cell) if _explains(working, cell, one)), None)
             known += [datum] if datum else []
         if datum is not None:
-            named[place] = replace(cell, mistake=WRONG_DATUM, where=datum.id)
-    return named
+            found[place] = datum.site
+    return found
 
 
 def _possible(working: Working, cell: Marked) -> list[Datum]:

@@ -15,12 +15,11 @@ from itertools import takewhile
 import numpy as np
 
 from reportgen.grading.guide import Guide
+from reportgen.grading.working import Change
 from reportgen.ledger.core import Family
 from reportgen.notation.expressions import Call, Expression, Negative, Sum, evaluate, rebuild, refs, walk
 
 Values = Mapping[str, np.ndarray]
-Change = Callable[[np.ndarray, Values], np.ndarray]
-
 DECIMAL_PLACES = (1, 2, 3, 4, 5)
 """Decimals that a mark read as that of thousands takes along."""
 

@@ -8,29 +8,27 @@ quantity, and meets them best, gives its name.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from reportgen.grading.guide import Guide
-from reportgen.grading.marks import Marked, Place
-from reportgen.grading.mistakes import ELSEWHERE, Change, Site, sites_anywhere, sites_in
-from reportgen.grading.working import SIGNED, Working
+from reportgen.grading.marks import Marked, Place, Verdict
+from reportgen.grading.mistakes import ELSEWHERE, Site, sites_anywhere, sites_in
+from reportgen.grading.working import SIGNED, Change, Working
 from reportgen.ledger.following import follow
 
 
-def name_mistakes(working: Working, cells: Mapping[Place, Marked]) -> dict[Place, Marked]:
-    """The first wrong values of each chain whose mistake is known, with its name."""
+def name_mistakes(working: Working, cells: Mapping[Place, Marked]) -> dict[Place, Site]:
+    """The mistakes behind the first wrong values of each chain, where they are known."""
     by_row: dict[str, list[int]] = {}
     for (id, position), cell in cells.items():
         if cell.first:
             by_row.setdefault(id, []).append(position)
-    named: dict[Place, Marked] = {}
-    for id, positions in by_row.items():
-        for position, site in _explained(working, cells, id, positions).items():
-            place = (id, position)
-            named[place] = replace(cells[place], mistake=site.mistake, where=site.where)
-    return named
+    return {
+        (id, position): site
+        for id, positions in by_row.items()
+        for position, site in _explained(working, cells, id, positions).items()
+    }
 
 
 def _explained(
@@ -46,7 +44,10 @@ def _explained(
     unit = guide.ledger[id].how.scale
     band = np.array([cells[(id, position)].band for position in positions]) * unit
     expected = np.array([[cells[(id, p)].own, cells[(id, p)].expected] for p in positions]).T * unit
-    foreseen = _foreseen(working, id, sites)[:, index]
+    # A student goes on from the rounded value written down, or from the one left in the calculator.
+    gone_on_from = (working, working.unrounded({one for one in cells if cells[one].verdict is Verdict.right}))
+    foreseen = np.concatenate([_foreseen(one, id, sites)[:, index] for one in gone_on_from])
+    sites = [*sites, *sites]
     with np.errstate(all="ignore"):
         # What a mistake makes larger, it makes less certain in the same measure.
         wider = np.maximum(1.0, np.abs(foreseen) / np.maximum(np.abs(expected[0]), band))
@@ -78,12 +79,10 @@ def _candidates(working: Working, id: str) -> Iterator[Site]:
     size = id.removeprefix(SIGNED)
     if size != id:
         yield from sites_in(guide, size, working.scales)
-    shown = {name for name, values in working.values.items() if np.isfinite(values).any()}
-    shown |= {name.removeprefix(SIGNED) for name in shown}
     before = guide.before[id]
     for other in before:
         family = guide.ledger[other]
-        if other not in shown and other != size and not (family.hidden or family.is_plane):
+        if not working.shows(other) and other != size and not (family.hidden or family.is_plane):
             yield from sites_in(guide, other, working.scales)
     above = {*before, id}
     for site in sites_anywhere(guide):

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Container, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reportgen.answers.key import Role, Row
 from reportgen.grading.guide import Guide
-from reportgen.grading.marks import Submission
+from reportgen.grading.marks import Place, Submission
 from reportgen.ledger.following import follow
 from reportgen.notation.expressions import Ref
+
+Change = Callable[[np.ndarray, Mapping[str, np.ndarray]], np.ndarray]
+"""A quantity's value (SI) from what it comes to and all values before it."""
 
 SIGNED = "turn."
 """Ids of signed rotations begin so; the size stands before them under the rest of the id."""
@@ -36,23 +39,41 @@ class Working:
     values: Mapping[str, np.ndarray]
     scales: Mapping[str, float]
 
-    def own(self, blank_from_key: bool) -> dict[str, np.ndarray]:
+    def own(self, blank_from_key: bool = False, made: Mapping[str, Change] | None = None) -> dict[str, np.ndarray]:
         """What every judged quantity comes to from the student's own earlier values.
 
-        A blank one on the way is replaced by the key's, or else follows like the rest.
+        A blank one on the way is replaced by the key's, or else follows like the rest.  `made` are
+        changes of quantities that the sheet does not show.
         """
         expected: dict[str, np.ndarray] = {}
+        mistaken = made or {}
 
         def laid(id: str) -> Change:
             def change(computed: np.ndarray, values: Mapping[str, np.ndarray]) -> np.ndarray:
+                computed = mistaken[id](computed, values) if id in mistaken else computed
                 known = self.guide.ledger[id].values
                 expected[id] = np.broadcast_to(computed, known.shape)
                 return self.over(id, computed, known if blank_from_key else computed)
 
             return change
 
-        follow(self.guide.ledger, {id: laid(id) for id in self.entered})
+        follow(self.guide.ledger, {**mistaken, **{id: laid(id) for id in self.entered}})
         return expected
+
+    def unrounded(self, right: Container[Place]) -> Working:
+        """The same with the key's value at every place where the student's is right."""
+        ledger = self.guide.ledger
+        values = dict(self.values)
+        for row in self.guide.judged:
+            if row.id in values:
+                kept = [self.guide.place(row, k + 1) for k in range(len(values[row.id]))]
+                known = np.array([(row.id, position) in right for position in kept])
+                values[row.id] = np.where(known, ledger[row.id].values.real, values[row.id])
+        return replace(self, values=values)
+
+    def shows(self, id: str) -> bool:
+        """Whether the sheet has a value of a quantity at any position."""
+        return id in self.values or SIGNED + id in self.values
 
     @property
     def entered(self) -> tuple[str, ...]:
@@ -71,9 +92,6 @@ class Working:
         elif self.guide.ledger[id].arm:
             given = np.abs(given) * np.where(computed < 0, -1.0, 1.0)
         return np.where(np.isnan(given), blank, given)
-
-
-Change = Callable[[np.ndarray, Mapping[str, np.ndarray]], np.ndarray]
 
 
 def lay_out(guide: Guide, submission: Submission) -> Working:

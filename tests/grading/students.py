@@ -73,10 +73,10 @@ def written(guide: Guide, world: World) -> Submission:
     def cell(row: Row, position: int, _: float) -> float | None:
         family = guide.ledger[row.id]
         value = float(world[row.id][row.at(position)].real) / family.how.scale
-        if row.id.startswith("dir."):
-            value = round(value % 360)
         if not np.isfinite(value):
             return None
+        if row.id.startswith("dir."):
+            return float(round(value % 360))
         return figures(abs(value) if family.arm else value)
 
     return sheet(guide, cell)
