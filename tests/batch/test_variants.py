@@ -23,6 +23,7 @@ from reportgen.batch.spec import Spec, read_spec
 from reportgen.batch.trial import trial
 from reportgen.batch.variants import Variants, make_variants
 from reportgen.batch.written import quoted, text_of
+from reportgen.cli import app
 from reportgen.errors import AssignmentError, Mark
 from reportgen.workbook import Book, Sheet, read, write_csv, write_xlsx
 
@@ -551,3 +552,47 @@ def test_a_class_that_must_share_is_told_who(put_file: Put) -> None:
     result = made(put_file(text), put_file("id\nK1\nK2\nK3\n", "r.csv"))
     assert result.remarks[0] == "2 usable variants for 3 students: some share one"
     assert len(result.remarks) == 2
+
+
+# --- the command ------------------------------------------------------------------------------------
+
+
+def test_the_command_prints_each_path_and_the_table(put_file: Put, capsys: pytest.CaptureFixture[str]) -> None:
+    path, roster = put_file(BARS), put_file("id\nK1\n../x\n", "r.csv")
+    out = path.parent / "out"
+    assert command("variants", path, roster, "-o", out, "--lang", "en") == 0
+    printed = capsys.readouterr()
+    first, second, blank, head, *_ = printed.out.splitlines()
+    assert (first, blank, head) == (str(out / "K1.yaml"), "", "How alike the 2 variants are:")
+    assert Path(second).parent == out
+    assert printed.err == ""
+    first_file = out / "K1.yaml"
+    first_file.write_text("mine\n", encoding="utf-8")
+    assert command("variants", path, roster, "-o", out, "--lang", "en") == 0
+    assert f"kept, since it was edited by hand (--force replaces it): {first_file}" in capsys.readouterr().err
+    assert command("variants", path, roster, "-o", out, "--force") == 0
+    assert api.check(first_file) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code"),
+    [
+        (("spec.yaml", "none.csv"), 1),
+        (("none.yaml", "r.csv"), 1),
+        (("spec.yaml",), 2),
+        (("spec.yaml", "r.csv", "x"), 2),
+    ],
+)
+def test_the_command_ends_as_the_others_do(
+    put_file: Put, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], code: int
+) -> None:
+    monkeypatch.chdir(put_file(BARS).parent)
+    put_file("id\nK1\n", "r.csv")
+    assert command("variants", *arguments) == code
+    assert not Path("out").exists()
+
+
+def command(*arguments: object) -> int:
+    with pytest.raises(SystemExit) as ended:
+        app(list(map(str, arguments)))
+    return int(ended.value.code or 0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import unicodedata
 import zipfile
@@ -10,7 +11,7 @@ from pathlib import Path
 
 import openpyxl
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from reportgen.errors import AssignmentError, CellMark, Mark, column_letters
@@ -377,3 +378,23 @@ def test_a_workbook_of_openpyxl_is_read_as_openpyxl_reads_it(put: Callable[..., 
         [None, None, None],
     ]
     assert got.rows[2][2].formula == "=C2*2"
+
+
+SHARED = {"xl/styles.xml": STYLES, "xl/strings.xml": STRINGS}
+WHOLE = (write_xlsx(BOOK), package('<row><c t="s"><v>0</v></c></row>', SHARED))
+CHANGE = st.tuples(st.floats(0, 1, exclude_max=True), st.binary(max_size=3))
+
+
+@settings(max_examples=80, deadline=None)
+@given(st.sampled_from(WHOLE), st.lists(CHANGE, max_size=4))
+def test_a_damaged_workbook_is_read_or_refused(
+    tmp_path_factory: pytest.TempPathFactory, content: bytes, changes: list[tuple[float, bytes]]
+) -> None:
+    """Never another exception, wherever its bytes are changed."""
+    for share, new in changes:
+        at = int(share * len(content))
+        content = content[:at] + new + content[at + len(new) :]
+    path = tmp_path_factory.mktemp("damaged") / "d.xlsx"
+    path.write_bytes(content)
+    with contextlib.suppress(AssignmentError):
+        assert all(isinstance(page, Page) for page in read(path))
