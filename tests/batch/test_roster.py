@@ -102,9 +102,12 @@ def test_vietnamese_headings_composed_or_not(put: Put) -> None:
 
 
 def test_names_in_two_columns_and_two_kinds_of_class(put: Put) -> None:
-    path = put("Mã SV,Họ đệm,Tên,Lớp,Lớp học phần\nK1,Nguyễn Thị,Ánh,K58,CK12\nK2,,Nam,,CK12\n")
+    path = put("Mã SV,Họ đệm,Tên,Lớp,Lớp hành chính,Lớp học phần\nK1,Nguyễn Thị,Ánh,K58,K5,NLM\nK2,,Nam,,K5,\n")
     students = read_roster(path).students
-    assert [(one.name, one.class_) for one in students] == [("Nguyễn Thị Ánh", "K58"), ("Nam", "")]
+    assert [(one.name, one.class_, one.section) for one in students] == [
+        ("Nguyễn Thị Ánh", "K58", "NLM"),
+        ("Nam", "", ""),
+    ]
 
 
 def test_every_language_has_headings_for_the_same_columns() -> None:
