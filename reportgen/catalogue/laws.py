@@ -84,6 +84,21 @@ class AngleLaw:
         return self.angles
 
 
+@dataclass(frozen=True)
+class WayLaw:
+    """Values over the way (m) of a sliding driver from its start, linear between; `span` is the whole way."""
+
+    ways: tuple[float, ...]
+    values: tuple[float, ...]
+    span: float
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        return np.asarray(np.interp(angle * self.span / FULL_TURN, self.ways, self.values))
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        return (way / self.span * FULL_TURN for way in self.ways)
+
+
 def by_stroke(
     fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]
 ) -> Indicator:

@@ -92,7 +92,7 @@ def machine(assignment: Assignment) -> Machine:
     crank = isinstance(given.driver, linkage_file.CrankDriver)
     start, turn, span = _start(positions), positions.sign, 0.0
     if isinstance(given.driver, linkage_file.SlideDriver):
-        start, span = given.driver.start.si, abs(given.driver.end.si - given.driver.start.si)
+        start, span = given.driver.start.si, given.driver.span
         turn = 1 if given.driver.end.si > start else -1
         places = tuple(np.linspace(0.0, FULL_TURN, positions.count))
     built = Machine(

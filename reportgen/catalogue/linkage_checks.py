@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-import numpy as np
-
 from reportgen.assignment.common import Draft, Positions
 from reportgen.assignment.faults import Finding, Where
 from reportgen.catalogue import linkage_file as file
-from reportgen.catalogue import linkage_loads, reach
+from reportgen.catalogue.linkage_assembly import TOP, assembly, guides
 from reportgen.catalogue.linkage_build import linkage
-from reportgen.catalogue.reach import Member
 from reportgen.mechanism.mobility import mobility
-from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import DRIVER, GROUND, Linkage
-from reportgen.units import Given
+from reportgen.mechanism.structure import DRIVER, GROUND
 
-TOP: Where = ("parameters",)
-STEPS = 720
+TURNING = ("parameters", ("turns", "also_at"))
+"""Parameters that count or place turns of a crank."""
 
 
 def check(draft: Draft) -> Iterator[Finding]:
@@ -30,13 +24,24 @@ def check(draft: Draft) -> Iterator[Finding]:
     given: file.Parameters | None = draft.sections.get("parameters")
     if given is None:
         return
-    told = [*_structure(given), *_bodies(given), *_loads(given)]
+    told = [*_structure(given), *_bodies(given), *_loads(given), *_of_a_crank(draft, given)]
     told += [] if told else _declared(given)
     yield from told
     if told:
         return
     positions = draft.sections.get("positions") or Positions()
-    yield from _assembly(given, positions)
+    yield from assembly(given, positions)
+
+
+def _of_a_crank(draft: Draft, given: file.Parameters) -> Iterator[Finding]:
+    """What only a crank has: a sliding driver starts where its way starts, and goes once along it."""
+    if not isinstance(given.driver, file.SlideDriver):
+        return
+    for section, keys in (("positions", ("start", "direction")), ("drawing", ("crank",)), TURNING):
+        written = draft.raw.get(section)
+        for key in keys:
+            if isinstance(written, dict) and written.get(key) is not None:
+                yield Finding("no-crank", (section, key), {"key": key}, at="key")
 
 
 # --- names and numbers ----------------------------------------------------------------------------
@@ -121,7 +126,7 @@ def _group(given: file.Parameters, group: file.Group, at: Where, placed: _Placed
     for index, name in enumerate(group.joints):
         if index != middle:
             yield from placed.need(name, (*joints, index))
-    for guide, where in _guides(group, at):
+    for guide, where in guides(group, at):
         yield from placed.carrier(guide.on, (*where, "on"))
     yield from placed.enter(group.joints[middle], (*joints, middle))
     if group.type == "RPR":
@@ -130,12 +135,6 @@ def _group(given: file.Parameters, group: file.Group, at: Where, placed: _Placed
         if link not in placed.links:
             placed.links.add(link)
             yield from _fixed_points(given, link, placed)
-
-
-def _guides(group: file.Group, at: Where) -> list[tuple[file.Guide, Where]]:
-    if isinstance(group, file.PRP):
-        return [(guide, (*at, "guides", index)) for index, guide in enumerate(group.guides)]
-    return [(group.guide, (*at, "guide"))] if isinstance(group, file.RRP | file.RPP) else []
 
 
 def _pins(given: file.Parameters) -> dict[int, set[str]]:
@@ -196,8 +195,12 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
     sliders = {link for group in given.groups for link in _rail_links(group)}
     for index, load in enumerate(given.loads):
         at = (*TOP, "loads", index)
-        if isinstance(given.driver, file.SlideDriver) and not isinstance(load, file.Constant):
+        slides = isinstance(given.driver, file.SlideDriver)
+        if slides and not isinstance(load, file.Constant | file.OverWay):
             yield Finding("needs-a-crank", (*at, "by"))
+            continue
+        if isinstance(load, file.OverWay) and not slides:
+            yield Finding("needs-a-slide", (*at, "by"))
             continue
         if isinstance(load, file.OverStroke | file.Gas):
             if load.link not in sliders:
@@ -210,9 +213,14 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
                 yield Finding("gas-needs-two-turns", (*at, "by"))
             continue
         yield from _on_link(pins, load.link, load.at, at)
-        if isinstance(load, file.OverAngle):
-            angles = tuple(math.degrees(angle.si) for angle in load.angle)
-            yield from _table(at, "angle", angles, (360.0 * given.turns,), " deg", values=load.values)
+        if not isinstance(load, file.Constant):
+            if isinstance(load, file.OverAngle):
+                angles = tuple(math.degrees(angle.si) for angle in load.angle)
+                yield from _table(at, "angle", angles, (360.0 * given.turns,), " deg", values=load.values)
+            else:
+                assert isinstance(given.driver, file.SlideDriver)
+                ways = tuple(way.si * 1e3 for way in load.way)
+                yield from _table(at, "way", ways, (given.driver.span * 1e3,), " mm", values=load.values)
             key, other = ("unit", "torque_unit") if load.at else ("torque_unit", "unit")
             if getattr(load, key) is None:
                 yield Finding("missing-key", at, {"key": key})
@@ -276,85 +284,3 @@ def _declared(given: file.Parameters) -> Iterator[Finding]:
             yield Finding(
                 "not-as-declared", (*at, "groups"), {"text": text, "found": ", ".join(map(str, is_groups))}
             )
-
-
-# --- assembly -------------------------------------------------------------------------------------
-
-
-def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]:
-    made = linkage(given)
-    members = {
-        (group.links[0], group.links[1]): Member(_rods(group), (*TOP, "groups", index))
-        for index, group in enumerate(given.groups)
-    }
-    if isinstance(given.driver, file.SlideDriver):
-        way = reach.Way(given.driver.start.si, given.driver.end.si, turning=False)
-        yield from reach.findings(made, members, way)
-        return
-    found = list(reach.findings(made, members))
-    yield from found
-    if found:
-        return
-    start = 0.0 if positions.start is None else positions.start.si
-
-    def motion_at(angle: np.ndarray) -> Motion:
-        return solve_motion(made, start + positions.sign * angle, positions.sign * 1.0)
-
-    yield from _slots(given, made, motion_at(np.linspace(0.0, 2 * np.pi, STEPS + 1)))
-    for index, load in enumerate(given.loads):
-        if isinstance(load, file.OverStroke | file.Gas):
-            try:
-                linkage_loads.course(made, load.link, motion_at)
-            except linkage_loads.NotToAndFro as fault:
-                words = {"text": str(load.link), "count": str(fault.reversals)}
-                yield Finding("not-to-and-fro", (*TOP, "loads", index, "link"), words)
-
-
-def _rods(group: file.Group) -> str:
-    """A group's links by the letters of their joints."""
-    names = group.joints
-    match group.type:
-        case "RRR":
-            return f"{names[0]}{names[1]}, {names[1]}{names[2]}"
-        case "RRP" | "RPP":
-            return f"{names[0]}{names[1]}"
-        case "RPR":
-            return f"{names[0]}{names[2]}"
-        case _:
-            return names[0]
-
-
-def _slots(given: file.Parameters, made: Linkage, motion: Motion) -> Iterator[Finding]:
-    """Every block stays in its slot, where a slot's ends are given."""
-    for index, group in enumerate(given.groups):
-        at = (*TOP, "groups", index)
-        i, j = group.links
-        watched = [
-            (guide, where, (guide.on, link))
-            for (guide, where), link in zip(
-                _guides(group, at), group.links if group.type == "PRP" else (j,), strict=False
-            )
-        ]
-        ways = [(guide.slot, (*where, "slot"), key) for guide, where, key in watched]
-        if isinstance(group, file.RPR):
-            ways.append((group.slot, (*at, "slot"), (j, i)))
-        for slot, where, key in ways:
-            if slot is not None:
-                yield from _stays(slot, where, key, motion, f"({i}, {j})")
-
-
-def _stays(
-    slot: tuple[Given, ...], where: Where, key: tuple[int, int], motion: Motion, group: str
-) -> Iterator[Finding]:
-    way = motion.slides[key].s
-    beyond = np.maximum(slot[0].si - way, way - slot[1].si)
-    worst = int(np.argmax(beyond))
-    if beyond[worst] > 1e-9:
-        words = {
-            "block": str(key[1]),
-            "link": str(key[0]),
-            "group": group,
-            "angle": f"{math.degrees(cmath.phase(cmath.exp(1j * motion.driver[worst]))):.4g}",
-            "way": f"{way[worst] * 1e3:.4g}",
-        }
-        yield Finding("out-of-slot", where, words)

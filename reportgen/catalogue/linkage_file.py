@@ -68,6 +68,10 @@ Row = Annotated[
 ]
 Fractions = Annotated[tuple[Fraction, ...], Field(min_length=2, max_length=MOST_NODES)]
 CycleAngles = Annotated[tuple[CycleAngle, ...], Field(min_length=2, max_length=MOST_NODES)]
+DriverWays = Annotated[
+    tuple[Annotated[Given, quantity("mm", least=0, below=1e5)], ...],
+    Field(min_length=2, max_length=MOST_NODES),
+]
 
 NOWHERE = Given(0.0, 0.0, "mm", "0 mm")
 LEVEL = Given(0.0, 0.0, "deg", "0 deg")
@@ -133,6 +137,11 @@ class SlideDriver(Part):
     def rate(self) -> float:
         """|v| (m/s)."""
         return self.speed.si
+
+    @property
+    def span(self) -> float:
+        """The length of the way (m)."""
+        return abs(self.end.si - self.start.si)
 
 
 Driver = Annotated[CrankDriver | SlideDriver, Field(discriminator="type")]
@@ -254,6 +263,19 @@ class OverAngle(Part):
     values: Row
 
 
+class OverWay(Part):
+    """A force or a torque over the way of a sliding driver from its start."""
+
+    by: Literal["way"]
+    link: Link
+    at: Name | None = None
+    direction: Angle = LEVEL
+    unit: Annotated[Given, UnitOf("N")] | None = None
+    torque_unit: Annotated[Given, UnitOf("N m")] | None = None
+    way: DriverWays
+    values: Row
+
+
 class OverStroke(Part):
     """A force on a slider along its guide: a row for each way, over s/H from the end farther along the guide."""
 
@@ -278,7 +300,7 @@ class Gas(Part):
     diagram: gas.Diagram
 
 
-Loading = Annotated[Constant | OverAngle | OverStroke | Gas, Field(discriminator="by")]
+Loading = Annotated[Constant | OverAngle | OverWay | OverStroke | Gas, Field(discriminator="by")]
 
 
 class Declared(Part):

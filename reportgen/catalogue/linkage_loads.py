@@ -11,7 +11,7 @@ import numpy as np
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue import resistance
 from reportgen.catalogue.course import FULL_TURN, Course, Floats
-from reportgen.catalogue.laws import AngleLaw, Law, MotionAt, TableLaw, by_stroke
+from reportgen.catalogue.laws import AngleLaw, Law, MotionAt, TableLaw, WayLaw, by_stroke
 from reportgen.catalogue.machine import Applied, Torque
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import DRIVER, GROUND, Dyad, Guide, Linkage
@@ -89,10 +89,10 @@ def laid_on(given: file.Parameters, linkage: Linkage, motion_at: MotionAt) -> tu
         if isinstance(load, file.OverStroke | file.Gas):
             found.append(_on_slider(load, given, linkage, motion_at, _name("P", link, found)))
         elif load.at is None:
-            found.append(Torque(_name("M", link, found), link, _turning(load, motion_at)))
+            found.append(Torque(_name("M", link, found), link, _turning(load, given.driver, motion_at)))
         else:
             direction = cmath.exp(1j * load.direction.si)
-            law = _pushing(load, load.at, direction, motion_at)
+            law = _pushing(load, load.at, direction, given.driver, motion_at)
             found.append(Applied(_name("P", link, found), link, load.at, direction, law))
     return tuple(found)
 
@@ -119,10 +119,14 @@ def _on_slider(
 
 
 def _pushing(
-    load: file.Constant | file.OverAngle, point: str, direction: complex, motion_at: MotionAt
+    load: file.Constant | file.OverAngle | file.OverWay,
+    point: str,
+    direction: complex,
+    driver: file.Driver,
+    motion_at: MotionAt,
 ) -> Law:
-    if isinstance(load, file.OverAngle):
-        return _by_angle(load, load.unit.si if load.unit else 1.0)
+    if not isinstance(load, file.Constant):
+        return _by_driver(load, load.unit.si if load.unit else 1.0, driver)
     assert load.F is not None
 
     def rate(motion: Motion) -> Floats:
@@ -131,9 +135,11 @@ def _pushing(
     return _constant(load, load.F.si, rate, motion_at)
 
 
-def _turning(load: file.Constant | file.OverAngle, motion_at: MotionAt) -> Law:
-    if isinstance(load, file.OverAngle):
-        return _by_angle(load, load.torque_unit.si if load.torque_unit else 1.0)
+def _turning(
+    load: file.Constant | file.OverAngle | file.OverWay, driver: file.Driver, motion_at: MotionAt
+) -> Law:
+    if not isinstance(load, file.Constant):
+        return _by_driver(load, load.torque_unit.si if load.torque_unit else 1.0, driver)
     assert load.M is not None
     return _constant(load, load.M.si, lambda motion: motion.links[load.link].omega, motion_at)
 
@@ -149,5 +155,9 @@ def _constant(
     return found if turns else Resistance(abs(size), rate, found.reversals)
 
 
-def _by_angle(load: file.OverAngle, one: float) -> AngleLaw:
-    return AngleLaw(tuple(angle.si for angle in load.angle), tuple(value * one for value in load.values))
+def _by_driver(load: file.OverAngle | file.OverWay, one: float, driver: file.Driver) -> Law:
+    values = tuple(value * one for value in load.values)
+    if isinstance(load, file.OverAngle):
+        return AngleLaw(tuple(angle.si for angle in load.angle), values)
+    assert isinstance(driver, file.SlideDriver), "a file with another driver is refused by the kind's checks"
+    return WayLaw(tuple(way.si for way in load.way), values, driver.span)

@@ -209,11 +209,12 @@ def _load(load: file.Loading, name: str) -> LoadRow:
             return LoadRow(name, load.link, "stroke", False, nodes=load.s, rows=(load.inward, load.outward))
         case file.Gas():
             return LoadRow(name, load.link, "gas", False, bore=number(load.D))
-        case file.OverAngle():
-            nodes = tuple(angle.value for angle in load.angle)
+        case file.OverAngle() | file.OverWay():
+            given = load.angle if isinstance(load, file.OverAngle) else load.way
+            nodes = tuple(node.value for node in given)
             torque, way = load.at is None, number(load.direction)
             return LoadRow(
-                name, load.link, "angle", torque, load.at or "", way, nodes=nodes, rows=(load.values,)
+                name, load.link, load.by, torque, load.at or "", way, nodes=nodes, rows=(load.values,)
             )
     size = load.F or load.M
     assert size is not None

@@ -149,6 +149,14 @@ class ForcePictures(Pictured):
             k, scale, (DRIVER,), acting, arms=arms, turning=turning, looks=self.looks(scale)
         )
 
+    def slider(self, k: int) -> Scene:
+        """A sliding driver with the reactions on it and the force that balances it."""
+        scale, pin = self.scale, self.facts.driver.pin
+        acting = self._loads((DRIVER,), k, scale)
+        acting += self._carried(self.facts.driver_polygon, (DRIVER,), k, scale)
+        acting += [self._reaction(f"R{digits}", f"R.{digits}", pin, k, scale) for digits in ("01", "cb")]
+        return self._bodies(k, scale, (DRIVER,), acting, looks=self.looks(scale))
+
     def _reaction(self, name: str, id: str, place: str, k: int, scale: float) -> Force:
         at = complex(self.analysis.motion.points[place].p[k - 1]) * scale
         symbol = symbols.vector(self.ledger.symbol(id))
@@ -240,6 +248,12 @@ class ForcePictures(Pictured):
             acting.append(Force(symbol, image, complex(load.force[index]), "load", load.name))
             if not self.facts.zero(f"h.{load.name}.p", k):
                 arms.append(ArmOf(self.ledger.symbol(f"h.{load.name}.p"), 0j, load.name))
+        if self.analysis.machine.span and not self.facts.zero("R.cb", k):
+            # The force that balances a sliding driver acts on the lever too; that of a crank is a torque.
+            image = complex(motion.points[self.facts.driver.pin].v[index]) * per
+            symbol = symbols.vector(self.ledger.symbol("M.eq"))
+            acting.append(Force(symbol, image, complex(self.ledger["F.Rcb"].at(k)), "reaction", "Rcb"))
+            arms.append(ArmOf(self.ledger.symbol(f"seg.v.p{self.facts.driver.image}"), 0j, "Rcb"))
         drawing = self.velocity_plan(k)
         scale = Chain((self.ledger.symbol("mu.v"), self.ledger.number("mu.v")))
         return on_paper(lever(drawing, acting, arms, sense=-turn, notes=(scale,)))

@@ -97,21 +97,15 @@ class Curves(Pictured):
         return charts.chart(series, self.words["figure"]["way"] if slides else name, title, turn=not slides)
 
     def torque(self) -> Drawn:
-        fine = self.dense_cycle
-        names = self.words["figure"]
-        degrees = np.degrees(fine.cycle_angle)
-        curve = charts.Series(self.ledger.symbol("M.eq"), degrees, fine.torque, self._marks)
+        """What balances the driver: a torque over the angle of a crank, a force over the way of a slider."""
+        fine, names = self.dense_cycle, self.words["figure"]
+        slides = bool(self.analysis.machine.span)
+        x = fine.motion.driver * MM if slides else np.degrees(fine.cycle_angle)
+        curve = charts.Series(self.ledger.symbol("M.eq"), x, fine.torque, self._marks)
         mean = self.ledger.number("M.mean").value
-        return Drawn(
-            (
-                charts.chart(
-                    (curve,),
-                    names["cycle_angle"],
-                    names["torque"],
-                    levels=((mean, self.ledger.symbol("M.mean")),),
-                ),
-            )
-        )
+        title, across = ("balancing_force", "way") if slides else ("torque", "cycle_angle")
+        levels = ((mean, self.ledger.symbol("M.mean")),)
+        return Drawn((charts.chart((curve,), names[across], names[title], levels=levels, turn=not slides),))
 
     def polar(self) -> Drawn:
         """The load of each crank pin in axes that turn with the crank, its radius upwards."""

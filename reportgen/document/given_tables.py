@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from reportgen.catalogue.gas import ByOrdinates
-from reportgen.catalogue.laws import AngleLaw, TableLaw
+from reportgen.catalogue.laws import AngleLaw, TableLaw, WayLaw
 from reportgen.catalogue.machine import Applied, Torque
 from reportgen.cycle.indicator import StrokeIndicator
 from reportgen.document.tabled import Tabled, lowered
@@ -18,6 +18,7 @@ from reportgen.mechanism.mobility import mobility
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Fraction, Number, Symbol, refs
 
+MM = 1e3
 MOST_LENGTHS = 7
 """Columns of lengths that stand beside one another."""
 
@@ -72,17 +73,18 @@ class GivenTables(Tabled):
         return self._law_table(law, key, caption, names, Symbol("P"), 1.0)
 
     def load_table(self, key: str, caption: str, name: str, strokes: Sequence[str]) -> Table:
-        """The load `name` as given (N, N·m): a row for each of the `strokes`, or against the driver's turn."""
+        """The load `name` as given (N, N·m): a row for each of the `strokes`, or against the driver's turn or way."""
         machine = self.facts.analysis.machine
         loads: tuple[Applied | Torque, ...] = (*machine.applied, *machine.torques)
         law = next(load.law for load in loads if load.name == name)
         symbol = self.voice.symbol(name)
-        if isinstance(law, AngleLaw):
-            columns: list[tuple[str | Symbol, Sequence[float]]] = [
-                ("φ", [math.degrees(angle) for angle in law.angles]),
-                (symbol, law.values),
-            ]
-            return self._beside(key, caption, columns)
+        if isinstance(law, AngleLaw | WayLaw):
+            letter, nodes = (
+                ("φ", [math.degrees(angle) for angle in law.angles])
+                if isinstance(law, AngleLaw)
+                else ("s", [way * MM for way in law.ways])
+            )
+            return self._beside(key, caption, [(letter, nodes), (symbol, law.values)])
         assert isinstance(law, TableLaw)
         return self._law_table(law, key, caption, strokes, symbol, 1.0)
 

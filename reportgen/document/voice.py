@@ -216,17 +216,18 @@ class Voice:
         return self._term("a", name, "k", across, words["turned"], twice), sought
 
     def driver_equation(self, polygon: Any, key: str = "") -> Equation:
-        """The equilibrium of forces on the driver."""
+        """The equilibrium of forces on the driver; of a sliding one the directions by its guide are known."""
         words = self.words["vector"]
-        terms = tuple(
+        slides = any(side.name == "Rcb" for side in polygon.sides)
+        unknown = {"R01": words["across_guide"], "Rcb": words["along_guide"]} if slides else {}
+        terms = [
             Term(
                 symbols.vector(self.force_symbol(side.name)),
-                (None, None) if side.unknown else (words["given"], words["given"]),
+                (unknown.get(side.name), None) if side.unknown else (words["given"], words["given"]),
             )
             for side in polygon.sides
-        )
-        zero = Term(Symbol("0", over="vector"), ("", ""))
-        return Equation((VectorEquation((terms, (zero,)), tuple(words["force_rows"])),), key)
+        ]
+        return self._balance(terms, key)
 
     def force_symbol(self, name: str) -> Symbol:
         """The symbol of a force of a plan: of a load by its own id, of a reaction R12, R12.t by its joint."""
