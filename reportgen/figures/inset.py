@@ -22,6 +22,8 @@ ROOM = 6.0
 """White inside an inset's frame around the enlarged vectors, mm."""
 NEIGHBOUR = 3.0
 """Tiny vectors nearer than this (mm) share an inset."""
+APART = 30.0
+"""Unless their middles would be farther apart than this in the inset (mm)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,16 +64,23 @@ def insets(tiny: Sequence[Tiny], others: Sequence[tuple[complex, complex]], figu
 def _groups(tiny: Sequence[Tiny]) -> list[list[int]]:
     """Indices of vectors with neighbouring middles, a group each.
 
-    What would still be short at the ratio of a much longer neighbour gets an inset of its own.
+    What would still be short at the ratio of a much longer neighbour, or far off at it, gets an inset of its own.
     """
     result: list[list[int]] = []
-    for group in clusters([(t.start + t.end) / 2 for t in tiny], NEIGHBOUR):
+    middles = [(t.start + t.end) / 2 for t in tiny]
+    for group in clusters(middles, NEIGHBOUR):
         rest = group
         while rest:
             sizes = {i: abs(tiny[i].end - tiny[i].start) for i in rest}
-            ratio = enlargement(max(sizes.values()))
-            result.append([i for i in rest if sizes[i] * ratio >= TINY])
-            rest = [i for i in rest if sizes[i] * ratio < TINY]
+            longest = max(rest, key=lambda i: sizes[i])
+            ratio = enlargement(sizes[longest])
+            together = [
+                i
+                for i in rest
+                if sizes[i] * ratio >= TINY and abs(middles[i] - middles[longest]) * ratio <= APART
+            ]
+            result.append(together)
+            rest = [i for i in rest if i not in together]
     return result
 
 

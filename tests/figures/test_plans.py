@@ -189,3 +189,18 @@ def test_the_scale_is_printed_and_the_pole_marked() -> None:
 
 def test_the_same_plan_gives_the_same_scene() -> None:
     assert plan(velocity_plan(motion(), 5)) == plan(velocity_plan(motion(), 5))
+
+
+def test_short_vectors_far_apart_at_their_ratio_get_insets_of_their_own() -> None:
+    """Some 0.05 mm long, 2.5 mm from each other: enlarged a hundred times and more they would stand 250 mm apart."""
+    short = PlanVector("ab", 0j, 0.06 + 0j), PlanVector("cd", 2.5j, 2.5j + 0.05)
+    scene = plan(Plan((*short, PlanVector("ef", 0j, 30 + 0j)), pole=False))
+    assert {name.split(" ")[0] for name in arrows(scene) if "×" in name} == {"ab", "cd"}
+    assert scene.height < 150
+
+
+def test_short_vectors_close_together_share_an_inset() -> None:
+    short = PlanVector("ab", 0j, 1 + 0j), PlanVector("bc", 1 + 0j, 1 + 1j)
+    scene = plan(Plan((*short, PlanVector("ef", 0j, 30j)), pole=False))
+    ratios = [item.content for item in scene.items if isinstance(item, Label) and ":1" in str(item.content)]
+    assert len(ratios) == 1
