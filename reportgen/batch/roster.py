@@ -88,9 +88,9 @@ def read_roster(path: Path, language: Language = "vi") -> Roster:
     return Roster(tuple(map(_student, rows)), overriding, str(path))
 
 
-def _page(pages: Iterable[Page]) -> tuple[Page, int | None]:
-    """The first sheet with an id column and the index of its headings; else the first that holds something."""
-    full = [page for page in pages if any(page.rows)] or list(pages)
+def _page(pages: Sequence[Page]) -> tuple[Page, int | None]:
+    """The first sheet in view with an id column and the index of its headings; else the first with anything."""
+    full = [page for page in pages if any(page.rows) and not page.hidden] or list(pages)
     for page in full:
         start = heading_row(page, "id")
         if start is not None:

@@ -128,6 +128,7 @@ def test_blank_lines_quoted_commas_and_a_title_above(put: Put) -> None:
 def test_a_workbook_of_numbers_with_sheets_before_it(put: Put) -> None:
     book = Book(
         (
+            Sheet("Cũ", (("MSSV",), ("K0",)), hidden=True),
             Sheet("Ghi chú", (("read me",),)),
             Sheet("Lớp", (("MSSV", "Họ tên", "parameters.H (mm)"), (195520103001, "An", 95), ("007", "=1+1", None))),
         )

@@ -268,6 +268,14 @@ def test_a_spec_that_never_turns_is_a_fault_with_its_reasons(put_file: Put) -> N
     assert not (path.parent / "out").exists()
 
 
+@pytest.mark.parametrize("file", sorted((ROOT / "assignments").glob("*.yaml")), ids=lambda file: file.stem)
+def test_every_assignment_is_a_usable_spec_of_one_variant(file: Path) -> None:
+    """Nothing in it is taken for a choice, and what the reports are made from is not called unusable."""
+    spec = read_spec(file)
+    assert (spec.axes, spec.size) == ((), 1)
+    assert trial(spec)({}) == ()
+
+
 # --- frozen files -----------------------------------------------------------------------------------
 
 
