@@ -14,6 +14,7 @@ from reportgen.answers.sheet import (
     shared_symbols,
     student_rows,
     symbol_inlines,
+    symbol_width,
     value_inlines,
     words_of,
 )
@@ -33,9 +34,11 @@ from reportgen.document.tree import (
 from reportgen.document.voice import FIRST_COLUMN, TEXT_WIDTH
 from reportgen.notation.expressions import Number, Symbol
 
-VALUE, BAND, SENSE = 17.0, 15.5, 24.0
+VALUE, BAND, SENSE = 15.6, 16.2, 23.0
 """Widths (mm) of the columns of a quantity."""
 SYMBOL, UNIT = 24.0, 24.0
+FINER, FINEST = 3, 7
+"""Decimals of a band beyond those of its row; those of one whose row is exact."""
 
 
 def key_document(key: Key, title: str) -> Document:
@@ -73,7 +76,8 @@ def _list(words: Mapping[str, Any], name: str, rows: Sequence[Row]) -> Table:
     heads = words["table"]
     senses = any(any(row.sense) for row in rows)
     shared = shared_symbols(rows)
-    columns = (Column(SYMBOL), Column(UNIT), Column(30.0), Column(24.0), Column(24.0))
+    symbol = symbol_width((row.id for row in rows if row.symbol in shared), SYMBOL)
+    columns = (Column(symbol), Column(UNIT), Column(30.0), Column(24.0), Column(24.0))
     titles = (heads["symbol"], heads["unit"], heads["value"], words["key"]["drawn"], words["key"]["computed"])
     body = (
         (
@@ -139,5 +143,10 @@ def _numbers(row: Row, index: int) -> tuple[Cell, Cell, Cell]:
 
 
 def _band(row: Row, width: float) -> Inlines:
+    """A band; far below the last figure of its row it is 0."""
     shown = band(row, width)
-    return (Text("–"),) if shown is None else (Value(Number(shown, band_decimals(shown))),)
+    if shown is None:
+        return (Text("–"),)
+    decimals = min(band_decimals(shown), FINEST if row.decimals is None else row.decimals + FINER)
+    number = Number(shown, decimals)
+    return (Value(number if number.shown else Number(0.0)),)

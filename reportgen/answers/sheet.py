@@ -17,6 +17,7 @@ from reportgen.document.prose import search_path
 from reportgen.document.tree import Cell, Column, InlineMath, Inlines, LineBreak, Table, Text, Value
 from reportgen.document.voice import TEXT_WIDTH
 from reportgen.document.words import load_words
+from reportgen.figures.metrics import box
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.workbook import Book, Entry, Sheet
 
@@ -26,8 +27,11 @@ HEAD = 3
 """Rows down to the head of the columns: title, note, head."""
 MOST_POSITIONS = 8
 """Columns of positions beside one another on paper."""
-SYMBOL, UNIT, VALUE = 16.0, 20.0, 17.0
+SYMBOL, UNIT, VALUE = 16.0, 22.0, 15.3
 """Widths (mm) of the columns on paper."""
+
+TABLE_SIZE, PADDING = 10.0, 4.0
+"""Font size (points) of a table, and what its cells keep clear of their edges (mm)."""
 
 Filling = Callable[[Row, int], Entry | None]
 """What stands in the cell of a row at a position (0 for a single value); None where it has no cell."""
@@ -217,10 +221,11 @@ def _table(
 
     Beside each row stands whether its id is to be told, because another one has the same symbol.
     """
-    beside = max(int(TEXT_WIDTH // (SYMBOL + UNIT + VALUE * len(positions))), 1)
+    symbol = symbol_width((row.id for row, told in rows if told), SYMBOL)
+    beside = max(int(TEXT_WIDTH // (symbol + UNIT + VALUE * len(positions))), 1)
     beside = min(beside, len(rows))
-    value = min((TEXT_WIDTH / beside - SYMBOL - UNIT) / len(positions), 1.5 * VALUE)
-    columns = (Column(SYMBOL), Column(UNIT), *(Column(value),) * len(positions))
+    value = min((TEXT_WIDTH / beside - symbol - UNIT) / len(positions), 1.5 * VALUE)
+    columns = (Column(symbol), Column(UNIT), *(Column(value),) * len(positions))
     height = -(-len(rows) // beside)
     filled = [_cells(row, told, positions) for row, told in rows]
     filled += [(Cell(),) * len(columns)] * (beside * height - len(rows))
@@ -237,6 +242,11 @@ def _cells(row: Row, told: bool, positions: Sequence[int]) -> tuple[Cell, ...]:
 def symbol_inlines(row: Row, told: bool) -> Inlines:
     """A quantity's symbol; with `told` its id stands below."""
     return (InlineMath(row.symbol), *((LineBreak(), Text(row.id)) if told else ()))
+
+
+def symbol_width(ids: Iterable[str], least: float) -> float:
+    """The width (mm) of a column of symbols with these ids below them."""
+    return max((least, *(box(id, TABLE_SIZE).width + PADDING for id in ids)))
 
 
 def shared_symbols(rows: Iterable[Row]) -> frozenset[Symbol]:

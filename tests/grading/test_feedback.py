@@ -164,12 +164,12 @@ def test_a_perfect_sheet_hears_of_no_error() -> None:
 def test_there_are_words_for_every_mistake_verdict_and_warning(language: Language) -> None:
     words = load_words(search_path(language))
     key = small_key(language)
-    for name in MISTAKES:
+    for name in words["mistakes"]:
         one = cell("v.B", 1, Verdict.wrong, 1.0, 2.0, first=True, mistake=name, where="omega.1")
         assert any("ω" in str(inline) for inline in mistake_inlines(one, key, words))
         assert words["mistake_names"][name]
-    assert set(words["mistakes"]) == set(MISTAKES)
-    assert set(words["mistake_names"]) == {*MISTAKES, "none"}
+    assert set(words["mistakes"]) >= set(MISTAKES)
+    assert set(words["mistake_names"]) == {*words["mistakes"], "none"}
     assert {*words["verdicts"]} == {*Verdict, "first"} == {*words["verdict_notes"]}
     assert {*words["warnings"]} == {*words["warning_names"]}
 
