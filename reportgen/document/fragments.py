@@ -83,7 +83,7 @@ def environment(directories: Sequence[Path]) -> Environment:
         undefined=StrictUndefined,
         finalize=_finalize,
         autoescape=False,
-        auto_reload=False,
+        auto_reload=True,
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cached_property
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +13,9 @@ from reportgen.notation.numbers import Language
 
 if TYPE_CHECKING:
     from jinja2 import Environment
+
+ENVIRONMENTS = 8
+"""How many search paths (language, kind, school) keep their compiled templates."""
 
 
 def search_path(
@@ -48,21 +51,27 @@ class Prose:
         """
         from reportgen.document import fragments, markdown
 
-        return markdown.blocks(fragments.render(self._environment, name, names))
+        return markdown.blocks(fragments.render(_environment(self.directories), name, names))
 
     def inlines(self, words: str) -> Inlines:
         """What a macro, `caller()` or a `{% set %}` block made, as inlines: a caption written in a template.
 
         For functions called by a template while it is rendered; a plain string becomes plain text.
         """
-        from reportgen.document import fragments, markdown
+        return _inlines(words)
 
-        return markdown.inlines(fragments.excerpt(words))
 
-    @cached_property
-    def _environment(self) -> Environment:
-        from reportgen.document import fragments
+def _inlines(words: str) -> Inlines:
+    from reportgen.document import fragments, markdown
 
-        result = fragments.environment(self.directories)
-        result.globals["inlines"] = self.inlines
-        return result
+    return markdown.inlines(fragments.excerpt(words))
+
+
+@lru_cache(maxsize=ENVIRONMENTS)
+def _environment(directories: tuple[Path, ...]) -> Environment:
+    """Kept from report to report, with the templates compiled; a template that was changed is read again."""
+    from reportgen.document import fragments
+
+    result = fragments.environment(directories)
+    result.globals["inlines"] = _inlines
+    return result

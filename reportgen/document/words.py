@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from reportgen.errors import Mark, TemplateError
 
 FILE = "words.yaml"
+FILES = 32
+"""How many files of words are kept."""
 
 
 def load_words(directories: Sequence[Path]) -> Mapping[str, Any]:
@@ -27,6 +30,13 @@ def load_words(directories: Sequence[Path]) -> Mapping[str, Any]:
 
 
 def _read(path: Path) -> Mapping[str, Any]:
+    about = path.stat()
+    return _as_of(path, about.st_mtime_ns, about.st_size)
+
+
+@lru_cache(maxsize=FILES)
+def _as_of(path: Path, changed: int, size: int) -> Mapping[str, Any]:
+    """A file's words, read once for as long as it stays the same; nobody changes them."""
     from reportgen.assignment.source import Table, plain, read_source
 
     source = read_source(path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
@@ -269,3 +270,11 @@ def test_the_nearest_words_win(tmp_path: Path) -> None:
 
 def test_the_templates_are_found() -> None:
     assert (folders.templates() / "vi").is_dir()
+
+
+def test_a_template_changed_between_reports_is_read_again(tmp_path: Path) -> None:
+    page = tmp_path / "page.md"
+    for second, word in enumerate(("one", "two")):
+        page.write_text(word, encoding="utf-8")
+        os.utime(page, (second, second))
+        assert Prose((tmp_path,)).render("page.md", {}) == (Paragraph((Text(word),)),)

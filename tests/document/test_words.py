@@ -49,3 +49,11 @@ def test_what_cannot_be_read_is_a_fault_with_its_place(tmp_path: Path, text: str
 def test_a_language_without_words_is_a_fault(tmp_path: Path) -> None:
     with pytest.raises(TemplateError, match=r"words\.yaml: the file is missing"):
         load_words((tmp_path,))
+
+
+def test_words_changed_between_reports_are_read_again(tmp_path: Path) -> None:
+    file = tmp_path / "words.yaml"
+    file.write_text("yes: Yes\n", encoding="utf-8")
+    assert load_words((tmp_path,)) == {"yes": "Yes"}
+    file.write_text("yes: Indeed\n", encoding="utf-8")
+    assert load_words((tmp_path,)) == {"yes": "Indeed"}
