@@ -24,6 +24,7 @@ lint: $(VENV)/.developing
 
 bench: $(VENV)/.developing
 	$(BIN)/python -m tests.bench
+	$(BIN)/python -m tests.bench.batch
 
 # The README's pictures: a page with a plan, and the kinematic scheme of each kind of machine.
 define PICTURES

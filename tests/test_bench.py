@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bench import measure, plain
+from bench import batch, measure, plain
 from bench.__main__ import Bench, Row, table
 from bench.closed_form import solve
 from bench.size import Size, size_of
@@ -157,3 +157,18 @@ def test_the_table_is_aligned() -> None:
         )
         == 1
     )
+
+
+def test_a_class_is_made_and_its_workers_memory_taken(tmp_path: Path) -> None:
+    group = batch.Class(tmp_path, students=2)
+    group.draw()
+    cost = group.reports(2)
+    assert cost.seconds > 0
+    # An interpreter with all libraries takes more than that; without /proc nothing is told.
+    assert cost.memory > 30 or not Path("/proc/self/status").exists()
+
+
+def test_the_efficiency_of_two_is_taken_round_by_round() -> None:
+    one = [measure.Cost(10.0, 1.0), measure.Cost(40.0, 1.0), measure.Cost(10.0, 1.0)]
+    two = [measure.Cost(6.25, 1.0), measure.Cost(25.0, 1.0), measure.Cost(5.0, 1.0)]
+    assert batch.efficiency(one, two) == pytest.approx(0.8)  # of 0.8, 0.8 and 1

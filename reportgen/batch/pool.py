@@ -21,6 +21,8 @@ from reportgen.batch.jobs import SYSTEM, Job, Outcome, run_job
 if TYPE_CHECKING:
     from multiprocessing.context import ForkServerContext, SpawnContext
 
+    _Context = ForkServerContext | SpawnContext
+
 Retried = Callable[[Job], None]
 Results = Generator[tuple[Job, Outcome], None, None]
 Pool = Callable[[Iterable[Job], Retried], Results]
@@ -50,10 +52,11 @@ class _Worker:
 
 
 def local(workers: int) -> Pool:
-    """A pool of so many processes."""
+    """A pool of so many processes; what they come from gets ready at once, beside whatever is done first."""
+    context = _context()
 
     def pool(jobs: Iterable[Job], retried: Retried) -> Results:
-        crew = _Crew(workers, jobs, retried)
+        crew = _Crew(context, workers, jobs, retried)
         try:
             yield from crew.results()
         finally:
@@ -65,13 +68,13 @@ def local(workers: int) -> Pool:
 class _Crew:
     """Workers, the tasks that wait for one, and who has which."""
 
-    def __init__(self, size: int, jobs: Iterable[Job], retried: Retried) -> None:
+    def __init__(self, context: _Context, size: int, jobs: Iterable[Job], retried: Retried) -> None:
         self.size = size
         self.waiting = deque(_Task(job) for job in jobs)
         self.retried = retried
         self.workers: dict[Connection, _Worker] = {}
         self.leaving: list[BaseProcess] = []
-        self.context = _context()
+        self.context = context
 
     def results(self) -> Results:
         self.give_work()
@@ -144,12 +147,16 @@ class _Crew:
                 process.join()
 
 
-def _context() -> ForkServerContext | SpawnContext:
+def _context() -> _Context:
     """New processes come from a server that has imported everything already, where the system allows it."""
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
+    from multiprocessing.forkserver import ensure_running
+
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(["reportgen.batch.warm"])
+    with _uninterrupted():
+        ensure_running()
     return context
 
 
