@@ -20,6 +20,7 @@ from reportgen.notation.numbers import Language
 if TYPE_CHECKING:
     from reportgen.analysis import Analysis
     from reportgen.document.tree import Document
+    from reportgen.ledger.report import Books
 
 Engine = Literal["typst", "latex"]
 SUFFIX = {"typst": ".typ", "latex": ".tex"}
@@ -57,18 +58,22 @@ def solve(assignment: Assignment, positions: int | None = None) -> dict[str, Any
     return results(chosen, analyse(chosen))
 
 
-def document(assignment: Assignment) -> Document:
-    """The report as a numbered tree, ready for any writer."""
-    from reportgen.document.outline import compose
+def keep_books(assignment: Assignment, analysis: Analysis) -> Books:
+    """The ledger of an analysis and its force plans, with the units of the assignment's language."""
     from reportgen.document.prose import search_path
     from reportgen.document.words import load_words
     from reportgen.ledger.report import keep
 
+    return keep(analysis, load_words(search_path(assignment.language, assignment.kind))["units"])
+
+
+def document(assignment: Assignment) -> Document:
+    """The report as a numbered tree, ready for any writer."""
+    from reportgen.document.outline import compose
+
     analysis = analyse(assignment)
-    language = assignment.language
-    units = load_words(search_path(language, assignment.kind))["units"]
-    title = catalogue.titles(language)[assignment.kind]
-    return compose(assignment, analysis, keep(analysis, units), title)
+    title = catalogue.titles(assignment.language)[assignment.kind]
+    return compose(assignment, analysis, keep_books(assignment, analysis), title)
 
 
 def build(

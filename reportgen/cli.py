@@ -197,7 +197,7 @@ def batch(
 ) -> None:
     """Make task, report or key of everybody on ROSTER; go on where an earlier run was stopped."""
     from reportgen.assignment.messages import word
-    from reportgen.batch.jobs import MAKERS
+    from reportgen.products import MAKERS
     from reportgen.batch.start import Order, start, told
 
     language = _language(lang) or "vi"

@@ -8,31 +8,21 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from pathlib import Path
 
-from reportgen import api, folders
+from reportgen import folders
 from reportgen.api import Engine
 from reportgen.assignment.messages import word
 from reportgen.errors import AssignmentError, Problem, ReportgenError
 from reportgen.notation.numbers import Language
+from reportgen.products import Maker
 from reportgen.version import version
 
-Maker = Callable[[Path, Engine, Language | None], Mapping[str, bytes]]
-"""Makes the files of one product, by name, of an assignment file."""
 SYSTEM = 3
 """Exit code of what no assignment can mend."""
-
-
-def report_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
-    """The complete report."""
-    return {"report.pdf": api.typeset(api.document(api.load(path, language)), engine)[1]}
-
-
-MAKERS: Mapping[str, Maker] = {"report": report_files}
-"""What a batch can make, by the name that `--make` takes."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,26 +33,35 @@ def matched(
     A stem is an id as `folder_name` spells it or as the roster does, whatever its case.  Raises
     `AssignmentError` for two files of one stem and for a folder that is none.
     """
-    if not folder.is_dir():
-        raise AssignmentError([as_problem(Fault("no-folder", Mark(str(folder))), language)])
-    files: dict[str, Path] = {}
-    faults: list[Fault] = []
-    for path in sorted(path for path in folder.rglob("*") if _is_assignment(path, folder)):
-        stem = _spelt(path.stem)
-        if stem in files:
-            faults.append(Fault("same-stem", Mark(str(path)), {"text": path.stem, "first": str(files[stem])}))
-        files.setdefault(stem, path)
-    if faults:
-        raise AssignmentError([as_problem(fault, language) for fault in faults])
+    files = assignment_files(folder, language)
     found = tuple(_assigned(student, files, language) for student in students)
     taken = {assigned.file for assigned in found}
     return found, tuple(path for path in files.values() if path not in taken)
 
 
+def assignment_files(folder: Path, language: Language) -> dict[str, Path]:
+    """The assignment files in a folder or below by their stems, in one spelling (NFC, case folded).
+
+    Raises `AssignmentError` for two files of one stem and for a folder that is none.
+    """
+    if not folder.is_dir():
+        raise AssignmentError([as_problem(Fault("no-folder", Mark(str(folder))), language)])
+    files: dict[str, Path] = {}
+    faults: list[Fault] = []
+    for path in sorted(path for path in folder.rglob("*") if _is_assignment(path, folder)):
+        stem = spelt(path.stem)
+        if stem in files:
+            faults.append(Fault("same-stem", Mark(str(path)), {"text": path.stem, "first": str(files[stem])}))
+        files.setdefault(stem, path)
+    if faults:
+        raise AssignmentError([as_problem(fault, language) for fault in faults])
+    return files
+
+
 def _assigned(student: Student, files: dict[str, Path], language: Language) -> Assigned:
     for stem in (student.folder, student.id):
-        if _spelt(stem) in files:
-            return Assigned(student, files[_spelt(stem)])
+        if spelt(stem) in files:
+            return Assigned(student, files[spelt(stem)])
     mark = replace(student.mark, file=Path(student.mark.file).name)
     return Assigned(student, None, as_problem(Fault("no-assignment", mark, {"text": student.id}), language))
 
@@ -62,5 +71,5 @@ def _is_assignment(path: Path, folder: Path) -> bool:
     return path.suffix.lower() in SUFFIXES and not hidden and path.is_file()
 
 
-def _spelt(stem: str) -> str:
+def spelt(stem: str) -> str:
     return unicodedata.normalize("NFC", unicodedata.normalize("NFC", stem).casefold())

@@ -14,13 +14,14 @@ from typing import TextIO
 from reportgen import api
 from reportgen.assignment.messages import word
 from reportgen.batch import manifest
-from reportgen.batch.jobs import SYSTEM, Job, Maker, Making, Outcome
+from reportgen.batch.jobs import SYSTEM, Job, Making, Outcome
 from reportgen.batch.manifest import Entry
 from reportgen.batch.matching import Assigned
 from reportgen.batch.pool import Pool
 from reportgen.batch.progress import Watch, watching
 from reportgen.errors import Problem
 from reportgen.notation.numbers import Language
+from reportgen.products import Maker
 
 NO_ROOM = frozenset({errno.ENOSPC, errno.EROFS, errno.EIO, getattr(errno, "EDQUOT", errno.ENOSPC)})
 """What would meet every other student, too."""

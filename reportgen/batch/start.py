@@ -10,7 +10,7 @@ from typing import TextIO
 
 from reportgen.api import Engine
 from reportgen.assignment.messages import word
-from reportgen.batch.jobs import MAKERS, Maker, making
+from reportgen.batch.jobs import making
 from reportgen.batch.matching import Assigned, matched
 from reportgen.batch.pool import Pool, local
 from reportgen.batch.roster import Roster, read_roster
@@ -18,6 +18,7 @@ from reportgen.batch.run import Result, held, run, sweep
 from reportgen.batch.variants import make_variants
 from reportgen.errors import Problem
 from reportgen.notation.numbers import Language
+from reportgen.products import MAKERS, Maker
 
 DRAWN = "assignments"
 """The folder, among the results, of the assignment files that are drawn."""

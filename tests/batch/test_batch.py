@@ -19,12 +19,13 @@ from reportgen import api
 from reportgen.api import Engine
 from reportgen.batch import pool as pools
 from reportgen.batch import progress
-from reportgen.batch.jobs import MAKERS, Job, making, run_job
+from reportgen.batch.jobs import Job, making, run_job
 from reportgen.batch.pool import local
 from reportgen.batch.run import held
 from reportgen.batch.start import Order, start
 from reportgen.errors import AssignmentError
 from reportgen.notation.numbers import Language
+from reportgen.products import MAKERS
 from tests.batch.classes import Batch, tree, write_class
 from tests.batch.little import little
 

@@ -14,9 +14,9 @@ from typing import Any
 import pytest
 
 from reportgen.batch.cluster import ClusterError, cluster
-from reportgen.batch.jobs import MAKERS
 from reportgen.batch.pool import Results
 from reportgen.batch.start import Order, start
+from reportgen.products import MAKERS
 from tests.batch.classes import Batch, tree, write_class
 
 ROOT = Path(__file__).parents[2]

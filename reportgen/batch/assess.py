@@ -1,0 +1,131 @@
+"""A whole class marked: filled sheets in, each student's own sheet and feedback back, grades and the class page.
+
+One sheet that cannot be read never stops the others; nobody's data goes into another's files.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from reportgen import api, catalogue
+from reportgen.answers.key import Key
+from reportgen.api import Engine
+from reportgen.assignment.faults import Fault
+from reportgen.assignment.messages import as_problem
+from reportgen.batch.matching import assignment_files, spelt
+from reportgen.batch.names import folder_name
+from reportgen.errors import AssignmentError, Mark, Problem, ReportgenError
+from reportgen.grading.class_page import class_document
+from reportgen.grading.feedback import feedback_book
+from reportgen.grading.feedback_document import feedback_document
+from reportgen.grading.grades import grade_rows
+from reportgen.grading.guide import Guide, open_guide
+from reportgen.grading.marking import mark
+from reportgen.grading.marks import Marking
+from reportgen.grading.policy import Policy
+from reportgen.grading.submission import read_submission
+from reportgen.notation.numbers import Language
+from reportgen.workbook import write_csv, write_xlsx
+
+SUBMISSIONS = frozenset({".xlsx", ".csv"})
+
+
+@dataclass(frozen=True)
+class Classroom:
+    """The assignments of a class by the stem of their files, opened for marking (and kept) when they are needed."""
+
+    files: Mapping[str, Path]
+    policy: Policy
+    language: Language | None
+    opened: dict[str, Guide] = field(default_factory=dict)
+
+    def guide(self, name: str) -> Guide:
+        """The marking guide of an assignment.  Raises `KeyError` for a name that no file has."""
+        stem = spelt(name)
+        if stem not in self.opened:
+            self.opened[stem] = open_guide(api.load(self.files[stem], self.language), self.policy)
+        return self.opened[stem]
+
+    @cached_property
+    def keys(self) -> tuple[Key, ...]:
+        """The keys of all assignments that are in order."""
+        found = []
+        for name in self.files:
+            try:
+                found.append(self.guide(name).key)
+            except ReportgenError:
+                # Nobody's sheet can come from an assignment that cannot be worked out.
+                continue
+        return tuple(found)
+
+
+@dataclass(frozen=True)
+class Graded:
+    """What marking a class gave: markings by assignment, faults of sheets, keys of those who handed nothing in."""
+
+    markings: tuple[Marking, ...]
+    problems: tuple[Problem, ...]
+    missing: tuple[Key, ...]
+
+
+def grade(
+    submissions: Sequence[Path], assignments: Path, policy: Policy, language: Language | None = None
+) -> Graded:
+    """Mark the sheets of files and folders; raises `AssignmentError` if `assignments` is at fault."""
+    room = Classroom(assignment_files(assignments, language or "vi"), policy, language)
+    markings: dict[str, Marking] = {}
+    problems: list[Problem] = []
+    for path in found(submissions, language or "vi", problems):
+        try:
+            submission = read_submission(path, lambda name: room.guide(name).key, language or "vi")
+            if submission.assignment in markings:
+                first = markings[submission.assignment].submission.file
+                fault = Fault("sheet-twice", Mark(str(path)), {"text": submission.assignment, "first": first})
+                problems.append(as_problem(fault, language or "vi"))
+                continue
+            guide = room.guide(submission.assignment)
+            classmates = room.keys if policy.guard else ()
+            markings[submission.assignment] = mark(guide, submission, classmates)
+        except AssignmentError as fault:
+            problems += fault.problems
+    missing = tuple(key for key in room.keys if key.id not in markings)
+    order = {name: index for index, name in enumerate(room.files)}
+    marked = sorted(markings.values(), key=lambda marking: order[spelt(marking.key.id)])
+    return Graded(tuple(marked), tuple(problems), missing)
+
+
+def found(paths: Sequence[Path], language: Language, problems: list[Problem]) -> Iterator[Path]:
+    """The answer sheets among files and in folders; what a spreadsheet keeps open beside them is none."""
+    for path in paths:
+        if path.is_dir():
+            inside = sorted(one for one in path.rglob("*") if one.suffix.lower() in SUBMISSIONS and one.is_file())
+            yield from (one for one in inside if not one.name.startswith((".", "~$")))
+        elif path.exists():
+            yield path
+        else:
+            problems.append(as_problem(Fault("unreadable", Mark(str(path)), {"reason": "FileNotFoundError"}), language))
+
+
+def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language | None) -> Iterator[tuple[Path, bytes]]:
+    """Every file of a graded class with its content: two for each student, two for the instructor."""
+    for marking in graded.markings:
+        folder = Path(_folder(marking.key))
+        yield folder / "feedback.xlsx", write_xlsx(feedback_book(marking, policy.show_answers))
+        title = catalogue.titles(marking.key.language)[marking.key.kind]
+        tree = feedback_document(marking, title, policy.show_answers)
+        yield folder / "feedback.pdf", api.typeset(tree, engine)[1]
+    if not graded.markings:
+        return
+    spoken = language or graded.markings[0].key.language
+    yield Path("grades.csv"), write_csv(grade_rows(graded.markings, spoken, graded.missing))
+    title = catalogue.titles(spoken)[graded.markings[0].key.kind]
+    page = class_document(graded.markings, title, spoken, graded.missing)
+    yield Path("class.pdf"), api.typeset(page, engine)[1]
+
+
+def _folder(key: Key) -> str:
+    """The folder of a student's results: as the batch names it, or the assignment's own stem."""
+    return folder_name(key.student["id"]) if "id" in key.student else key.id

@@ -1,0 +1,64 @@
+"""A student's own check before handing in: where the sheet first leaves the assignment, without marks or answers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from reportgen.answers.sheet import symbol_text, words_of
+from reportgen.grading.guide import Guide
+from reportgen.grading.marks import Marked, Marking, Verdict
+
+NEAREST = 4
+"""How many of the quantities that one is worked out from are named."""
+
+
+def told(guide: Guide, marking: Marking, hint: bool = False) -> Iterator[str]:
+    """A line for each first divergence, with the cell it stands in; `hint` adds where to look, never the answer."""
+    words = words_of(marking.key)["compare"]
+    for problem in marking.submission.problems.values():
+        yield str(problem)
+    counted = {verdict: sum(cell.verdict is verdict for cell in marking.cells) for verdict in Verdict}
+    for cell in marking.firsts:
+        given = marking.submission.values[(cell.id, cell.position)]
+        yield words["first"].format(mark=given.mark, symbol=_named(marking, cell), text=given.text)
+        if hint:
+            yield f"    {_hint(guide, marking, cell)}"
+    later = counted[Verdict.wrong] - len(marking.firsts)
+    if later:
+        yield words["later"].format(count=later)
+    if counted[Verdict.follows]:
+        yield words["follows"].format(count=counted[Verdict.follows])
+    if counted[Verdict.blank]:
+        yield words["blank"].format(count=counted[Verdict.blank])
+    if not diverges(marking):
+        yield words["agrees"].format(count=counted[Verdict.right])
+
+
+def diverges(marking: Marking) -> bool:
+    """Whether a value is wrong or cannot be read; a blank one is neither."""
+    return bool(marking.submission.problems) or any(
+        cell.verdict in (Verdict.wrong, Verdict.follows) for cell in marking.cells
+    )
+
+
+def _hint(guide: Guide, marking: Marking, cell: Marked) -> str:
+    """The mistake by name; else what the value is worked out from, and whether it is too large."""
+    words = words_of(marking.key)
+    if cell.mistake:
+        where = marking.key.find(cell.where)
+        symbol = symbol_text(where, marking.key) if where else _named(marking, cell)
+        return str(words["mistakes"][cell.mistake]).format(symbol=symbol)
+    assert cell.given is not None, "only a given value diverges"
+    size = words["compare"]["larger" if abs(cell.given) > abs(cell.own) else "smaller"]
+    shown = (marking.key.find(id) for id in guide.before[cell.id])
+    nearest = [symbol_text(row, marking.key) for row in shown if row is not None][:NEAREST]
+    return f"{size} {words['compare']['from'].format(symbols=', '.join(dict.fromkeys(nearest)))}" if nearest else size
+
+
+def _named(marking: Marking, cell: Marked) -> str:
+    """A quantity's symbol, with its position unless it is the same at all."""
+    words, row = words_of(marking.key)["compare"], marking.key.row(cell.id)
+    symbol = symbol_text(row, marking.key)
+    if cell.position == 0:
+        return symbol
+    return str(words["at"].format(symbol=symbol, label=marking.key.labels[cell.position - 1]))

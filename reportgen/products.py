@@ -1,0 +1,92 @@
+"""What is made of one assignment file: the report, the student's task, the key; each as files by name.
+
+Every maker is a function of the file, the typesetter and the language alone, so that it can run anywhere.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from reportgen import api, catalogue
+from reportgen.analysis import Analysis
+from reportgen.answers.key import Key, make_key
+from reportgen.api import Engine
+from reportgen.assignment import Assignment
+from reportgen.ledger.report import Books
+from reportgen.notation.numbers import Language
+
+Maker = Callable[[Path, Engine, Language | None], Mapping[str, bytes]]
+"""Makes the files of one product, by name, of an assignment file."""
+
+KEY_FORMATS = ("pdf", "xlsx", "csv", "json")
+
+
+@dataclass(frozen=True)
+class Opened:
+    """An assignment with all that is computed of it once."""
+
+    assignment: Assignment
+    analysis: Analysis
+    books: Books
+    title: str
+
+    @property
+    def key(self) -> Key:
+        return make_key(self.assignment, self.analysis, self.books.ledger)
+
+
+def opened(path: Path, language: Language | None = None) -> Opened:
+    """The assignment of a file, computed; raises `AssignmentError`, `TemplateError`."""
+    assignment = api.load(path, language)
+    analysis = api.analyse(assignment)
+    title = catalogue.titles(assignment.language)[assignment.kind]
+    return Opened(assignment, analysis, api.keep_books(assignment, analysis), title)
+
+
+def report_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
+    """The complete report."""
+    return {"report.pdf": api.typeset(api.document(api.load(path, language)), engine)[1]}
+
+
+def task_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
+    """The student's handout, and the answer sheet to fill in; no answer is in them."""
+    from reportgen.answers.sheet import answer_book
+    from reportgen.answers.task import task
+    from reportgen.workbook import write_xlsx
+
+    one = opened(path, language)
+    key = one.key
+    tree = task(one.assignment, one.analysis, one.books, one.title, key)
+    return {"task.pdf": api.typeset(tree, engine)[1], "answers.xlsx": write_xlsx(answer_book(key))}
+
+
+def key_files(
+    path: Path, engine: Engine, language: Language | None, formats: Sequence[str] = ("pdf", "xlsx")
+) -> Mapping[str, bytes]:
+    """The answer key in some of `KEY_FORMATS`."""
+    from reportgen.answers.key_document import key_document
+    from reportgen.answers.key_json import key_data
+    from reportgen.answers.key_tables import key_book, key_rows
+    from reportgen.workbook import write_csv, write_xlsx
+
+    one = opened(path, language)
+    key = one.key
+
+    def data() -> bytes:
+        text = json.dumps(key_data(key), ensure_ascii=False, allow_nan=False, indent=1)
+        return f"{text}\n".encode()
+
+    makers: Mapping[str, Callable[[], bytes]] = {
+        "pdf": lambda: api.typeset(key_document(key, one.title), engine)[1],
+        "xlsx": lambda: write_xlsx(key_book(key)),
+        "csv": lambda: write_csv(key_rows(key)),
+        "json": data,
+    }
+    return {f"key.{name}": makers[name]() for name in formats}
+
+
+MAKERS: Mapping[str, Maker] = {"task": task_files, "report": report_files, "key": key_files}
+"""What a batch can make, by the name that `--make` takes."""
