@@ -54,6 +54,8 @@ _RATIO = re.compile(rf"({NUMBER})\s*(?:/\s*({NUMBER}))?")
 _COMMA = re.compile(r"([+-]?[0-9]+),([0-9].*)", re.DOTALL)
 _NOT_FINITE = re.compile(r"[+-]?\.?(?:inf|infinity|nan)\b.*", re.IGNORECASE | re.DOTALL)
 _LONGEST = 60
+_TOWER = re.compile(r"[0-9]{2}|[0-9²³⁴¹][\s)]*(?:\^|\*\s*\*|[²³⁴⁻¹])")
+"""Powers no unit has: of two digits, or of a power, which take for ever to work out (m^9^9^9)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +130,7 @@ def scale(unit: str) -> tuple[float, Dimension]:
 @cache
 def scale_by_pint(unit: str) -> tuple[float, Dimension]:
     """As `scale`, always by pint; `m2`, `m²`, `kg·m2` and `kg.m2` are understood."""
-    if not re.fullmatch(UNIT, unit) or len(unit) > _LONGEST or re.search(r"[0-9]{2}", unit):
+    if not re.fullmatch(UNIT, unit) or len(unit) > _LONGEST or _TOWER.search(unit):
         raise ValueError(unit)
     spelled = re.sub(r"(?<=[A-Za-z)])\s*[.·⋅]\s*(?=[A-Za-z(])", " ", unit)
     spelled = re.sub(r"(?<=[A-Za-zµμΩ])(?=[+-]?[0-9])", "**", spelled)

@@ -9,6 +9,8 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from openpyxl import load_workbook
 
 from reportgen.answers.key import Key
@@ -94,6 +96,14 @@ def test_a_number_is_read_as_it_is_meant(text: str, unit: str, value: float) -> 
         ("5 xyz", "m", "unknown-unit"),
         ("5 m; rm -rf", "m", "unknown-unit"),
         ("3 mm", "", "unexpected-unit"),
+        # Worked out, these would take for ever.
+        ("1 m^9^9^9", "m", "unknown-unit"),
+        ("1 m^(9**9**9)", "m", "unknown-unit"),
+        ("1 (m^9)^9", "m", "unknown-unit"),
+        ("1 m9^9^9^9", "m", "unknown-unit"),
+        ("1 m^9⁴⁴⁴⁴⁴⁴⁴⁴", "m", "unknown-unit"),
+        ("1 m⁴⁴⁴⁴⁴⁴⁴^4", "m", "unknown-unit"),
+        ("1 m* *9* *9* *9", "m", "unknown-unit"),
     ],
 )
 def test_what_is_no_number_of_the_kind_says_why(text: str, unit: str, code: str) -> None:
@@ -113,6 +123,19 @@ def test_one_mark_before_three_digits_is_read_by_the_sheets_other_numbers() -> N
     assert decimal_mark(["1.234", "2,345"], "vi") == (",", False)
     assert decimal_mark(["0.5", "0,5"], "en") == (".", False)
     assert decimal_mark(["0,123", "word", "1.234,5"], "en") == (",", True)
+
+
+@given(
+    st.text(alphabet="0123456789.,eE+-−–·×xX*^()/ °%'²³⁻¹mNskgradvgphdộ\u00a0\n=≈", max_size=70)
+    | st.text(max_size=20)
+)
+def test_any_text_is_a_finite_number_or_a_fault(text: str) -> None:
+    for unit in ("m/s", ""):
+        try:
+            assert math.isfinite(read_written(text, unit, ",").value)
+        except QuantityFault as fault:
+            assert fault.code in {"not-a-number", "not-finite", "wrong-unit", "unknown-unit", "unexpected-unit"}
+    assert decimal_mark([text], "vi")[0] in (".", ",")
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -144,7 +167,7 @@ def filled(tmp_path: Path, key: Key, values: dict[tuple[str, int], object], name
 
 
 def numbers(submission: Submission) -> dict[tuple[str, int], float]:
-    return {place: given.value for place, given in submission.values.items()}
+    return {place: one.value for place, one in submission.values.items()}
 
 
 def test_values_are_found_by_id_and_position(tmp_path: Path) -> None:
