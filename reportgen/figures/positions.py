@@ -93,7 +93,9 @@ def positions(
         items.append(Polyline(tuple(complex(p) for p in curve), PATH))
     requests = [_path_name(name, dense, scale, looks) for name in shows.paths]
     if shows.emphasised is not None and every[shows.emphasised].reached:
-        items += _links(every[shows.emphasised], HEAVY)
+        bones = every[shows.emphasised]
+        items += _links(bones, HEAVY, shows.paths)
+        items += [item for name in shows.paths for item in symbols.point(bones.points[name])]
     pivots = reached[0].pivots if reached else ()
     for name in pivots:
         items += symbols.pivot(reached[0].points[name])
@@ -161,10 +163,12 @@ def _axes(bones: Skeleton) -> list[Item]:
     return lines
 
 
-def _links(bones: Skeleton, pen: Stroke) -> list[Item]:
+def _links(bones: Skeleton, pen: Stroke, further: Sequence[str] = ()) -> list[Item]:
+    """Bars between the joints of each link; a plate where one of its `further` points lies off them."""
     result: list[Item] = []
-    for names in bones.bars.values():
-        result += symbols.body([bones.points[name] for name in names], pen, None)
+    for link, names in bones.bars.items():
+        own = [*names, *(name for name in further if bones.owners.get(name) == link and name not in names)]
+        result += symbols.body([bones.points[name] for name in own], pen, None)
     for slide in bones.slides:
         if slide.on != GROUND:
             result.append(Line(slide.low, slide.high, pen))

@@ -5,12 +5,14 @@ from __future__ import annotations
 import pytest
 
 from reportgen.figures.labels import overlaps
+from reportgen.figures.positions import PositionPlan, position_plan
 from reportgen.figures.scene import Circle, Label, Line, Polyline, Scene
 from reportgen.figures.scheme import Looks, groups, scheme
+from reportgen.figures.style import HEAVY
 from reportgen.figures.symbols import POINT, body
 from reportgen.mechanism.structure import Crank, Dyad, Linkage, LinkPoint
 from reportgen.notation.symbols import point
-from tests.figures.machines import at_positions
+from tests.figures.machines import at_positions, dense
 
 PER_METRE = 300.0
 COUPLER = 0.15 + 0.11j
@@ -60,3 +62,15 @@ def test_a_plate_goes_round_all_its_points() -> None:
     (plate,) = body([0j, 4 + 0j, 1 + 1j, 2 + 0j, 4 + 4j, 4j])
     assert isinstance(plate, Polyline)
     assert set(plate.points) == {0j, 4 + 0j, 4 + 4j, 4j}
+
+
+def test_the_position_drawn_heavy_shows_the_points_whose_paths_are_drawn() -> None:
+    motion = at_positions(LINKAGE)
+    drawn = position_plan(LINKAGE, motion, dense(LINKAGE), PER_METRE, PositionPlan(("B", "C"), ("E", "K"), 2))
+    e, k = (complex(motion.points[name].p[2]) for name in "EK")
+    first, second = dots(drawn)
+    assert abs(first - second) == pytest.approx(PER_METRE * abs(e - k))
+    heavy = [item for item in drawn.items if isinstance(item, Polyline) and item.closed and item.stroke == HEAVY]
+    assert len(heavy) == 1
+    assert min(abs(corner - first) for corner in heavy[0].points) < 1e-9
+    assert overlaps(drawn) == []
