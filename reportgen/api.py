@@ -92,7 +92,7 @@ def build(
     tree = document(assignment)
     source, pdf = typeset(tree, engine)
     target = Path(out) / assignment.id / "report.pdf"
-    with _reported():
+    with reported():
         target.parent.mkdir(parents=True, exist_ok=True)
         if keep_source:
             replace(target.with_suffix(SUFFIX[engine]), source.encode())
@@ -134,7 +134,7 @@ def _umask() -> int:
 
 
 @contextmanager
-def _reported() -> Iterator[None]:
+def reported() -> Iterator[None]:
     """A full disk or a forbidden folder is a fault in one line."""
     try:
         yield

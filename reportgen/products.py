@@ -90,3 +90,12 @@ def key_files(
 
 MAKERS: Mapping[str, Maker] = {"task": task_files, "report": report_files, "key": key_files}
 """What a batch can make, by the name that `--make` takes."""
+
+
+def put(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
+    """Write the files of a product, each in one step; raises `OutputError`."""
+    with api.reported():
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, content in files.items():
+            api.replace(folder / name, content)
+    return [folder / name for name in files]

@@ -14,7 +14,7 @@ from reportgen import api, catalogue
 from reportgen.answers.key import Key
 from reportgen.api import Engine
 from reportgen.assignment.faults import Fault
-from reportgen.assignment.messages import as_problem
+from reportgen.assignment.messages import as_problem, word
 from reportgen.batch.matching import assignment_files, spelt
 from reportgen.batch.names import folder_name
 from reportgen.errors import AssignmentError, Mark, Problem, ReportgenError
@@ -124,6 +124,27 @@ def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language 
     title = catalogue.titles(spoken)[graded.markings[0].key.kind]
     page = class_document(graded.markings, title, spoken, graded.missing)
     yield Path("class.pdf"), api.typeset(page, engine)[1]
+
+
+def put(
+    graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None
+) -> Iterator[Path]:
+    """Write every file of a graded class below `out`, each in one step; raises `OutputError`."""
+    for name, content in files_of(graded, policy, engine, language):
+        with api.reported():
+            (out / name).parent.mkdir(parents=True, exist_ok=True)
+            api.replace(out / name, content)
+        yield out / name
+
+
+def told(graded: Graded, language: Language) -> Iterator[str]:
+    """A line for each student marked, and how many handed nothing in."""
+    for marking in graded.markings:
+        yield word("graded", language).format(
+            id=marking.key.id, points=f"{marking.points:g}", out_of=f"{marking.out_of:g}", firsts=len(marking.firsts)
+        )
+    if graded.missing:
+        yield word("graded_missing", language).format(count=len(graded.missing))
 
 
 def _folder(key: Key) -> str:

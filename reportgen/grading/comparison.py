@@ -3,13 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 from reportgen.answers.sheet import symbol_text, words_of
-from reportgen.grading.guide import Guide
+from reportgen.catalogue import load
+from reportgen.grading.guide import Guide, open_guide
+from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marked, Marking, Verdict
+from reportgen.grading.policy import Policy
+from reportgen.grading.submission import read_submission
+from reportgen.notation.numbers import Language
 
 NEAREST = 4
 """How many of the quantities that one is worked out from are named."""
+
+
+def compare(
+    file: Path, sheet: Path, hint: bool = False, language: Language | None = None
+) -> tuple[tuple[str, ...], bool]:
+    """What a sheet has to be told of its assignment, line by line, and whether it agrees as far as it is filled in.
+
+    Raises `AssignmentError` if the assignment or the sheet cannot be read.
+    """
+    assignment = load(file, language)
+    guide = open_guide(assignment if language is None else assignment.with_language(language), Policy(guard=False))
+    marking = mark(guide, read_submission(sheet, guide.key, guide.key.language))
+    return tuple(told(guide, marking, hint)), not diverges(marking)
 
 
 def told(guide: Guide, marking: Marking, hint: bool = False) -> Iterator[str]:

@@ -1,0 +1,28 @@
+"""The command line: parse, call, print, end with the right code; no logic of its own.
+
+Exit codes: 0 done · 1 an input file is at fault · 2 wrong usage · 3 the typesetter or the system failed.
+"""
+
+from __future__ import annotations
+
+import io
+import sys
+
+from reportgen.cli import instructor, student
+from reportgen.cli.common import SYSTEM, app, unexpected
+
+__all__ = ["app", "instructor", "main", "student"]
+
+
+def main() -> None:
+    """Entry point of the `reportgen` command."""
+    for stream in (sys.stdout, sys.stderr):
+        # Vietnamese must not fail on a terminal or pipe of another encoding.
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+    try:
+        app()
+    except Exception as fault:
+        unexpected(fault)
+        sys.exit(SYSTEM)
+

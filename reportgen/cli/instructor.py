@@ -1,0 +1,158 @@
+"""Commands about a whole class: variants, papers, keys, marks."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from reportgen.cli.common import (
+    AT_FAULT,
+    INTERRUPTED,
+    Engine,
+    Files,
+    LangOption,
+    app,
+    complain,
+    ending,
+    language,
+    refuse_same_names,
+    typesetter,
+)
+
+
+@app.command()
+def variants(
+    spec: Annotated[Path, typer.Argument(metavar="SPEC", help="Assignment file with choices.", show_default=False)],
+    roster: Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)],
+    out: Annotated[
+        Path, typer.Option("-o", "--out", metavar="DIR", help="Folder of the assignment files.")
+    ] = Path("out/variants"),
+    force: Annotated[bool, typer.Option("--force", help="Also replace files edited by hand.")] = False,
+    lang: LangOption = None,
+) -> None:
+    """Draw a variant for each student of ROSTER and freeze it into DIR/<id>.yaml."""
+    from reportgen.batch.variants import make_variants
+
+    with ending(lang) as outcome:
+        made = make_variants(spec, roster, out, force, language(lang))
+        print(*(file.path for file in made.files), "", *made.summary, sep="\n")
+        print(*made.remarks, sep="\n", end="\n" * bool(made.remarks), file=sys.stderr)
+    raise typer.Exit(outcome.code)
+
+
+@app.command()
+def batch(
+    roster: Annotated[
+        Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)
+    ],
+    spec: Annotated[
+        Path | None,
+        typer.Option("--spec", metavar="SPEC.yaml", help="Draw the variants of this.", show_default=False),
+    ] = None,
+    assignments: Annotated[
+        Path | None,
+        typer.Option("--assignments", metavar="DIR", help="Assignment files by id.", show_default=False),
+    ] = None,
+    make: Annotated[str, typer.Option("--make", help="What to make, parted by commas.")] = "report",
+    jobs: Annotated[
+        int | None, typer.Option("--jobs", metavar="N", min=1, help="Processes.", show_default="one a core")
+    ] = None,
+    engine: Annotated[Engine, typer.Option("--engine", help="Typesetter.")] = Engine.typst,
+    lang: LangOption = None,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out"),
+    cluster: Annotated[
+        str | None,
+        typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler to work for us."),
+    ] = None,
+) -> None:
+    """Make task, report or key of everybody on ROSTER; go on where an earlier run was stopped."""
+    from reportgen.assignment.messages import word
+    from reportgen.batch.start import Order, start, told
+    from reportgen.products import MAKERS
+
+    spoken = language(lang) or "vi"
+    products = tuple(dict.fromkeys(name.strip() for name in make.split(",")))
+    if (spec is None) == (assignments is None):
+        raise typer.BadParameter(word("one_of_spec", spoken))
+    for name in products:
+        if name not in MAKERS:
+            raise typer.BadParameter(
+                word("no_product", spoken).format(text=name, known=", ".join(MAKERS)), param_hint="--make"
+            )
+    order = Order(
+        roster, spec, assignments, out, products, typesetter(engine), language(lang), jobs or 0, cluster
+    )
+    with ending(lang) as outcome:
+        try:
+            done = start(order, sys.stderr)
+        except KeyboardInterrupt:
+            complain("batch_stopped", lang)
+            raise typer.Exit(INTERRUPTED) from None
+        print(*told(done, spoken), sep="\n", file=sys.stderr)
+        print(done.result.manifest, flush=True)
+        outcome.code = done.result.exit_code
+    raise typer.Exit(outcome.code)
+
+
+@app.command()
+def key(
+    files: Files,
+    format: Annotated[
+        str, typer.Option("--format", metavar="LIST", help="Of pdf, xlsx, csv, json; parted by commas.")
+    ] = "pdf,xlsx",
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the keys.")] = Path("out"),
+    engine: Annotated[Engine, typer.Option("--engine", help="Typesetter.")] = Engine.typst,
+    lang: LangOption = None,
+) -> None:
+    """Write the answer key of each FILE to DIR/<id>/: every value with the bands within which it is right."""
+    from reportgen import products
+    from reportgen.assignment.messages import word
+
+    refuse_same_names(files, language(lang))
+    formats = tuple(dict.fromkeys(name.strip() for name in format.split(",")))
+    for name in formats:
+        if name not in products.KEY_FORMATS:
+            known = ", ".join(products.KEY_FORMATS)
+            text = word("no_format", language(lang) or "vi").format(text=name, known=known)
+            raise typer.BadParameter(text, param_hint="--format")
+    code = 0
+    for file in files:
+        with ending(lang) as outcome:
+            made = products.key_files(file, typesetter(engine), language(lang), formats)
+            print(*products.put(out / file.stem, made), sep="\n", flush=True)
+        code = max(code, outcome.code)
+    raise typer.Exit(code)
+
+
+@app.command()
+def grade(
+    submissions: Annotated[
+        list[Path],
+        typer.Argument(metavar="SUBMISSION", help="Filled answer sheets, or folders of them.", show_default=False),
+    ],
+    assignments: Annotated[
+        Path, typer.Option("--assignments", metavar="DIR", help="The class's assignment files.", show_default=False)
+    ],
+    policy: Annotated[
+        Path | None, typer.Option("--policy", metavar="FILE", help="How to mark.", show_default=False)
+    ] = None,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out/marked"),
+    engine: Annotated[Engine, typer.Option("--engine", help="Typesetter.")] = Engine.typst,
+    lang: LangOption = None,
+) -> None:
+    """Mark filled answer sheets from each student's own values; write feedback, grades.csv and the class page."""
+    from reportgen.batch import assess
+    from reportgen.grading.policy import Policy, read_policy
+
+    with ending(lang) as outcome:
+        rules = Policy() if policy is None else read_policy(policy, language(lang))
+        graded = assess.grade(submissions, assignments, rules, language(lang))
+        for path in assess.put(graded, rules, out, typesetter(engine), language(lang)):
+            print(path, flush=True)
+        print(*assess.told(graded, language(lang) or "vi"), sep="\n")
+        print(*graded.problems, sep="\n", end="\n" * bool(graded.problems), file=sys.stderr)
+        outcome.code = AT_FAULT if graded.problems else 0
+    raise typer.Exit(outcome.code)

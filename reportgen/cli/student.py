@@ -1,0 +1,146 @@
+"""Commands about one assignment: check it, solve it, report it."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from reportgen.cli.common import (
+    AT_FAULT,
+    Engine,
+    File,
+    Files,
+    LangOption,
+    app,
+    ending,
+    language,
+    refuse_same_names,
+    typesetter,
+    write,
+)
+
+
+@app.command()
+def build(
+    files: Files,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the reports.")] = Path("out"),
+    engine: Annotated[Engine, typer.Option("--engine", help="Typesetter.")] = Engine.typst,
+    lang: LangOption = None,
+    keep_source: Annotated[
+        bool, typer.Option("--keep-source", help="Also leave the source with its figures.")
+    ] = False,
+) -> None:
+    """Write the complete report of each FILE to DIR/<id>/report.pdf."""
+    refuse_same_names(files, language(lang))
+    from reportgen import api
+
+    code = 0
+    for file in files:
+        with ending(lang) as outcome:
+            print(api.build(file, out, typesetter(engine), language(lang), keep_source), flush=True)
+        code = max(code, outcome.code)
+    raise typer.Exit(code)
+
+
+@app.command()
+def solve(
+    file: File,
+    positions: Annotated[
+        int | None,
+        typer.Option(
+            "--positions", metavar="N", min=4, max=360, help="Positions a turn.", show_default=False
+        ),
+    ] = None,
+    json_file: Annotated[
+        Path | None,
+        typer.Option("--json", metavar="FILE|-", help="Write the results as JSON.", show_default=False),
+    ] = None,
+    lang: LangOption = None,
+) -> None:
+    """Compute motion, forces and torque; print readable tables, or JSON in SI units."""
+    from reportgen import api
+    from reportgen.tables import print_tables
+
+    with ending(lang) as outcome:
+        assignment = api.load(file, language(lang))
+        results = api.solve(assignment, positions)
+        if json_file is None:
+            print_tables(results, assignment.language)
+        else:
+            text = json.dumps(results, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
+            write(json_file, text)
+    raise typer.Exit(outcome.code)
+
+
+@app.command()
+def check(files: Files, lang: LangOption = None) -> None:
+    """Validate each FILE; silent when all is well."""
+    from reportgen import api
+
+    problems = [problem for file in files for problem in api.check(file, language(lang))]
+    for problem in problems:
+        print(problem, file=sys.stderr)
+    raise typer.Exit(AT_FAULT if problems else 0)
+
+
+@app.command()
+def new(
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="A kind of machine, see `kinds`.")],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write here.", show_default=False)
+    ] = None,
+    lang: LangOption = None,
+) -> None:
+    """Print a commented assignment file to fill in."""
+    from reportgen import catalogue
+    from reportgen.assignment.messages import word
+
+    spoken = language(lang) or "vi"
+    if kind not in catalogue.MODULES:
+        known = ", ".join(catalogue.MODULES)
+        raise typer.BadParameter(word("no_kind", spoken).format(kind=kind, known=known))
+    with ending(lang) as outcome:
+        write(output or Path("-"), catalogue.sample(kind, spoken))
+    raise typer.Exit(outcome.code)
+
+
+@app.command()
+def kinds(lang: LangOption = None) -> None:
+    """List the machines that are known, a line each."""
+    from reportgen import catalogue
+
+    titles = catalogue.titles(language(lang) or "vi")
+    width = max(map(len, titles))
+    for kind, title in titles.items():
+        print(f"{kind:{width}}  {title}")
+
+
+@app.command()
+def schema() -> None:
+    """Print the JSON Schema of the assignment file, for editors."""
+    from reportgen import catalogue
+
+    print(json.dumps(catalogue.schema(), ensure_ascii=False, indent=2))
+
+
+@app.command()
+def compare(
+    file: File,
+    sheet: Annotated[
+        Path, typer.Argument(metavar="SHEET", help="Your filled answer sheet, XLSX or CSV.", show_default=False)
+    ],
+    hint: Annotated[bool, typer.Option("--hint", help="Also say where to look.")] = False,
+    lang: LangOption = None,
+) -> None:
+    """Check your own SHEET before handing it in: where it first leaves the assignment, without answers."""
+    from reportgen.grading.comparison import compare as compared
+
+    with ending(lang) as outcome:
+        lines, agrees = compared(file, sheet, hint, language(lang))
+        print(*lines, sep="\n")
+        outcome.code = 0 if agrees else AT_FAULT
+    raise typer.Exit(outcome.code)
