@@ -251,7 +251,7 @@ def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
         Item("l.AB", Symbol("l", "AB"), "length", definition=Ref("R")),
         Item("l.BC", Symbol("l", "BC"), "length", definition=Ref("L")),
         Item("l.BS2", Symbol("l", "BS2"), "length", definition=multiply("s", "L")),
-        Item("drawn.AB", Symbol("AB", over="segment"), "segment", crank.si if crank else CRANK_DRAWN),
+        *_drawn(given, crank),
         Item("F", Symbol("F"), "area", definition=divide(multiply(PI, power("D", 2)), 4)),
     ]
     for link in (1, 2, 3):
@@ -269,8 +269,20 @@ def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
     return tuple(items)
 
 
+def _drawn(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
+    """The crank's drawn length: as asked for, else about `CRANK_DRAWN` by a scale of two figures."""
+    symbol = Symbol("AB", over="segment")
+    if crank is not None:
+        return (Item("drawn.AB", symbol, "segment", crank.si),)
+    scale = float(f"{given.lengths[0] / CRANK_DRAWN:.1e}")
+    return (
+        Item("scale", Symbol("μ", "l"), "length scale", scale),
+        Item("drawn.AB", symbol, "segment", definition=divide("l.AB", "scale")),
+    )
+
+
 def _synthesis(given: Parameters) -> tuple[Item, ...]:
-    """R and L of H, e and K, see `Parameters.lengths`."""
+    """R and L of H, e and K, see `Parameters.lengths`: 4R² = H² − q₁, 4L² = H² + q₂ with q = 2He·tan^±1(θ/2)."""
     assert given.H is not None
     assert given.K is not None
     half_turn = Number(180.0, unit="°")
@@ -280,10 +292,10 @@ def _synthesis(given: Parameters) -> tuple[Item, ...]:
         Item("H", Symbol("H"), "length", given.H.si),
         ratio_item("K", Symbol("K"), given.K),
         Item("theta", Symbol("θ"), "angle", definition=theta),
-        Item("e.1", Symbol("e", "1"), "length", definition=multiply("e", tangent)),
-        Item("e.2", Symbol("e", "2"), "length", definition=divide("e", tangent)),
-        Item("R", Symbol("R"), "length", definition=_half_root(subtract(square, multiply(2, "H", "e.1")))),
-        Item("L", Symbol("L"), "length", definition=_half_root(add(square, multiply(2, "H", "e.2")))),
+        Item("q.1", Symbol("q", "1"), "product of lengths", definition=multiply(2, "H", "e", tangent)),
+        Item("q.2", Symbol("q", "2"), "product of lengths", definition=divide(multiply(2, "H", "e"), tangent)),
+        Item("R", Symbol("R"), "length", definition=_half_root(subtract(square, "q.1"))),
+        Item("L", Symbol("L"), "length", definition=_half_root(add(square, "q.2"))),
     )
 
 
