@@ -61,7 +61,7 @@ def feedback_document(marking: Marking, title: str, show_answers: bool = True) -
         *_section(feedback["followed"], _followed(marking, words)),
         *_section(feedback["unread"], _listed(marking.submission.problems.values())),
         *_section(feedback["noted"], _listed(marking.submission.notes)),
-        *_section(feedback["by_part"], (_by_part(marking, words),)),
+        _by_part(marking, words),
     ]
     note = words["variant"].format(variant=key.variant) if key.variant else ""
     owner = key.student.get("name", "")
@@ -143,7 +143,7 @@ def _by_part(marking: Marking, words: Mapping[str, Any]) -> Table:
     columns = (Column(first, "left"), *(Column(COUNT),) * len(verdicts), Column(POINTS), Column(POINTS))
     rows = [_counted(name, cells, verdicts, key) for name, cells in parts]
     rows.append(_counted(feedback["total"], marking.cells, verdicts, key))
-    return Table(columns, (_texts(heads),), tuple(map(_texts, rows)))
+    return Table(columns, (_texts(heads),), tuple(map(_texts, rows)), (Text(feedback["by_part"]),))
 
 
 def _counted(name: str, cells: Sequence[Marked], verdicts: Sequence[Verdict], key: Key) -> tuple[str, ...]:

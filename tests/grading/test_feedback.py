@@ -15,6 +15,7 @@ from reportgen.document.prose import search_path
 from reportgen.document.tree import Figure, Table
 from reportgen.document.words import load_words
 from reportgen.errors import CellMark, Problem
+from reportgen.figures.scene import Label
 from reportgen.grading.class_page import class_document
 from reportgen.grading.feedback import FIRST, STYLES, feedback_book
 from reportgen.grading.feedback_document import feedback_document
@@ -202,6 +203,17 @@ def test_the_class_page_has_marks_and_counts() -> None:
     text = text_of(tree)
     assert "Sheets: 12; mean 40 %, median 40 %." in text
     assert "Not handed in: 1." in text
+
+
+def test_quantities_beyond_the_room_of_a_chart_are_counted_together() -> None:
+    whole = marking()
+    rows = tuple(replace(whole.key.row("v.B"), id=f"v.B{n}") for n in range(30))
+    cells = tuple(cell(row.id, 1, Verdict.wrong, 1.0, 2.0, first=True) for row in rows)
+    tree = class_document([replace(whole, key=replace(whole.key, rows=rows), cells=cells)], "crank", "en")
+    figure = [block for block in tree.blocks if isinstance(block, Figure)][1]
+    labels = [item.content for scene in figure.scenes for item in scene.items if isinstance(item, Label)]
+    assert "others (6)" in labels
+    assert labels.count(rows[0].symbol) == 24
 
 
 def test_a_class_without_sheets_has_a_page_too() -> None:
