@@ -85,6 +85,12 @@ parameters:
     - {type: RPR, links: [2, 3], joints: [B, B3, C]}
   points:
     D: {link: 3, at: [150 mm, 0 mm]}
+    S3: {link: 3, at: [60 mm, 0 mm]}
+  masses:
+    - {link: 2, at: B, G: 2 N}
+    - {link: 3, at: S3, G: 20 N, J: 0.004 kg m2}
+  loads:
+    - {by: constant, link: 3, M: 4 N m, against: motion}
 """
 
 SHAPER = f"""
@@ -200,7 +206,8 @@ PAIRS = {
     ),
     "slotted-lever": (
         "positions: {count: 12, start: 90 deg}\n"
-        "parameters: {AB: 40 mm, AC: 80 mm, CD: 150 mm, omega1: 1 rad/s}",
+        "parameters: {AB: 40 mm, AC: 80 mm, CD: 150 mm, omega1: 1 rad/s, G2: 2 N, G3: 20 N, s3: 0.4, J3: 0.004 kg m2,\n"
+        "  torque: {M: 4 N m}}",
         SLOTTED_LEVER,
     ),
     "shaper": (

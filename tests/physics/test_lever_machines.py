@@ -1,4 +1,4 @@
-"""Four-bar linkage and six-link lever mechanism of the catalogue, whole, against the independent witness.
+"""Four-bar linkage, six-link lever mechanism and slotted lever, whole, against the independent witness.
 
 The witness gets bodies, joints, pose and loads from the numbers of the assignment alone; places come from
 circles met by a formula of its own.
@@ -216,3 +216,51 @@ def test_lever_six_bar(
         )
         loads.append([(5, complex(force), slider, 0.0)])
     compare(analysis, bodies, joints, ["R01", "R12", "R23", "R03", "R24", "R45", "R05"], poses, loads)
+
+
+@quick
+@given(
+    crank=whole(20, 120),
+    apart=whole(60, 160),
+    speed=whole(1, 40),
+    clockwise=st.booleans(),
+    torque=whole(-30, 30),
+    share=whole(1, 9),
+)
+def test_slotted_lever(
+    tmp_path_factory: pytest.TempPathFactory,
+    crank: int,
+    apart: int,
+    speed: int,
+    clockwise: bool,
+    torque: int,
+    share: int,
+) -> None:
+    """Swinging (AB < AC) and turning right round; not within a tenth of the pin that meets the pivot."""
+    assume(abs(crank - apart) > 0.1 * apart)
+    direction, sense = "clockwise" if clockwise else "anticlockwise", "anticlockwise" if torque >= 0 else "clockwise"
+    analysis = solved(
+        tmp_path_factory.mktemp("lever"),
+        f"kind: slotted-lever\npositions: {{count: 7, start: 10 deg, direction: {direction}}}\nparameters:\n"
+        f"  {{AB: {crank} mm, AC: {apart} mm, CD: 300 mm, omega1: {speed} rad/s, m2: 0.5 kg, m3: 3 kg,"
+        f" s3: 0.{share}, J3: 0.03 kg m2, torque: {{M: {abs(torque)} N m, sense: {sense}}}}}\n",
+    )
+    r, pivot = crank / 1000, -1j * apart / 1000
+    bodies = {
+        1: ne.Body(0.0, 0.0, 0j),
+        2: ne.Body(0.5, 0.0, 0j),
+        3: ne.Body(3.0, 0.03, complex(0.3 * share / 10)),
+    }
+    joints: list[ne.Pin | ne.Slot] = [
+        ne.Pin(0, 0j, 1, 0j),
+        ne.Pin(1, complex(r), 2, 0j),
+        ne.Slot(3, 0j, 0.0, 2, 0j, 0.0),
+        ne.Pin(0, pivot, 3, 0j),
+    ]
+    poses, loads = [], []
+    for phi in map(float, analysis.motion.driver):
+        pin = cmath.rect(r, phi)
+        lean = cmath.phase(pin - pivot)
+        poses.append({1: (0j, phi), 2: (pin, lean), 3: (pivot, lean)})
+        loads.append([(3, 0j, pivot, float(torque))])
+    compare(analysis, bodies, joints, ["R01", "R12", "R32", "R03"], poses, loads)
