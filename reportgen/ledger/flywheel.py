@@ -1,11 +1,13 @@
 """The flywheel's quantities: what a report derives it from, position by position and over the cycle.
 
-Ids: `J.r` reduced inertia (only where a moving link has mass), `M.r` reduced torque, `A.excess` excess work,
-`omega.of` the regulated speed at each position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`,
-`A.lower`, and `J.d` the flywheel.
+Ids: `J.r` reduced inertia (only where a moving link has mass; `J.r.2` a link's part of it), `M.r` reduced torque,
+`A.excess` excess work, `omega.of` the regulated speed at each position; `M.c` the constant torque, `omega.max`,
+`omega.min`, `A.upper`, `A.lower`, and `J.d` the flywheel.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -21,6 +23,9 @@ from reportgen.notation.expressions import (
     power,
     subtract,
 )
+
+TERMS = 4
+"""More terms than these are no longer one line of a page."""
 
 
 def describe(b: Builder, linkage: Linkage, flywheel: Flywheel, positions: np.ndarray) -> None:
@@ -49,15 +54,31 @@ def describe(b: Builder, linkage: Linkage, flywheel: Flywheel, positions: np.nda
 
 
 def _reduced(b: Builder, linkage: Linkage) -> Expression | None:
-    """J_r = Σ m v_S²/ω₁² + J ω²/ω₁² over the links that move so; None where no link with mass moves."""
-    terms: list[Expression] = []
+    """J_r = Σ m v_S²/ω₁² + J ω²/ω₁² over the links that move so; None where no link with mass moves.
+
+    Where that is too long for a line, each link's part of it is entered as `J.r.` and its number.
+    """
+    parts: dict[int, list[Expression]] = {}
     for body in linkage.inertias:
+        own: list[Expression] = []
         if body.mass > 0 and f"v.{body.centre}" in b:
-            terms.append(multiply(f"m.{body.link}", power(f"v.{body.centre}", 2)))
+            own.append(multiply(f"m.{body.link}", power(f"v.{body.centre}", 2)))
         if body.moment > 0 and f"omega.{body.link}" in b:
-            terms.append(multiply(f"J.{body.link}", power(f"omega.{body.link}", 2)))
+            own.append(multiply(f"J.{body.link}", power(f"omega.{body.link}", 2)))
+        if own:
+            parts[body.link] = own
+    terms = [term for own in parts.values() for term in own]
     if not terms:
         return None
+    if len(terms) <= TERMS or len(parts) == 1:
+        return _over_square(terms)
+    for link, own in parts.items():
+        b.define(f"J.r.{link}", Symbol("J", f"r{link}"), "moment of inertia", _over_square(own))
+    return add(*(f"J.r.{link}" for link in parts))
+
+
+def _over_square(terms: Sequence[Expression]) -> Expression:
+    """The sum of the terms over ω₁²."""
     return divide(add(*terms) if len(terms) > 1 else terms[0], power("omega.1", 2))
 
 
