@@ -8,7 +8,7 @@ from itertools import islice
 from typing import Any
 
 from reportgen.assignment.messages import word
-from reportgen.batch.jobs import SYSTEM, Job, Outcome, run_job
+from reportgen.batch.jobs import SYSTEM, Job, Outcome, run_job, unexpected
 from reportgen.batch.pool import Pool, Results, Retried
 from reportgen.errors import ReportgenError
 from reportgen.notation.numbers import Language
@@ -32,28 +32,37 @@ def cluster(address: str, language: Language) -> Pool:
 
     Jobs go out as bytes and files come back as bytes: workers need this package in the same version, but
     no file of ours.  A worker may die; the scheduler gives its jobs to another one, at most
-    `distributed.scheduler.allowed-failures` times.
+    `distributed.scheduler.allowed-failures` times.  What had been given to all of those that died is tried
+    again by itself at the end, for it may only have stood in line behind the one that killed them.
     """
     try:
         import distributed
     except ImportError as error:
         raise ClusterError(word("no_dask", language)) from error
 
-    def pool(jobs: Iterable[Job], _retried: Retried) -> Results:
+    def pool(jobs: Iterable[Job], retried: Retried) -> Results:
         try:
             client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
         except (OSError, ValueError) as error:
             raise ClusterError(word("no_scheduler", language).format(address=address)) from error
         with client:
-            yield from _results(client, iter(jobs), lost=lambda: _lost(address, language))
+            try:
+                suspects: list[Job] = []
+                yield from _results(client, iter(jobs), suspects.append)
+                for job in suspects:
+                    retried(job)
+                    outcome = _outcome(job, client.submit(_run, job, pure=False))
+                    text = word("worker_died", job.making.language or "vi")
+                    yield job, outcome or Outcome(problems=(text,), exit_code=SYSTEM)
+            except (distributed.client.FutureCancelledError, OSError) as error:
+                raise ClusterError(word("scheduler_lost", language).format(address=address)) from error
 
     return pool
 
 
-def _results(client: Any, jobs: Iterator[Job], lost: Callable[[], ClusterError]) -> Results:
+def _results(client: Any, jobs: Iterator[Job], suspect: Callable[[Job], None]) -> Results:
     """As they come; only so many are handed out that results never pile up on the workers."""
-    from distributed import KilledWorker, as_completed
-    from distributed.client import FutureCancelledError
+    from distributed import as_completed
 
     handed_out: dict[Any, Job] = {}
 
@@ -66,25 +75,39 @@ def _results(client: Any, jobs: Iterator[Job], lost: Callable[[], ClusterError])
     running = as_completed(hand_out(), loop=client.loop)
     for future in running:
         job = handed_out.pop(future)
-        try:
-            outcome = future.result()
-        except KilledWorker:
-            text = word("worker_died", job.making.language or "vi")
-            outcome = Outcome(problems=(text,), exit_code=SYSTEM)
-        except (FutureCancelledError, OSError) as error:
-            raise lost() from error
-        future.release()
+        outcome = _outcome(job, future)
         running.update(hand_out())
-        yield job, outcome
+        if outcome is None:
+            suspect(job)
+        else:
+            yield job, outcome
+
+
+def _outcome(job: Job, future: Any) -> Outcome | None:
+    """What a job came to, which the cluster then may forget; none if its workers died.
+
+    Raises `OSError` or `FutureCancelledError` if the scheduler has gone.
+    """
+    from distributed import KilledWorker
+    from distributed.client import FutureCancelledError
+
+    try:
+        outcome: Outcome = future.result()
+    except KilledWorker:
+        return None
+    except (FutureCancelledError, OSError):
+        raise
+    except Exception as fault:
+        # Of the job nothing is raised: the worker could not even take it, as where another version is at work.
+        return Outcome(problems=(unexpected(fault, job.making.language or "vi"),), exit_code=SYSTEM)
+    finally:
+        future.release()
+    return outcome
 
 
 def _threads(client: Any) -> int:
     """Of all workers there are now; they may come and go."""
     return sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
-
-
-def _lost(address: str, language: Language) -> ClusterError:
-    return ClusterError(word("scheduler_lost", language).format(address=address))
 
 
 def _run(job: Job) -> Outcome:

@@ -111,9 +111,14 @@ def _make(job: Job, scratch: Path, language: Language) -> Outcome:
         raise
     except Exception as fault:
         # A fault of the program itself must not cost the others their results.
-        text = " ".join(_without_paths(str(fault), scratch).split())
-        said = word("unexpected", language).format(name=type(fault).__name__, text=text)
+        said = _without_paths(unexpected(fault, language), scratch)
         return Outcome(problems=(said,), exit_code=SYSTEM)
+
+
+def unexpected(fault: Exception, language: Language) -> str:
+    """A fault of the program, in a line."""
+    text = " ".join(str(fault).split())
+    return word("unexpected", language).format(name=type(fault).__name__, text=text)
 
 
 def _without_folder(problem: Problem, file: str) -> Problem:

@@ -35,7 +35,7 @@ class Order:
     spec: Path | None = None
     assignments: Path | None = None
     out: Path = Path("out")
-    products: tuple[str, ...] = ("report",)
+    products: tuple[str, ...] = tuple(MAKERS)
     engine: Engine = "typst"
     language: Language | None = None
     jobs: int = 0

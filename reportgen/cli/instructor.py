@@ -56,7 +56,7 @@ def batch(
         Path | None,
         typer.Option("--assignments", metavar="DIR", help="Assignment files by id.", show_default=False),
     ] = None,
-    make: Annotated[str, typer.Option("--make", help="What to make, parted by commas.")] = "report",
+    make: Annotated[str, typer.Option("--make", help="What to make, parted by commas.")] = "task,report,key",
     jobs: Annotated[
         int | None, typer.Option("--jobs", metavar="N", min=1, help="Processes.", show_default="one a core")
     ] = None,

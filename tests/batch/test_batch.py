@@ -25,7 +25,6 @@ from reportgen.batch.run import held
 from reportgen.batch.start import Order, start
 from reportgen.errors import AssignmentError
 from reportgen.notation.numbers import Language
-from reportgen.products import MAKERS
 from tests.batch.classes import Batch, tree, write_class
 from tests.batch.little import little
 
@@ -283,7 +282,7 @@ def test_ctrl_c_ends_all_processes_and_keeps_what_is_done(tmp_path: Path) -> Non
     roster, given = write_class(tmp_path, {f"K{k}": text for k in range(9)})
     command = (sys.executable, "-m", "reportgen.cli", "batch", roster, "--assignments", given)
     with subprocess.Popen(
-        [*map(str, command), "--out", str(tmp_path / "out"), "--jobs", "2", "--lang", "en"],
+        [*map(str, command), "--out", str(tmp_path / "out"), "--jobs", "2", "--lang", "en", "--make", "report"],
         cwd=ROOT,
         stderr=subprocess.PIPE,
         text=True,
@@ -319,7 +318,7 @@ def test_reports_are_the_same_whoever_makes_them(tmp_path: Path) -> None:
     roster, given = write_class(tmp_path, {"K1": text, "K2": text.replace("variant:", "variant: 9 #", 1)})
     for jobs in (1, 2):
         order = Order(roster, None, given, tmp_path / str(jobs), ("report",), jobs=jobs)
-        assert start(order, io.StringIO(), MAKERS).result.exit_code == 0
+        assert start(order, io.StringIO()).result.exit_code == 0
     one, two = (tree(tmp_path / str(jobs)) for jobs in (1, 2))
     assert one == two
     assert one["K1/report.pdf"].startswith(b"%PDF")
@@ -340,12 +339,12 @@ def batch_command(*arguments: object) -> subprocess.CompletedProcess[str]:
 
 def test_the_command_tells_events_failures_and_the_manifest(tmp_path: Path) -> None:
     roster, given = write_class(tmp_path, {"K1": "kind: ship\n"})
-    done = batch_command(roster, "--assignments", given, "--out", tmp_path / "out", "--lang", "en")
+    done = batch_command(roster, "--assignments", given, "--out", tmp_path / "out", "--jobs", 1, "--lang", "en")
     assert (done.returncode, done.stdout) == (1, f"{tmp_path / 'out' / 'manifest.json'}\n")
     lines = done.stderr.splitlines()
-    assert lines[0] == "K1\treport\tfailed"
+    assert lines[:3] == [f"K1\t{product}\tfailed" for product in ("task", "report", "key")]
     assert f"{given / 'K1.yaml'}:1:7: error[unknown-kind]: unknown kind of machine “ship”" in lines
-    assert lines[-1] == "0 made, 0 kept, 1 failed"
+    assert lines[-1] == "0 made, 0 kept, 3 failed"
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,6 @@ import pytest
 from reportgen.batch.cluster import ClusterError, cluster
 from reportgen.batch.pool import Results
 from reportgen.batch.start import Order, start
-from reportgen.products import MAKERS
 from tests.batch.classes import Batch, tree, write_class
 
 ROOT = Path(__file__).parents[2]
@@ -26,7 +25,7 @@ ROOT = Path(__file__).parents[2]
 def scheduler() -> Iterator[Any]:
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
     ) as running:
         yield running
 
@@ -57,13 +56,35 @@ def test_a_job_that_kills_every_worker_fails_alone(scheduler: Any, tmp_path: Pat
     assert done.result.exit_code == 3
 
 
-def test_a_report_of_the_cluster_is_the_one_made_here(scheduler: Any, tmp_path: Path) -> None:
+def test_papers_of_the_cluster_are_those_made_here(scheduler: Any, tmp_path: Path) -> None:
     text = (ROOT / "assignments" / "slider-crank-01.yaml").read_text(encoding="utf-8")
     roster, given = write_class(tmp_path, {"K1": text})
     for out, address in (("here", None), ("there", scheduler.scheduler_address)):
-        order = Order(roster, None, given, tmp_path / out, jobs=1, cluster=address)
-        assert start(order, io.StringIO(), MAKERS).result.exit_code == 0
+        order = Order(roster, None, given, tmp_path / out, ("task", "key"), jobs=1, cluster=address)
+        assert start(order, io.StringIO()).result.exit_code == 0
     assert tree(tmp_path / "here") == tree(tmp_path / "there")
+
+
+def test_a_scheduler_that_goes_keeps_what_is_done(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    batch = Batch(tmp_path, {f"K{k}": f"seconds: 0.{k}" for k in range(8)})
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0"
+    ) as running:
+        pool = cluster(running.scheduler_address, "en")
+
+        def with_an_end(*arguments: Any) -> Results:
+            results = pool(*arguments)
+            yield next(results)
+            running.close()
+            yield from results
+
+        with pytest.raises(ClusterError, match="gone"):
+            batch.run(pool=with_an_end)
+    before = batch.told("done")
+    assert before
+    batch.run()
+    assert batch.told("kept") == before
 
 
 def test_nobody_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
