@@ -45,19 +45,17 @@ def told(guide: Guide, marking: Marking, hint: bool = False) -> Iterator[str]:
     later = counted[Verdict.wrong] - len(marking.firsts)
     if later:
         yield words["later"].format(count=later)
-    if counted[Verdict.follows]:
+    if counted[Verdict.follows] and marking.firsts:
         yield words["follows"].format(count=counted[Verdict.follows])
     if counted[Verdict.blank]:
         yield words["blank"].format(count=counted[Verdict.blank])
     if not diverges(marking):
-        yield words["agrees"].format(count=counted[Verdict.right])
+        yield words["agrees"].format(count=counted[Verdict.right] + counted[Verdict.follows])
 
 
 def diverges(marking: Marking) -> bool:
-    """Whether a value is wrong or cannot be read; a blank one is neither."""
-    return bool(marking.submission.problems) or any(
-        cell.verdict in (Verdict.wrong, Verdict.follows) for cell in marking.cells
-    )
+    """Whether a value is wrong or cannot be read; a blank one is neither, nor one that follows from a right one."""
+    return bool(marking.submission.problems) or any(cell.verdict is Verdict.wrong for cell in marking.cells)
 
 
 def _hint(guide: Guide, marking: Marking, cell: Marked) -> str:

@@ -54,10 +54,11 @@ def guard(working: Working, cells: Cells, classmates: Sequence[Key]) -> tuple[di
         warnings.append("constant")
         result = _emptied(result, [place for place in filled if place[0] in constant])
     equal, copied = _copied_from(guide, result, classmates)
+    equal = _often(equal)
     result |= {place: replace(result[place], classmates=tuple(names)) for place, names in equal.items()}
     if copied:
         return _emptied(result, filled), (*warnings, "classmate")
-    causes = {place for place in filled if place[0] in constant} | _often_equal(equal)
+    causes = {place for place in filled if place[0] in constant} | equal.keys()
     if len(_misread(result)) >= MISREAD and _follows_throughout(result):
         return _emptied(result, filled), (*warnings, "other-variant")
     wild = {place for place, cell in result.items() if cell.first and not cell.mistake and _is_wild(guide, cell)}
@@ -98,6 +99,9 @@ def _theirs(guide: Guide, cell: Marked, key: Key) -> float | None:
     row = key.find(cell.id)
     if cell.given is None or row is None or key.id == guide.key.id or cell.position > len(row.values):
         return None
+    # A mistake that has a name is the student's own; it may meet many a number by chance.
+    if cell.mistake and cell.mistake != WRONG_DATUM:
+        return None
     theirs = float(row.values[row.at(cell.position)])
     return theirs if abs(theirs - cell.expected) >= APART * cell.band else None
 
@@ -115,10 +119,11 @@ def _copied_from(guide: Guide, cells: Cells, classmates: Sequence[Key]) -> tuple
     return equal, source
 
 
-def _often_equal(equal: Mapping[Place, Sequence[str]]) -> set[Place]:
-    """The values that equal the key of a classmate whom several of them equal."""
+def _often(equal: Mapping[Place, Sequence[str]]) -> dict[Place, list[str]]:
+    """The values that equal the key of a classmate whom several of them equal; one may do so by chance."""
     counted = Counter(name for names in equal.values() for name in names)
-    return {place for place, names in equal.items() if any(counted[name] >= FEWEST for name in names)}
+    often = {place: [name for name in names if counted[name] >= FEWEST] for place, names in equal.items()}
+    return {place: names for place, names in often.items() if names}
 
 
 def _meets(cell: Marked, value: float) -> bool:

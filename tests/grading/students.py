@@ -14,13 +14,15 @@ import yaml
 
 from reportgen import api
 from reportgen.answers import bands
-from reportgen.answers.key import Row
+from reportgen.answers.key import Key, Row
+from reportgen.answers.sheet import asked_positions, grid, info_page, page, rows_shown, words_of
 from reportgen.assignment import Assignment
 from reportgen.errors import Mark
 from reportgen.grading.guide import Guide, open_guide
 from reportgen.grading.marks import Given, Submission
 from reportgen.grading.mistakes import Site as Site
 from reportgen.ledger.following import follow
+from reportgen.workbook import Book, Entry
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 
@@ -129,3 +131,18 @@ def off(guide: Guide, row: Row, world: World, position: int, other: World | None
         one, two = abs(one), abs(two)
     distance = abs((one - two + np.pi) % (2 * np.pi) - np.pi) if row.id.startswith("dir.") else abs(one - two)
     return distance / band if np.isfinite(distance) and band else 0.0
+
+
+def filled_book(key: Key, submission: Submission) -> Book:
+    """The answer sheet as a workbook with a student's values as typed, numbers where they are numbers."""
+
+    def filling(row: Row, position: int) -> Entry | None:
+        given = submission.values.get((row.id, position))
+        if given is None:
+            return Entry(None, "input", unlocked=True) if position in row.positions else None
+        plain = given.text == str(given.value)
+        return Entry(given.value if plain else given.text, "input", unlocked=True)
+
+    words = words_of(key)["answer_sheet"]
+    rows = grid(key, words["title"], words["note"], filling, rows_shown(key), asked_positions(key))
+    return Book((page(words["answers"], rows), info_page(key)), words["title"])
