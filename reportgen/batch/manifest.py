@@ -138,6 +138,8 @@ def _entry(student: Any, folder: Any, product: Any, plain: Any) -> Iterable[Entr
     files, problems = plain.get("files", {}), plain.get("problems", [])
     if not (isinstance(files, dict) and isinstance(problems, list)):
         return
+    if any(Path(name).name != name for name in files):
+        return
     made = {key: plain.get(key) for key in ("assignment", "engine", "language", "templates", "version")}
     names = {str(name): str(known) for name, known in files.items()}
     yield Entry(student, folder, product, made, names, tuple(map(str, problems)))
