@@ -11,7 +11,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
-from reportgen.answers.key import Key, Role, Row
+import numpy as np
+
+from reportgen.answers.key import Key, Part, Role, Row
 from reportgen.document.plain import formula
 from reportgen.document.prose import search_path
 from reportgen.document.tree import Cell, Column, InlineMath, Inlines, LineBreak, Table, Text, Value
@@ -36,6 +38,7 @@ TABLE_SIZE, PADDING = 10.0, 4.0
 Filling = Callable[[Row, int], Entry | None]
 """What stands in the cell of a row at a position (0 for a single value); None where it has no cell."""
 Tail = Callable[[Row], Sequence[Entry]]
+_Line = tuple[Row, bool, frozenset[int]]
 
 
 def words_of(key: Key) -> Mapping[str, Any]:
@@ -58,12 +61,6 @@ def rows_shown(key: Key) -> tuple[Row, ...]:
     return tuple(row for row in key.rows if row.positions or row.role is Role.given)
 
 
-def given_number(row: Row, position: int) -> Number | None:
-    """What the sheet shows filled in: a given value, to the report's decimals; None for a cell to fill in."""
-    value = float(row.values[row.at(position)])
-    return shown_number(row, value) if row.role is Role.given and value == value else None
-
-
 def shown_number(row: Row, value: float) -> Number:
     """A number of a row as the report prints it: to its decimals, or without the dust of floats."""
     return Number(value if row.decimals is not None else float(f"{value:.12g}"), row.decimals)
@@ -80,11 +77,28 @@ def number_entry(row: Row, value: float, style: Any = "", comment: str = "") -> 
     return Entry(value, style, comment, number_format(row)) if value == value else Entry(None, style, comment)
 
 
-def is_shown(row: Row, position: int) -> bool:
-    """Whether the sheet has something at a position of a row: a value to fill in or a given one."""
-    if position in row.positions:
-        return True
-    return row.role is Role.given and row.single == (position == 0)
+def open_cells(key: Key) -> Mapping[str, frozenset[int]]:
+    """The positions at which each row has a cell to fill in, by id.
+
+    A cell is open also where the quantity does not exist (the direction of a velocity that is zero) but
+    others of its part are asked for, so that the sheet does not tell.
+    """
+    of_part: dict[Part, set[int]] = {}
+    for row in key.asked:
+        of_part.setdefault(row.part, set()).update(row.positions)
+    return {
+        row.id: frozenset(row.positions)
+        | {k for k in of_part[row.part] if k and not row.single and np.isnan(row.values[row.at(k)])}
+        for row in key.asked
+    }
+
+
+def given_entry(row: Row, position: int) -> Entry | None:
+    """A given value as the sheet shows it filled in; None where there is none."""
+    if row.role is not Role.given or row.single != (position == 0):
+        return None
+    value = float(row.values[row.at(position)])
+    return Entry(shown_number(row, value).shown, format=number_format(row)) if value == value else None
 
 
 def grid(
@@ -165,17 +179,14 @@ def answer_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
 
 
 def _empty_grid(key: Key) -> tuple[tuple[Entry, ...], ...]:
-    sheet = words_of(key)["answer_sheet"]
-    return grid(key, sheet["title"], sheet["note"], _empty, rows_shown(key), asked_positions(key))
+    sheet, cells = words_of(key)["answer_sheet"], open_cells(key)
 
+    def filling(row: Row, position: int) -> Entry | None:
+        if position in cells.get(row.id, ()):
+            return Entry(None, "input", unlocked=True)
+        return given_entry(row, position)
 
-def _empty(row: Row, position: int) -> Entry | None:
-    if not is_shown(row, position):
-        return None
-    number = given_number(row, position)
-    if number is None:
-        return Entry(None, "input", unlocked=True)
-    return Entry(number.shown, format=number_format(row))
+    return grid(key, sheet["title"], sheet["note"], filling, rows_shown(key), asked_positions(key))
 
 
 # --- on paper -------------------------------------------------------------------------------------
@@ -183,7 +194,7 @@ def _empty(row: Row, position: int) -> Entry | None:
 
 def answer_blocks(key: Key) -> Iterator[Table]:
     """The empty sheet as tables to fill in by hand, a table or more for each part with something to fill in."""
-    words = words_of(key)
+    words, cells = words_of(key), open_cells(key)
     for part, members in groupby(key.rows, lambda row: row.part):
         caption = (Text(str(words["parts"][part])),)
         rows = [row for row in members if row.positions]
@@ -193,9 +204,9 @@ def answer_blocks(key: Key) -> Iterator[Table]:
         for group, positions in ((singles, [0]), (many, sorted({k for row in many for k in row.positions}))):
             for some in _split(positions):
                 asked = [row for row in group if set(row.positions) & set(some)]
-                named = [(row, row.symbol in shared) for row in asked]
+                lines = [(row, row.symbol in shared, cells[row.id]) for row in asked]
                 if asked:
-                    yield _table(_heads(key, words, some), named, some, caption)
+                    yield _table(_heads(key, words, some), lines, some, caption)
 
 
 def _split(positions: Sequence[int]) -> Iterator[tuple[int, ...]]:
@@ -215,27 +226,28 @@ def _heads(key: Key, words: Mapping[str, Any], positions: Sequence[int]) -> tupl
 
 
 def _table(
-    heads: Sequence[str], rows: Sequence[tuple[Row, bool]], positions: Sequence[int], caption: Inlines
+    heads: Sequence[str], rows: Sequence[_Line], positions: Sequence[int], caption: Inlines
 ) -> Table:
     """Quantities below one another, in as many sets side by side as the page has room for.
 
-    Beside each row stands whether its id is to be told, because another one has the same symbol.
+    With each row stand whether its id is told, because another one has its symbol, and its open positions.
     """
-    symbol = symbol_width((row.id for row, told in rows if told), SYMBOL)
+    symbol = symbol_width((row.id for row, told, _ in rows if told), SYMBOL)
     beside = max(int(TEXT_WIDTH // (symbol + UNIT + VALUE * len(positions))), 1)
     beside = min(beside, len(rows))
     value = min((TEXT_WIDTH / beside - symbol - UNIT) / len(positions), 1.5 * VALUE)
     columns = (Column(symbol), Column(UNIT), *(Column(value),) * len(positions))
     height = -(-len(rows) // beside)
-    filled = [_cells(row, told, positions) for row, told in rows]
+    filled = [_cells(line, positions) for line in rows]
     filled += [(Cell(),) * len(columns)] * (beside * height - len(rows))
     body = (tuple(cell for cells in filled[line::height] for cell in cells) for line in range(height))
     head = tuple(Cell((Text(text),)) for text in heads)
     return Table(columns * beside, (head * beside,), tuple(body), caption)
 
 
-def _cells(row: Row, told: bool, positions: Sequence[int]) -> tuple[Cell, ...]:
-    places = (Cell() if k in row.positions else Cell((Text("–"),)) for k in positions)
+def _cells(line: _Line, positions: Sequence[int]) -> tuple[Cell, ...]:
+    row, told, open_at = line
+    places = (Cell() if k in open_at else Cell((Text("–"),)) for k in positions)
     return (Cell(symbol_inlines(row, told)), Cell(plain_inlines(row.unit)), *places)
 
 

@@ -9,11 +9,9 @@ from reportgen.answers.key import Row
 from reportgen.answers.sheet import (
     NAMES,
     asked_positions,
-    given_number,
+    given_entry,
     grid,
     info_page,
-    is_shown,
-    number_format,
     page,
     rows_shown,
     words_of,
@@ -43,10 +41,10 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
     positions = asked_positions(key)
 
     def filling(row: Row, position: int) -> Entry | None:
-        if not is_shown(row, position):
-            return None
         cell = cells.get((row.id, position))
-        return _unmarked(marking, row, position) if cell is None else _marked(marking, words, cell, show_answers)
+        if cell is not None:
+            return _marked(marking, words, cell, show_answers)
+        return _unmarked(marking, row, position) if position in row.positions else given_entry(row, position)
 
     def tail(row: Row) -> Sequence[Entry]:
         own = [cells[row.id, k] for k in row.positions if (row.id, k) in cells]
@@ -69,10 +67,8 @@ def _marked(marking: Marking, words: Mapping[str, Any], cell: Marked, show_answe
 
 
 def _unmarked(marking: Marking, row: Row, position: int) -> Entry:
-    """A cell that is not judged: given data, or a value that is worth nothing."""
-    number, given = given_number(row, position), marking.submission.values.get((row.id, position))
-    if number is not None:
-        return Entry(number.shown, format=number_format(row))
+    """A value that is worth nothing."""
+    given = marking.submission.values.get((row.id, position))
     return Entry(None if given is None else given.value)
 
 

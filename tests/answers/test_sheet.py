@@ -38,9 +38,9 @@ def cells(key: Key, tmp_path: Path) -> Iterator[tuple[str, str, object, bool]]:
 def test_what_is_asked_can_be_filled_in_and_nothing_else(tmp_path: Path) -> None:
     key = small_key("en")
     empty = {(id, head) for id, head, value, unlocked in cells(key, tmp_path) if unlocked and value is None}
-    assert empty == {
-        (row.id, f"Position {key.labels[k - 1]}" if k else "Value") for row in key.asked for k in row.positions
-    }
+    asked = {(row.id, f"Position {key.labels[k - 1]}" if k else "Value") for row in key.asked for k in row.positions}
+    # v_B is zero at position 4, which a sheet without a cell for its direction would tell.
+    assert empty == asked | {("dir.v.B", "Position 4")}
     shown = {(id, head): value for id, head, value, _ in cells(key, tmp_path)}
     assert shown["l.AB", "Value"] == 0.15
     assert shown["v.B", "Symbol"] == "v_B"
@@ -100,6 +100,12 @@ def test_many_positions_are_split_over_tables_that_fit_the_page() -> None:
     heads = [plain(cell.inlines, "en") for table in tables for cell in table.head[0]]
     assert [head for head in heads if head.isdigit()] == list(labels)
     assert all(sum(column.width for column in table.columns) < 160.001 for table in tables)
+
+
+def test_paper_does_not_tell_where_a_direction_does_not_exist() -> None:
+    tables = list(answer_blocks(small_key("en")))
+    (line,) = [row for table in tables for row in table.rows if plain(row[0].inlines, "en") == "α_vB"]
+    assert all(cell.inlines == () for cell in line[2:])
 
 
 # --- the task -------------------------------------------------------------------------------------
