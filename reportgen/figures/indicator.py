@@ -15,7 +15,8 @@ import numpy as np
 
 from reportgen.figures.draft import Draft
 from reportgen.figures.geometry import clusters, unit
-from reportgen.figures.labels import Content, label
+from reportgen.figures.labels import CLEAR, Content, label
+from reportgen.figures.metrics import box
 from reportgen.figures.scale import nice
 from reportgen.figures.scene import Arrow, Circle, Item, Label, Line, Polyline, Stroke
 from reportgen.figures.style import AXIS, BLACK, BLUE, CONSTRUCTION, PAPER, RED, SMALL
@@ -124,7 +125,11 @@ def _axes(frame: Frame, lowest: float, highest: float) -> list[Item]:
     for k in range(1, int(highest / step + 1e-9) + 1):
         at = frame.at(0, k * step)
         items.append(Line(at, at + across * TICK, AXIS_PEN))
-        items.append(Label(at + across * (TICK + 2.0), f"{k * step:g}", "center", SMALL))
+        number = f"{k * step:g}"
+        extent = box(number, SMALL)
+        # The box's half size across the axis: a wide number beside an upright axis stands farther off.
+        half = (abs(across.real) * extent.width + abs(across.imag) * (extent.height + extent.depth)) / 2
+        items.append(Label(at + across * (TICK + CLEAR + half), number, "center", SMALL))
     return items
 
 
