@@ -13,6 +13,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
+from time import monotonic
 from typing import TYPE_CHECKING
 
 from reportgen.assignment.messages import word
@@ -34,6 +35,8 @@ MOST_MEMORY = 600
 """A worker whose peak memory (MB) has passed this ends, too: one job more stays well under 1 GB."""
 TRIES = 2
 """A job whose worker died is given to another one; after that it has failed."""
+LIMIT = 900.0
+"""Seconds after which a job counts as hung and its worker is killed."""
 PATIENCE = 10.0
 """Seconds in which a worker that was told to end may tidy up."""
 
@@ -49,6 +52,7 @@ class _Worker:
     process: BaseProcess
     connection: Connection
     task: _Task | None = None
+    since: float = 0.0
 
 
 def local(workers: int) -> Pool:
@@ -78,21 +82,25 @@ class _Crew:
 
     def results(self) -> Results:
         self.give_work()
-        while any(worker.task for worker in self.workers.values()):
-            for connection in wait(list(self.workers)):
+        while busy := [worker for worker in self.workers.values() if worker.task]:
+            first = min(worker.since for worker in busy)
+            for connection in wait(list(self.workers), max(0.0, first + LIMIT - monotonic())):
                 assert isinstance(connection, Connection), "nothing else was waited for"
                 ended = self.take(self.workers[connection])
                 # The worker goes on while its result is written.
                 self.give_work()
                 if ended is not None:
                     yield ended
+            for worker in busy:
+                if worker.task and worker.since + LIMIT < monotonic():
+                    worker.process.kill()
 
     def give_work(self) -> None:
         """Every waiting task to an idle worker, or to a new one while there may be more."""
         idle = deque(worker for worker in self.workers.values() if worker.task is None)
         while self.waiting and (idle or len(self.workers) < self.size):
             worker = idle.popleft() if idle else self.hire()
-            worker.task = self.waiting.popleft()
+            worker.task, worker.since = self.waiting.popleft(), monotonic()
             # A worker that is dead already is noticed when its result is waited for.
             with suppress(OSError):
                 worker.connection.send(worker.task.job)

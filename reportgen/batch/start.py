@@ -71,19 +71,18 @@ def start(
 
 
 def told(done: Done, language: Language) -> Iterator[str]:
-    """The batch's end in lines: notes, each failure once however many products it cost, a summary."""
+    """The batch's end in lines: notes, what went wrong, each once with all whom it met, a summary."""
     result = done.result
     yield from done.notes
     if result.failures:
         yield word("batch_failed", language).format(count=len(result.failures))
-    said: set[Problem | str] = set()
+    met: dict[Problem | str, list[str]] = {}
     for failure in result.failures:
         for problem in failure.problems:
-            if isinstance(problem, str):
-                yield f"{failure.student} {failure.product}: {problem}"
-            elif problem not in said:
-                yield str(problem)
-                said.add(problem)
+            met.setdefault(problem, []).append(f"{failure.student} {failure.product}")
+    for problem, whom in met.items():
+        # A problem of a file says by its place whose it is.
+        yield f"{', '.join(whom)}: {problem}" if isinstance(problem, str) else str(problem)
     failed = len(result.failures)
     yield word("batch_ended", language).format(made=result.made, kept=result.kept, failed=failed)
 

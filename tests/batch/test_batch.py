@@ -22,10 +22,10 @@ from reportgen.batch import progress
 from reportgen.batch.jobs import Job, making, run_job
 from reportgen.batch.pool import local
 from reportgen.batch.run import held
-from reportgen.batch.start import Order, start
+from reportgen.batch.start import Order, start, told
 from reportgen.errors import AssignmentError
 from reportgen.notation.numbers import Language
-from tests.batch.classes import Batch, tree, write_class
+from tests.batch.classes import Batch, here, tree, write_class
 from tests.batch.little import little
 
 ROOT = Path(__file__).parents[2]
@@ -153,6 +153,26 @@ def test_a_dead_worker_costs_only_its_own_job(tmp_path: Path) -> None:
     assert sorted(batch.told("done")) == ["K0", "K2", "K3"]
     assert sorted(batch.told("retried")) == ["K1", "K3"]
     assert [failure.student for failure in done.result.failures] == ["K1"]
+    assert done.result.exit_code == 3
+
+
+def test_a_job_that_hangs_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pools, "LIMIT", 1.5)
+    batch = Batch(tmp_path, {"K1": "seconds: 600", "K2": "seconds: 0", "K3": "seconds: 0"})
+    done = batch.run(pool=local(2))
+    assert batch.events[-2:] == [("K1", "little", "retried"), ("K1", "little", "failed")]
+    assert (done.result.made, done.result.exit_code) == (2, 3)
+
+
+def test_what_met_many_is_said_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The typesetter is missing: one line, however large the class."""
+    monkeypatch.setenv("PATH", str(tmp_path))
+    text = (ROOT / "assignments" / "slider-crank-01.yaml").read_text(encoding="utf-8")
+    roster, given = write_class(tmp_path, {"K1": text, "K2": text})
+    order = Order(roster, None, given, tmp_path / "out", ("report",), "latex", "en")
+    done = start(order, io.StringIO(), pool=here)
+    (said,) = [line for line in told(done, "en") if "pdflatex" in line]
+    assert said.startswith("K1 report, K2 report: the LaTeX engine needs pdflatex")
     assert done.result.exit_code == 3
 
 
