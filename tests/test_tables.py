@@ -39,3 +39,12 @@ def test_a_sliding_driver_is_told_by_its_way(capsys: pytest.CaptureFixture[str])
     assert "s (mm)" in out
     assert "Balancing force (N)" in out
     assert "φ" not in out
+
+
+def test_a_driver_that_slides_back_is_told_by_the_way_it_has_gone(tmp_path: Path) -> None:
+    text = (ASSIGNMENTS / "linkage-slide.yaml").read_text(encoding="utf-8")
+    path = tmp_path / "back.yaml"
+    path.write_text(text.replace("start: 0 mm, end: 120 mm", "start: 120 mm, end: 0 mm"), encoding="utf-8")
+    positions = api.solve(api.load(path))["positions"]
+    assert [one["crank_angle"] for one in positions] == pytest.approx([0.12, 0.1, 0.08, 0.06, 0.04, 0.02, 0], abs=1e-12)
+    assert [one["driver_way"] for one in positions] == pytest.approx([0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.12], abs=1e-12)

@@ -37,7 +37,7 @@ def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
         "number": k + 1,
         **({"label": analysis.machine.labels[k]} if analysis.machine.labels else {}),
         "crank_angle": float(motion.driver[k]),
-        **({} if crank else {"driver_way": float(motion.driver[k])}),
+        **({} if crank else {"driver_way": float(abs(motion.driver[k] - analysis.machine.start))}),
         "cycle_angle": float(analysis.cycle_angle[k]),
         "points": {
             name: {"p": _pair(point.p[k]), "v": _pair(point.v[k]), "a": _pair(point.a[k])}

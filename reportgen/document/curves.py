@@ -51,6 +51,12 @@ class Curves(Pictured):
         places = np.searchsorted(self.dense_cycle.cycle_angle, self.analysis.machine.cycle_angles)
         return tuple(map(int, places))
 
+    @property
+    def _across(self) -> np.ndarray:
+        """Where the samples stand: the angle turned (degrees), of a sliding driver the way gone (mm)."""
+        fine, span = self.dense_cycle, self.analysis.machine.span
+        return fine.cycle_angle * (span * MM / FULL_TURN) if span else np.degrees(fine.cycle_angle)
+
     def motion(self) -> Drawn:
         """Velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
         names, motion, sliding = self.words["figure"], self.dense_cycle.motion, self._sliding
@@ -89,9 +95,8 @@ class Curves(Pictured):
         """Curves over one turn of the driver, the numbered positions marked."""
         fine = self.dense_cycle
         count = int(np.searchsorted(fine.cycle_angle, FULL_TURN + SAME))
-        # A sliding driver is told by its way (mm) instead of its angle.
         slides, name = bool(self.analysis.machine.span), self.words["figure"]["angle"]
-        x = fine.motion.driver[:count] * MM if slides else np.degrees(fine.cycle_angle[:count])
+        x = self._across[:count]
         marks = self._marks[: self.analysis.machine.count]
         series = [charts.Series(symbol, x, values[:count], marks) for symbol, values in curves]
         return charts.chart(series, self.words["figure"]["way"] if slides else name, title, turn=not slides)
@@ -100,8 +105,7 @@ class Curves(Pictured):
         """What balances the driver: a torque over the angle of a crank, a force over the way of a slider."""
         fine, names = self.dense_cycle, self.words["figure"]
         slides = bool(self.analysis.machine.span)
-        x = fine.motion.driver * MM if slides else np.degrees(fine.cycle_angle)
-        curve = charts.Series(self.ledger.symbol("M.eq"), x, fine.torque, self._marks)
+        curve = charts.Series(self.ledger.symbol("M.eq"), self._across, fine.torque, self._marks)
         mean = self.ledger.number("M.mean").value
         title, across = ("balancing_force", "way") if slides else ("torque", "cycle_angle")
         levels = ((mean, self.ledger.symbol("M.mean")),)
