@@ -14,7 +14,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from reportgen.ledger.core import Ledger
+from reportgen.ledger.core import Family, Ledger
 from reportgen.notation.expressions import Call, Ref
 
 PAPER_ERROR = 0.5e-3
@@ -53,8 +53,12 @@ def computed(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
 
 
 def measuring_errors(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndarray]:
-    """The own errors (SI) of what is measured: two ends of a length; of a direction, two ends over its length."""
+    """The own errors (SI) of what is measured: two ends of a length; of a direction, two ends over its length.
+
+    Other angles are measured between lines as long as the drawn crank.
+    """
     errors: dict[str, np.ndarray] = {}
+    crank = min((float(one.values[0]) for one in ledger.families.values() if _is_chosen_length(one)), default=np.inf)
     for id, family in ledger.families.items():
         if family.hidden or family.is_plane or not family.constructed:
             continue
@@ -64,7 +68,14 @@ def measuring_errors(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np
             length = np.abs(_on_paper(ledger, id))
             with np.errstate(all="ignore"):
                 errors[id] = np.minimum(np.where(length > 0, 2 * error / length, np.pi), np.pi)
+        elif family.kind == "angle":
+            errors[id] = np.full(len(family.values), 2 * error / crank)
     return errors
+
+
+def _is_chosen_length(family: Family) -> bool:
+    """Whether a length on paper was chosen, as that of the drawn crank is."""
+    return family.kind == "segment" and family.definition is None
 
 
 def rounding_errors(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
@@ -113,7 +124,9 @@ def carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[st
             change[rows[id]] = 0.0
         inherited = REACH * np.sqrt((np.nan_to_num(change) ** 2).sum(axis=0)) / SHARE
         # What stands for all positions depends on each of them alike.
-        bands[id] = own + (inherited.max(keepdims=True) if len(own) == 1 else inherited)
+        band = own + (inherited.max(keepdims=True) if len(own) == 1 else inherited)
+        # Near a dead centre the direction of next to nothing may be any.
+        bands[id] = np.minimum(band, np.pi) if family.how.unit == "°" else band
     return bands
 
 

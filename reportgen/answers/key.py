@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property, partial
+from itertools import dropwhile
 
 import numpy as np
 
@@ -114,6 +115,7 @@ def make_key(assignment: Assignment, analysis: Analysis, ledger: Ledger) -> Key:
     words = load_words(search_path(assignment.language, assignment.kind))
     on_paper, by_rounding = bands.drawn(ledger), bands.computed(ledger)
     formulas = {item.id for item in machine.formulas}
+    balanced = {*dropwhile(lambda id: id != "M.vw", ledger.families)}
     worked = tuple(assignment.worked_positions)
     complete = set(worked) == set(range(1, machine.positions + 1))
 
@@ -125,7 +127,7 @@ def make_key(assignment: Assignment, analysis: Analysis, ledger: Ledger) -> Key:
             values = np.where(_exists(ledger, id), np.abs(values), np.nan)
         if family.arm:
             values = np.abs(values)
-        role, part = _role(family), _part(id, family, formulas)
+        role, part = _role(family), _part(id, family, formulas, balanced)
         workable = _is_workable(id, family) and (part is not Part.cycle or complete)
         asked = role is Role.scale or (role is Role.asked and workable)
         return Row(
@@ -204,7 +206,7 @@ def _sense(id: str, value: float, words: Mapping[str, str]) -> str:
 
 
 _PARTS = (
-    (r"(seg\.)?v\.|mu\.v$|dir\.v\.|(turn\.)?omega\.", Part.velocity),
+    (r"(seg\.)?v\.|mu\.v$|dir\.v\.|(turn\.)?omega\.|ic\.", Part.velocity),
     (r"(seg\.)?a\.|mu\.a$|dir\.a\.|(turn\.)?eps\.", Part.acceleration),
     (r"(M\.)?Pqt\w*$|e\.Pqt|l\.\w+K\d+$|[sp]\.\d+$|P\w*$|G\d+$", Part.loads),
     (r"[hM]\..*\.p$|M\.(eq|vw)$", Part.torque),
@@ -213,10 +215,11 @@ _PARTS = (
 )
 
 
-def _part(id: str, family: Family, formulas: set[str]) -> Part:
-    """The chapter a quantity belongs to: given data, closed formulas, else by its id."""
+def _part(id: str, family: Family, formulas: set[str], balanced: set[str]) -> Part:
+    """The chapter a quantity belongs to: given data, closed formulas, by its id, the cycle after the balance."""
     if _role(family) is Role.given and len(family.values) == 1:
         return Part.data
     if id in formulas:
         return Part.formulas
-    return next((part for pattern, part in _PARTS if re.match(pattern, id)), Part.cycle)
+    named = next((part for pattern, part in _PARTS if re.match(pattern, id)), None)
+    return named or (Part.cycle if id in balanced else Part.geometry)

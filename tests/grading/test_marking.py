@@ -27,6 +27,8 @@ KINDS = (
     "shaper-02",
     "linkage-8",
     "linkage-slide",
+    "engine-v-02",
+    "slotted-lever-02",
 )
 TWIN = "engine-twin-05"
 AT = 4
