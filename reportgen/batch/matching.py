@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from reportgen.assignment.faults import Fault
@@ -62,8 +62,8 @@ def _assigned(student: Student, files: dict[str, Path], language: Language) -> A
     for stem in (student.folder, student.id):
         if spelt(stem) in files:
             return Assigned(student, files[spelt(stem)])
-    mark = replace(student.mark, file=Path(student.mark.file).name)
-    return Assigned(student, None, as_problem(Fault("no-assignment", mark, {"text": student.id}), language))
+    fault = Fault("no-assignment", student.mark, {"text": student.id})
+    return Assigned(student, None, as_problem(fault, language))
 
 
 def _is_assignment(path: Path, folder: Path) -> bool:

@@ -12,19 +12,21 @@ from pathlib import Path
 from typing import TextIO
 
 from reportgen import api
-from reportgen.assignment.messages import word
+from reportgen.assignment.faults import Fault
+from reportgen.assignment.messages import as_problem, word
 from reportgen.batch import manifest
 from reportgen.batch.jobs import SYSTEM, Job, Making, Outcome
 from reportgen.batch.manifest import Entry
 from reportgen.batch.matching import Assigned
 from reportgen.batch.pool import Pool
 from reportgen.batch.progress import Watch, watching
-from reportgen.errors import Problem
+from reportgen.errors import Mark, Problem
 from reportgen.notation.numbers import Language
 from reportgen.products import Maker
 
 NO_ROOM = frozenset({errno.ENOSPC, errno.EROFS, errno.EIO, getattr(errno, "EDQUOT", errno.ENOSPC)})
 """What would meet every other student, too."""
+NO_LOCKS = frozenset({errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS})
 _TEMPORARY = re.compile(r"\..+\.(?:pdf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
 """What `api.replace` leaves when it is killed."""
 
@@ -74,9 +76,12 @@ def run(
     entries = {key: found for key, found in before.items() if found.student in order}
     with writing():
         manifest.write(out, entries.values())
-    jobs = [job for one in assigned for job in _jobs(one, makers, making)]
-    kept = [job for job in jobs if _holds(entries.get((job.student, job.product)), job, out)]
-    todo = [job for job in jobs if job not in kept]
+    opened = [_opened(one, making.language or "vi") for one in assigned]
+    jobs: dict[bool, list[Job]] = {True: [], False: []}
+    for one, content in opened:
+        for job in _jobs(one, content, makers, making):
+            jobs[_holds(entries.get((job.student, job.product)), job, out)].append(job)
+    kept, todo = jobs[True], jobs[False]
     with (
         watching(len(assigned) * len(makers), stream, making.language or "vi") as watch,
         manifest.Journal(out) as record,
@@ -84,7 +89,7 @@ def run(
         book = _Book(entries, record, watch)
         for job in kept:
             watch(job.folder, job.product, "kept")
-        for one in assigned:
+        for one, _ in opened:
             if one.problem is not None:
                 for product in makers:
                     book.without_file(one, product, one.problem)
@@ -118,6 +123,10 @@ def held(out: Path, language: Language) -> Iterator[None]:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
             raise api.OutputError(word("out_in_use", language).format(out=out)) from error
+        except OSError as error:
+            # Some network folders know no locks.
+            if error.errno not in NO_LOCKS:
+                raise
         yield
     finally:
         os.close(handle)
@@ -156,8 +165,9 @@ class _Book:
         self._take_down(manifest.entry(job, outcome), problems, outcome.exit_code)
 
     def without_file(self, one: Assigned, product: str, problem: Problem) -> None:
-        made = Entry(one.student.id, one.student.folder, product, problems=(str(problem),))
-        self._take_down(made, (replace(problem, mark=one.student.mark),), 1)
+        told = str(_from_here(problem, Path(problem.mark.file).name))
+        made = Entry(one.student.id, one.student.folder, product, problems=(told,))
+        self._take_down(made, (problem,), 1)
 
     def _take_down(self, made: Entry, problems: tuple[Problem | str, ...], code: int) -> None:
         self.entries[made.student, made.product] = made
@@ -170,10 +180,20 @@ class _Book:
         self.watch(made.folder, made.product, "failed" if problems else "done")
 
 
-def _jobs(one: Assigned, makers: Mapping[str, Maker], making: Making) -> list[Job]:
+def _opened(one: Assigned, language: Language) -> tuple[Assigned, bytes]:
+    """A student's assignment with the content of its file; one that cannot be read is this student's matter."""
+    if one.file is None:
+        return one, b""
+    try:
+        return one, one.file.read_bytes()
+    except OSError as error:
+        fault = Fault("unreadable", Mark(str(one.file)), {"reason": type(error).__name__})
+        return Assigned(one.student, None, as_problem(fault, language)), b""
+
+
+def _jobs(one: Assigned, content: bytes, makers: Mapping[str, Maker], making: Making) -> list[Job]:
     if one.file is None:
         return []
-    content = one.file.read_bytes()
     student = one.student
     return [
         Job(student.id, student.folder, product, maker, one.file.name, content, making)

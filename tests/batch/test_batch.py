@@ -54,6 +54,23 @@ def test_a_failure_is_a_result(tmp_path: Path) -> None:
     assert done.result.exit_code == 1
 
 
+def test_a_file_that_cannot_be_read_costs_one_student(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    batch = Batch(tmp_path, {"K1": "seconds: 0", "K2": "seconds: 0"})
+    read = Path.read_bytes
+
+    def guarded(path: Path) -> bytes:
+        if path.name == "K1.yaml":
+            raise PermissionError(errno.EACCES, "no", str(path))
+        return read(path)
+
+    monkeypatch.setattr(Path, "read_bytes", guarded)
+    done = batch.run()
+    assert batch.told("done") == ["K2"]
+    ((problem,),) = [failure.problems for failure in done.result.failures]
+    assert str(problem).startswith(f"{batch.given / 'K1.yaml'}:1:1: error[unreadable]: ")
+    assert '"K1.yaml:1:1: error[unreadable]' in done.result.manifest.read_text(encoding="utf-8")
+
+
 def test_a_fault_of_the_program_costs_one_student(tmp_path: Path) -> None:
     batch = Batch(tmp_path, {"K1": "crash: yes", "K2": "seconds: 0"})
     done = batch.run()
