@@ -74,7 +74,7 @@ def run(
     before = manifest.read(out)
     order = {one.student.id: number for number, one in enumerate(assigned)}
     entries = {key: found for key, found in before.items() if found.student in order}
-    with writing():
+    with api.reported():
         manifest.write(out, entries.values())
     opened = [_opened(one, making.language or "vi") for one in assigned]
     jobs: dict[bool, list[Job]] = {True: [], False: []}
@@ -97,7 +97,7 @@ def run(
         with closing(pool(todo, lambda job: watch(job.folder, job.product, "retried"))) as outcomes:
             for job, outcome in outcomes:
                 book.ended(job, _written(job, outcome, out), files[job.student])
-    with writing():
+    with api.reported():
         target = manifest.write(out, entries.values())
     failures = tuple(sorted(book.failures, key=lambda failure: order[failure.student]))
     gone = {found.student for found in before.values()} - order.keys()
@@ -110,7 +110,7 @@ def held(out: Path, language: Language) -> Iterator[None]:
 
     Raises `OutputError` if there is another one, or if there can be no such folder.
     """
-    with writing():
+    with api.reported():
         out.mkdir(parents=True, exist_ok=True)
     try:
         import fcntl
@@ -140,15 +140,6 @@ def sweep(folder: Path) -> None:
                 path.unlink(missing_ok=True)
 
 
-@contextmanager
-def writing() -> Iterator[None]:
-    """A full disk or a forbidden folder is a fault in one line."""
-    try:
-        yield
-    except OSError as error:
-        raise api.OutputError(f"{error.filename or ''}: {error.strerror or error}") from error
-
-
 @dataclass(slots=True)
 class _Book:
     """What has come so far; each entry is taken down before it is told."""
@@ -171,7 +162,7 @@ class _Book:
 
     def _take_down(self, made: Entry, problems: tuple[Problem | str, ...], code: int) -> None:
         self.entries[made.student, made.product] = made
-        with writing():
+        with api.reported():
             self.record(made)
         self.exit_code = max(self.exit_code, code)
         if problems:

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -284,6 +284,48 @@ class Process:
         assert self.process.stderr is not None
         self.process.stderr.read()
         return self.process.wait(seconds)
+
+
+class Killed(BaseException):
+    """What nothing in the program catches, as it could not catch its end."""
+
+
+@pytest.mark.parametrize("placed", [False, True], ids=["half a file", "a whole file"])
+def test_an_end_at_any_file_is_made_good(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, placed: bool
+) -> None:
+    """Three students with two files each and two manifests: the run ends at each of them in turn."""
+    students = {f"K{k}": "seconds: 0" for k in range(3)}
+    straight = Batch(tmp_path, students, "straight")
+    straight.run()
+    put = api.replace
+    ends = 0
+    for end in range(100):
+        puts = iter(range(100))
+
+        def ending(target: Path, content: bytes, end: int = end, puts: Iterator[int] = puts) -> None:
+            last = next(puts) == end
+            if last and not placed:
+                target.with_name(f".{target.name}.a1b2c3d4").write_bytes(content[:5])
+                raise Killed
+            put(target, content)
+            if last:
+                raise Killed
+
+        batch = Batch(tmp_path, students, f"ended at {end}")
+        monkeypatch.setattr(api, "replace", ending)
+        try:
+            batch.run()
+        except Killed:
+            ends += 1
+        else:
+            break
+        done = batch.told("done")
+        monkeypatch.setattr(api, "replace", put)
+        batch.run()
+        assert set(done) <= set(batch.told("kept"))
+        assert tree(batch.out) == tree(straight.out)
+    assert ends == 3 * 2 + 2
 
 
 def test_killed_again_and_again_nothing_is_lost(tmp_path: Path) -> None:
