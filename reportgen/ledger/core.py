@@ -268,19 +268,20 @@ class Ledger:
         the values so far; `only` leaves the other families as they are.
         """
         values: dict[str, np.ndarray] = {}
-        for id, family in self.families.items():
-            change = None if changes is None else changes.get(id)
-            if change is not None and not callable(change):
-                values[id] = np.atleast_1d(np.asarray(change))
-            else:
-                values[id] = family.values
-                if family.definition is not None and (only is None or id in only):
-                    with np.errstate(all="ignore"):
+        # What no drawing can have (a sine above 1) is NaN, and so is what stands on it.
+        with np.errstate(all="ignore"):
+            for id, family in self.families.items():
+                change = None if changes is None else changes.get(id)
+                if change is not None and not callable(change):
+                    values[id] = np.atleast_1d(np.asarray(change))
+                else:
+                    values[id] = family.values
+                    if family.definition is not None and (only is None or id in only):
                         values[id] = np.atleast_1d(np.asarray(evaluate(family.definition, values)))
-                if change is not None:
-                    values[id] = np.atleast_1d(np.asarray(change(values[id], values)))
-            if entered is not None:
-                entered(id, values)
+                    if change is not None:
+                        values[id] = np.atleast_1d(np.asarray(change(values[id], values)))
+                if entered is not None:
+                    entered(id, values)
         return values
 
     def ancestors(self, id: str) -> tuple[str, ...]:

@@ -59,9 +59,8 @@ def follow(
     def stretch(size: str, values: dict[str, np.ndarray]) -> None:
         vector = vectors[size]
         one, other = np.abs(ledger[size].values), np.abs(ledger[vector].values)
-        with np.errstate(all="ignore"):
-            wanted = np.abs(values[size]) * other / one
-            factor = wanted / np.abs(values[vector])
+        wanted = np.abs(values[size]) * other / one
+        factor = wanted / np.abs(values[vector])
         values[vector] = values[vector] * np.where(np.isfinite(factor), factor, 1.0)
 
     def entered(id: str, values: dict[str, np.ndarray]) -> None:

@@ -165,7 +165,12 @@ def leaves(words: Mapping[str, Any], above: tuple[str, ...] = ()) -> Iterator[tu
 
 
 def shape_of_words(words: Mapping[str, Any]) -> set[tuple[Any, ...]]:
-    return {(*keys, len(value) if isinstance(value, list) else "") for keys, value in leaves(words)}
+    """Each word by its keys, a list by its length; how a language may head a column is its own affair."""
+    counted = (keys[0] != "columns" for keys, _ in leaves(words))
+    return {
+        (*keys, len(value) if isinstance(value, list) and same else "")
+        for same, (keys, value) in zip(counted, leaves(words), strict=True)
+    }
 
 
 ONE_SIDED = {("cover", "months")}
