@@ -74,7 +74,8 @@ class CheckTables(Tabled):
                 ),
                 "N",
             )
-            found["torque"] = (float(np.nanmax(np.abs(analysis.torque - analysis.torque_by_work))), "N·m")
+            difference = float(np.nanmax(np.abs(analysis.torque - analysis.torque_by_work)))
+            found["torque"] = (difference, "N" if analysis.machine.span else "N·m")
             found["energy"] = (analysis.summary.energy_error, "")
         return found
 
