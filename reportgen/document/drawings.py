@@ -166,17 +166,22 @@ class Drawings:
         """The force plan step by step: loads, components found by moments, closing sides, what is read."""
         assert group.polygon is not None
         drawing = self.force_plan(group.polygon, k)
-        loads = sum(side.name in self.ledger for side in group.polygon.sides)
-        known = sum(not side.unknown for side in group.polygon.sides)
-        found = 1 if known > loads else 0
+        sides = group.polygon.sides
+        known = sum(not side.unknown for side in sides)
+        by_moments = [not side.unknown and side.name.endswith(".t") for side in sides]
 
         def step(stage: int) -> int:
-            return 0 if stage < loads else 1 if stage < known else found + 1 + stage - known
+            return 2 + stage - known if stage >= known else int(by_moments[stage])
+
+        def reached(corner: complex) -> int:
+            """The first step that draws an arrow to or from a corner."""
+            ends = [v for v in drawing.vectors if corner in (v.start, v.end)]
+            return min(step(v.stage) for v in ends)
 
         steps = replace(
             drawing,
             vectors=tuple(replace(v, stage=step(v.stage)) for v in drawing.vectors),
-            points=tuple(replace(p, stage=step(p.stage)) for p in drawing.points),
+            points=tuple(replace(p, stage=reached(p.at)) for p in drawing.points),
         )
         return self._stages(steps, f"mu.R{group.polygon.name}")
 
