@@ -1,6 +1,21 @@
 """Coursework reports in the Theory of Machines from one assignment file."""
 
-from reportgen.api import analyse, build, check, document, load, solve
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from reportgen.errors import AssignmentError, ReportgenError
 
+if TYPE_CHECKING:
+    from reportgen.api import analyse, build, check, document, load, solve
+
 __all__ = ["AssignmentError", "ReportgenError", "analyse", "build", "check", "document", "load", "solve"]
+
+
+def __getattr__(name: str) -> object:
+    """The functions of `reportgen.api`, which is loaded when the first of them is asked for."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from reportgen import api
+
+    return getattr(api, name)

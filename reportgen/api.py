@@ -72,7 +72,7 @@ def document(assignment: Assignment) -> Document:
     from reportgen.document.outline import compose
 
     analysis = analyse(assignment)
-    title = catalogue.titles(assignment.language)[assignment.kind]
+    title = catalogue.title(assignment.kind, assignment.language)
     return compose(assignment, analysis, keep_books(assignment, analysis), title)
 
 

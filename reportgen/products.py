@@ -42,7 +42,7 @@ def opened(path: Path, language: Language | None = None) -> Opened:
     """The assignment of a file, computed; raises `AssignmentError`, `TemplateError`."""
     assignment = api.load(path, language)
     analysis = api.analyse(assignment)
-    title = catalogue.titles(assignment.language)[assignment.kind]
+    title = catalogue.title(assignment.kind, assignment.language)
     return Opened(assignment, analysis, api.keep_books(assignment, analysis), title)
 
 

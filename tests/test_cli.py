@@ -58,6 +58,27 @@ def test_check_and_help_leave_heavy_libraries_alone() -> None:
     assert done.stdout.strip() == ""
 
 
+def test_the_command_line_itself_loads_next_to_nothing() -> None:
+    """`--help` asks for no assignment; what reads one is loaded by the commands that do."""
+    script = "import sys, reportgen.cli\nprint(*{'numpy', 'pydantic', 'yaml', 'reportgen.api'} & set(sys.modules))"
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == ""
+
+
+def test_the_package_offers_its_functions_by_name() -> None:
+    script = (
+        "import reportgen\nfrom reportgen import analyse, build, check, load, solve\n"
+        f"print(load({str(SAMPLE)!r}).kind, all(callable(getattr(reportgen, name)) for name in reportgen.__all__))\n"
+        "print(hasattr(reportgen, 'nothing'))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.split() == ["engine-twin", "True", "False"]
+
+
 def test_check_prints_all_faults_with_hints(faulty: Path) -> None:
     done = reportgen("check", faulty, SAMPLE, "--lang", "en")
     assert (done.returncode, done.stdout) == (1, "")

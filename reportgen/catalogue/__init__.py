@@ -57,7 +57,12 @@ KINDS = reading.Kinds(tuple(MODULES), kind)
 
 def titles(language: Language) -> dict[str, str]:
     """Each kind with its line of description."""
-    return {name: str(module(name).TITLES[language]) for name in MODULES}
+    return {name: title(name, language) for name in MODULES}
+
+
+def title(name: str, language: Language) -> str:
+    """The line of description of a kind; raises `KeyError`."""
+    return str(module(name).TITLES[language])
 
 
 def load(path: Path, language: Language | None = None) -> Assignment:
@@ -72,7 +77,9 @@ def check(path: Path, language: Language | None = None) -> list[Problem]:
 
 def sample(name: str, language: Language) -> str:
     """The commented assignment file to fill in of a kind; raises `KeyError`."""
-    file = f"{module(name).KIND}.yaml"
+    if name not in MODULES:
+        raise KeyError(name)
+    file = f"{name}.yaml"
     return (folders.templates() / language / "new" / file).read_text(encoding="utf-8")
 
 
