@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -17,7 +19,7 @@ from reportgen.answers import bands
 from reportgen.answers.key import Key, Row
 from reportgen.answers.sheet import asked_positions, grid, info_page, page, rows_shown, words_of
 from reportgen.assignment import Assignment
-from reportgen.errors import Mark
+from reportgen.errors import AssignmentError, Mark
 from reportgen.grading.guide import Guide, open_guide
 from reportgen.grading.marks import Given, Submission
 from reportgen.grading.mistakes import Site as Site
@@ -25,6 +27,10 @@ from reportgen.ledger.following import follow
 from reportgen.workbook import Book, Entry
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
+
+QUANTITY = re.compile(r"([0-9.]+) ([A-Za-z][\w/^ ]*)")
+KEPT = ("deg", "m/s2")
+"""Angles decide the strokes of an engine, and g is the same for all."""
 
 World = Mapping[str, np.ndarray]
 """All values (SI) by id, [N] or [1]."""
@@ -146,3 +152,16 @@ def filled_book(key: Key, submission: Submission) -> Book:
     words = words_of(key)["answer_sheet"]
     rows = grid(key, words["title"], words["note"], filling, rows_shown(key), asked_positions(key))
     return Book((page(words["answers"], rows), info_page(key)), words["title"])
+
+
+def varied(name: str, rng: np.random.Generator, worked: tuple[int, ...] | None = None) -> Assignment:
+    """A random variant: every single quantity of an assignment within a tenth of what it was, as a student types it."""
+    content = yaml.load((ASSIGNMENTS / f"{name}.yaml").read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+    while True:
+        drawn = {
+            id: f"{figures(float(match[1]) * rng.uniform(0.9, 1.1)):g} {match[2]}"
+            for id, text in content["parameters"].items()
+            if isinstance(text, str) and (match := QUANTITY.fullmatch(text)) and match[2] not in KEPT
+        }
+        with suppress(AssignmentError):
+            return assignment(name, worked, **drawn)
