@@ -131,6 +131,8 @@ def _origins(given: file.Parameters) -> dict[int, str]:
 
 
 def _motions(given: file.Parameters) -> Iterator[MotionRow]:
+    # Links that do not turn: the frame, a sliding driver, and what slides on such a link.
+    level = {0} if isinstance(given.driver, file.CrankDriver) else {0, 1}
     for group in given.groups:
         names = group.joints
         ends: list[str | file.Guide]
@@ -141,10 +143,13 @@ def _motions(given: file.Parameters) -> Iterator[MotionRow]:
                 ends = list(group.guides)
             case _:
                 ends = [names[0], group.guide]
-        turns_alike = isinstance(group, file.RPP) and group.guide.on == 0
+        turns_alike = isinstance(group, file.RPP) and group.guide.on in level
         for link, end in zip(group.links, ends, strict=True):
+            slides_level = isinstance(end, file.Guide) and end.on in level
+            if turns_alike or slides_level:
+                level.add(link)
             if isinstance(end, file.Guide):
-                yield MotionRow(link, "translation" if end.on == 0 else "plane")
+                yield MotionRow(link, "translation" if end.on == 0 else "shift" if slides_level else "plane")
             elif turns_alike:
                 yield MotionRow(link, "shift")
             else:

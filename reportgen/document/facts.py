@@ -180,8 +180,10 @@ class Facts:
         views = []
         for body in self.analysis.machine.linkage.inertias:
             ids = self.has([f"e.Pqt{body.link}", f"l.{body.centre}K{body.link}"])
+            # A block turns about no base of a plan: the pin it sits on is its first joint.
             start = next(
-                (side.base for group in self.groups for side in group.sides if _turns(side, body.link)), ""
+                (side.base for group in self.groups for side in group.sides if _turns(side, body.link)),
+                next((group.P for group in self.groups if group.i == body.link), ""),
             )
             if len(ids) == 2:
                 views.append(BodyView(body.link, body.centre, start, tuple(ids), start in self._fixed))
