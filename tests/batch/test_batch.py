@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import errno
 import io
+import multiprocessing
 import os
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Iterator, Mapping
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -25,6 +28,7 @@ from reportgen.batch.run import held
 from reportgen.batch.start import Order, start, told
 from reportgen.errors import AssignmentError
 from reportgen.notation.numbers import Language
+from reportgen.products import Maker
 from tests.batch.classes import Batch, here, tree, write_class
 from tests.batch.little import little
 
@@ -193,21 +197,72 @@ def test_what_met_many_is_said_once(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert done.result.exit_code == 3
 
 
-def test_workers_are_replaced_before_they_grow(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    students: list[int] = []
-    hire = pools._Crew.hire
+def jobs_of(maker: Maker, *names: str) -> list[Job]:
+    return [Job(name, name, "little", maker, f"{name}.yaml", b"", making("typst", "en")) for name in names]
 
-    def counted(crew: pools._Crew) -> pools._Worker:
-        worker = hire(crew)
-        students.append(worker.process.pid or 0)
-        return worker
 
-    monkeypatch.setattr(pools._Crew, "hire", counted)
-    count = 2 * pools.MOST_JOBS + 1
-    batch = Batch(tmp_path, {f"K{k}": "seconds: 0" for k in range(count)})
-    done = batch.run(pool=local(1))
-    assert done.result.made == count
-    assert len(students) == 3
+def retried_never(job: Job) -> None:
+    raise AssertionError(f"{job.student} had to begin anew")
+
+
+class Deadly:
+    """Kills the process that sends it."""
+
+    def __reduce__(self) -> str:
+        os.kill(os.getpid(), signal.SIGKILL)
+        return ""
+
+
+def deadly_result(path: Path, _engine: Engine, _language: Language | None) -> Mapping[str, Any]:
+    return {"a.pdf": Deadly() if path.stem == "K1" else b""}
+
+
+def test_a_worker_that_dies_as_it_sends_leaves_the_way_free_for_others() -> None:
+    """With a pipe or a lock that workers share, half a result or a lock held for ever would stop them all."""
+    retried: list[str] = []
+    jobs = jobs_of(deadly_result, *(f"K{k}" for k in range(5)))
+    results = local(2)(jobs, lambda job: retried.append(job.student))
+    assert {job.student: outcome.exit_code for job, outcome in results} == {"K0": 0, "K1": 3, "K2": 0, "K3": 0, "K4": 0}
+    assert retried == ["K1"]
+
+
+def processes(_path: Path, _engine: Engine, _language: Language | None) -> Mapping[str, bytes]:
+    """Which process made it, and which one started that."""
+    return {"ids": f"{os.getpid()} {os.getppid()}".encode()}
+
+
+def test_each_job_has_a_process_of_its_own() -> None:
+    """So no memory is kept from one to the next; all come from one that has everything loaded."""
+    jobs = jobs_of(processes, *(f"K{k}" for k in range(6)))
+    made = [outcome.files["ids"].split() for _, outcome in local(2)(jobs, retried_never)]
+    assert len({process for process, _ in made}) == len(jobs)
+    starters = {int(starter) for _, starter in made}
+    assert len(starters) == 1
+    if "forkserver" in multiprocessing.get_all_start_methods():
+        assert os.getpid() not in starters
+
+
+def lingering(path: Path, _engine: Engine, _language: Language | None) -> Mapping[str, bytes]:
+    """K2 tells in a file where it works and goes on for ever; K1 ends once it has been told."""
+    told_in = Path(path.read_text(encoding="utf-8"))
+    if path.stem == "K2":
+        api.replace(told_in, str(path.parent).encode())
+        time.sleep(600)
+    while not told_in.exists():
+        time.sleep(0.01)
+    return {}
+
+
+def test_who_is_no_longer_waited_for_ends_and_tidies_up(tmp_path: Path) -> None:
+    told_in = tmp_path / "where"
+    jobs = [replace(job, content=str(told_in).encode()) for job in jobs_of(lingering, "K1", "K2")]
+    with closing(local(2)(jobs, retried_never)) as results:
+        job, _ = next(results)
+        assert job.student == "K1"
+        scratch = Path(told_in.read_text(encoding="utf-8"))
+        assert scratch.is_dir()
+    assert not scratch.exists()
+    assert [child for child in multiprocessing.active_children() if child.name == pools.NAME] == []
 
 
 def test_a_full_disk_stops_the_batch(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
