@@ -94,12 +94,14 @@ def _context() -> ForkServerContext | SpawnContext:
     """New processes come from a server that has imported everything already, where the system allows it."""
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
-    from multiprocessing.forkserver import ensure_running
+    from multiprocessing import forkserver, resource_tracker
 
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(["reportgen.batch.warm"])
+    # It lets Ctrl-C through again once it has started, which the server would do first.
+    resource_tracker.ensure_running()
     with _uninterrupted():
-        ensure_running()
+        forkserver.ensure_running()
     return context
 
 

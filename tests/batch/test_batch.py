@@ -242,6 +242,17 @@ def test_each_job_has_a_process_of_its_own() -> None:
         assert os.getpid() not in starters
 
 
+def deaf(_path: Path, _engine: Engine, _language: Language | None) -> Mapping[str, bytes]:
+    """Whether Ctrl-C was held back from this process when it began."""
+    return {"deaf": b"yes" if signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()) else b"no"}
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="no signals to hold back")
+def test_ctrl_c_reaches_no_worker_even_as_it_starts() -> None:
+    ((_, outcome),) = local(1)(jobs_of(deaf, "K1"), retried_never)
+    assert outcome.files["deaf"] == b"yes"
+
+
 def lingering(path: Path, _engine: Engine, _language: Language | None) -> Mapping[str, bytes]:
     """K2 tells in a file where it works and goes on for ever; K1 ends once it has been told."""
     told_in = Path(path.read_text(encoding="utf-8"))
