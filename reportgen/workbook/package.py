@@ -25,6 +25,9 @@ MOST_UNPACKED = 60_000_000
 MOST_RATIO = 250
 """How many times its packed size a part of more than `SMALL` bytes may have; sheets of numbers reach 40."""
 SMALL = 1_000_000
+MOST_ELEMENTS = 100_000
+"""Elements of a part that lists other parts."""
+CONTENT_TYPES = "[Content_Types].xml"
 CHUNK = 1 << 16
 
 _OLD = b"\xd0\xcf\x11\xe0"
@@ -72,6 +75,9 @@ class Package:
     def refused(self, code: str, **arguments: str) -> RefusedError:
         return RefusedError(code, self.mark, arguments)
 
+    def bomb(self) -> RefusedError:
+        return self.refused("sheet-bomb", largest=str(MOST_UNPACKED // 1_000_000))
+
     def _judge(self, size: int) -> None:
         """What the directory of the zip shows."""
         infos = self._zip.infolist()
@@ -84,17 +90,17 @@ class Package:
             for end, info in zip(ends, infos, strict=True)
         )
         if len(infos) > MOST_PARTS or unpacked > MOST_UNPACKED or shared:
-            raise self.refused("sheet-bomb", largest=str(MOST_UNPACKED // 1_000_000))
+            raise self.bomb()
         for info in infos:
             if info.file_size > SMALL and info.file_size > MOST_RATIO * max(info.compress_size, 1):
-                raise self.refused("sheet-bomb", largest=str(MOST_UNPACKED // 1_000_000))
+                raise self.bomb()
             if info.flag_bits & 1:
                 raise self.refused("sheet-encrypted")
             if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
                 raise self.refused("sheet-damaged")
         if len(self._parts) < len(infos):
             raise self.refused("sheet-damaged")
-        if "[Content_Types].xml" not in self._parts:
+        if CONTENT_TYPES not in self._parts:
             raise self.refused("sheet-no-zip")
         if any(_MACROS.search(name) for name in self._parts):
             raise self.refused("sheet-macros")
@@ -103,7 +109,7 @@ class Package:
 
     def _judge_contents(self) -> None:
         """What the list of types and the relations show; a hyperlink is the one link that leads outside."""
-        for _, attributes in self.elements("[Content_Types].xml"):
+        for _, attributes in self.elements(CONTENT_TYPES):
             if _FORBIDDEN_TYPES.search(attributes.get("ContentType", "")):
                 raise self.refused("sheet-macros")
         for name in self._parts:
@@ -127,10 +133,20 @@ class Package:
         }
 
     def elements(self, name: str) -> list[tuple[str, Attributes]]:
-        """All elements of a part, in order, by local name with their attributes."""
+        """All elements of a part, in order, with their attributes, names without namespaces."""
         found: list[tuple[str, Attributes]] = []
-        self.walk(name, start=lambda tag, attributes: found.append((tag, attributes)))
+
+        def start(tag: str, attributes: Attributes) -> None:
+            found.append((_local(tag), {_local(key): value for key, value in attributes.items()}))
+            if len(found) > MOST_ELEMENTS:
+                raise self.bomb()
+
+        self.walk(name, start)
         return found
+
+    def content(self, name: str) -> bytes:
+        """The bytes of a part; raises `RefusedError` for damage or more bytes than the directory announced."""
+        return b"".join(self._chunks(name))
 
     def walk(
         self,
@@ -141,7 +157,7 @@ class Package:
         *,
         prologue_only: bool = False,
     ) -> None:
-        """Hand the events of an XML part to the callables, names without namespaces.
+        """Hand the events of an XML part to the callables; a name follows its namespace and a space.
 
         Raises `RefusedError` for a document type, damage, or more bytes than the directory announced.
         """
@@ -152,18 +168,14 @@ class Package:
         def refuse(*_: object) -> None:
             raise self.refused("sheet-entities", text=name)
 
-        def begin(tag: str, attributes: Attributes) -> None:
+        def enter(*_: object) -> None:
             nonlocal entered
             entered = True
-            if start is not None:
-                start(_local(tag), {_local(key): value for key, value in attributes.items()})
 
         parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = refuse
-        parser.StartElementHandler = begin
-        if end is not None:
-            parser.EndElementHandler = lambda tag: end(_local(tag))
-        if text is not None:
-            parser.CharacterDataHandler = text
+        parser.StartElementHandler = enter if prologue_only else start
+        parser.EndElementHandler = end
+        parser.CharacterDataHandler = text
         try:
             for chunk in self._chunks(name):
                 parser.Parse(chunk, False)
@@ -182,7 +194,7 @@ class Package:
                 while chunk := stream.read(CHUNK):
                     left -= len(chunk)
                     if left < 0:
-                        raise self.refused("sheet-bomb", largest=str(MOST_UNPACKED // 1_000_000))
+                        raise self.bomb()
                     yield chunk
         except (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError, ValueError):
             raise self.refused("sheet-damaged") from None

@@ -1,16 +1,22 @@
-"""XLSX → pages of located cells, read part by part so that nothing is kept but what is counted."""
+"""XLSX → pages of located cells, read by openpyxl from a copy that holds the judged parts it needs and no others."""
 
 from __future__ import annotations
 
 import datetime
+import io
 import math
 import posixpath
 import re
 import unicodedata
-from collections.abc import Mapping
+import warnings
+import zipfile
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
+from itertools import tee
+from typing import TYPE_CHECKING, Any
 
-from reportgen.errors import CellMark
+from reportgen.errors import CellMark, Mark
 from reportgen.workbook.cells import (
     LONGEST_CELL,
     MOST_CELLS,
@@ -21,156 +27,179 @@ from reportgen.workbook.cells import (
     Page,
     RefusedError,
 )
-from reportgen.workbook.package import Attributes, Package
+from reportgen.workbook.extent import MOST_GROUPS, measure
+from reportgen.workbook.package import CONTENT_TYPES, Package
+
+if TYPE_CHECKING:
+    from openpyxl import Workbook
 
 MOST_SHEETS = 100
-MOST_ELEMENTS = 20 * MOST_CELLS
-"""Rows and cells with nothing but a style, which programs write freely."""
-_REFERENCE = re.compile(r"([A-Z]{1,3})([1-9][0-9]{0,6})")
 _ESCAPE = re.compile(r"_x([0-9A-Fa-f]{4})_")
-_DATES = frozenset({*range(14, 23), *range(27, 37), *range(45, 48), *range(50, 59)})
-"""Number formats every program knows as dates and times."""
-_NO_DATE = re.compile(r'"[^"]*"|\[[^\]]*\]|\\.|_.|\*.')
-_EPOCHS = {False: datetime.datetime(1899, 12, 30), True: datetime.datetime(1904, 1, 1)}
 
 
 def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
     """The sheets of a workbook in their order; raises `RefusedError`."""
-    package = Package(data, file)
+    parts = _parts(Package(data, file))
+    copy = parts.copy()
+    with warnings.catch_warnings(), _damage(Mark(file)):
+        # openpyxl warns of what it leaves out, of which no value of a cell is ever a part.
+        warnings.simplefilter("ignore")
+        with closing(_load(copy, stored=True)) as values:
+            if len(values.worksheets) != len(parts.cells):
+                raise RefusedError("sheet-damaged", Mark(file))
+            if not parts.formulas:
+                return _pages(values, None, parts, file)
+            with closing(_load(copy, stored=False)) as formulas:
+                return _pages(values, formulas, parts, file)
+
+
+def _load(copy: bytes, *, stored: bool) -> Workbook:
+    """The workbook with the stored results of its formulas, or with their texts."""
+    from openpyxl import load_workbook
+
+    return load_workbook(io.BytesIO(copy), read_only=True, data_only=stored, keep_links=False)
+
+
+@contextmanager
+def _damage(mark: Mark) -> Iterator[None]:
+    """Whatever goes wrong inside is damage of the workbook: openpyxl has no exception of its own for that."""
+    try:
+        yield
+    except RefusedError:
+        raise
+    except Exception:
+        raise RefusedError("sheet-damaged", mark) from None
+
+
+@dataclass(frozen=True, slots=True)
+class _Parts:
+    """The parts openpyxl is to read; for each sheet of cells, how many it has."""
+
+    package: Package
+    names: tuple[str, ...]
+    strings: str
+    cells: tuple[int, ...]
+    formulas: bool
+
+    def copy(self) -> bytes:
+        stream = io.BytesIO()
+        with zipfile.ZipFile(stream, "w") as made:
+            for name in self.names:
+                content = self.package.content(name)
+                if name == self.strings:
+                    # openpyxl takes these letters out, and with them what tells _x000D_, a carriage return, from
+                    # those seven characters, written _x005F_x000D_: it is to find them once more.
+                    content = content.replace(b"x005F_", b"x005Fx005F__")
+                made.writestr(name, content)
+        return stream.getvalue()
+
+
+def _parts(package: Package) -> _Parts:
+    """Raises `RefusedError` where a sheet cannot be found or a part has too much in it."""
     root = next((r.target for r in package.relations("_rels/.rels").values() if r.kind == "officeDocument"), "")
     workbook = root.lstrip("/")
     if workbook not in package:
         raise package.refused("sheet-no-zip")
     folder, name = posixpath.split(workbook)
-    relations = package.relations(posixpath.join(folder, "_rels", f"{name}.rels"))
+    beside = posixpath.join(folder, "_rels", f"{name}.rels")
+    relations = package.relations(beside)
     places = {
         id: one.target.lstrip("/") if one.target.startswith("/") else posixpath.normpath(f"{folder}/{one.target}")
         for id, one in relations.items()
     }
-    kinds = {one.kind: places[id] for id, one in relations.items()}
-    elements = package.elements(workbook)
-    epoch = any(tag == "workbookPr" and a.get("date1904") in ("1", "true") for tag, a in elements)
-    context = _Context(
-        package,
-        _shared(package, kinds.get("sharedStrings", "")),
-        _date_styles(package, kinds.get("styles", "")),
-        _EPOCHS[epoch],
-    )
-    sheets = [attributes for tag, attributes in elements if tag == "sheet"]
-    if len(sheets) > MOST_SHEETS:
+    listed = [attributes.get("id", "") for tag, attributes in package.elements(workbook) if tag == "sheet"]
+    if len(listed) > MOST_SHEETS:
         raise package.refused("table-too-large", **_limits())
-    pages = []
-    for number, sheet in enumerate(sheets, start=1):
-        place, title = places.get(sheet.get("id", ""), ""), sheet.get("name", "")
-        if place not in package:
-            raise package.refused("sheet-damaged", text=title)
-        hidden = sheet.get("state", "visible") != "visible"
-        pages.append(Page(title, _Sheet(context, title, number).rows(place), hidden))
-    return tuple(pages)
+    found = {places[id] for id in listed if places.get(id, "") in package}
+    if len(found) < len(listed):
+        raise package.refused("sheet-damaged")
+    sheets = [places[id] for id in listed if relations[id].kind == "worksheet"]
+    if not sheets:
+        raise package.refused("sheet-no-zip")
+    tables = {one.kind: places[id] for id, one in relations.items() if one.kind in ("styles", "sharedStrings")}
+    others = [CONTENT_TYPES, workbook, beside, *(place for place in tables.values() if place in package)]
+    for place in others:
+        measure(package, place)
+    extents = [measure(package, place) for place in sheets]
+    return _Parts(
+        package,
+        tuple(dict.fromkeys([*others, *sheets])),
+        tables.get("sharedStrings", ""),
+        tuple(extent.cells for extent in extents),
+        any(extent.formulas for extent in extents),
+    )
 
 
 def _limits() -> dict[str, str]:
     return {"rows": str(MOST_ROWS), "columns": str(MOST_COLUMNS), "cells": str(MOST_CELLS)}
 
 
-@dataclass(frozen=True, slots=True)
-class _Context:
-    """What the sheets of a workbook share."""
-
-    package: Package
-    strings: tuple[str, ...]
-    dates: frozenset[int]
-    epoch: datetime.datetime
-
-
-def _shared(package: Package, name: str) -> tuple[str, ...]:
-    """The table of strings; the phonetic readings beside them are left out."""
-    if name not in package:
-        return ()
-    strings: list[str] = []
-    parts: list[str] = []
-    open_tags: list[str] = []
-
-    def start(tag: str, _: Attributes) -> None:
-        open_tags.append(tag)
-        if tag == "si":
-            parts.clear()
-
-    def end(tag: str) -> None:
-        open_tags.pop()
-        if tag == "si":
-            strings.append(_text("".join(parts)))
-
-    def text(data: str) -> None:
-        if open_tags[-1] == "t" and "rPh" not in open_tags:
-            parts.append(data)
-
-    package.walk(name, start, end, text)
-    return tuple(strings)
+def _pages(values: Workbook, formulas: Workbook | None, parts: _Parts, file: str) -> tuple[Page, ...]:
+    pages = []
+    for number, (sheet, count) in enumerate(zip(values.worksheets, parts.cells, strict=True), start=1):
+        sheet.reset_dimensions()
+        if formulas is None:
+            written, shown = tee(sheet.rows)
+        else:
+            same = formulas.worksheets[number - 1]
+            same.reset_dimensions()
+            written, shown = same.rows, sheet.rows
+        rows = _Sheet(file, sheet.title, number).rows(zip(written, shown, strict=True), count)
+        pages.append(Page(sheet.title, rows, sheet.sheet_state != "visible"))
+    return tuple(pages)
 
 
-def _date_styles(package: Package, name: str) -> frozenset[int]:
-    """The cell styles that show a number as a date or a time."""
-    if name not in package:
-        return frozenset()
-    formats: dict[str, str] = {}
-    dates: set[int] = set()
-    count = 0
-    inside = False
-
-    def start(tag: str, attributes: Attributes) -> None:
-        nonlocal count, inside
-        if tag == "numFmt":
-            formats[attributes.get("numFmtId", "")] = attributes.get("formatCode", "")
-        elif tag == "cellXfs":
-            inside = True
-        elif tag == "xf" and inside:
-            if _is_date(attributes.get("numFmtId", "0"), formats):
-                dates.add(count)
-            count += 1
-
-    def end(tag: str) -> None:
-        nonlocal inside
-        inside = inside and tag != "cellXfs"
-
-    package.walk(name, start, end)
-    return frozenset(dates)
-
-
-def _is_date(id: str, formats: Mapping[str, str]) -> bool:
-    if id in formats:
-        code = _NO_DATE.sub("", formats[id]).lower()
-        return code != "general" and any(letter in code for letter in "dmyhs")
-    return id.isdigit() and len(id) < 4 and int(id) in _DATES
-
-
-def _text(raw: str) -> str:
-    """A string as typed: composed, its _xHHHH_ escapes undone."""
-    return unicodedata.normalize("NFC", _ESCAPE.sub(lambda match: chr(int(match[1], 16)), raw))
+Row = tuple[Any, ...]
 
 
 @dataclass
 class _Sheet:
-    """Collects the cells of one sheet; `row` and `column` are the place of the current cell."""
+    """Collects the cells of one sheet by row and column."""
 
-    context: _Context
+    file: str
     name: str
     number: int
     cells: dict[int, dict[int, Cell]] = field(default_factory=dict)
-    row: int = 0
-    column: int = 0
-    elements: int = 0
-    attributes: Attributes = field(default_factory=dict)
-    open_tags: list[str] = field(default_factory=list)
-    parts: dict[str, list[str]] = field(default_factory=dict)
 
-    def rows(self, part: str) -> tuple[tuple[Cell, ...], ...]:
-        """All rows from the first on, as long as their last cell that holds something."""
-        self.context.package.walk(part, self._start, self._end, self._data)
+    def rows(self, read: Iterator[tuple[Row, Row]], count: int) -> tuple[tuple[Cell, ...], ...]:
+        """All rows from the first on, as long as their last cell that holds something.
+
+        `read` gives each row with its formulas and with its values; `count` cells must be among them.
+        """
+        found = self._collect(read)
         last = max(self.cells, default=0)
+        if found != count:
+            # openpyxl leaves out rows and cells that are not in order.
+            raise RefusedError("sheet-damaged", self._mark(1, 1))
         if sum(max(row) for row in self.cells.values()) > MOST_CELLS:
-            raise RefusedError("table-too-large", self._mark(), _limits())
+            raise RefusedError("table-too-large", self._mark(last, 1), _limits())
         return tuple(self._filled(row) for row in range(1, last + 1))
+
+    def _collect(self, read: Iterator[tuple[Row, Row]]) -> int:
+        """Keep what is not empty; the number of all cells met."""
+        from openpyxl.cell.read_only import ReadOnlyCell
+
+        found = 0
+        for number, pair in enumerate(self._whole(read), start=1):
+            if number > MOST_GROUPS:
+                raise RefusedError("sheet-damaged", self._mark(number, 1))
+            for written, shown in zip(*pair, strict=True):
+                if isinstance(written, ReadOnlyCell):
+                    found += 1
+                    cell = _cell(written, shown, self._mark(written.row, written.column))
+                    if not cell.blank:
+                        self._keep(cell)
+        return found
+
+    def _whole(self, read: Iterator[tuple[Row, Row]]) -> Iterator[tuple[Row, Row]]:
+        """The rows up to one that openpyxl cannot read; what is told is the row after the last that was whole."""
+        last = 0
+        try:
+            for pair in read:
+                yield pair
+                last += 1
+        except Exception:
+            raise RefusedError("sheet-damaged", self._mark(last + 1, 1)) from None
 
     def _filled(self, row: int) -> tuple[Cell, ...]:
         cells = self.cells.get(row, {})
@@ -179,114 +208,60 @@ class _Sheet:
             for column in range(1, max(cells, default=0) + 1)
         )
 
-    def _mark(self, row: int = 0, column: int = 0) -> CellMark:
-        file = self.context.package.mark.file
-        return CellMark(file, row or max(self.row, 1), column or max(self.column, 1), self.name, self.number)
-
-    def _start(self, tag: str, attributes: Attributes) -> None:
-        self.open_tags.append(tag)
-        if tag == "row":
-            self._count()
-            given = attributes.get("r", "")
-            self.row = int(given) if given.isdigit() and len(given) < 8 else self.row + 1
-            self.column = 0
-        elif tag == "c":
-            self._count()
-            self._place(attributes.get("r"))
-            self.attributes, self.parts = attributes, {}
-
-    def _count(self) -> None:
-        self.elements += 1
-        if self.elements > MOST_ELEMENTS:
-            raise RefusedError("table-too-large", self._mark(), _limits())
-
-    def _place(self, reference: str | None) -> None:
-        if reference is None:
-            self.column += 1
-            return
-        match = _REFERENCE.fullmatch(reference)
-        if match is None:
-            raise RefusedError("sheet-damaged", self._mark(), {"text": reference})
-        self.row, self.column = int(match[2]), 0
-        for letter in match[1]:
-            self.column = self.column * 26 + ord(letter) - ord("A") + 1
-
-    def _data(self, data: str) -> None:
-        tag = self.open_tags[-1]
-        if tag in ("v", "f", "t") and "rPh" not in self.open_tags and "c" in self.open_tags:
-            self.parts.setdefault(tag, []).append(data)
-
-    def _end(self, tag: str) -> None:
-        self.open_tags.pop()
-        if tag == "f":
-            self.parts.setdefault("f", [])
-        if tag == "c":
-            cell = self._cell()
-            if not cell.blank:
-                self._keep(cell)
+    def _mark(self, row: int, column: int) -> CellMark:
+        return CellMark(self.file, row, column, self.name, self.number)
 
     def _keep(self, cell: Cell) -> None:
-        inside = self.row <= MOST_ROWS and self.column <= MOST_COLUMNS
-        if not inside or len(self.cells) >= MOST_CELLS:
+        row, column = cell.mark.line, cell.mark.column
+        if row > MOST_ROWS or column > MOST_COLUMNS or len(self.cells) >= MOST_CELLS:
             raise RefusedError("table-too-large", cell.mark, _limits())
         if isinstance(cell.value, str) and len(cell.value) > LONGEST_CELL:
             raise RefusedError("text-too-long", cell.mark, {"largest": str(LONGEST_CELL)})
-        self.cells.setdefault(self.row, {})[self.column] = cell
+        self.cells.setdefault(row, {})[column] = cell
 
-    def _cell(self) -> Cell:
-        mark = self._mark()
-        value, kind = self._value(mark)
-        if "f" in self.parts:
-            return Cell(value, mark, "formula", f"={''.join(self.parts['f'])}")
+
+def _cell(written: Any, shown: Any, mark: CellMark) -> Cell:
+    value, kind = _value(shown.value, shown.data_type, mark)
+    if written.data_type != "f":
         return Cell(value, mark, kind)
+    # The formula of an array is an object with its text, that of a table of data one without.
+    text = written.value if isinstance(written.value, str) else getattr(written.value, "text", "=")
+    return Cell(value, mark, "formula", text)
 
-    def _value(self, mark: CellMark) -> tuple[str | float | None, CellKind]:
-        raw = "".join(self.parts.get("v", ()))
-        match self.attributes.get("t", "n"):
-            case "inlineStr":
-                return _written(_text("".join(self.parts.get("t", ()))))
-            case "s":
-                strings = self.context.strings
-                if not raw.strip():
-                    return None, "empty"
-                if not re.fullmatch(r"\s*[0-9]{1,9}\s*", raw) or int(raw) >= len(strings):
-                    raise RefusedError("sheet-damaged", mark, {"text": raw})
-                return _written(strings[int(raw)])
-            case "str":
-                return _written(_text(raw))
-            case "e":
-                return raw, "error"
-            case "b":
-                return ("TRUE" if raw.strip() in ("1", "true") else "FALSE"), "boolean"
-            case "d":
-                return raw.strip(), "date"
-            case _:
-                return self._number(raw, mark)
 
-    def _number(self, raw: str, mark: CellMark) -> tuple[str | float | None, CellKind]:
-        if not raw.strip():
+def _value(value: object, type: str, mark: CellMark) -> tuple[str | float | None, CellKind]:
+    match value:
+        case None:
             return None, "empty"
-        try:
-            number = float(raw)
-        except ValueError:
-            number = math.nan
-        if not math.isfinite(number):
-            raise RefusedError("sheet-damaged", mark, {"text": raw})
-        style = self.attributes.get("s", "0")
-        if style.isdigit() and len(style) < 7 and int(style) in self.context.dates:
-            return self._date(number), "date"
-        return number, "number"
-
-    def _date(self, days: float) -> str:
-        """A day as 2011-03-24, a moment as 2011-03-24T08:30:00, a time of day as 08:30:00."""
-        try:
-            moment = self.context.epoch + datetime.timedelta(seconds=round(days * 86400))
-        except OverflowError:
-            return repr(days)
-        if 0 <= days < 1:
-            return moment.time().isoformat()
-        return moment.date().isoformat() if float(days).is_integer() else moment.isoformat()
+        case bool():
+            return ("TRUE" if value else "FALSE"), "boolean"
+        case int() | float():
+            try:
+                number = float(value)
+            except OverflowError:
+                number = math.inf
+            if not math.isfinite(number):
+                raise RefusedError("sheet-damaged", mark)
+            return number, "number"
+        case str() if type == "e":
+            return value, "error"
+        case str():
+            text = unicodedata.normalize("NFC", _ESCAPE.sub(lambda match: chr(int(match[1], 16)), value))
+            return (text, "text") if text.strip() else (None, "empty")
+        case _:
+            return _date(value), "date"
 
 
-def _written(text: str) -> tuple[str | None, CellKind]:
-    return (text, "text") if text.strip() else (None, "empty")
+def _date(value: object) -> str:
+    """A day as 2011-03-24, a moment as 2011-03-24T08:30:00, a time of day as 08:30:00, hours passed as 36:00:00."""
+    match value:
+        case datetime.datetime() if value.time() == datetime.time():
+            return value.date().isoformat()
+        case datetime.datetime() | datetime.time():
+            return value.isoformat(timespec="seconds")
+        case datetime.timedelta():
+            minutes, seconds = divmod(abs(round(value.total_seconds())), 60)
+            sign = "-" if value < datetime.timedelta() else ""
+            return f"{sign}{minutes // 60:02}:{minutes % 60:02}:{seconds:02}"
+        case _:
+            return str(value)

@@ -198,6 +198,7 @@ TYPES = "http://schemas.openxmlformats.org/package/2006/content-types"
 REL = "http://schemas.openxmlformats.org/package/2006/relationships"
 OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
 MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+BOOK_TYPE = "application/vnd.openxmlformats-officedocument.spreadsheetml"
 ROWS = '<row r="1"><c r="A1" t="inlineStr"><is><t>id</t></is></c></row>'
 
 
@@ -208,8 +209,12 @@ def relation(kind: str, target: str, id: str = "r1", mode: str = "") -> str:
 
 def package(rows: str = ROWS, more: Mapping[str, str | bytes] | None = None, prologue: str = "") -> bytes:
     """The least workbook: one sheet "S" with the given rows."""
+    with_strings = "xl/strings.xml" in (more or {})
     parts: dict[str, str | bytes] = {
-        "[Content_Types].xml": f'<Types xmlns="{TYPES}"/>',
+        "[Content_Types].xml": f'<Types xmlns="{TYPES}">'
+        f'<Override PartName="/xl/workbook.xml" ContentType="{BOOK_TYPE}.sheet.main+xml"/>'
+        + f'<Override PartName="/xl/strings.xml" ContentType="{BOOK_TYPE}.sharedStrings+xml"/>' * with_strings
+        + "</Types>",
         "_rels/.rels": f'<Relationships xmlns="{REL}">{relation("officeDocument", "xl/workbook.xml")}</Relationships>',
         "xl/workbook.xml": f'<workbook xmlns="{MAIN}" xmlns:r="{OFFICE}"><sheets>'
         '<sheet name="S" sheetId="1" r:id="r1"/></sheets></workbook>',
@@ -231,6 +236,13 @@ def rels(kind: str, target: str, mode: str = "External") -> str:
 
 
 ENTITY = '<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]>'
+HALF = "".join(f'<xf s="{k * 7919 % 99991}"/>' for k in range(70_000))
+SPREAD = HALF * 2
+"""More than is held at once, and less than a hundred times its packed size."""
+TWICE = (
+    f'<workbook xmlns="{MAIN}" xmlns:r="{OFFICE}"><sheets><sheet name="S" sheetId="1" r:id="r1"/>'
+    '<sheet name="T" sheetId="2" r:id="r1"/></sheets></workbook>'
+)
 HOSTILE = {
     "no zip": (b"PK\x03\x04 nothing", "sheet-no-zip"),
     "text": (b"id,name\n", "sheet-no-zip"),
@@ -264,6 +276,56 @@ HOSTILE = {
     "wide": (package('<row r="1"><c r="XFD1"><v>1</v></c></row>'), "table-too-large"),
     "low": (package('<row r="1048576"><c r="A1048576"><v>1</v></c></row>'), "table-too-large"),
     "sparse": (package("".join(f'<row><c r="SF{k}"><v>1</v></c></row>' for k in range(1, 999))), "table-too-large"),
+    "one endless row": (package(f"<row>{SPREAD}</row>"), "sheet-bomb"),
+    "endless outside of rows": (package(f"{SPREAD}<row/>"), "sheet-bomb"),
+    "endless between rows": (package(f"<row/>{HALF}" * 2), "sheet-bomb"),
+    "endless inside rows of another kind": (
+        package(f"<x:row xmlns:x='x'>{HALF}</x:row>" * 2),
+        "sheet-bomb",
+    ),
+    "too many rows with a style": (
+        package("".join(f'<row r="{k}" s="{k * 7919 % 99991}"/>' for k in range(1, 270_000))),
+        "sheet-bomb",
+    ),
+    "endless styles": (
+        package(more={"xl/styles.xml": f'<styleSheet xmlns="{MAIN}"><cellXfs>{SPREAD}</cellXfs></styleSheet>'}),
+        "sheet-bomb",
+    ),
+    "endless list of sheets": (
+        package(more={"xl/workbook.xml": f'<workbook xmlns="{MAIN}">{SPREAD}</workbook>'}),
+        "sheet-bomb",
+    ),
+    "a formula told again and again": (
+        package(
+            f'<row><c r="A1"><f t="shared" si="0">{"1+" * 4000}1</f></c></row>'
+            + "".join(f'<row><c r="A{k}"><f t="shared" si="0"/></c></row>' for k in range(2, 3000))
+        ),
+        "sheet-bomb",
+    ),
+    "a long shared formula": (
+        package(f'<row><c r="A1"><f t="shared" si="0">{"1+" * 20_000}1</f></c></row>'),
+        "text-too-long",
+    ),
+    "rows out of order": (
+        package('<row r="2"><c r="A2"><v>1</v></c></row><row r="1"><c r="A1"><v>2</v></c></row>'),
+        "sheet-damaged",
+    ),
+    "cells out of order": (
+        package('<row r="1"><c r="B1"><v>1</v></c><c r="A1"><v>2</v></c></row>'),
+        "sheet-damaged",
+    ),
+    "a cell twice": (package('<row r="1"><c r="A1"><v>1</v></c><c r="A1"><v>2</v></c></row>'), "sheet-damaged"),
+    "a row beyond all rows": (package('<row r="99999999999999"><c><v>1</v></c></row>'), "sheet-damaged"),
+    "no row number": (package('<row r="x"><c><v>1</v></c></row>'), "sheet-damaged"),
+    "no sheet part": (
+        package(more={"xl/_rels/workbook.xml.rels": rels("worksheet", "none.xml", "Internal")}),
+        "sheet-damaged",
+    ),
+    "charts alone": (
+        package(more={"xl/_rels/workbook.xml.rels": rels("chartsheet", "worksheets/s.xml", "Internal")}),
+        "sheet-no-zip",
+    ),
+    "a sheet twice": (package(more={"xl/workbook.xml": TWICE}), "sheet-damaged"),
     "long": (package(f'<row><c t="inlineStr"><is><t>{"x" * 40_000}</t></is></c></row>'), "text-too-long"),
 }
 
@@ -310,8 +372,8 @@ STYLES = (
     '<xf numFmtId="14"/><xf numFmtId="170"/><xf numFmtId="171"/></cellXfs></styleSheet>'
 )
 STRINGS = (
-    f'<sst xmlns="{MAIN}"><si><t>Anh</t></si><si><r><t>Ngọc </t></r><r><t>Hà</t></r><rPh><t>no</t></rPh></si>'
-    "<si><t>a_x000D_b</t></si></sst>"
+    f'<sst xmlns="{MAIN}"><si><t>Anh</t></si><si><r><t>Ngọc </t></r><r><t>Hà</t></r><rPh sb="0" eb="1"><t>no</t></rPh>'
+    "</si><si><t>a_x000D_b</t></si></sst>"
 )
 
 
@@ -358,6 +420,79 @@ def test_what_programs_write_is_understood(put: Callable[..., Path]) -> None:
     ]
     assert page.rows[2][4].text == "195520103001"
     assert str(page.rows[3][3].mark) == f"{path}:S!D4"
+
+
+def test_what_no_cell_needs_is_not_looked_at(put: Callable[..., Path]) -> None:
+    """Properties, themes and the like may be wrong; the sheet's own relations may lead nowhere."""
+    more = {
+        "docProps/core.xml": "<a>",
+        "docProps/custom.xml": "<Properties><property/></Properties>",
+        "xl/theme/theme1.xml": b"\0",
+        "xl/worksheets/_rels/s.xml.rels": rels("drawing", "none.xml", "Internal"),
+        "xl/charts/chart1.xml": SPREAD,
+    }
+    (page,) = read(put(package(more=more), "s.xlsx"))
+    assert texts(page) == [["id"]]
+
+
+def test_formulas_of_all_kinds_are_told(put: Callable[..., Path]) -> None:
+    """A shared formula is that of its own cell; one for an array and a table of data keep their stored values."""
+    rows = (
+        '<row r="1"><c r="A1"><f t="shared" ref="A1:A2" si="0">B1*$C$1</f><v>1</v></c></row>'
+        '<row r="2"><c r="A2"><f t="shared" si="0"/><v>2</v></c></row>'
+        '<row r="3"><c r="A3"><f t="array" ref="A3">SUM(B1:B2)</f><v>3</v></c>'
+        '<c r="B3"><f t="dataTable" ref="B3" dt2D="1" r1="A1" r2="A2"/><v>4</v></c>'
+        '<c r="C3" t="e"><f>1/0</f><v>#DIV/0!</v></c></row>'
+    )
+    (page,) = read(put(package(rows), "f.xlsx"))
+    assert [[(cell.kind, cell.value, cell.formula) for cell in row] for row in page.rows] == [
+        [("formula", 1.0, "=B1*$C$1")],
+        [("formula", 2.0, "=B2*$C$1")],
+        [("formula", 3.0, "=SUM(B1:B2)"), ("formula", 4.0, "="), ("formula", "#DIV/0!", "=1/0")],
+    ]
+
+
+def test_dates_and_times_are_told_as_they_show(put: Callable[..., Path]) -> None:
+    """Day 1 is the first of 1900 (or the second of 1904); hours that have passed may be more than a day's."""
+    styles = (
+        f'<styleSheet xmlns="{MAIN}"><numFmts count="1"><numFmt numFmtId="170" formatCode="[h]:mm"/></numFmts>'
+        '<cellXfs count="3"><xf numFmtId="0"/><xf numFmtId="14"/><xf numFmtId="170"/></cellXfs></styleSheet>'
+    )
+    rows = (
+        '<row><c s="1"><v>1</v></c><c s="1"><v>61</v></c><c s="1"><v>0.3541666666666667</v></c>'
+        '<c s="2"><v>1.5</v></c><c s="2"><v>-0.25</v></c><c t="d"><v>2011-03-24T00:00:00</v></c>'
+        '<c s="1"><v>195520103001</v></c></row>'
+    )
+    (page,) = read(put(package(rows, {"xl/styles.xml": styles}), "d.xlsx"))
+    *days, beyond = page.rows[0]
+    assert [cell.value for cell in days] == [
+        "1900-01-01",
+        "1900-03-01",
+        "08:30:00",
+        "36:00:00",
+        "-06:00:00",
+        "2011-03-24",
+    ]
+    assert {cell.kind for cell in days} == {"date"}
+    assert (beyond.kind, beyond.value) == ("error", "#VALUE!")
+    since = TWICE.replace("<sheets>", '<workbookPr date1904="1"/><sheets>').partition('<sheet name="T"')[0]
+    more = {"xl/styles.xml": styles, "xl/workbook.xml": f"{since}</sheets></workbook>"}
+    (page,) = read(put(package('<row><c s="1"><v>1</v></c></row>', more), "m.xlsx"))
+    assert page.rows[0][0].value == "1904-01-02"
+
+
+def test_escapes_in_shared_and_inline_strings(put: Callable[..., Path]) -> None:
+    """_x000D_ is a carriage return; with its first underscore escaped it is those seven characters."""
+    text = "a_x000D_b _x005F_x000D_ x005F_ _x005f_x0041_"
+    rows = f'<row><c t="s"><v>0</v></c><c t="inlineStr"><is><t>{text}</t></is></c></row>'
+    more = {"xl/strings.xml": f'<sst xmlns="{MAIN}"><si><t>{text}</t></si></sst>'}
+    (page,) = read(put(package(rows, more), "e.xlsx"))
+    assert [cell.value for cell in page.rows[0]] == ["a\rb _x000D_ x005F_ _x0041_"] * 2
+
+
+def test_damage_is_told_by_sheet_and_row(put: Callable[..., Path]) -> None:
+    rows = '<row r="1"><c r="A1"><v>1</v></c></row><row r="2"><c r="A2"/><c r="B2"><v>1,5</v></c></row>'
+    assert refusal(put(package(rows), "d.xlsx")) == "FILE:S!A2: error[sheet-damaged]"
 
 
 def test_a_workbook_of_openpyxl_is_read_as_openpyxl_reads_it(put: Callable[..., Path]) -> None:
