@@ -5,6 +5,7 @@ Exit codes: 0 done · 1 an input file is at fault · 2 wrong usage · 3 the type
 
 from __future__ import annotations
 
+import gc
 import io
 import sys
 
@@ -13,6 +14,9 @@ from reportgen.cli.common import SYSTEM, app, unexpected
 
 __all__ = ["app", "instructor", "main", "student"]
 
+COLLECTED = 100_000
+"""New objects between two searches for garbage: a report makes many that last, and hardly any cycles."""
+
 
 def main() -> None:
     """Entry point of the `reportgen` command."""
@@ -20,9 +24,13 @@ def main() -> None:
         # Vietnamese must not fail on a terminal or pipe of another encoding.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+    gc.set_threshold(COLLECTED)
     try:
         app()
     except Exception as fault:
         unexpected(fault)
         sys.exit(SYSTEM)
+    finally:
+        # All memory goes with the process: no need to look through it once more on the way out.
+        gc.freeze()
 

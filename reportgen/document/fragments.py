@@ -84,6 +84,7 @@ def environment(directories: Sequence[Path]) -> Environment:
         finalize=_finalize,
         autoescape=False,
         auto_reload=True,
+        optimized=False,  # constants are too few here for folding them to pay
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
