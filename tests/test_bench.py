@@ -172,3 +172,11 @@ def test_the_efficiency_of_two_is_taken_round_by_round() -> None:
     one = [measure.Cost(10.0, 1.0), measure.Cost(40.0, 1.0), measure.Cost(10.0, 1.0)]
     two = [measure.Cost(6.25, 1.0), measure.Cost(25.0, 1.0), measure.Cost(5.0, 1.0)]
     assert batch.efficiency(one, two) == pytest.approx(0.8)  # of 0.8, 0.8 and 1
+
+
+def test_bytecode_is_kept_whatever_the_surroundings_say(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Else every build would compile the checkout anew, which an installed package never does."""
+    monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
+    bench = Bench(SAMPLE, tmp_path, ("typst",))
+    measure.run((sys.executable, "-c", "import reportgen.errors"), tmp_path, bench.installed())
+    assert list((tmp_path / "bytecode").rglob("reportgen/errors.*.pyc"))

@@ -63,8 +63,13 @@ class Bench:
         """One report by the command line, in a cold process."""
         options = ("--out", str(self.folder / engine), "--engine", engine, "--keep-source")
         return run(
-            (sys.executable, "-c", BUILD, "build", str(self.file), *options), self.folder, _importable()
+            (sys.executable, "-c", BUILD, "build", str(self.file), *options), self.folder, self.installed()
         )
+
+    def installed(self) -> dict[str, str]:
+        """The checkout before whatever is installed, with its bytecode kept as that of an installed package is."""
+        bytecode = {"PYTHONPYCACHEPREFIX": str(self.folder / "bytecode"), "PYTHONDONTWRITEBYTECODE": ""}
+        return {**_importable(), **bytecode}
 
     def typst_alone(self) -> Cost:
         """The finished source by a process that does nothing else."""
@@ -94,7 +99,7 @@ class Bench:
         return done.stdout
 
     def rows(self, rounds: int) -> Iterator[Row]:
-        """Everything, measured; the first build of each engine warms the disk and is not counted."""
+        """Everything, measured; the first build of each engine keeps bytecode, warms the disk and is not counted."""
         for engine in self.engines:
             self.build(engine)
         size = self.ask("-m", "tests.bench.size", str(self.file), str(self.report(self.engines[0])))
