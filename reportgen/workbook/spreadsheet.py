@@ -11,7 +11,7 @@ import unicodedata
 import warnings
 import zipfile
 from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, redirect_stdout
 from dataclasses import dataclass, field
 from itertools import tee
 from typing import TYPE_CHECKING, Any
@@ -41,8 +41,8 @@ def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
     """The sheets of a workbook in their order; raises `RefusedError`."""
     parts = _parts(Package(data, file))
     copy = parts.copy()
-    with warnings.catch_warnings(), _damage(Mark(file)):
-        # openpyxl warns of what it leaves out, of which no value of a cell is ever a part.
+    with warnings.catch_warnings(), redirect_stdout(io.StringIO()), _damage(Mark(file)):
+        # openpyxl warns of, and even prints, what it leaves out: looks and rules, but no value of a cell.
         warnings.simplefilter("ignore")
         with closing(_load(copy, stored=True)) as values:
             if len(values.worksheets) != len(parts.cells):
@@ -87,8 +87,8 @@ class _Parts:
             for name in self.names:
                 content = self.package.content(name)
                 if name == self.strings:
-                    # openpyxl takes these letters out, and with them what tells _x000D_, a carriage return, from
-                    # those seven characters, written _x005F_x000D_: it is to find them once more.
+                    # openpyxl drops these letters, which tell seven characters written _x005F_x000D_ from the
+                    # carriage return written _x000D_: so they are given in a way that leaves them there.
                     content = content.replace(b"x005F_", b"x005Fx005F__")
                 made.writestr(name, content)
         return stream.getvalue()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import re
 import unicodedata
 import zipfile
 from collections.abc import Callable, Mapping
@@ -531,5 +532,36 @@ def test_a_damaged_workbook_is_read_or_refused(
         content = content[:at] + new + content[at + len(new) :]
     path = tmp_path_factory.mktemp("damaged") / "d.xlsx"
     path.write_bytes(content)
+    with contextlib.suppress(AssignmentError):
+        assert all(isinstance(page, Page) for page in read(path))
+
+
+PARTS = tuple(
+    {name: book.read(name) for name in book.namelist()} for book in (zipfile.ZipFile(io.BytesIO(one)) for one in WHOLE)
+)
+ODD = (b"", b"<", b'"', b"-1", b"99999999999", b"1e999", b"x", b"\xff", b"<row/>", b"<c/>", b'<f t="shared" si="0"/>')
+SPOT = st.tuples(st.integers(0, 99), st.floats(0, 1), st.booleans(), st.sampled_from(ODD))
+
+
+@settings(max_examples=80, deadline=None)
+@given(st.sampled_from(PARTS), st.lists(SPOT, min_size=1, max_size=3))
+def test_a_workbook_with_damaged_parts_is_read_or_refused(
+    tmp_path_factory: pytest.TempPathFactory,
+    parts: Mapping[str, bytes],
+    spots: list[tuple[int, float, bool, bytes]],
+) -> None:
+    """Packed again without a fault, so that the damage comes to what reads the XML, inside values or anywhere."""
+    damaged = dict(parts)
+    for which, share, inside, new in spots:
+        name = sorted(damaged)[which % len(damaged)]
+        content = damaged[name]
+        values = [match.span() for match in re.finditer(rb'(?<=")[^"<>]+(?=")|(?<=>)[^<]+(?=<)', content)]
+        at = int(share * len(content))
+        start, end = values[int(share * (len(values) - 1))] if inside and values else (at, at + 1)
+        damaged[name] = content[:start] + new + content[end:]
+    path = tmp_path_factory.mktemp("damaged") / "d.xlsx"
+    with zipfile.ZipFile(path, "w") as made:
+        for name, content in damaged.items():
+            made.writestr(name, content)
     with contextlib.suppress(AssignmentError):
         assert all(isinstance(page, Page) for page in read(path))
