@@ -11,8 +11,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reportgen.figures.geometry import Complexes, Flags, Floats, corners, frame, overlap, segments
 from reportgen.figures.metrics import Box, box
@@ -21,6 +23,7 @@ from reportgen.figures.style import LABEL, LEADER, THIN
 from reportgen.notation.expressions import Expression
 
 Content = Expression | str
+Indices = NDArray[np.intp]
 
 DIRECTIONS = np.exp(2j * np.pi * np.arange(24) / 24)
 CORNERS = np.clip(DIRECTIONS.real * math.sqrt(2), -1, 1) + 1j * np.clip(DIRECTIONS.imag * math.sqrt(2), -1, 1)
@@ -34,6 +37,8 @@ FIRST = 72
 """Candidates weighed at once; the others only where none of these is free."""
 ATTEMPTS = 4
 """How often the labels that found no room are let choose first."""
+KEPT = 1024
+"""Sizes of labels and sets of preferred directions whose spots are kept."""
 APART = 0.7
 """White kept between two labels."""
 
@@ -142,11 +147,8 @@ class _Spots:
     def __init__(self, request: Request, ink: _Ink) -> None:
         self.half = _half(request)
         anchors = np.array([request.at, *request.also])
-        offsets = _ring(self.half, np.asarray(NEAR) + request.gap).ravel()
-        cost = (np.asarray(NEAR)[:, None] * 0.45 + _turned(request)).ravel()
-        total = (0.25 * np.arange(len(anchors))[:, None] + cost).ravel()
-        best = np.argsort(total, kind="stable")
-        self.centres = (anchors[:, None] + offsets).ravel()[best]
+        offsets = _nearby(self.half, request.gap)
+        self.centres = (anchors[:, None] + offsets).ravel()[_ranking(request.prefer, len(anchors))]
         self.ink = ink
         self.first = self._clear_of_ink(0)
 
@@ -226,12 +228,26 @@ def _ring(half: complex, distances: Floats) -> Complexes:
     return np.asarray(CORNERS.real * half.real + 1j * CORNERS.imag * half.imag + distances[:, None] * DIRECTIONS)
 
 
-def _turned(request: Request) -> Floats:
+@lru_cache(maxsize=KEPT)
+def _nearby(half: complex, gap: float) -> Complexes:
+    """Offsets [72] at the near distances, kept for the next label of that size: names recur from plan to plan."""
+    return _ring(half, np.asarray(NEAR) + gap).ravel()
+
+
+@lru_cache(maxsize=KEPT)
+def _ranking(prefer: tuple[float, ...], anchors: int) -> Indices:
+    """The order [72 a anchor] in which nearby spots are tried: the first point and the preferred directions first."""
+    cost = (np.asarray(NEAR)[:, None] * 0.45 + _turned(prefer)).ravel()
+    total = (0.25 * np.arange(anchors)[:, None] + cost).ravel()
+    return np.argsort(total, kind="stable")
+
+
+def _turned(prefer: tuple[float, ...]) -> Floats:
     """How far each direction is from the nearest preferred one: 0 … 2."""
-    if not request.prefer:
+    if not prefer:
         # Free choice: up and to the right reads best.
         return np.asarray(0.35 * (1 - (DIRECTIONS * np.exp(-0.25j * np.pi)).real))
-    wanted = np.exp(-1j * np.asarray(request.prefer))
+    wanted = np.exp(-1j * np.asarray(prefer))
     return np.asarray((1 - (DIRECTIONS[:, None] * wanted).real).min(axis=1))
 
 
@@ -260,7 +276,7 @@ def _off(
     """The best spot some way off one point of a label."""
     half = spot.half
     centres = (at + _ring(half, np.asarray(FAR) + request.gap)).ravel()
-    cost = (np.asarray(FAR)[:, None] * 0.2 + _turned(request)).ravel()
+    cost = (np.asarray(FAR)[:, None] * 0.2 + _turned(request.prefer)).ravel()
     leaders = _leaders(at, request.gap, centres, half)
     near = spot.ink.near(centres, half)
     free = ~_touched(centres, half, near) & taken.clear(centres, half) & ~taken.crossed(leaders)
