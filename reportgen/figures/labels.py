@@ -279,7 +279,8 @@ def _off(
     cost = (np.asarray(FAR)[:, None] * 0.2 + _turned(request.prefer)).ravel()
     leaders = _leaders(at, request.gap, centres, half)
     near = spot.ink.near(centres, half)
-    free = ~_touched(centres, half, near) & taken.clear(centres, half) & ~taken.crossed(leaders)
+    free = taken.clear(centres, half) & ~taken.crossed(leaders)
+    free[free] = ~_touched(centres[free], half, near)
     # Where any spot is free only those are weighed: the rest would stand far behind them.
     weighed = np.flatnonzero(free) if free.any() else np.arange(len(centres))
     tried = leaders[weighed]
