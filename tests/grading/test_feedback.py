@@ -49,7 +49,6 @@ MISTAKES = (
     "scale-forgotten",
     "scale-twice",
     "thousands-mark",
-    "half-period",
 )
 
 
