@@ -35,6 +35,8 @@ CLEAR = 0.55
 """White kept between a label's ink and strokes; it also takes up what two typesetters differ by."""
 FIRST = 72
 """Candidates weighed at once; the others only where none of these is free."""
+CHEAPEST = 12
+"""Of the spots farther out, how many are weighed in full before the dearer ones are left out."""
 ATTEMPTS = 4
 """How often the labels that found no room are let choose first."""
 KEPT = 1024
@@ -283,9 +285,15 @@ def _off(
     free[free] = ~_touched(centres[free], half, near)
     # Where any spot is free only those are weighed: the rest would stand far behind them.
     weighed = np.flatnonzero(free) if free.any() else np.arange(len(centres))
-    tried = leaders[weighed]
-    cost = cost[weighed] + 0.3 * _crossings(tried, near) + 0.8 * _grazes(tried, near)
-    best = int(weighed[np.argmin(cost)])
+
+    def whole(spots: Indices) -> Floats:
+        tried = leaders[spots]
+        return np.asarray(cost[spots] + 0.3 * _crossings(tried, near) + 0.8 * _grazes(tried, near))
+
+    # What a leader crosses only adds to the cost: whoever is dearer without it than another with it is out.
+    cheapest = weighed[np.argsort(cost[weighed], kind="stable")[:CHEAPEST]]
+    weighed = weighed[cost[weighed] <= whole(cheapest).min()]
+    best = int(weighed[np.argmin(whole(weighed))])
     return complex(centres[best]), (complex(leaders[best, 0]), complex(leaders[best, 1])), bool(free[best])
 
 
