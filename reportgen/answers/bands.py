@@ -15,7 +15,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from reportgen.ledger.core import Family, Ledger
-from reportgen.notation.expressions import Call, Ref
+from reportgen.notation.expressions import Call, Ref, refs
 
 PAPER_ERROR = 0.5e-3
 """How far off a drawn point may lie (m on paper), at each end of a measured length."""
@@ -58,7 +58,8 @@ def measuring_errors(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np
     Other angles are measured between lines as long as the drawn crank.
     """
     errors: dict[str, np.ndarray] = {}
-    crank = min((float(one.values[0]) for one in ledger.families.values() if _is_chosen_length(one)), default=np.inf)
+    lengths = (float(one.values[0]) for one in ledger.families.values() if is_chosen_length(ledger, one))
+    crank = min(lengths, default=np.inf)
     for id, family in ledger.families.items():
         if family.hidden or family.is_plane or not family.constructed:
             continue
@@ -73,9 +74,16 @@ def measuring_errors(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np
     return errors
 
 
-def _is_chosen_length(family: Family) -> bool:
-    """Whether a length on paper was chosen, as that of the drawn crank is."""
-    return family.kind == "segment" and family.definition is None
+def is_chosen_length(ledger: Ledger, family: Family) -> bool:
+    """Whether a length on paper was chosen, as that of the drawn crank is, itself or by a round scale."""
+    if family.kind != "segment":
+        return False
+    return family.definition is None or any(is_round_scale(ledger[id]) for id in refs(family.definition))
+
+
+def is_round_scale(family: Family) -> bool:
+    """Whether it is a scale that the crank is drawn to, which the scale of the drawing, `mu.l`, says again."""
+    return family.kind == "length scale" and family.id != "mu.l"
 
 
 def rounding_errors(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:

@@ -127,9 +127,9 @@ def make_key(assignment: Assignment, analysis: Analysis, ledger: Ledger) -> Key:
             values = np.where(_exists(ledger, id), np.abs(values), np.nan)
         if family.arm:
             values = np.abs(values)
-        role, part = _role(family), _part(id, family, formulas, balanced)
+        role, part = _role(ledger, family), _part(id, ledger, formulas, balanced)
         workable = _is_workable(id, family) and (part is not Part.cycle or complete)
-        asked = role is Role.scale or (role is Role.asked and workable)
+        asked = (role is Role.scale and not bands.is_round_scale(family)) or (role is Role.asked and workable)
         return Row(
             id,
             part,
@@ -166,9 +166,8 @@ def _is_shown(ledger: Ledger, id: str) -> bool:
     return not (family.hidden or family.is_plane or family.optional or f"turn.{id}" in ledger)
 
 
-def _role(family: Family) -> Role:
-    chosen = family.kind == "segment" and family.definition is None
-    if chosen or family.kind.endswith("scale"):
+def _role(ledger: Ledger, family: Family) -> Role:
+    if bands.is_chosen_length(ledger, family) or family.kind.endswith("scale"):
         return Role.scale
     typed = family.exact if family.definition is None else not refs(family.definition)
     return Role.given if typed else Role.asked
@@ -215,9 +214,9 @@ _PARTS = (
 )
 
 
-def _part(id: str, family: Family, formulas: set[str], balanced: set[str]) -> Part:
+def _part(id: str, ledger: Ledger, formulas: set[str], balanced: set[str]) -> Part:
     """The chapter a quantity belongs to: given data, closed formulas, by its id, the cycle after the balance."""
-    if _role(family) is Role.given and len(family.values) == 1:
+    if _role(ledger, ledger[id]) is Role.given and len(ledger[id].values) == 1:
         return Part.data
     if id in formulas:
         return Part.formulas

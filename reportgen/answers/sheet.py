@@ -29,6 +29,8 @@ HEAD = 3
 """Rows down to the head of the columns: title, note, head."""
 MOST_POSITIONS = 8
 """Columns of positions beside one another on paper."""
+KNOWN_DIGITS = 5
+"""Figures of what is given at each position."""
 SYMBOL, UNIT, VALUE = 16.0, 22.0, 15.3
 """Widths (mm) of the columns on paper."""
 
@@ -136,7 +138,8 @@ def grid(
 def page(name: str, rows: Sequence[Sequence[Entry]]) -> Sheet:
     """A protected page in the sheet's layout."""
     columns = len(rows[HEAD - 1])
-    widths = (11.0, 13.0, 13.0, *(12.0,) * (columns - NAMES + 1))
+    longest = max((len(str(row[0].value or "")) for row in rows[HEAD:]), default=0)
+    widths = (max(longest + 1.0, 11.0), 13.0, 13.0, *(12.0,) * (columns - NAMES + 1))
     return Sheet(name, rows, widths, (HEAD, NAMES - 1), protected=True)
 
 
@@ -207,6 +210,30 @@ def answer_blocks(key: Key) -> Iterator[Table]:
                 lines = [(row, row.symbol in shared, cells[row.id]) for row in asked]
                 if asked:
                     yield _table(_heads(key, words, some), lines, some, caption)
+
+
+def known_blocks(key: Key, positions: Sequence[int]) -> Iterator[Table]:
+    """What is given at each position (the crank's angle, a load that follows the motion), in the sheet's columns."""
+    words = words_of(key)
+    caption = (Text(str(words["answer_sheet"]["known"])),)
+    rows = [row for row in key.rows if row.role is Role.given and not row.single and row.part is not Part.formulas]
+    for some in _split(positions) if rows else ():
+        head = (words["table"]["symbol"], words["table"]["unit"], *(key.labels[k - 1] for k in some))
+        body = tuple(
+            (
+                Cell(symbol_inlines(row, False)),
+                Cell(plain_inlines(row.unit)),
+                *(Cell(_known_inlines(row, float(row.values[row.at(k)]))) for k in some),
+            )
+            for row in rows
+        )
+        columns = (Column(SYMBOL), Column(UNIT), *(Column(VALUE),) * len(some))
+        yield Table(columns, (tuple(Cell((Text(text),)) for text in head),), body, caption)
+
+
+def _known_inlines(row: Row, value: float) -> Inlines:
+    """A given number short enough for a column: an angle may be one that follows from lengths."""
+    return (Value(Number(float(f"{value:.{KNOWN_DIGITS}g}"), None)),) if value == value else (Text("–"),)
 
 
 def _split(positions: Sequence[int]) -> Iterator[tuple[int, ...]]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from reportgen.analysis import Analysis
 from reportgen.answers.key import Key
 from reportgen.answers.paper import fields, paper
-from reportgen.answers.sheet import answer_blocks, asked_positions, student_rows
+from reportgen.answers.sheet import answer_blocks, asked_positions, known_blocks, student_rows
 from reportgen.assignment import Assignment
-from reportgen.document.outline import prepare
+from reportgen.document.outline import PLATES_UP_TO, prepare
 from reportgen.document.tree import Block, Document, Paragraph, Strong, Text
 from reportgen.ledger.report import Books
 
@@ -20,6 +20,7 @@ def task(assignment: Assignment, analysis: Analysis, books: Books, title: str, k
     names |= {
         "sheet": tuple(answer_blocks(key)),
         "asked": tuple(key.labels[k - 1] for k in asked_positions(key)),
+        "known_tables": tuple(known_blocks(key, _known_positions(key, analysis))),
     }
     report = assignment.report
     course = report.course or words["cover"]["course"]
@@ -32,3 +33,9 @@ def task(assignment: Assignment, analysis: Analysis, books: Books, title: str, k
     ]
     variant = words["variant"].format(variant=assignment.variant) if assignment.variant else ""
     return paper(assignment.language, words, course, report.student.name or "", variant, blocks)
+
+
+def _known_positions(key: Key, analysis: Analysis) -> tuple[int, ...]:
+    """All positions of the cycle, or those asked for when there are very many."""
+    machine = analysis.machine
+    return tuple(range(1, machine.positions + 1)) if machine.count <= PLATES_UP_TO else asked_positions(key)

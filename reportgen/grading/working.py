@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reportgen.answers.bands import is_chosen_length
 from reportgen.answers.key import Role, Row
 from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Place, Submission
@@ -140,7 +141,7 @@ def _is_first(guide: Guide, id: str, scale: str) -> bool:
     """Whether a length on paper is the one that a scale was made from: the drawn crank, pa."""
     ledger = guide.ledger
     if scale == "mu.l":
-        return ledger[id].definition is None
+        return is_chosen_length(ledger, ledger[id])
     definition = ledger[id].definition
     return isinstance(definition, Ref) and ledger[definition.id].definition is None
 

@@ -38,6 +38,8 @@ FILLS = {
     "doubt": "E7DAF3",
 }
 LONGEST_NAME = 31
+UPRIGHT = 110.0
+"""Characters of a line that is legible on A4 upright."""
 _FORBIDDEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _ESCAPED = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 _NAME = re.compile(r"[\[\]:*?/\\\x00-\x1f]")
@@ -136,8 +138,19 @@ def _fill(page: Worksheet, sheet: Sheet) -> None:
     rows, columns = sheet.frozen
     if rows or columns:
         page.freeze_panes = f"{get_column_letter(columns + 1)}{rows + 1}"
+    _set_print(page, sum(sheet.widths), rows)
     page.protection.sheet = sheet.protected
     page.sheet_state = "hidden" if sheet.hidden else "visible"
+
+
+def _set_print(page: Worksheet, width: float, heads: int) -> None:
+    """A4, as wide as the sheet, upright where that is legible; the rows that stay in view head each page."""
+    page.page_setup.paperSize = page.PAPERSIZE_A4
+    page.page_setup.orientation = "portrait" if width <= UPRIGHT else "landscape"
+    page.sheet_properties.pageSetUpPr.fitToPage = True
+    page.page_setup.fitToWidth, page.page_setup.fitToHeight = 1, 0
+    if heads:
+        page.print_title_rows = f"1:{heads}"
 
 
 def _put(cell: Any, value: str | float | None) -> None:

@@ -157,3 +157,40 @@ def test_a_task_has_a_place_for_every_value_that_is_asked(name: str) -> None:
                 elif title != "Unit" and symbol and not text:
                     empty += 1
     assert empty == sum(len(row.positions) for row in key.asked)
+
+
+@pytest.mark.parametrize(
+    ("name", "loads"),
+    [
+        # The values of the files' own laws, signs as they act; a torque against the motion turns with it.
+        ("linkage-8", ("on link 3, always against its rotation", "−500", "−200", "200")),
+        ("linkage-slide", ("300", "380", "600", "900", "on link 3, always against its rotation")),
+        ("four-bar-01", ("40", "−40")),
+        ("lever-six-bar-01", ("400",)),
+        ("slotted-lever-02", ("24", "−24")),
+    ],
+)
+def test_a_task_tells_the_loads(name: str, loads: tuple[str, ...]) -> None:
+    _, tree = handout(name, "en")
+    text = text_of(tree)
+    for load in loads:
+        assert re.search(rf"(?<![\d.,]){re.escape(load)}(?![\d.,])", text), load
+
+
+@pytest.mark.parametrize("name", ["four-bar-01", "engine-twin-05", "shaper-01"])
+def test_a_task_tells_where_the_positions_are(name: str) -> None:
+    key, tree = handout(name, "en")
+    angles: list[str] = []
+    for table in (block for block in tree.blocks if isinstance(block, Table)):
+        for line in table.rows:
+            cells = [plain(cell.inlines, "en") for cell in table.head[0]], [plain(cell.inlines, "en") for cell in line]
+            if cells[1][0] == "φ_1" and cells[0][0] == "Symbol":
+                angles += cells[1][2:]
+    assert angles == [f"{value:g}" for value in key.row("phi.1").values]
+
+
+@pytest.mark.parametrize("name", ["engine-single-I", "shaper-01", "four-bar-01", "linkage-slide"])
+def test_a_scale_is_asked_for_once(name: str) -> None:
+    key, _ = handout(name, "en")
+    scales = [row.symbol for row in key.asked if row.kind.endswith("scale")]
+    assert len(scales) == len(set(scales))

@@ -565,3 +565,16 @@ def test_a_workbook_with_damaged_parts_is_read_or_refused(
             made.writestr(name, content)
     with contextlib.suppress(AssignmentError):
         assert all(isinstance(page, Page) for page in read(path))
+
+
+def test_a_sheet_prints_as_wide_as_a_page_with_its_heads_on_each() -> None:
+    pages = (
+        Sheet("narrow", [["head"], ["1"]], (24.0, 44.0), (1, 0)),
+        Sheet("wide", [["head"], ["1"]], (12.0,) * 20, (1, 1)),
+    )
+    book = openpyxl.load_workbook(io.BytesIO(write_xlsx(Book(pages))))
+    for page, orientation in zip(book.worksheets, ("portrait", "landscape"), strict=True):
+        assert page.page_setup.orientation == orientation
+        assert page.sheet_properties.pageSetUpPr.fitToPage
+        assert (page.page_setup.fitToWidth, page.page_setup.fitToHeight) == (1, 0)
+        assert page.print_title_rows == "$1:$1"
