@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from reportgen import folders
@@ -39,9 +40,10 @@ from reportgen.document.tree import (
 )
 from reportgen.figures.scene import Scene
 from reportgen.paint.tex import paint
+from reportgen.writers.flow import leads
 from reportgen.writers.latex_math import aligned, mathematics
 from reportgen.writers.latex_outline import entries_of, hexadecimal, keys_of, plain
-from reportgen.writers.latex_table import table
+from reportgen.writers.latex_table import height, table
 from reportgen.writers.latex_text import declarations, escape
 from reportgen.writers.pdflatex import Compiled, compile, overfull
 
@@ -123,7 +125,18 @@ class _Writer:
         return self.blocks(self.document.blocks)
 
     def blocks(self, blocks: Sequence[Block]) -> str:
-        return "\n".join(map(self.block, blocks))
+        return "\n".join(
+            self.led(block, following) if leads(block, following, self.language) else self.block(block)
+            for block, following in pairwise((*blocks, None))
+            if block is not None
+        )
+
+    def led(self, block: Block, following: Block | None) -> str:
+        """Words and what they lead to, on one page: lists and equations see to it, tables begin with a break."""
+        if isinstance(block, List):
+            return self.list(block, r"\keeplist")
+        needed = _command("needed", f"{height(following)}mm") if isinstance(following, Table) else ""
+        return f"{needed}{self.block(block)}\\par\\nobreak"
 
     def block(self, block: Block) -> str:
         match block:
@@ -207,7 +220,7 @@ class _Writer:
         )
         return "\n".join([*lines, r"\clearpage"])
 
-    def list(self, block: List) -> str:
+    def list(self, block: List, end: str = "") -> str:
         from pylatex import Command, Itemize, NoEscape
 
         environment = Itemize()
@@ -215,6 +228,8 @@ class _Writer:
             environment.append(Command("item", options=f"{number}." if block.ordered else None))
             # A text that begins with a bracket is no option of the command before it.
             environment.append(NoEscape(r"\relax " + self.blocks(item).strip()))
+        if end:
+            environment.append(NoEscape(end))
         return str(environment.dumps())
 
     def cover(self, cover: Cover) -> str:

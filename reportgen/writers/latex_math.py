@@ -26,6 +26,7 @@ from reportgen.notation.expressions import (
 )
 from reportgen.notation.numbers import MINUS, Language, write
 from reportgen.writers.brackets import ATOM, MARKED, PRIMES, PRODUCT, QUOTIENT, level
+from reportgen.writers.flow import short_end
 from reportgen.writers.latex_text import MATHEMATICAL, escape
 
 NAMED = {
@@ -78,7 +79,10 @@ def mathematics(node: Expression, language: Language) -> str:
             lines = (" & ".join(mathematics(entry, language) for entry in row) for row in rows)
             return _bracketed(r"\begin{matrix}" + r" \\ ".join(lines) + r"\end{matrix}")
         case Chain(parts, note):
-            printed = r" \relbreak= ".join(mathematics(part, language) for part in parts)
+            printed = mathematics(parts[0], language)
+            for index, part in enumerate(parts[1:], 2):
+                unparted = index == len(parts) and short_end(node)
+                printed += (" = " if unparted else r" \relbreak= ") + mathematics(part, language)
             return printed + (rf" \relbreak\quad\text{{({escape(note)})}}" if note else "")
         case VectorEquation():
             return " ".join(f"{sign} {_symbol(term.symbol)}" for sign, term in _signed(node))
@@ -100,9 +104,10 @@ def aligned(node: Expression, language: Language) -> tuple[str, str]:
     if isinstance(node, VectorEquation):
         return "", _vector_equation(_signed(node), node.rows, language)
     if isinstance(node, Chain) and len(node.parts) > 1:
+        relation = " = " if len(node.parts) == 2 and short_end(node) else r" \relbreak= "
         return (
             mathematics(node.parts[0], language),
-            r" \relbreak= " + mathematics(Chain(node.parts[1:], node.note), language),
+            relation + mathematics(Chain(node.parts[1:], node.note), language),
         )
     return "", mathematics(node, language)
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from reportgen.document.tree import Cell, Column, Inlines, Table
+from reportgen.writers.flow import TOGETHER, WHOLE_TABLE
 
-UNBROKEN_ROWS = 12
-"""A table of at most so many rows stays on one page."""
+OPENING, ROW = 30, 7
+"""Millimetres, about: the words before a table with its caption, and a row."""
 
 
 def table(block: Table, caption: str, inlines: Callable[[Inlines], str]) -> str:
@@ -23,15 +24,21 @@ def table(block: Table, caption: str, inlines: Callable[[Inlines], str]) -> str:
     environment.append(NoEscape(head + r"\endfirsthead"))
     environment.append(NoEscape(head + r"\endhead"))
     environment.append(NoEscape(r"\bottomrule\endfoot"))
-    unbroken = len(block.rows) <= UNBROKEN_ROWS
+    unbroken = len(block.rows) <= WHOLE_TABLE
     for index, row in enumerate(block.rows):
         end = r"\\*[0pt]"
         if index < len(block.rows) - 1:
-            # The first and the last row never stand alone on a page.
-            together = unbroken or index in (0, len(block.rows) - 2)
+            # The first and the last rows never stand alone on a page.
+            together = unbroken or not TOGETHER - 1 <= index < len(block.rows) - TOGETHER
             end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if together else 0}}}"
         environment.append(NoEscape(_row(row, block.columns, inlines) + end))
     return f"{{\\tablesize\n{environment.dumps()}\n}}"
+
+
+def height(block: Table) -> int:
+    """Millimetres for a few lines before a table and as much of it as no page break may part, about."""
+    rows = len(block.rows) if len(block.rows) <= WHOLE_TABLE else TOGETHER
+    return OPENING + ROW * (len(block.head) + rows)
 
 
 def _head(block: Table, inlines: Callable[[Inlines], str]) -> str:

@@ -7,7 +7,7 @@ look and defines short names, then the report as calls of these names, a block a
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
 from reportgen import folders
 from reportgen.document.tree import (
@@ -37,9 +37,10 @@ from reportgen.document.tree import (
 )
 from reportgen.errors import TypesetterError
 from reportgen.figures.scene import Scene
-from reportgen.notation.expressions import Chain, Expression, VectorEquation
+from reportgen.notation.expressions import Chain, Expression, Product, Sum, VectorEquation, walk
 from reportgen.notation.numbers import Language
 from reportgen.paint.typst import paint
+from reportgen.writers.flow import TOGETHER, UNIT, WHOLE_TABLE, height, leads, parted, short_end, stretches
 from reportgen.writers.typst_math import literal, math, note, pieces, quantity, signed, symbol
 
 TEXT_WIDTH = 160.0
@@ -48,10 +49,10 @@ SCENE_GAP = 4.0
 """Between scenes side by side, mm."""
 LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
+RISING = 80.0
+"""A figure that begins lower than this on its page, in mm, never floats to the top of it."""
 FLOATING = 80.0
 """A figure taller than this lets the text run on before it where the page is nearly full, mm."""
-WHOLE_TABLE = 12
-"""A table of at most so many rows is kept on one page."""
 
 
 def render(document: Document) -> bytes:
@@ -89,7 +90,7 @@ def write(document: Document) -> str:
             f"footer: {_array(map(literal, document.footer))}",
         )
     )
-    body = _Blocks(document.language, document.words).write(document.blocks)
+    body = _Blocks(document.language, document.words).report(document.blocks)
     return f"{_frame()}\n#show: report.with({opening})\n\n{body}\n"
 
 
@@ -115,6 +116,45 @@ class _Blocks:
         self.words = words
         self.room = room
 
+    def report(self, blocks: Sequence[Block]) -> str:
+        """All blocks; behind a heading with a floating figure close below they stand in a box.
+
+        A figure rises to the top of its box at most, so not above its heading.
+        """
+        lines: list[str] = []
+        boxed: list[Block] = []
+
+        def close() -> None:
+            if boxed:
+                lines.append(f"#Q[\n{self.write(boxed)}\n]")
+                boxed.clear()
+
+        for stretch in stretches(blocks):
+            floating = self.floats_soon(stretch.body)
+            if floating or stretch.apart:
+                close()
+            if boxed:
+                boxed += (*stretch.head, *stretch.body)
+            elif floating:
+                lines += [self.write(stretch.head)] if stretch.head else []
+                boxed += stretch.body
+            else:
+                lines.append(self.write((*stretch.head, *stretch.body)))
+        close()
+        return "\n\n".join(lines)
+
+    def floats_soon(self, blocks: Sequence[Block]) -> bool:
+        """Whether the first floating figure may stand on one page with the heading before the blocks."""
+        before = tuple(takewhile(lambda block: not self.floats(block), blocks))
+        return len(before) < len(blocks) and height(before, self.language) < RISING
+
+    def floats(self, block: Block) -> bool:
+        """Whether text may run on before a figure; one of several rows, or in a list, stays in its place."""
+        if not isinstance(block, Figure) or self.room < TEXT_WIDTH:
+            return False
+        rows = in_rows(block.scenes)
+        return len(rows) == 1 and max(scene.height for scene in rows[0]) > FLOATING
+
     def write(self, blocks: Sequence[Block]) -> str:
         lines = []
         run_in = ""
@@ -124,10 +164,17 @@ class _Blocks:
             if isinstance(block, Section) and block.level > 3:
                 run_in = self.run_in(block)
                 if not isinstance(following, Paragraph):
-                    lines.append(run_in)
+                    lines.append(f"#K[{run_in}]")
                     run_in = ""
                 continue
-            lines.append(run_in + self.block(block))
+            if not leads(block, following, self.language):
+                lines.append(run_in + self.block(block))
+            elif isinstance(block, List):
+                *others, last = parted(block)
+                lines += [self.block(part) for part in others]
+                lines.append(f"#K(above:{'0.72em' if others else 'auto'})[{self.block(last)}]")
+            else:
+                lines.append(f"#K[{run_in}{self.block(block)}]")
             run_in = ""
         return "\n\n".join(lines)
 
@@ -147,9 +194,7 @@ class _Blocks:
             case Figure(scenes, _, key):
                 rows = in_rows(scenes)
                 drawings = ",".join(_array(map(self.scene, row)) for row in rows)
-                # Only a single row can float, and only outside of lists.
-                tall = len(rows) == 1 and max(scene.height for scene in rows[0]) > FLOATING
-                floating = str(tall and self.room == TEXT_WIDTH).lower()
+                floating = str(self.floats(block)).lower()
                 label = self.caption(self.words.figure, block)
                 return f"#place.flush()#F({literal(key)},{label},{floating},\n{drawings})"
             case Plate(scene, (width, height), _, key):
@@ -178,19 +223,30 @@ class _Blocks:
     def inline(self, inline: Inline) -> str:
         match inline:
             case Text(text):
-                return f"#{literal(text)}"
+                return _text(text)
             case Emph(of):
                 return f"#emph{self.content(of)}"
             case Strong(of):
                 return f"#strong{self.content(of)}"
             case InlineMath(expression):
-                return f"${math(expression, self.language)}$"
+                return self.formula(expression)
             case Value(number):
-                return f"#{literal(quantity(number, self.language))}"
+                shown = literal(quantity(number, self.language))
+                return f"#box({shown})" if "/" in number.unit else f"#{shown}"
             case Reference(key, text):
                 return f"#link(label({literal(key)}),{literal(text)})"
             case LineBreak():
                 return "#linebreak()"
+
+    def formula(self, expression: Expression) -> str:
+        """A formula in a line, which may break before "=" and between the terms of a sum only."""
+        if not any(isinstance(node, Product) for node in walk(expression)) or isinstance(expression, Sum):
+            return f"${math(expression, self.language)}$"
+        parts = expression.parts if isinstance(expression, Chain) else (expression,)
+        printed = [math(part, self.language) for part in parts]
+        if isinstance(expression, Chain):
+            printed[-1] += note(expression)
+        return " ".join(f"#box(${'= ' if index else ''}{part}$)" for index, part in enumerate(printed))
 
     def run_in(self, section: Section) -> str:
         number = f"#{literal(section.number)}#h(0.5em)" if section.number else ""
@@ -228,6 +284,9 @@ class _Blocks:
         parts = row.parts if isinstance(row, Chain) else (row,)
         printed = [pieces(part, self.language) for part in parts]
         if isinstance(row, Chain):
+            if short_end(row) and len(printed) > 1:
+                end = printed.pop()
+                printed[-1][-1] += f" = {' '.join(end)}"
             printed[-1][-1] += note(row)
         return [_array(f"${piece}$" for piece in part) for part in printed]
 
@@ -251,7 +310,7 @@ class _Blocks:
         aligns = _array(column.align for column in table.columns)
         head = _array(_array(self.cell(cell, "U") for cell in row) for row in table.head)
         rows = ",\n".join(_array(self.cell(cell, "X") for cell in row) for row in table.rows)
-        whole = str(len(table.rows) <= WHOLE_TABLE).lower()
+        whole = "0" if len(table.rows) <= WHOLE_TABLE else str(TOGETHER)
         return f"#R({label},{columns},{aligns},{head},{whole},\n{rows})" + _label(table.key)
 
     def cell(self, cell: Cell, spanned: str) -> str:
@@ -264,6 +323,16 @@ class _Blocks:
     def caption(self, word: str, block: Table | Figure | Plate) -> str:
         """The two arguments of a caption: its label, and what it says."""
         return f"{literal(f'{word} {block.number}'.strip())},{self.content(block.caption)}"
+
+
+def _text(text: str) -> str:
+    """A text as a string, but its units in boxes: lines would break behind a slash."""
+    parts = UNIT.split(text)
+    return "".join(
+        f"#box({literal(part)})" if index % 2 else f"#{literal(part)}"
+        for index, part in enumerate(parts)
+        if part or len(parts) == 1
+    )
 
 
 def in_rows(scenes: Sequence[Scene], room: float = TEXT_WIDTH) -> list[list[Scene]]:

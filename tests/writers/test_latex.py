@@ -282,13 +282,13 @@ def test_long_table_repeats_its_head(compiled: pdflatex.Compiled) -> None:
 
 
 @needs_tex
-def test_no_row_stands_alone_and_no_colour_runs_on() -> None:
+def test_three_rows_at_least_stand_on_a_page_and_no_colour_runs_on() -> None:
     # Tables of many lengths, so that some end just where a page does.
     tables = [sample.long_table(rows, f"t{rows}", "1.1") for rows in range(38, 46)]
     blocks = (block for table in tables for block in (PageBreak(), table))
     for page in opened(latex.render(document(*blocks))):
         rows = re.findall(r"^(\d+) *$", page.get_text(), re.MULTILINE)
-        assert len(rows) != 1
+        assert len(rows) == 0 or len(rows) >= 3
         colours = {
             span["color"]
             for block in page.get_text("dict")["blocks"]

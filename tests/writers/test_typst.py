@@ -27,6 +27,7 @@ from reportgen.document.tree import (
     Section,
     Table,
     Text,
+    Value,
 )
 from reportgen.errors import TypesetterError
 from reportgen.figures.scene import Arc, Arrow, Label, Line, Polyline, Scene, Stroke
@@ -217,6 +218,66 @@ def test_figures_wider_than_a_row_go_on_below() -> None:
         [160],
     ]
     assert typst.in_rows(scenes[:2] * 2) == [scenes[:2]] * 2
+
+
+# --- what a page or line break must not part ----------------------------------------------------------
+
+
+def last_words(*blocks: Any) -> list[str]:
+    return [plain(page.get_text(clip=body_of(page))) for page in opened(typst.render(document(*blocks)))]
+
+
+def listed(inlines: Any) -> List:
+    return List(((Paragraph((Text("Một."),)),), (Paragraph(inlines),)))
+
+
+@pytest.mark.parametrize("opening", [Paragraph, listed])
+def test_words_stand_on_the_page_of_the_formula_they_lead_to(opening: Any) -> None:
+    """Whatever number of lines stands above, so that the page ends anywhere."""
+    formula = Equation((Number(1234),) * 3)
+    for count in range(24, 42):
+        lines = (Paragraph((Text("Dòng."),)),) * count
+        for page in last_words(*lines, opening((Text("Ta có:"),)), formula):
+            assert not page.endswith("Ta có:"), count
+
+
+def test_no_figure_rises_above_the_heading_of_its_section() -> None:
+    figure = Figure((Scene(100, 100, (Label(50 + 50j, "figure"),)),))
+    for count in range(1, 12):
+        lines = (Paragraph((Text("Dòng."),)),) * count
+        section = Section(2, (Text("Heading"),)), Paragraph((Text("Words."),)), figure, *lines
+        text = " ".join(last_words(*lines, *section))
+        assert text.index("Heading") < text.index("figure")
+
+
+def test_three_rows_at_least_of_a_long_table_stand_on_a_page() -> None:
+    for rows in range(34, 46):
+        for page in last_words(sample.long_table(rows, "t", "1.1")):
+            assert len(re.findall(r"(?<!\S)\d+(?!\S)", page)) >= 3
+
+
+def test_units_and_products_stay_in_one_line() -> None:
+    """Behind any number of letters: the line ends everywhere once."""
+    product = Product((Number(2), Symbol("ω", "3"), Symbol("v")))
+    whole = Text("0 N/cm²"), InlineMath(product), Value(Number(0.5, 1, "m/(s²·mm)"))
+    for count in range(1, 90, 2):
+        source = Paragraph((Text("i" * count + " "), *(part for item in whole for part in (item, Text(" ")))))
+        page = opened(typst.render(document(source)))[0]
+        lines = [plain("".join(span["text"] for span in line["spans"])) for line in lines_of(page)]
+        assert all(not line.endswith(("/", "·", "⋅")) for line in lines), lines
+
+
+def lines_of(page: Any) -> list[Any]:
+    return [line for block in page.get_text("dict")["blocks"] for line in block.get("lines", ())]
+
+
+def test_nothing_but_zero_is_no_row_of_its_own() -> None:
+    terms = tuple(Product((Symbol("R", f"{index}2"), Symbol("h", f"{index}2"))) for index in range(11))
+    for count in range(5, 12):
+        page = opened(typst.render(document(Equation((Chain((Sum(terms[:count]), Number(0))),)))))[0]
+        zero = next(word for word in page.get_text("words") if word[4] == "0")
+        beside = [word for word in page.get_text("words") if abs(word[3] - zero[3]) < 3]
+        assert len(beside) > 3, count
 
 
 # --- expressions ----------------------------------------------------------------------------------
