@@ -29,8 +29,10 @@ from reportgen.grading.policy import Policy
 from reportgen.grading.submission import read_submission
 from reportgen.notation.numbers import Language
 from reportgen.workbook import write_csv, write_xlsx
+from reportgen.workbook.files import BOOKS
 
-SUBMISSIONS = frozenset({".xlsx", ".csv"})
+SUBMISSIONS = BOOKS | {".csv"}
+"""Endings of what somebody may have handed in as a sheet; those that are not read are told of."""
 
 
 @dataclass(frozen=True)
@@ -81,11 +83,13 @@ def grade(
     for path in found(submissions, language or "vi", problems):
         try:
             submission = read_submission(path, lambda name: room.guide(name).key, language or "vi")
-            if submission.assignment in markings:
-                first = markings[submission.assignment].submission.file
-                fault = Fault("sheet-twice", Mark(str(path)), {"text": submission.assignment, "first": first})
+            earlier = markings.get(submission.assignment)
+            if earlier is not None:
+                kept, left = _kept(Path(earlier.submission.file), path, submission.assignment)
+                fault = Fault("sheet-twice", Mark(str(left)), {"text": submission.assignment, "first": kept.name})
                 problems.append(as_problem(fault, language or "vi"))
-                continue
+                if kept != path:
+                    continue
             guide = room.guide(submission.assignment)
             classmates = room.keys if policy.guard else ()
             markings[submission.assignment] = mark(guide, submission, classmates)
@@ -95,6 +99,12 @@ def grade(
     order = {name: index for index, name in enumerate(room.files)}
     marked = sorted(markings.values(), key=lambda marking: order[spelt(marking.key.id)])
     return Graded(tuple(marked), tuple(problems), missing)
+
+
+def _kept(first: Path, second: Path, assignment: str) -> tuple[Path, Path]:
+    """Of two sheets of one assignment the one to mark, and the other: none displaces the one of its own name."""
+    own = [spelt(path.stem) == spelt(assignment) for path in (first, second)]
+    return (second, first) if own == [False, True] else (first, second)
 
 
 def found(paths: Sequence[Path], language: Language, problems: list[Problem]) -> Iterator[Path]:

@@ -35,7 +35,8 @@ _UNREADABLE = {"date": "cell-date", "error": "cell-error", "boolean": "cell-bool
 def read_submission(
     path: Path, key_of: Callable[[str], Key] | Key, language: Language = "vi"
 ) -> Submission:
-    """The answer sheet of a file, by the key of the assignment it names, or else of the file's stem.
+    """The answer sheet of a file, by the key of the assignment it names, on its page of information or in its
+    title, or else of the file's stem.
 
     `key_of` finds a key by the name that the sheet gives, which may be any text, and raises `KeyError` if
     there is none.  Raises `AssignmentError`, worded in `language`, if the file cannot be read, is no
@@ -45,8 +46,8 @@ def read_submission(
     found = _sheet(pages)
     if found is None:
         raise _refused(Fault("sheet-no-head", Mark(str(path))), language)
-    named = _assignment(pages)
-    name, mark = (named.text.strip(), named.mark) if named else (path.stem, Mark(str(path)))
+    named = _assignment(pages) or _titled(found[0].rows[: found[1]])
+    name, mark = named or (path.stem, Mark(str(path)))
     if isinstance(key_of, Key):
         key = key_of
         if named and name != key.id:
@@ -96,13 +97,22 @@ def _sheet(pages: Sequence[Page]) -> tuple[Page, int] | None:
     return None
 
 
-def _assignment(pages: Sequence[Page]) -> Cell | None:
-    """The cell beside the label that names the assignment, if it holds something."""
+def _assignment(pages: Sequence[Page]) -> tuple[str, Mark] | None:
+    """What stands beside the label that names the assignment, if anything does."""
     for page in pages:
         for row in page.rows:
             for label, cell in pairwise(row):
                 if _says(label, "assignment") and cell.text.strip():
-                    return cell
+                    return cell.text.strip(), cell.mark
+    return None
+
+
+def _titled(rows: Sequence[Sequence[Cell]]) -> tuple[str, Mark] | None:
+    """The assignment that the title of the sheet ends with; it is all that is left of a page saved as CSV."""
+    for cell in (cell for row in rows for cell in row):
+        title, dash, name = cell.text.partition("–")
+        if dash and title.strip().casefold() in _words("title") and name.strip():
+            return name.strip(), cell.mark
     return None
 
 

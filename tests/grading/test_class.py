@@ -62,6 +62,25 @@ def test_unreadable_cells_are_located(graded: Graded) -> None:
     assert all(mark.split("!")[1][0] in "DE" and "K225520103040.xlsx:" in mark for mark in marks)
 
 
+def test_what_is_no_sheet_that_can_be_read_is_told(assignments: Path, tmp_path: Path) -> None:
+    """Whoever saved as .xls or .ods handed something in, which a folder does not pass over in silence."""
+    for name in ("K225520103001.xls", "K225520103004.ods", "K225520103007.xlsm"):
+        (tmp_path / name).write_bytes(b"\xd0\xcf\x11\xe0" if name.endswith(".xls") else b"PK\x03\x04")
+    result = assess.grade([tmp_path], assignments, Policy())
+    assert [Path(problem.mark.file).suffix for problem in result.problems] == [".xls", ".ods", ".xlsm"]
+
+
+def test_nobody_displaces_a_sheet_by_claiming_its_name(assignments: Path, tmp_path: Path) -> None:
+    own = tmp_path / "K225520103004.csv"
+    own.write_bytes((demo.SHEETS / "K225520103004.csv").read_bytes())
+    for name in ("A.csv", "Z.csv"):
+        (tmp_path / name).write_bytes(own.read_bytes())
+    result = assess.grade([tmp_path], assignments, Policy())
+    assert [Path(marking.submission.file) for marking in result.markings] == [own]
+    assert {Path(problem.mark.file).name for problem in result.problems} == {"A.csv", "Z.csv"}
+    assert all("K225520103004.csv" in problem.message for problem in result.problems)
+
+
 def test_one_sheet_never_stops_the_others(assignments: Path, tmp_path: Path) -> None:
     folder = tmp_path / "sheets"
     shutil.copytree(demo.SHEETS, folder)

@@ -198,6 +198,18 @@ def test_the_key_is_found_by_the_name_on_the_sheet_then_by_the_files_stem(tmp_pa
     assert [problem.code for problem in caught.value.problems] == ["sheet-unknown"]
 
 
+def test_a_page_saved_as_csv_is_known_by_its_title(tmp_path: Path) -> None:
+    """Spreadsheet programs save the page in view alone, under any name: its title is all that names it."""
+    keys = {key.id: key for key in (small_key(), small_key("en", "other"))}
+    for language, title in (("en", "Answer sheet – other"), ("vi", "Phiếu trả lời – other")):
+        path = tmp_path / f"answers-{language}.csv"
+        path.write_text(f"{title};;;\n\nid;Value;1\nomega.1;31,4;\n", encoding="utf-8")
+        assert read_submission(path, keys.__getitem__).assignment == "other"
+    path.write_text("Notes – other;;;\nid;Value;1\nomega.1;31,4;\n", encoding="utf-8")
+    with pytest.raises(AssignmentError):
+        read_submission(path, keys.__getitem__)
+
+
 def test_a_sheet_of_another_assignment_is_refused_where_it_names_it(tmp_path: Path) -> None:
     path = filled(tmp_path, small_key(id="../../etc"), {})
     with pytest.raises(AssignmentError) as caught:
