@@ -11,7 +11,7 @@ from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces import Polygon
 from reportgen.ledger.kinematics import Side, Turn
 from reportgen.ledger.report import Books
-from reportgen.notation.expressions import Number
+from reportgen.notation.expressions import Number, refs
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +24,23 @@ class BodyView:
     ids: tuple[str, ...]
     still: bool = False
     """Whether that pin is fixed to the frame."""
+
+
+@dataclass(frozen=True, slots=True)
+class CarriedView:
+    """A point of a link that turns about `origin` without a segment of its own on the plan.
+
+    `relative` is its name with the origin's, e.g. S2B; `still` says whether the origin is fixed to the
+    frame, `swings` whether the link has an angular acceleration.
+    """
+
+    name: str
+    image: str
+    link: int
+    origin: str
+    relative: str
+    still: bool
+    swings: bool
 
 
 @dataclass(frozen=True)
@@ -54,7 +71,7 @@ class Facts:
 
     def velocity_lines(self, group: GroupView) -> list[str]:
         """What is worked out from a group's velocity plan: points, relative velocities, rotations."""
-        return self._once(
+        return self._in_order(
             *(f"v.{side.base}" for side in group.under),
             f"v.{group.M}",
             *(f"v.{side.relative}" for side in group.sides),
@@ -67,7 +84,7 @@ class Facts:
 
     def acceleration_lines(self, group: GroupView) -> list[str]:
         """What is worked out from a group's acceleration plan."""
-        return self._once(
+        return self._in_order(
             *(f"a.{side.base}" for side in group.under),
             f"a.{group.M}",
             *(f"a.{side.relative}.{sought_part(side)}" for side in group.sides),
@@ -76,6 +93,36 @@ class Facts:
             f"eps.{group.i}",
             f"eps.{group.j}",
         )
+
+    def _in_order(self, *ids: str) -> list[str]:
+        """The ids, but before each what it is worked out from."""
+        known = self._once(*ids)
+        ordered: dict[str, None] = {}
+
+        def put(id: str) -> None:
+            if id in ordered:
+                return
+            definition = self.ledger[id].definition
+            for source in refs(definition) if definition is not None else ():
+                if source in known:
+                    put(source)
+            ordered[id] = None
+
+        for id in known:
+            put(id)
+        return list(ordered)
+
+    def carried(self, group: GroupView) -> list[CarriedView]:
+        """Points that similarity does not give, as on a block: they turn about a joint at the link's rate."""
+        views = []
+        for place in (*group.points, *group.points_j):
+            origin = self._origin(group, place.link)
+            relative = f"{place.name}{origin}"
+            if f"v.{relative}" in self.ledger:
+                swings = f"a.{relative}.t" in self.ledger
+                still = origin in self._fixed
+                views.append(CarriedView(place.name, place.image, place.link, origin, relative, still, swings))
+        return views
 
     def _once(self, *ids: str) -> list[str]:
         return self.has(list(dict.fromkeys(ids)))

@@ -104,3 +104,18 @@ def test_the_remark_on_translation_is_no_part_of_the_last_step(english: dict[str
 
 def test_no_length_rule_is_claimed_for_a_rod_from_the_frame(english: dict[str, str]) -> None:
     assert "is the square of the segment" not in english[TRANSLATED]
+
+
+def test_a_point_of_the_block_is_constructed_before_it_is_measured(english: dict[str, str]) -> None:
+    text = english[SLOTTED]
+    step, measured = text.index("Its end is s_2."), text.index("\nv_S2 = ")
+    assert step < measured
+    assert text.index("The end is s_2^′.") < text.index("\na_S2 = ")
+
+
+def test_no_line_uses_an_angular_velocity_before_its_own(english: dict[str, str]) -> None:
+    lines = english[SLOTTED].splitlines()
+    own = next(index for index, line in enumerate(lines) if line.startswith("ω_3 ="))
+    block = next(index for index, line in enumerate(lines) if line.startswith("ω_2 = ω_3"))
+    point = next(index for index, line in enumerate(lines) if line.startswith("v_S2B ="))
+    assert own < block < point
