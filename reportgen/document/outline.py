@@ -151,7 +151,8 @@ def _names(
     kinematic = machine.numbered(dict.fromkeys((k - 1) % machine.count + 1 for k in worked))
     senses = words["sense"]
     of_facts = (
-        "driver_others turning velocity_lines acceleration_lines similar carried names centre_lines arm_ids negative zero"
+        "driver_others turning velocity_lines acceleration_lines similar carried names centre_lines arm_ids"
+        " negative zero"
     )
     return {
         **voice.functions(),
