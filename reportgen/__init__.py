@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from reportgen.errors import AssignmentError, ReportgenError
 
 if TYPE_CHECKING:
-    from reportgen.api import analyse, build, check, load, solve, typeset
+    from reportgen.api import analyse, build, check, load, solve
 
-__all__ = ["AssignmentError", "ReportgenError", "analyse", "build", "check", "load", "solve", "typeset"]
+__all__ = ["AssignmentError", "ReportgenError", "analyse", "build", "check", "load", "solve"]
 
 
 def __getattr__(name: str) -> object:
