@@ -20,6 +20,7 @@ from reportgen.grading.marks import Marked, Marking, Place, Submission, Verdict
 from reportgen.grading.misread import misread_data
 from reportgen.grading.mistakes import Site
 from reportgen.grading.naming import name_mistakes
+from reportgen.grading.slips import name_slips
 from reportgen.grading.working import SIGNED, Working, lay_out
 
 
@@ -33,7 +34,7 @@ def mark(guide: Guide, submission: Submission, classmates: Sequence[Key] = ()) -
         for position in row.positions
     }
     cells |= {place: replace(cells[place], first=True) for place in _firsts(guide, cells)}
-    for named in (name_mistakes, misread_data):
+    for named in (name_slips, name_mistakes, misread_data):
         sites = named(working, cells)
         cells |= {place: _named(cells[place], site) for place, site in sites.items()}
         cells |= _charged_once(working, cells, sites)

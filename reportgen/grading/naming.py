@@ -19,10 +19,10 @@ from reportgen.ledger.following import follow
 
 
 def name_mistakes(working: Working, cells: Mapping[Place, Marked]) -> dict[Place, Site]:
-    """The mistakes behind the first wrong values of each chain, where they are known."""
+    """The mistakes behind the first wrong values of each chain that have no name yet, where they are known."""
     by_row: dict[str, list[int]] = {}
     for (id, position), cell in cells.items():
-        if cell.first:
+        if cell.first and not cell.mistake:
             by_row.setdefault(id, []).append(position)
     return {
         (id, position): site

@@ -1,0 +1,97 @@
+"""Slips of writing down are told by their own names, cost no more than their values, and make nobody a cheat."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from reportgen.grading.guide import Guide
+from reportgen.grading.marking import mark
+from reportgen.grading.marks import Marking
+from reportgen.grading.policy import Policy
+from reportgen.grading.slips import AGREED
+from tests.grading import students
+
+WORKED = (4, 12)
+
+
+@pytest.fixture(scope="module")
+def guide() -> Guide:
+    return students.guide("engine-twin-05", WORKED)
+
+
+def marked(guide: Guide, cell: Callable[[students.Row, int, float], float | None]) -> Marking:
+    """A right sheet of three figures with what `cell` makes of it."""
+    return mark(guide, students.sheet(guide, lambda row, k, value: cell(row, k, students.figures(value))))
+
+
+def names(marking: Marking) -> set[str]:
+    return {cell.mistake for cell in marking.firsts}
+
+
+def test_two_figures_are_no_other_data(guide: Guide) -> None:
+    """Four intermediate results cut to two figures, all else from them: four marks, and no talk of other data."""
+    cut = {"R", "F", "m.2", "m.3"}
+    made = {id: (lambda value, _, id=id: value * _cut(guide, id)) for id in cut}
+    marking = mark(guide, students.written(guide, students.worked_out(guide, students.Site("", "R", made))))
+    assert names(marking) == {"too-few-figures"}
+    assert {cell.id for cell in marking.firsts} == cut
+    assert marking.points == marking.out_of - len(cut)
+    assert marking.warnings == ()
+
+
+def _cut(guide: Guide, id: str) -> float:
+    value = float(guide.key.row(id).values[0])
+    return students.figures(value, 2) / value
+
+
+@pytest.mark.parametrize(
+    ("name", "measured"),
+    [
+        ("angle-clockwise", lambda angle: -angle % 360),
+        ("angle-from-vertical", lambda angle: (90 - angle) % 360),
+        ("angle-from-vertical", lambda angle: (angle - 90) % 360),
+    ],
+)
+def test_angles_by_another_convention(guide: Guide, name: str, measured: Callable[[float], float]) -> None:
+    marking = marked(guide, lambda row, k, value: measured(value) if row.id.startswith("dir.") else value)
+    told = [cell.mistake for cell in marking.firsts]
+    assert told.count(name) >= AGREED * len(told)
+
+
+def test_one_angle_shows_no_convention(guide: Guide) -> None:
+    marking = marked(guide, lambda row, k, value: -value % 360 if row.id == "dir.v.S2" else value)
+    assert "angle-clockwise" not in names(marking)
+
+
+def test_rows_exchanged(guide: Guide) -> None:
+    other = {"R.14": "R.05", "R.05": "R.14"}
+
+    def cell(row: students.Row, k: int, value: float) -> float:
+        there = guide.key.row(other.get(row.id, row.id))
+        return students.figures(float(there.values[there.at(k)]))
+
+    marking = marked(guide, cell)
+    assert {(one.id, one.mistake) for one in marking.firsts} == {("R.14", "rows-swapped"), ("R.05", "rows-swapped")}
+    assert marking.points == marking.out_of - 2 * len(WORKED)
+
+
+def test_opposite_signs_are_no_exchange(guide: Guide) -> None:
+    """ω2 = −ω4 where the pins stand opposite: with clockwise as positive, both signs are wrong, not both rows."""
+    marking = marked(guide, lambda row, k, value: -value if row.id.startswith("turn.omega") else value)
+    assert names(marking) == {"direction-reversed"}
+
+
+def test_value_beside_its_cell(guide: Guide) -> None:
+    row = guide.key.row("p.3")
+    at = students.figures(float(row.values[row.at(4)]))
+    marking = marked(guide, lambda row, k, value: value if row.id != "p.3" else None if k == 4 else at)
+    assert [(one.id, one.position, one.mistake) for one in marking.firsts] == [("p.3", 12, "wrong-column")]
+    assert marking.points == marking.out_of - 2
+
+
+def test_slips_are_named_without_the_guard_too() -> None:
+    guide = students.open_guide(students.assignment("four-bar-01", (2,)), Policy(guard=False))
+    marking = marked(guide, lambda row, k, value: students.figures(value, 2) if row.id == "l.BE" else value)
+    assert names(marking) == {"too-few-figures"}
