@@ -1,7 +1,8 @@
 """Given data taken wrongly: the one datum whose other value explains a wrong value that comes from the data alone.
 
 A datum is sought by working backwards: the ledger is run over many values of it at once, and the one
-that meets the student's value counts if it is a number that somebody would have written (three figures).
+that meets the student's value counts if it is a number that somebody would have given: as round as the
+right one.  A slip of arithmetic could otherwise nearly always be put down to some datum.
 """
 
 from __future__ import annotations
@@ -12,15 +13,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.grading.guide import Guide
-from reportgen.grading.marks import Marked, Place
+from reportgen.grading.marks import Marked, Place, Verdict
 from reportgen.grading.mistakes import Site
 from reportgen.grading.working import Working
 from reportgen.ledger.following import follow
 
 WRONG_DATUM = "wrong-datum"
 
-NEAT = 3
-"""Significant figures of a datum that somebody would have written."""
+NEAT = 2
+"""Significant figures of a datum that somebody would have given; a half of the last one where the right one has it."""
+
+APART = 3.0
+"""A right value that would be this many tolerances off with another datum shows that the datum was right."""
 
 FACTORS = np.geomspace(1 / 5, 5, 400)
 """A datum that is taken wrongly lies within these of the right one."""
@@ -50,7 +54,8 @@ def misread_data(working: Working, cells: Mapping[Place, Marked]) -> dict[Place,
             continue
         datum = next((one for one in known if _explains(working, cell, one)), None)
         if datum is None:
-            datum = next((one for one in _possible(working, cell) if _explains(working, cell, one)), None)
+            possible = (one for one in _possible(working, cell) if _explains(working, cell, one))
+            datum = next((one for one in possible if not _is_contradicted(working.guide, cells, one)), None)
             known += [datum] if datum else []
         if datum is not None:
             found[place] = datum.site
@@ -95,6 +100,29 @@ def _explains(working: Working, cell: Marked, datum: Datum) -> bool:
     return abs(foreseen - _given(working, cell)) <= band < abs(foreseen - key)
 
 
+def _is_contradicted(guide: Guide, cells: Mapping[Place, Marked], datum: Datum) -> bool:
+    """Whether a value that is right, and stands on nothing wrong, would lie far off with this value of the datum.
+
+    Lengths on paper tell nothing: they are read at the student's own scale.
+    """
+    values = follow(guide.ledger, {datum.id: np.array([datum.value])})
+    wrong = {place[0] for place, cell in cells.items() if cell.verdict is Verdict.wrong}
+    for (id, position), cell in cells.items():
+        before = set(guide.before[id])
+        telling = cell.verdict is Verdict.right and not _on_paper(guide, id)
+        if telling and datum.id in before and not wrong & before:
+            column = np.broadcast_to(values[id].real, len(guide.ledger[id].values))
+            moved = float(column[guide.rows[id].at(position)]) / guide.ledger[id].how.scale - cell.expected
+            if abs(moved) > APART * cell.band:
+                return True
+    return False
+
+
+def _on_paper(guide: Guide, id: str) -> bool:
+    kind = guide.ledger[id].kind
+    return kind == "segment" or kind.endswith("scale") or id.startswith("dir.")
+
+
 def _at(guide: Guide, cell: Marked, id: str, values: np.ndarray) -> np.ndarray:
     """A quantity (SI) over values of a datum [M]."""
     wanted = {*guide.before[cell.id], cell.id}
@@ -111,13 +139,20 @@ def _index(guide: Guide, cell: Marked) -> int:
 
 
 def _neat(guide: Guide, id: str, value: float) -> float:
-    """The nearest number of three figures, or its inverse for a ratio, in the datum's printed unit."""
+    """The nearest number (SI) as round as the right one in the datum's printed unit; for 1/3.6 that of its inverse."""
     family = guide.ledger[id]
-    printed = value / family.how.scale
-    if family.kind == "ratio" and printed < 1:
-        return 1 / float(f"{1 / printed:.{NEAT - 1}e}") if _is_inverse(guide, id) else float(f"{printed:.{NEAT - 1}e}")
     # Lengths stand in metres in the ledger and in millimetres on the page: the same figures.
-    return float(f"{printed:.{NEAT - 1}e}") * family.how.scale
+    taken, right = (one / family.how.scale for one in (value, float(family.values[0])))
+    if family.kind == "ratio" and taken < 1 and _is_inverse(guide, id):
+        return family.how.scale / _rounded(1 / taken, 1 / right)
+    return _rounded(taken, right) * family.how.scale
+
+
+def _rounded(value: float, like: float) -> float:
+    """A number to `NEAT` figures, to halves of the last one if `like` has more figures than these."""
+    parts = 1 if np.isclose(like, float(f"{like:.{NEAT - 1}e}"), rtol=1e-9) else 2
+    step = 10.0 ** (np.floor(np.log10(value)) - NEAT + 1) / parts
+    return float(round(value / step) * step)
 
 
 def _is_inverse(guide: Guide, id: str) -> bool:

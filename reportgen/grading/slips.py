@@ -50,8 +50,12 @@ def _too_short(first: Cells) -> dict[Place, Site]:
     return {
         place: _site("too-few-figures", place[0])
         for place, cell in first.items()
-        if cell.given and cell.given in [float(f"{one:.{FEW}g}") for one in (cell.own, cell.expected)]
+        if cell.given and any(_is_cut(cell.given, one, cell.band) for one in (cell.own, cell.expected))
     }
+
+
+def _is_cut(given: float, value: float, band: float) -> bool:
+    return given == float(f"{value:.{FEW}g}") and abs(given - value) > band
 
 
 def _misplaced(guide: Guide, first: Cells, cells: Cells) -> dict[Place, Site]:

@@ -95,3 +95,18 @@ def test_slips_are_named_without_the_guard_too() -> None:
     guide = students.open_guide(students.assignment("four-bar-01", (2,)), Policy(guard=False))
     marking = marked(guide, lambda row, k, value: students.figures(value, 2) if row.id == "l.BE" else value)
     assert names(marking) == {"too-few-figures"}
+
+
+def test_a_slip_of_arithmetic_is_no_other_datum(guide: Guide) -> None:
+    """v_A 12.3 for 13.2 could come from another n or H, but ω1 and R, which stand on them too, are right."""
+    marking = marked(guide, lambda row, k, value: value * 0.932 if row.id == "v.A" else value)
+    assert [(one.id, one.mistake) for one in marking.firsts] == [("v.A", "")]
+
+
+def test_two_slips_of_arithmetic_are_no_other_variant(guide: Guide) -> None:
+    """Area and mass both worked out wrongly, all else from them: two marks, not the whole sheet."""
+    made = {"F": lambda value, _: value * 0.79, "m.2": lambda value, _: value * 1.21}
+    marking = mark(guide, students.written(guide, students.worked_out(guide, students.Site("", "F", made))))
+    assert {cell.id for cell in marking.firsts} == set(made)
+    assert marking.points == marking.out_of - 2
+    assert marking.warnings == ()
