@@ -7,7 +7,7 @@ look and defines short names, then the report as calls of these names, a block a
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from itertools import pairwise, takewhile
+from itertools import pairwise
 
 from reportgen import folders
 from reportgen.document.tree import (
@@ -40,7 +40,7 @@ from reportgen.figures.scene import Scene
 from reportgen.notation.expressions import Chain, Expression, Product, Sum, VectorEquation, walk
 from reportgen.notation.numbers import Language
 from reportgen.paint.typst import paint
-from reportgen.writers.flow import TOGETHER, UNIT, WHOLE_TABLE, height, leads, parted, short_end, stretches
+from reportgen.writers.flow import TOGETHER, UNIT, WHOLE_TABLE, leads, parted, short_end
 from reportgen.writers.typst_math import literal, math, note, pieces, quantity, signed, symbol
 
 TEXT_WIDTH = 160.0
@@ -49,8 +49,6 @@ SCENE_GAP = 4.0
 """Between scenes side by side, mm."""
 LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
-RISING = 80.0
-"""A figure that begins lower than this on its page, in mm, never floats to the top of it."""
 FLOATING = 80.0
 """A figure taller than this lets the text run on before it where the page is nearly full, mm."""
 
@@ -90,7 +88,7 @@ def write(document: Document) -> str:
             f"footer: {_array(map(literal, document.footer))}",
         )
     )
-    body = _Blocks(document.language, document.words).report(document.blocks)
+    body = _Blocks(document.language, document.words).write(document.blocks)
     return f"{_frame()}\n#show: report.with({opening})\n\n{body}\n"
 
 
@@ -115,45 +113,6 @@ class _Blocks:
         self.language = language
         self.words = words
         self.room = room
-
-    def report(self, blocks: Sequence[Block]) -> str:
-        """All blocks; behind a heading with a floating figure close below they stand in a box.
-
-        A figure rises to the top of its box at most, so not above its heading.
-        """
-        lines: list[str] = []
-        boxed: list[Block] = []
-
-        def close() -> None:
-            if boxed:
-                lines.append(f"#Q[\n{self.write(boxed)}\n]")
-                boxed.clear()
-
-        for stretch in stretches(blocks):
-            floating = self.floats_soon(stretch.body)
-            if floating or stretch.apart:
-                close()
-            if boxed:
-                boxed += (*stretch.head, *stretch.body)
-            elif floating:
-                lines += [self.write(stretch.head)] if stretch.head else []
-                boxed += stretch.body
-            else:
-                lines.append(self.write((*stretch.head, *stretch.body)))
-        close()
-        return "\n\n".join(lines)
-
-    def floats_soon(self, blocks: Sequence[Block]) -> bool:
-        """Whether the first floating figure may stand on one page with the heading before the blocks."""
-        before = tuple(takewhile(lambda block: not self.floats(block), blocks))
-        return len(before) < len(blocks) and height(before, self.language) < RISING
-
-    def floats(self, block: Block) -> bool:
-        """Whether text may run on before a figure; one of several rows, or in a list, stays in its place."""
-        if not isinstance(block, Figure) or self.room < TEXT_WIDTH:
-            return False
-        rows = in_rows(block.scenes)
-        return len(rows) == 1 and max(scene.height for scene in rows[0]) > FLOATING
 
     def write(self, blocks: Sequence[Block]) -> str:
         lines = []
@@ -194,7 +153,8 @@ class _Blocks:
             case Figure(scenes, _, key):
                 rows = in_rows(scenes)
                 drawings = ",".join(_array(map(self.scene, row)) for row in rows)
-                floating = str(self.floats(block)).lower()
+                tall = len(rows) == 1 and max(scene.height for scene in rows[0]) > FLOATING
+                floating = str(tall and self.room == TEXT_WIDTH).lower()
                 label = self.caption(self.words.figure, block)
                 return f"#place.flush()#F({literal(key)},{label},{floating},\n{drawings})"
             case Plate(scene, (width, height), _, key):

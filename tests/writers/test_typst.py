@@ -241,15 +241,6 @@ def test_words_stand_on_the_page_of_the_formula_they_lead_to(opening: Any) -> No
             assert not page.endswith("Ta có:"), count
 
 
-def test_no_figure_rises_above_the_heading_of_its_section() -> None:
-    figure = Figure((Scene(100, 100, (Label(50 + 50j, "figure"),)),))
-    for count in range(1, 12):
-        lines = (Paragraph((Text("Dòng."),)),) * count
-        section = Section(2, (Text("Heading"),)), Paragraph((Text("Words."),)), figure, *lines
-        text = " ".join(last_words(*lines, *section))
-        assert text.index("Heading") < text.index("figure")
-
-
 def test_three_rows_at_least_of_a_long_table_stand_on_a_page() -> None:
     for rows in range(42, 52):
         for page in opened(typst.render(document(sample.long_table(rows, "t", "1.1")))):
