@@ -16,7 +16,7 @@ from reportgen.document.prose import search_path
 from reportgen.document.words import load_words
 from reportgen.grading.policy import Policy
 from reportgen.ledger.core import Ledger
-from reportgen.ledger.following import standing_on
+from reportgen.ledger.following import carried, standing_on
 from reportgen.ledger.report import keep
 
 ALMOST = 1e-12
@@ -68,7 +68,8 @@ class Guide:
     @cached_property
     def before(self) -> dict[str, tuple[str, ...]]:
         """Every quantity that a judged one stands on, nearest first."""
-        return {row.id: standing_on(self.ledger, row.id) for row in self.judged}
+        vectors = carried(self.ledger)
+        return {row.id: standing_on(self.ledger, row.id, vectors) for row in self.judged}
 
     @property
     def count(self) -> int:

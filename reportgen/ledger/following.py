@@ -73,11 +73,14 @@ def follow(
     return ledger.evaluate(changes, entered=entered, only=only)
 
 
-def standing_on(ledger: Ledger, id: str) -> tuple[str, ...]:
-    """Every quantity that one stands on, nearest first: its `ancestors` and what was read from their vectors."""
+def standing_on(ledger: Ledger, id: str, vectors: Mapping[str, str]) -> tuple[str, ...]:
+    """Every quantity that one stands on, nearest first: its `ancestors` and what was read from their vectors.
+
+    `vectors` is what `carried` says of the ledger.
+    """
     read: dict[str, list[str]] = {}
     order = {name: index for index, name in enumerate(ledger.families)}
-    for size, vector in carried(ledger).items():
+    for size, vector in vectors.items():
         read.setdefault(vector, []).append(size)
     found: dict[str, None] = {}
     waiting = [id]

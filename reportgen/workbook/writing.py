@@ -13,6 +13,7 @@ import re
 import unicodedata
 import zipfile
 from collections.abc import Iterable, Sequence
+from copy import copy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -118,9 +119,9 @@ def write_xlsx(book: Book) -> bytes:
 
 def _fill(page: Worksheet, sheet: Sheet) -> None:
     from openpyxl.comments import Comment
-    from openpyxl.styles import Protection
     from openpyxl.utils import get_column_letter
 
+    dressed: dict[tuple[str, str, bool, bool], Any] = {}
     for number, width in enumerate(sheet.widths, start=1):
         page.column_dimensions[get_column_letter(number)].width = width
     for row, entries in enumerate(sheet.rows, start=1):
@@ -130,11 +131,15 @@ def _fill(page: Worksheet, sheet: Sheet) -> None:
                 continue
             cell: Any = page.cell(row, column)
             _put(cell, entry.value)
-            _dress(cell, entry)
+            # Looking a style up in the workbook's lists takes longer than all else: once for each look is enough.
+            look = (entry.style, entry.format, entry.unlocked, bool(cell.quotePrefix))
+            if look in dressed:
+                cell._style = copy(dressed[look])
+            else:
+                _dress(cell, entry)
+                dressed[look] = cell._style
             if entry.comment:
                 cell.comment = Comment(_clean(entry.comment), "reportgen", height=110, width=320)
-            if entry.unlocked:
-                cell.protection = Protection(locked=False)
     rows, columns = sheet.frozen
     if rows or columns:
         page.freeze_panes = f"{get_column_letter(columns + 1)}{rows + 1}"
@@ -166,7 +171,7 @@ def _put(cell: Any, value: str | float | None) -> None:
 
 
 def _dress(cell: Any, entry: Entry) -> None:
-    from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
+    from openpyxl.styles import Alignment, Border, Font, PatternFill, Protection, Side
 
     style = entry.style
     if style in ("title", "head", "bold"):
@@ -181,6 +186,8 @@ def _dress(cell: Any, entry: Entry) -> None:
         cell.alignment = Alignment(wrap_text=style == "head", vertical="center")
     if entry.format:
         cell.number_format = entry.format
+    if entry.unlocked:
+        cell.protection = Protection(locked=False)
 
 
 def _sheet_name(name: str, taken: set[str]) -> str:
