@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import combinations
 
+from reportgen.answers.key import Role
 from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Marked, Place, Verdict
 from reportgen.grading.mistakes import Site
@@ -37,7 +38,7 @@ def name_slips(working: Working, cells: Cells) -> dict[Place, Site]:
     """The slips behind first wrong values, where they are known."""
     first = {place: cell for place, cell in cells.items() if cell.first}
     guide = working.guide
-    return _misplaced(guide, first, cells) | _too_short(first) | _conventions(first, cells)
+    return _misplaced(guide, first, cells) | _too_short(first) | _unlike(guide, first) | _conventions(first, cells)
 
 
 def _site(mistake: str, id: str) -> Site:
@@ -56,6 +57,17 @@ def _too_short(first: Cells) -> dict[Place, Site]:
 
 def _is_cut(given: float, value: float, band: float) -> bool:
     return given == float(f"{value:.{FEW}g}") and abs(given - value) > band
+
+
+def _unlike(guide: Guide, first: Cells) -> dict[Place, Site]:
+    """Scales taken from the task while the plan was drawn at another."""
+    return {
+        place: _site("other-scale", place[0])
+        for place, cell in first.items()
+        if guide.rows[place[0]].role is Role.scale
+        and cell.given is not None
+        and abs(cell.given - cell.expected) <= cell.band
+    }
 
 
 def _misplaced(guide: Guide, first: Cells, cells: Cells) -> dict[Place, Site]:

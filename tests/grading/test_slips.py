@@ -110,3 +110,15 @@ def test_two_slips_of_arithmetic_are_no_other_variant(guide: Guide) -> None:
     assert {cell.id for cell in marking.firsts} == set(made)
     assert marking.points == marking.out_of - 2
     assert marking.warnings == ()
+
+
+def test_a_plan_at_another_scale_than_the_one_written(guide: Guide) -> None:
+    """All of the velocity plan 1.6 times as large, the task's μ kept: the plan is right, its scale is not."""
+
+    def cell(row: students.Row, k: int, value: float) -> float:
+        on_plan = row.id.startswith("seg.v.") or (row.id.startswith("h.") and row.id.endswith(".p"))
+        return value * 1.6 if on_plan else value
+
+    marking = marked(guide, cell)
+    assert [(one.id, one.mistake) for one in marking.firsts] == [("mu.v", "other-scale")]
+    assert marking.points == marking.out_of - 1
