@@ -20,7 +20,7 @@ MOST_TIMES = 2.0
 """A count that differs from the median by more than this factor stands apart."""
 MOST_DEVIATIONS = 3.0
 """So does a size that is further from it than so many median absolute deviations."""
-LEAST_SHARE = 0.05
+LEAST_SHARE = 0.1
 """… and than this share of the median: in a class of near equals nobody stands apart."""
 BALANCE = "M.eq"
 

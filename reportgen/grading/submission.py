@@ -40,13 +40,13 @@ def read_submission(
 
     `key_of` finds a key by the name that the sheet gives, which may be any text, and raises `KeyError` if
     there is none.  Raises `AssignmentError`, worded in `language`, if the file cannot be read, is no
-    answer sheet or belongs to another assignment.
+    answer sheet or belongs to another assignment or machine.
     """
     pages = read(path, language)
     found = _sheet(pages)
     if found is None:
         raise _refused(Fault("sheet-no-head", Mark(str(path))), language)
-    named = _assignment(pages) or _titled(found[0].rows[: found[1]])
+    named = _beside(pages, "assignment") or _titled(found[0].rows[: found[1]])
     name, mark = named or (path.stem, Mark(str(path)))
     if isinstance(key_of, Key):
         key = key_of
@@ -57,6 +57,10 @@ def read_submission(
             key = key_of(name)
         except KeyError:
             raise _refused(Fault("sheet-unknown", mark, {"text": name}), language) from None
+    kind = _beside(pages, "kind")
+    if kind and kind[0] != key.kind:
+        about = {"text": f"{name} ({kind[0]})", "wanted": f"{key.id} ({key.kind})"}
+        raise _refused(Fault("sheet-of-another", kind[1], about), language)
     reading = _Reading(key, language, str(path))
     reading.sheet(*found)
     return Submission(key.id, str(path), reading.values, reading.problems, tuple(reading.notes))
@@ -97,12 +101,12 @@ def _sheet(pages: Sequence[Page]) -> tuple[Page, int] | None:
     return None
 
 
-def _assignment(pages: Sequence[Page]) -> tuple[str, Mark] | None:
-    """What stands beside the label that names the assignment, if anything does."""
+def _beside(pages: Sequence[Page], label: str) -> tuple[str, Mark] | None:
+    """What stands beside a label such as that of the assignment, if anything does."""
     for page in pages:
         for row in page.rows:
-            for label, cell in pairwise(row):
-                if _says(label, "assignment") and cell.text.strip():
+            for one, cell in pairwise(row):
+                if _says(one, label) and cell.text.strip():
                     return cell.text.strip(), cell.mark
     return None
 

@@ -6,6 +6,7 @@ import datetime
 import math
 import re
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -217,6 +218,17 @@ def test_a_sheet_of_another_assignment_is_refused_where_it_names_it(tmp_path: Pa
     (problem,) = caught.value.problems
     assert problem.code == "sheet-of-another"
     assert str(problem.mark) == f"{path}:Thông tin!B1"
+
+
+def test_a_sheet_of_another_machine_is_refused(tmp_path: Path) -> None:
+    """Two courseworks of one class have assignments of the same names."""
+    path = filled(tmp_path, replace(small_key(), kind="shaper"), {})
+    with pytest.raises(AssignmentError) as caught:
+        read_submission(path, small_key())
+    (problem,) = caught.value.problems
+    assert problem.code == "sheet-of-another"
+    assert str(problem.mark) == f"{path}:Thông tin!B2"
+    assert "shaper" in problem.message
 
 
 def test_rows_and_columns_may_be_moved(tmp_path: Path) -> None:
