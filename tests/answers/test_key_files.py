@@ -43,7 +43,7 @@ def test_csv_has_a_row_for_each_value_as_printed() -> None:
     assert by_place["v.B", "3"]["Value"] == -1.2
     assert by_place["dir.v.B", "4"]["Value"] is None
     assert by_place["M.eq", "2"]["Direction"] == "b"
-    assert by_place["M.eq", "2"]["Part"] == "Balancing torque"
+    assert by_place["M.eq", "2"]["Part"] == "Balance of the driving link"
     assert len(rows) == sum(len(row.values) for row in small_key().rows)
 
 
