@@ -32,6 +32,29 @@ QUANTITY = re.compile(r"([0-9.]+) ([A-Za-z][\w/^ ]*)")
 KEPT = ("deg", "m/s2")
 """Angles decide the strokes of an engine, and g is the same for all."""
 
+NAMES = {
+    "stroke-for-radius",
+    "ratio-inverted",
+    "rpm-for-radians",
+    "weight-for-mass",
+    "diameter-for-radius",
+    "degrees-for-radians",
+    "radians-for-degrees",
+    "direction-reversed",
+    "sign-reversed",
+    "counted-backwards",
+    "shifted-forward",
+    "shifted-back",
+    "other-piston",
+    "wrong-stroke",
+    "no-coriolis",
+    "wrong-end",
+    "scale-forgotten",
+    "scale-twice",
+    "thousands-mark",
+}
+"""The mistakes of working that marking knows by name."""
+
 World = Mapping[str, np.ndarray]
 """All values (SI) by id, [N] or [1]."""
 

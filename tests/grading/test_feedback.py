@@ -21,35 +21,24 @@ from reportgen.grading.feedback import FIRST, STYLES, feedback_book
 from reportgen.grading.feedback_document import feedback_document
 from reportgen.grading.grades import grade_rows
 from reportgen.grading.marks import Given, Marked, Marking, Submission, Verdict
+from reportgen.grading.misread import WRONG_DATUM
 from reportgen.grading.sentences import mistake_inlines, points_text
+from reportgen.grading.slips import CONVENTIONS
 from reportgen.notation.numbers import Language
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.writing import FILLS
 from tests.grading.keys import small_key
+from tests.grading.students import NAMES
 
 FILE = "/somewhere/of/the/instructor/work.xlsx"
 LANGUAGES: tuple[Language, ...] = get_args(Language)
-MISTAKES = (
-    "stroke-for-radius",
-    "ratio-inverted",
-    "rpm-for-radians",
-    "weight-for-mass",
-    "diameter-for-radius",
-    "degrees-for-radians",
-    "radians-for-degrees",
-    "direction-reversed",
-    "sign-reversed",
-    "counted-backwards",
-    "shifted-forward",
-    "shifted-back",
-    "other-piston",
-    "wrong-stroke",
-    "no-coriolis",
-    "wrong-end",
-    "scale-forgotten",
-    "scale-twice",
-    "thousands-mark",
-)
+SLIPS = {
+    "too-few-figures",
+    "rows-swapped",
+    "wrong-column",
+    "other-scale",
+    *(name for name, _, _ in CONVENTIONS),
+}
 
 
 def at(row: int, column: int) -> CellMark:
@@ -168,7 +157,7 @@ def test_there_are_words_for_every_mistake_verdict_and_warning(language: Languag
         one = cell("v.B", 1, Verdict.wrong, 1.0, 2.0, first=True, mistake=name, where="omega.1")
         assert any("ω" in str(inline) for inline in mistake_inlines(one, key, words))
         assert words["mistake_names"][name]
-    assert set(words["mistakes"]) >= set(MISTAKES)
+    assert set(words["mistakes"]) == {*NAMES, *SLIPS, WRONG_DATUM}
     assert set(words["mistake_names"]) == {*words["mistakes"], "none"}
     assert {*words["verdicts"]} == {*Verdict, "first"} == {*words["verdict_notes"]}
     assert {*words["warnings"]} == {*words["warning_names"]}

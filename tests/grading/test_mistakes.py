@@ -14,29 +14,8 @@ from reportgen.grading.marks import Marking
 from reportgen.grading.misread import WRONG_DATUM
 from reportgen.grading.mistakes import Site, sites_anywhere, sites_in
 from tests.grading import students
-from tests.grading.students import World
+from tests.grading.students import NAMES, World
 
-NAMES = {
-    "stroke-for-radius",
-    "ratio-inverted",
-    "rpm-for-radians",
-    "weight-for-mass",
-    "diameter-for-radius",
-    "degrees-for-radians",
-    "radians-for-degrees",
-    "direction-reversed",
-    "sign-reversed",
-    "counted-backwards",
-    "shifted-forward",
-    "shifted-back",
-    "other-piston",
-    "wrong-stroke",
-    "no-coriolis",
-    "wrong-end",
-    "scale-forgotten",
-    "scale-twice",
-    "thousands-mark",
-}
 MACHINES = (
     "engine-twin-05",
     "engine-single-III",
