@@ -8,6 +8,7 @@ import linkages as made
 import newton_euler as ne
 import numpy as np
 import pytest
+from agreement import Pairs, agree, collect
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
@@ -27,7 +28,7 @@ def prove(analysis: Analysis) -> None:
     linkage, motion = analysis.machine.linkage, analysis.motion
     bodies, joints = made.bodies(linkage), made.joints(linkage)
     keys = made.reaction_keys(linkage)
-    pairs: dict[str, list[tuple[complex, complex]]] = {}
+    pairs: Pairs = {}
     for k in range(len(analysis.cycle_angle)):
         pose = {
             link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k]))
@@ -40,18 +41,8 @@ def prove(analysis: Analysis) -> None:
         answer = ne.solve(bodies, joints, True, motion.rate, pose, loads, CONDITION)
         assert answer is not None
         assert answer.residual < 1e-12
-        for link in linkage.links:
-            pairs.setdefault("v", []).append((motion.origins[link].v[k], answer.velocity[link][0]))
-            pairs.setdefault("a", []).append((motion.origins[link].a[k], answer.acceleration[link][0]))
-            pairs.setdefault("ω", []).append((motion.links[link].omega[k], answer.velocity[link][1]))
-            pairs.setdefault("ε", []).append((motion.links[link].epsilon[k], answer.acceleration[link][1]))
-        for key, (force, _) in zip(keys, answer.wrenches, strict=True):
-            pairs.setdefault("R", []).append((analysis.forces.reactions[key].force[k], force))
-        pairs.setdefault("M", []).append((analysis.torque[k], answer.effort))
-        pairs.setdefault("M", []).append((analysis.torque_by_work[k], answer.effort))
-    for name, found in pairs.items():
-        greatest = max(abs(theirs) for _, theirs in found)
-        assert max(abs(ours - theirs) for ours, theirs in found) <= AGREEMENT * greatest, name
+        collect(pairs, analysis, keys, answer, k)
+    agree(pairs, AGREEMENT)
 
 
 def whole(first: int, last: int) -> st.SearchStrategy[int]:

@@ -9,6 +9,7 @@ import linkages as made
 import newton_euler as ne
 import numpy as np
 import pytest
+from agreement import Pairs, agree, collect
 
 from reportgen import api
 from reportgen.analysis import Analysis, analyse
@@ -48,7 +49,7 @@ def test_loads_are_those_of_the_file(analysis: Analysis) -> None:
 def test_motion_reactions_and_effort_by_multipliers(analysis: Analysis) -> None:
     linkage, motion = analysis.machine.linkage, analysis.motion
     bodies, joints, keys = made.bodies(linkage), made.joints(linkage), made.reaction_keys(linkage)
-    pairs: dict[str, list[tuple[complex, complex]]] = {}
+    pairs: Pairs = {}
     for k, way in enumerate(travelled(analysis)):
         pose = {
             link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k]))
@@ -63,18 +64,8 @@ def test_motion_reactions_and_effort_by_multipliers(analysis: Analysis) -> None:
         answer = ne.solve(bodies, joints, False, motion.rate, pose, applied, CONDITION)
         assert answer is not None
         assert answer.residual < 1e-12
-        for link in linkage.links:
-            pairs.setdefault("v", []).append((motion.origins[link].v[k], answer.velocity[link][0]))
-            pairs.setdefault("a", []).append((motion.origins[link].a[k], answer.acceleration[link][0]))
-            pairs.setdefault("ω", []).append((motion.links[link].omega[k], answer.velocity[link][1]))
-            pairs.setdefault("ε", []).append((motion.links[link].epsilon[k], answer.acceleration[link][1]))
-        for key, (force, _) in zip(keys, answer.wrenches, strict=True):
-            pairs.setdefault("R", []).append((analysis.forces.reactions[key].force[k], force))
-        pairs.setdefault("P", []).append((analysis.torque[k], answer.effort))
-        pairs.setdefault("P", []).append((analysis.torque_by_work[k], answer.effort))
-    for name, found in pairs.items():
-        greatest = max(abs(theirs) for _, theirs in found)
-        assert max(abs(ours - theirs) for ours, theirs in found) <= AGREEMENT * greatest, name
+        collect(pairs, analysis, keys, answer, k)
+    agree(pairs, AGREEMENT)
 
 
 def test_the_drivers_work_is_what_the_loads_take_and_the_links_gain(analysis: Analysis) -> None:
