@@ -1,0 +1,253 @@
+"""A net under a rebuilding: every output of the package, written once and compared with a later one.
+
+    python -m tests.outputs write DIR [PART…]      before and after a change
+    python -m tests.outputs write DIR FILE.yaml…   of other assignment files
+    python -m tests.outputs compare BEFORE AFTER   what differs, and exit code 1 if anything does
+
+It calls the command line alone, so it stands outside whatever is rebuilt.  Written are, of each file in
+`assignments/`, in each language: results, tables, key, task; with each typesetter the report's source and its
+PDF's words and strokes with their places; and the marks and feedback of the example class.  A PART is a word
+of the jobs' names ("engine-twin", "typst", "key", "class"); only jobs with all of them are run.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from itertools import zip_longest
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+FILES = sorted((ROOT / "assignments").glob("*.yaml"))
+CLASS = ROOT / "assignments" / "class-demo"
+LANGUAGES = ("vi", "en")
+ENGINES = ("typst", "latex")
+
+RELATIVE, ABSOLUTE = 1e-10, 1e-8
+"""Unrounded results (SI) may differ by rounding: another order of the same operations."""
+SHOWN = 12
+"""Differing lines shown of a file."""
+
+NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
+
+
+# --- writing --------------------------------------------------------------------------------------
+
+
+def run(*arguments: str | Path) -> str:
+    """What a command prints; a fault of its own is part of it."""
+    from typer.testing import CliRunner
+
+    from reportgen.cli import app
+
+    done = CliRunner().invoke(app, [str(argument) for argument in arguments])
+    if done.exception is not None and not isinstance(done.exception, SystemExit):
+        raise done.exception
+    return f"{done.output}exit {done.exit_code}\n"
+
+
+def page_text(pdf: Path) -> str:
+    """The words and strokes of a PDF with their places, a line each, to a hundredth of a point."""
+    import pymupdf
+
+    def lines() -> Iterator[str]:
+        with pymupdf.open(pdf) as document:
+            for number, page in enumerate(document, 1):
+                yield f"page {number} {page.rect}"
+                for x, y, _, _, word, *_ in page.get_text("words"):
+                    yield f"{x:.2f} {y:.2f} {word}"
+                for path in page.get_cdrawings():
+                    parts = (
+                        " ".join(f"{number:.2f}" for part in item[1:] for number in _flat(part))
+                        for item in path["items"]
+                    )
+                    yield f"path {path.get('width')} {path.get('color')} {path.get('fill')} " + "; ".join(parts)
+
+    return "\n".join(lines()) + "\n"
+
+
+def _flat(part: object) -> Iterator[float]:
+    if isinstance(part, (int, float)):
+        yield float(part)
+    elif isinstance(part, (tuple, list)):
+        for inner in part:
+            yield from _flat(inner)
+
+
+def workbook_text(path: Path) -> str:
+    """The cells of a workbook, a line each, with their comments."""
+    import openpyxl
+
+    book = openpyxl.load_workbook(path)
+    return "".join(
+        f"{sheet.title}!{cell.coordinate} {cell.value!r} {cell.comment.text if cell.comment else ''}\n"
+        for sheet in book
+        for row in sheet.iter_rows()
+        for cell in row
+        if cell.value is not None
+    )
+
+
+READERS: dict[str, Callable[[Path], str]] = {".pdf": page_text, ".xlsx": workbook_text}
+
+
+def take(folder: Path, out: Path) -> None:
+    """Put what a command left in `folder` into `out`, each file as text."""
+    for file in sorted(path for path in folder.rglob("*") if path.is_file()):
+        target = out / file.relative_to(folder)
+        target = target.with_name(f"{target.name}.txt")
+        target.parent.mkdir(parents=True, exist_ok=True)
+        read = READERS.get(file.suffix, lambda path: path.read_text(encoding="utf-8", errors="replace"))
+        target.write_text(read(file), encoding="utf-8")
+
+
+def say(out: Path, name: str, text: str, place: Path) -> None:
+    """Keep what was printed, without the name of a temporary folder."""
+    out.mkdir(parents=True, exist_ok=True)
+    (out / f"{name}.txt").write_text(text.replace(str(place), "DIR"), encoding="utf-8")
+
+
+def report(out: Path, file: Path, engine: str, language: str, place: Path) -> None:
+    made = place / "made"
+    text = run("build", file, "--engine", engine, "--lang", language, "--keep-source", "--out", made)
+    say(out, "build", text, place)
+    take(made, out)
+
+
+def results(out: Path, file: Path, language: str, place: Path) -> None:
+    say(out, "solve", run("solve", file, "--lang", language), place)
+    say(out, "json", run("solve", file, "--lang", language, "--json", "-"), place)
+
+
+def key(out: Path, file: Path, language: str, place: Path) -> None:
+    made = place / "made"
+    text = run("key", file, "--lang", language, "--format", "pdf,xlsx,csv,json", "--out", made)
+    say(out, "key", text, place)
+    take(made, out)
+
+
+def task(out: Path, file: Path, language: str, place: Path) -> None:
+    (place / "roster.csv").write_text(f"id,name\n{file.stem},A B\n", encoding="utf-8")
+    shutil.copy(file, place)
+    made = place / "made"
+    files = ("--assignments", place, "--make", "task", "--jobs", "1", "--out", made)
+    say(out, "batch", run("batch", place / "roster.csv", *files, "--lang", language), place)
+    take(made / file.stem, out)
+
+
+def example_class(out: Path, language: str, place: Path) -> None:
+    drawn, marked = place / "variants", place / "marked"
+    say(out, "variants", run("variants", CLASS / "spec.yaml", CLASS / "roster.csv", "--out", drawn), place)
+    take(drawn, out / "variants")
+    policy = ("--policy", CLASS / "policy.yaml", "--lang", language)
+    text = run("grade", CLASS / "sheets", "--assignments", drawn, *policy, "--out", marked)
+    say(out, "grade", text, place)
+    take(marked, out / "marked")
+    for sheet in sorted((CLASS / "sheets").iterdir()):
+        text = run("compare", drawn / f"{sheet.stem}.yaml", sheet, "--hint", "--lang", language)
+        say(out, f"compare-{sheet.stem}", text, place)
+
+
+def general(out: Path, place: Path) -> None:
+    say(out, "schema", run("schema"), place)
+    for language in LANGUAGES:
+        say(out, f"kinds-{language}", run("kinds", "--lang", language), place)
+        for kind in re.findall(r"^([a-z-]+)  ", run("kinds"), re.MULTILINE):
+            say(out, f"new-{kind}-{language}", run("new", kind, "--lang", language), place)
+
+
+def jobs(files: list[Path]) -> Iterator[tuple[str, Callable[..., None], tuple[object, ...]]]:
+    yield "general", general, ()
+    for language in LANGUAGES:
+        yield f"class {language}", example_class, (language,)
+    for file in files:
+        for language in LANGUAGES:
+            yield f"{file.stem} {language} results", results, (file, language)
+            yield f"{file.stem} {language} key", key, (file, language)
+            yield f"{file.stem} {language} task", task, (file, language)
+            for engine in ENGINES:
+                yield f"{file.stem} {language} {engine}", report, (file, engine, language)
+
+
+def do(name: str, job: Callable[..., None], arguments: tuple[object, ...], out: Path) -> str:
+    with tempfile.TemporaryDirectory() as folder:
+        job(out / name.replace(" ", "/"), *arguments, Path(folder))
+    return name
+
+
+def write(out: Path, parts: list[str]) -> None:
+    if out.exists():
+        shutil.rmtree(out)
+    others = [Path(part) for part in parts if part.endswith(".yaml")]
+    words = [part for part in parts if not part.endswith(".yaml")]
+    chosen = [job for job in jobs(others or FILES) if all(word in job[0] for word in words)]
+    with ProcessPoolExecutor() as pool:
+        for done in [pool.submit(do, *job, out) for job in chosen]:
+            done.result()
+    print(f"{len(chosen)} jobs, {sum(path.is_file() for path in out.rglob('*'))} files")
+
+
+# --- comparing ------------------------------------------------------------------------------------
+
+
+def alike(one: str, other: str) -> bool:
+    """Whether two lines say the same, numbers within rounding."""
+    if one == other:
+        return True
+    if NUMBER.sub("#", one) != NUMBER.sub("#", other):
+        return False
+    pairs = zip(NUMBER.findall(one), NUMBER.findall(other), strict=True)
+    return all(math.isclose(float(a), float(b), rel_tol=RELATIVE, abs_tol=ABSOLUTE) for a, b in pairs)
+
+
+def differences(before: Path, after: Path) -> Iterator[str]:
+    names = {path.relative_to(root) for root in (before, after) for path in root.rglob("*.txt")}
+    both = [name for name in sorted(names) if (before / name).exists() and (after / name).exists()]
+    yield from (f"only in {before}: {name}" for name in sorted(names) if not (after / name).exists())
+    yield from (f"only in {after}: {name}" for name in sorted(names) if not (before / name).exists())
+    for name in both:
+        one, other = ((root / name).read_text(encoding="utf-8") for root in (before, after))
+        if one == other:
+            continue
+        unlike = [
+            (number, a, b)
+            for number, (a, b) in enumerate(
+                zip_longest(one.splitlines(), other.splitlines(), fillvalue="(nothing)"), 1
+            )
+            if not alike(a, b)
+        ]
+        if unlike:
+            yield f"{name}: {len(unlike)} lines differ"
+            for number, a, b in unlike[:SHOWN]:
+                yield f"  {number}: {a[:200]}\n  {' ' * len(str(number))}> {b[:200]}"
+
+
+def compare(before: Path, after: Path) -> int:
+    if not any(after.rglob("*.txt")):
+        print(f"nothing in {after}")
+        return 2
+    found = list(differences(before, after))
+    print(*found, sep="\n", end="\n" * bool(found))
+    print("different" if found else "equal")
+    return int(bool(found))
+
+
+def main(arguments: list[str]) -> int:
+    match arguments:
+        case ["write", out, *parts]:
+            write(Path(out), parts)
+            return 0
+        case ["compare", before, after]:
+            return compare(Path(before), Path(after))
+        case _:
+            print(__doc__)
+            return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
