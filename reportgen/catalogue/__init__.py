@@ -1,13 +1,15 @@
 """The machines the house knows: one module each, imported when its kind is asked for.
 
-A module gives `KIND` (its name in a file), `TITLES` (a line each language), `TURNS` of the driver in a
-cycle, the models `Parameters` and, if it has one, `Indicator`, and `CHECKS`; `added_positions` if a turn
-has more positions than the evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
+A machine is found because its module is here and its words are in `templates/<language>/<kind>/`; the kind
+`slider-crank` is the module `slider_crank`.  A module gives `TURNS` of the driver in a cycle, the models `Parameters` and,
+if it has one, `Indicator`, and `CHECKS`; `added_positions` if a turn has more positions than the evenly spaced ones;
+`machine`, which makes a `Machine` of an assignment.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -18,66 +20,61 @@ from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
 from reportgen.errors import Problem
 from reportgen.notation.numbers import Language
+from reportgen.words import FILE, load_words, search_path
 
-MODULES: Mapping[str, str] = {
-    "engine-twin": "engine_twin",
-    "engine-single": "engine_single",
-    "slider-crank": "slider_crank",
-    "four-bar": "four_bar",
-    "lever-six-bar": "lever_six_bar",
-    "slotted-lever": "slotted_lever",
-    "shaper": "shaper",
-    "engine-v": "engine_v",
-    "linkage": "linkage",
-}
-"""Module of this package by kind; a new machine adds its line here and nowhere else."""
+
+@cache
+def kinds() -> Mapping[str, str]:
+    """The module of every kind, by the name that stands in a file, in alphabetical order."""
+    modules = (path.stem for path in sorted(Path(__file__).parent.glob("*.py")))
+    named = {module.replace("_", "-"): module for module in modules}
+    words = folders.templates() / "vi"
+    return {kind: module for kind, module in named.items() if (words / kind / FILE).is_file()}
 
 
 def module(kind: str) -> ModuleType:
     """The module of a kind; raises `KeyError` for a kind nobody knows."""
-    return import_module(f"{__name__}.{MODULES[kind]}")
+    return import_module(f"{__name__}.{kinds()[kind]}")
 
 
 def kind(name: str) -> Kind:
     """What the reader of assignment files must know of a kind; raises `KeyError`."""
     machine = module(name)
+    shared = getattr(machine.Parameters, "checks", tuple)
     return Kind(
-        machine.KIND,
+        name,
         machine.Parameters,
         getattr(machine, "Indicator", None),
         machine.TURNS,
-        machine.CHECKS,
+        (*shared(), *machine.CHECKS),
         getattr(machine, "added_positions", none_added),
         getattr(machine, "INDICATOR_OPTIONAL", False),
     )
 
 
-KINDS = reading.Kinds(tuple(MODULES), kind)
-
-
-def titles(language: Language) -> dict[str, str]:
-    """Each kind with its line of description."""
-    return {name: title(name, language) for name in MODULES}
+def known() -> reading.Kinds:
+    """All kinds, for the reader of assignment files."""
+    return reading.Kinds(tuple(kinds()), kind)
 
 
 def title(name: str, language: Language) -> str:
     """The line of description of a kind; raises `KeyError`."""
-    return str(module(name).TITLES[language])
+    return str(load_words(search_path(language, name))["title"]) if name in kinds() else kinds()[name]
 
 
 def load(path: Path, language: Language | None = None) -> Assignment:
     """The assignment of a file; raises `AssignmentError` with all its faults."""
-    return reading.load(path, KINDS, language)
+    return reading.load(path, known(), language)
 
 
 def check(path: Path, language: Language | None = None) -> list[Problem]:
     """All faults of a file, none if it is in order."""
-    return reading.check(path, KINDS, language)
+    return reading.check(path, known(), language)
 
 
 def sample(name: str, language: Language) -> str:
     """The commented assignment file to fill in of a kind; raises `KeyError`."""
-    if name not in MODULES:
+    if name not in kinds():
         raise KeyError(name)
     file = f"{name}.yaml"
     return (folders.templates() / language / "new" / file).read_text(encoding="utf-8")
@@ -90,12 +87,12 @@ def schema() -> dict[str, Any]:
 
     # All at once: models of one name in different kinds get names of their own.
     models: list[tuple[type[BaseModel], JsonSchemaMode]] = [
-        (file_model(kind(name)), "validation") for name in MODULES
+        (file_model(kind(name)), "validation") for name in kinds()
     ]
-    kinds, definitions = models_json_schema(models, by_alias=True)
+    found, definitions = models_json_schema(models, by_alias=True)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "reportgen assignment",
-        "oneOf": [kinds[model] for model in models],
+        "oneOf": [found[model] for model in models],
         **definitions,
     }

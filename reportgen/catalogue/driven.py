@@ -1,26 +1,88 @@
-"""What machines with a crank at constant speed have in common: its speed, g, masses, the flywheel, the outline."""
+"""What machines with a crank at constant speed share: speed, gravity, masses, the flywheel, the outline.
+
+A kind declares what of it there is: `class Parameters(Driven, masses=(2, 3), moments=(2,), shares=(2,))` reads the
+weight `G2` or the mass `m2`, the moment of inertia `J2` and the place `s2` of the mass centre, with their checks.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Annotated, Any, ClassVar
 
-from reportgen.assignment.common import Part
-from reportgen.assignment.fields import Acceleration, AngularVelocity, RotationalSpeed
-from reportgen.catalogue import regulation
-from reportgen.catalogue.machine import Item, speed_items
+import numpy as np
+
+from reportgen.assignment import checks
+from reportgen.assignment.common import Assignment, Check, Draft, Part, Positions
+from reportgen.assignment.faults import Finding
+from reportgen.assignment.fields import (
+    Acceleration,
+    AngularVelocity,
+    Interval,
+    Mass,
+    MomentOfInertia,
+    Ratio,
+    RotationalSpeed,
+    Share,
+    Weight,
+)
+from reportgen.catalogue.machine import Machine
+from reportgen.mechanism.structure import Inertia, Linkage, LinkPoint
+from reportgen.notation.expressions import PI, Number, Operand, Ref, Symbol
+from reportgen.notation.sheet import Sheet, whole_hundredths
+from reportgen.notation.symbols import drawn_length
 from reportgen.units import Given
 
 OPENING = ("given", "contents", "foreword", "structure", "motion")
 CLOSING = ("conclusion", "references", "checks")
+CRANK_DRAWN = 0.04
+"""Drawn length of the crank (m on paper) when none is asked for."""
+MIDDLE = 0.5
+"""Where the mass centre of a uniform bar lies."""
+FULL_TURN = 2 * np.pi
+ROUND = 1e-12
+
+Unevenness = Annotated[Given, Ratio(Interval(above=0, most=0.5))]
+
+
+class Flywheel(Part):
+    """How uneven the speed may be: δ = (ω_max − ω_min)/ω_m."""
+
+    delta: Unevenness
 
 
 class Driven(Part):
-    """The crank's speed in one of two ways, gravity, and the flywheel that is asked for."""
+    """The crank's speed in one of two ways, gravity, the flywheel that is asked for, and masses if declared.
+
+    Of the links `masses` the weight or the mass may be given, of those `required` it must be; `moments` and `shares`
+    are the links with J and s.  A flywheel needs a mass or one of the keys `loads`.
+    """
 
     n: RotationalSpeed | None = None
     omega1: AngularVelocity | None = None
     g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
-    flywheel: regulation.Flywheel | None = None
+    flywheel: Flywheel | None = None
+
+    links: ClassVar[Mapping[str, tuple[int, ...]]] = {}
+    required: ClassVar[tuple[int, ...]] = ()
+    loads: ClassVar[tuple[str, ...]] = ()
+
+    def __init_subclass__(
+        cls,
+        masses: Iterable[int] = (),
+        required: Iterable[int] = (),
+        moments: Iterable[int] = (),
+        shares: Iterable[int] = (),
+        loads: Iterable[str] = (),
+        **rest: Any,
+    ) -> None:
+        links, types = (tuple(masses), tuple(moments), tuple(shares)), (Weight, Mass, MomentOfInertia, Share)
+        cls.links = {"G": links[0], "m": links[0], "J": links[1], "s": links[2]}
+        cls.required, cls.loads = tuple(required), tuple(loads)
+        for (letter, numbers), kind in zip(cls.links.items(), types, strict=True):
+            for number in numbers:
+                cls.__annotations__[f"{letter}{number}"] = kind | None
+                setattr(cls, f"{letter}{number}", None)
+        super().__init_subclass__(**rest)
 
     @property
     def speed(self) -> float:
@@ -34,27 +96,131 @@ class Driven(Part):
         """δ of the flywheel, None if none is asked for."""
         return None if self.flywheel is None else self.flywheel.delta.si
 
-    def mass(self, link: int) -> float:
-        """m = G/g (kg) of a link whose weight G or mass m may be given, 0 if neither is."""
-        weight: Given | None = getattr(self, f"G{link}")
-        mass: Given | None = getattr(self, f"m{link}")
-        return weight.si / self.g.si if weight is not None else mass.si if mass is not None else 0.0
+    def typed(self, letter: str, link: int) -> Given | None:
+        """What the file gives for a link: its `G`, `m`, `J` or `s`."""
+        given: Given | None = getattr(self, f"{letter}{link}", None)
+        return given
+
+    @classmethod
+    def checks(cls) -> tuple[Check, ...]:
+        """One speed, one of weight and mass, something for a flywheel to even out."""
+        one_mass = (
+            checks.one_of("parameters", f"G{link}", f"m{link}", required=link in cls.required)
+            for link in cls.links["G"]
+        )
+        evened = (*(f"{letter}{link}" for letter in "GmJ" for link in cls.links[letter]), *cls.loads)
+        return checks.one_of("parameters", "n", "omega1"), *one_mass, needs_loads(evened)
 
 
-def mass_keys(links: Iterable[int]) -> tuple[str, ...]:
-    """The keys that give links a mass: weight, mass, moment of inertia."""
-    return tuple(f"{letter}{link}" for link in links for letter in "GmJ")
+def needs_loads(keys: Iterable[str]) -> Check:
+    """A flywheel is asked for only where one of the parameters `keys` gives a mass or a load to even out."""
+    known = tuple(keys)
+
+    def check(draft: Draft) -> Iterator[Finding]:
+        content = draft.raw.get("parameters")
+        if not isinstance(content, dict) or content.get("flywheel") is None:
+            return
+        if not any(content.get(key) for key in known):
+            yield Finding("flywheel-without-loads", ("parameters", "flywheel"), at="key")
+
+    return check
 
 
-def rate_items(given: Driven) -> tuple[Item, ...]:
-    """ω₁ as given or from n, and δ if a flywheel is asked for."""
-    return (*speed_items(given.n, given.omega1), *regulation.items(given.flywheel))
+# --- on the sheet -----------------------------------------------------------------------------------
+
+
+def datum(q: Sheet, id: str, given: Given, symbol: Symbol | str = "", kind: str = "") -> Ref:
+    """Enter a quantity as typed; a ratio `1/3.6` is worked out on the page."""
+    top, slash, bottom = given.text.partition("/")
+    if slash and not given.unit:
+        return q.define(id, Number(float(top)) / float(bottom), symbol, kind)
+    return q.give(id, given.si, symbol, kind)
+
+
+def enter_speed(q: Sheet, n: Given | None, omega1: Given | None, flywheel: Flywheel | None = None) -> Ref:
+    """ω₁ (its size) as given, or ω₁ = 2πn/60 from the speed in rpm; δ if a flywheel is asked for."""
+    if n is not None:
+        rpm = n.value if n.unit == "rpm" else n.si * 30 / np.pi
+        ω1 = q.define("omega.1", 2 * PI * q.give("n", rpm) / 60)
+    else:
+        assert omega1 is not None, "a file without speed is refused by the kind's checks"
+        ω1 = q.give("omega.1", omega1.si)
+    if flywheel is not None:
+        datum(q, "unevenness", flywheel.delta, Symbol("δ", "ω"), "ratio")
+    return ω1
+
+
+def enter_drawn(q: Sheet, start: str, end: str, asked: Given | None, default: float = CRANK_DRAWN) -> None:
+    """The crank's drawn length: as asked for, else `default` (m on paper)."""
+    q.give(f"drawn.{start}{end}", asked.si if asked else default, drawn_length(start, end))
+
+
+def enter_mass(q: Sheet, link: int, weight: Given | None, mass: Given | None) -> None:
+    """Weight and mass of a link: one as typed, the other from it; none of a link without mass."""
+    if weight is not None:
+        q.define(f"m.{link}", q.give(f"G{link}", weight.si) / q["g"])
+    elif mass is not None:
+        q.define(f"G{link}", q.give(f"m.{link}", mass.si) * q["g"])
+
+
+def enter_moment(q: Sheet, link: int, given: Given | None, default: Operand | None) -> None:
+    """J about the mass centre: as given, else its `default`, such as m l²/12; none where there is no default."""
+    if given is not None:
+        q.give(f"J.{link}", given.si)
+    elif default is not None:
+        q.define(f"J.{link}", default)
+
+
+def enter_bar(q: Sheet, given: Driven, link: int, start: str, end: str, always: bool = False) -> None:
+    """A straight link from pin `start` to pin `end`: the place of its mass centre, s and l_AS = s·l, its mass, its J.
+
+    The centre of a link without mass is entered only if its place is given, or `always`.
+    """
+    share, weight, mass, moment = (given.typed(letter, link) for letter in "sGmJ")
+    if not (always or any((share, weight, mass, moment))):
+        return
+    length, centre = q[f"l.{start}{end}"], f"S{link}"
+    s = q.give(f"s.{link}", MIDDLE if share is None else share.si, kind="ratio")
+    q.define(f"l.{start}{centre}", s * length)
+    enter_mass(q, link, weight, mass)
+    massive = weight is not None or mass is not None
+    enter_moment(q, link, moment, q[f"m.{link}"] * length**2 / 12 if massive else None)
+
+
+def centre_points(q: Sheet, pins: Mapping[int, str]) -> tuple[LinkPoint, ...]:
+    """The mass centres S2, … that the sheet places, by their links and the pins they are measured from."""
+    arms = {link: f"l.{pin}S{link}" for link, pin in pins.items()}
+    return tuple(LinkPoint(f"S{link}", link, complex(q.si(arm))) for link, arm in arms.items() if arm in q)
+
+
+def inertias(q: Sheet, centres: Mapping[int, str]) -> tuple[Inertia, ...]:
+    """The links with a mass or a moment of inertia on the sheet, by their mass centres."""
+
+    def size(id: str) -> float:
+        return q.si(id) if id in q else 0.0
+
+    every = (Inertia(link, centre, size(f"m.{link}"), size(f"J.{link}")) for link, centre in centres.items())
+    return tuple(one for one in every if one.mass or one.moment)
+
+
+def give_angle(q: Sheet, id: str, angle: np.ndarray, symbol: Symbol | str = "") -> Ref:
+    """Enter an angle at every position [N], within one turn; whole hundredths of a degree print as they are."""
+    turned = np.mod(angle + ROUND, FULL_TURN) - ROUND
+    return q.give(id, turned, symbol, "angle", exact=whole_hundredths(turned), scale=1.0)
+
+
+def even_angles(positions: Positions, turns: int = 1) -> np.ndarray:
+    """Cycle angles of evenly spaced positions [count·turns]."""
+    return np.arange(positions.count * turns) * (FULL_TURN / positions.count)
+
+
+# --- the machine ------------------------------------------------------------------------------------
 
 
 def outline(
     masses: bool,
     loads: bool,
-    flywheel: regulation.Flywheel | None,
+    flywheel: Flywheel | None,
     *,
     sizes: str = "dimensions",
     load: str = "working",
@@ -73,3 +239,31 @@ def outline(
     inertia = ("loads",) if masses else ()
     wheel = () if flywheel is None else ("flywheel",)
     return (*kinematics, load, *inertia, "groups", driver, *wheel, *CLOSING)
+
+
+def driven(
+    assignment: Assignment,
+    q: Sheet,
+    linkage: Linkage,
+    start: float,
+    sections: Mapping[str, Any] | None = None,
+    **own: Any,
+) -> Machine:
+    """The machine of an assignment whose crank stands at the angle `start` in position 1.
+
+    `sections` go to `outline`, all further fields of its `Machine` are given by name.
+    """
+    given, positions = assignment.parameters, assignment.positions
+    loaded = bool(own.get("applied") or own.get("torques"))
+    fields: dict[str, Any] = {"count": positions.count, "turns": assignment.turns} | own
+    return Machine(
+        kind=assignment.kind,
+        linkage=linkage,
+        start=start,
+        turn=positions.sign,
+        speed=given.speed,
+        sheet=q,
+        outline=outline(bool(linkage.inertias), loaded, given.flywheel, **(sections or {})),
+        unevenness=given.unevenness,
+        **fields,
+    )

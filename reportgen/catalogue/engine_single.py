@@ -16,55 +16,35 @@ import numpy as np
 from reportgen.assignment import checks
 from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
-from reportgen.assignment.fields import (
-    Acceleration,
-    Interval,
-    Length,
-    Mass,
-    MomentOfInertia,
-    Ratio,
-    Share,
-    Weight,
-    quantity,
+from reportgen.assignment.fields import Acceleration, Interval, Length, Ratio, Share, quantity
+from reportgen.catalogue import given_loads
+from reportgen.catalogue.driven import (
+    CRANK_DRAWN,
+    Driven,
+    datum,
+    driven,
+    enter_drawn,
+    enter_mass,
+    enter_moment,
+    enter_speed,
+    inertias,
 )
-from reportgen.catalogue import gas, offset_slider
-from reportgen.catalogue.driven import Driven, outline, rate_items
-from reportgen.catalogue.machine import (
-    Item,
-    Machine,
-    Piston,
-    gas_forces,
-    lettered,
-    mass_items,
-    ratio_item,
+from reportgen.catalogue.loads import Piston, gas_forces
+from reportgen.catalogue.machine import Machine, lettered
+from reportgen.catalogue.sliders import (
+    CENTRE_PLANS,
+    OFFSET_PLANS,
+    OffsetSlider,
+    compared,
+    loop_equations,
+    offset_slider,
 )
-from reportgen.catalogue.offset_slider import OffsetSlider
-from reportgen.mechanism.structure import Inertia
-from reportgen.notation.expressions import (
-    PI,
-    Expression,
-    Number,
-    Ref,
-    Root,
-    Symbol,
-    add,
-    call,
-    divide,
-    multiply,
-    power,
-    subtract,
-)
+from reportgen.notation.expressions import PI, Number, Ref, Symbol, sqrt, tan
+from reportgen.notation.sheet import Sheet
+from reportgen.notation.symbols import drawn_length
 from reportgen.units import Given
 
-KIND = "engine-single"
-TITLES = {
-    "vi": "Động cơ đốt trong một xi lanh",
-    "en": "Single-cylinder combustion engine",
-}
 TURNS = 2
-
-CRANK_DRAWN = 0.04
-"""Drawn length of the crank (m on paper) when none is asked for."""
 UP = math.pi / 2
 MOST_LETTERED = 4
 """Two dead centres and two greatest speeds."""
@@ -72,10 +52,10 @@ MOST_LETTERED = 4
 Offset = Annotated[Given, quantity("mm", least=0, below=1e5)]
 TimeRatio = Annotated[Given, Ratio(Interval(above=1, below=2))]
 GyrationRatio = Annotated[Given, Ratio(Interval(above=0, most=1))]
-Indicator = gas.Diagram
+Indicator = given_loads.Diagram
 
 
-class Parameters(Driven):
+class Parameters(Driven, masses=(1, 2, 3), required=(2, 3), moments=(2,)):
     """The cylinder, then crank and rod by H, e, K or by R and L; the speed; what moves."""
 
     D: Length
@@ -85,48 +65,13 @@ class Parameters(Driven):
     L: Length | None = None
     e: Offset = Given(0.0, 0.0, "mm", "0 mm")
     s: Share
-    G1: Weight | None = None
-    G2: Weight | None = None
-    G3: Weight | None = None
-    m1: Mass | None = None
-    m2: Mass | None = None
-    m3: Mass | None = None
     rho: GyrationRatio | None = None
-    J2: MomentOfInertia | None = None
     g: Acceleration = Given(9.8, 9.8, "m/s2", "9.8 m/s2")
 
     @property
     def has_lengths(self) -> bool:
         """Whether crank and rod are given in either way."""
         return None not in (self.R, self.L) or None not in (self.H, self.K)
-
-    @property
-    def lengths(self) -> tuple[float, float]:
-        """Crank R and rod L (m): as given, or of the triangle that A makes with the dead centres.
-
-        Its sides are L + R, L − R and H, the angle at A is θ = π(K − 1)/(K + 1) and the height e, whence
-        4R² = H² − 2H e₁, 4L² = H² + 2H e₂ with e₁ = e tan(θ/2), e₂ = e/tan(θ/2).
-        """
-        if self.R is not None and self.L is not None:
-            return self.R.si, self.L.si
-        assert self.H is not None
-        assert self.K is not None
-        tangent = math.tan(math.pi * (self.K.si - 1) / (self.K.si + 1) / 2)
-        quarter, area = self.H.si**2 / 4, self.H.si * self.e.si / 2
-        return math.sqrt(quarter - area * tangent), math.sqrt(quarter + area / tangent)
-
-    @property
-    def moment(self) -> float:
-        """J of the rod about S2 (kg·m²): as given, m (ρL)², else m L²/12."""
-        if self.J2 is not None:
-            return self.J2.si
-        square = 1 / 12 if self.rho is None else self.rho.si**2
-        return self.mass(2) * square * self.lengths[1] ** 2
-
-    def geometry(self, positions: Positions) -> OffsetSlider:
-        """The mechanism in the axes that turn with the rotation, the cylinder on their positive side."""
-        crank, rod = self.lengths
-        return OffsetSlider(crank, rod, self.e.si, UP, positions.sign)
 
 
 def _start(geometry: OffsetSlider, positions: Positions) -> float:
@@ -143,7 +88,7 @@ def added_positions(parameters: Parameters, positions: Positions) -> int:
     """How many lettered positions a turn has; of an engine with faulty lengths, the most that any has."""
     if not parameters.has_lengths or _cannot_turn(parameters) is not None:
         return MOST_LETTERED
-    geometry = parameters.geometry(positions)
+    geometry = _geometry(parameters, positions)
     places, _ = lettered(positions.count, 1, _special(geometry, _start(geometry, positions)))
     return len(places) - positions.count
 
@@ -191,129 +136,86 @@ def _check_turning(draft: Draft) -> Iterator[Finding]:
 CHECKS = (
     _check_lengths,
     _check_turning,
-    checks.one_of("parameters", "n", "omega1"),
-    checks.one_of("parameters", "G1", "m1", required=False),
-    checks.one_of("parameters", "G2", "m2"),
-    checks.one_of("parameters", "G3", "m3"),
     checks.one_of("parameters", "rho", "J2", required=False),
-    *gas.CHECKS,
+    *given_loads.DIAGRAM_CHECKS,
 )
 
 
 # --- the machine ----------------------------------------------------------------------------------
 
 
+def _enter_lengths(q: Sheet, given: Parameters) -> tuple[Ref, Ref]:
+    """Crank R and rod L, from the triangle that A makes with the dead centres, or as given, then with the stroke.
+
+    The triangle has the sides L + R, L − R and H, at A the angle θ = 180°(K − 1)/(K + 1) and the height e, whence
+    4R² = H² − q₁ and 4L² = H² + q₂ with q₁ = 2He tan(θ/2), q₂ = 2He/tan(θ/2).
+    """
+    e = datum(q, "e", given.e) if given.e.si else None
+    if given.R is not None and given.L is not None:
+        R, L = datum(q, "R", given.R), datum(q, "L", given.L)
+        q.define("H", 2 * R if e is None else sqrt((L + R) ** 2 - e**2) - sqrt((L - R) ** 2 - e**2))
+        return R, L
+    assert given.H is not None
+    assert given.K is not None
+    assert e is not None, "H and K without e are refused by the kind's checks"
+    H, K = datum(q, "H", given.H), datum(q, "K", given.K)
+    θ = q.define("theta", Number(180.0, unit="°") * (K - 1) / (K + 1))
+    q1 = q.define("q.1", 2 * H * e * tan(θ / 2), Symbol("q", "1"), "product of lengths")
+    q2 = q.define("q.2", 2 * H * e / tan(θ / 2), Symbol("q", "2"), "product of lengths")
+    return q.define("R", sqrt(H**2 - q1) / 2), q.define("L", sqrt(H**2 + q2) / 2)
+
+
+def _geometry(given: Parameters, positions: Positions) -> OffsetSlider:
+    """The mechanism in the axes that turn with the rotation, the cylinder on their positive side."""
+    q = Sheet()
+    R, L = _enter_lengths(q, given)
+    return OffsetSlider(q.si(R), q.si(L), given.e.si, UP, positions.sign)
+
 
 def machine(assignment: Assignment) -> Machine:
-    """The engine of an assignment: linkage, gas, quantities of its own and the report's outline."""
+    """The engine of an assignment: synthesis of crank and rod, linkage, gas, closed formulas."""
     given: Parameters = assignment.parameters
-    positions = assignment.positions
-    geometry = given.geometry(positions)
+    positions, crank = assignment.positions, assignment.drawing.crank
+    q = Sheet()
+    R, L = _enter_lengths(q, given)
+    D, s = datum(q, "D", given.D), datum(q, "s", given.s)
+    datum(q, "g", given.g)
+    enter_speed(q, given.n, given.omega1, given.flywheel)
+    r = q.define("l.AB", R)
+    q.define("l.BC", L)
+    q.define("l.BS2", s * L)
+    if crank is not None:
+        enter_drawn(q, "A", "B", crank)
+    else:  # by a scale of two figures
+        μ = q.give("scale", float(f"{q.si(R) / CRANK_DRAWN:.1e}"), Symbol("μ", "l"), "length scale")
+        q.define("drawn.AB", r / μ, drawn_length("A", "B"))
+    q.define("F", PI * D**2 / 4)
+    for link in (1, 2, 3):
+        enter_mass(q, link, given.typed("G", link), given.typed("m", link))
+    m2 = q["m.2"]
+    ρ = None if given.rho is None or given.typed("J", 2) else q.give("rho", given.rho.si, "ρ", "ratio")
+    enter_moment(q, 2, given.typed("J", 2), m2 * L**2 / 12 if ρ is None else m2 * (ρ * L) ** 2)
+
+    geometry = _geometry(given, positions)
     start = _start(geometry, positions)
     places, labels = lettered(positions.count, TURNS, _special(geometry, start))
-    inertias = [Inertia(2, "S2", given.mass(2), given.moment), Inertia(3, "C", given.mass(3))]
-    if given.mass(1):
-        inertias.insert(0, Inertia(1, "A", given.mass(1)))
+    linkage = geometry.linkage(inertias(q, {1: "A", 2: "S2", 3: "C"}), given.g.si, q.si("l.BS2"))
     piston = Piston.on(geometry.course(start, TURNS), given.D.si, assignment.indicator.table)
-    angles = start + np.tile(places, TURNS)
-    return Machine(
-        kind=KIND,
-        linkage=geometry.linkage(inertias, given.g.si, given.s.si * geometry.l),
-        start=geometry.crank_angle(start),
-        turn=positions.sign,
-        speed=given.speed,
+    angles, offset = start + np.tile(places, TURNS), q["e"] if given.e.si else None
+    return driven(
+        assignment,
+        q,
+        linkage,
+        geometry.crank_angle(start),
+        {"sizes": "synthesis", "load": "cycle"},
+        formulas=lambda q: offset_slider(q, angles, offset, True),
         count=len(places),
-        turns=TURNS,
-        given=_items(given, assignment.drawing.crank),
-        formulas=offset_slider.formulas(angles, Ref("e") if geometry.e else None, True),
-        outline=outline(True, True, given.flywheel, sizes="synthesis", load="cycle"),
-        unevenness=given.unevenness,
         pistons=(piston,),
         applied=gas_forces((piston,)),
         sliders=(piston,),
         paths=("S2",),
-        compared=offset_slider.compared(True),
-        equations=offset_slider.equations(geometry.e != 0),
+        compared=compared((*OFFSET_PLANS, *CENTRE_PLANS)),
+        equations=loop_equations(offset is not None),
         places=places,
         labels=labels,
     )
-
-
-def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
-    """Given data and the synthesis: θ, R and L, the mass centre, masses and the moment of inertia."""
-    items = [
-        *((Item("e", Symbol("e"), "length", given.e.si),) if given.e.si else ()),
-        *(_synthesis(given) if given.K is not None else _stroke(given)),
-        Item("D", Symbol("D"), "diameter", given.D.si),
-        Item("s", Symbol("s"), "ratio", given.s.si),
-        Item("g", Symbol("g"), "gravity", given.g.si),
-        *rate_items(given),
-        Item("l.AB", Symbol("l", "AB"), "length", definition=Ref("R")),
-        Item("l.BC", Symbol("l", "BC"), "length", definition=Ref("L")),
-        Item("l.BS2", Symbol("l", "BS2"), "length", definition=multiply("s", "L")),
-        *_drawn(given, crank),
-        Item("F", Symbol("F"), "area", definition=divide(multiply(PI, power("D", 2)), 4)),
-    ]
-    for link in (1, 2, 3):
-        items += mass_items(link, getattr(given, f"G{link}"), getattr(given, f"m{link}"))
-    symbol = Symbol("J", "S2")
-    if given.J2 is not None:
-        items.append(Item("J.2", symbol, "moment of inertia", given.J2.si))
-    elif given.rho is not None:
-        items.append(Item("rho", Symbol("ρ"), "ratio", given.rho.si))
-        squared = multiply("m.2", power(multiply("rho", "L"), 2))
-        items.append(Item("J.2", symbol, "moment of inertia", definition=squared))
-    else:
-        by_length = divide(multiply("m.2", power("L", 2)), 12)
-        items.append(Item("J.2", symbol, "moment of inertia", definition=by_length))
-    return tuple(items)
-
-
-def _drawn(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
-    """The crank's drawn length: as asked for, else about `CRANK_DRAWN` by a scale of two figures."""
-    symbol = Symbol("AB", over="segment")
-    if crank is not None:
-        return (Item("drawn.AB", symbol, "segment", crank.si),)
-    scale = float(f"{given.lengths[0] / CRANK_DRAWN:.1e}")
-    return (
-        Item("scale", Symbol("μ", "l"), "length scale", scale),
-        Item("drawn.AB", symbol, "segment", definition=divide("l.AB", "scale")),
-    )
-
-
-def _synthesis(given: Parameters) -> tuple[Item, ...]:
-    """R and L of H, e and K, see `Parameters.lengths`: 4R² = H² − q₁, 4L² = H² + q₂ with q = 2He·tan^±1(θ/2)."""
-    assert given.H is not None
-    assert given.K is not None
-    half_turn = Number(180.0, unit="°")
-    theta = divide(multiply(half_turn, subtract("K", 1)), add("K", 1))
-    tangent, square = call("tan", divide("theta", 2)), power("H", 2)
-    return (
-        Item("H", Symbol("H"), "length", given.H.si),
-        ratio_item("K", Symbol("K"), given.K),
-        Item("theta", Symbol("θ"), "angle", definition=theta),
-        Item("q.1", Symbol("q", "1"), "product of lengths", definition=multiply(2, "H", "e", tangent)),
-        Item("q.2", Symbol("q", "2"), "product of lengths", definition=divide(multiply(2, "H", "e"), tangent)),
-        Item("R", Symbol("R"), "length", definition=_half_root(subtract(square, "q.1"))),
-        Item("L", Symbol("L"), "length", definition=_half_root(add(square, "q.2"))),
-    )
-
-
-def _half_root(of: Expression) -> Expression:
-    return divide(Root(of), 2)
-
-
-def _stroke(given: Parameters) -> tuple[Item, ...]:
-    """R and L as given, and the stroke between the dead centres, H = √((L + R)² − e²) − √((L − R)² − e²)."""
-    assert given.R is not None
-    assert given.L is not None
-    lengths = (
-        Item("R", Symbol("R"), "length", given.R.si),
-        Item("L", Symbol("L"), "length", given.L.si),
-    )
-    if not given.e.si:
-        return (*lengths, Item("H", Symbol("H"), "length", definition=multiply(2, "R")))
-    outer, inner = (
-        Root(subtract(power(reach, 2), power("e", 2))) for reach in (add("L", "R"), subtract("L", "R"))
-    )
-    return (*lengths, Item("H", Symbol("H"), "length", definition=subtract(outer, inner)))

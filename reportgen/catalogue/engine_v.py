@@ -12,54 +12,43 @@ from typing import Annotated
 
 import numpy as np
 
-from reportgen.assignment import checks
 from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
-from reportgen.assignment.fields import (
-    Angle,
-    Length,
-    Mass,
-    MomentOfInertia,
-    Share,
-    Weight,
-    Whole,
-    quantity,
+from reportgen.assignment.fields import Angle, Length, Whole, quantity
+from reportgen.catalogue import given_loads, reach
+from reportgen.catalogue.driven import (
+    Driven,
+    centre_points,
+    datum,
+    driven,
+    enter_bar,
+    enter_drawn,
+    enter_mass,
+    enter_speed,
+    inertias,
 )
-from reportgen.catalogue import articulated, bars, crank_slider, gas, linkage_loads, reach, regulation
-from reportgen.catalogue.bars import Bar
-from reportgen.catalogue.course import FULL_TURN, Floats
-from reportgen.catalogue.driven import Driven, mass_keys, outline, rate_items
-from reportgen.catalogue.machine import (
-    Applied,
-    Item,
-    Machine,
-    Piston,
-    gas_forces,
-    lettered,
-    mass_items,
-)
+from reportgen.catalogue.loads import Applied, Constant, Floats, Piston, course, gas_forces
+from reportgen.catalogue.machine import Machine, lettered
 from reportgen.catalogue.reach import Member
-from reportgen.catalogue.resistance import Constant
+from reportgen.catalogue.sliders import centred_slider, compared, second_cylinder
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.notation.expressions import PI, Ref, Symbol, divide, multiply, power
+from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
+from reportgen.notation.expressions import PI, Symbol
+from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
 
-KIND = "engine-v"
-TITLES = {"vi": "Động cơ đốt trong hình chữ V", "en": "Engine with cylinders in V"}
 TURNS = 1
 """Four strokes take two: the second turn's positions then count among those added to the first."""
 
-CRANK_DRAWN = 0.04
-"""Drawn length of the crank (m on paper) when none is asked for."""
-
-Indicator = gas.Diagram
+Indicator = given_loads.Diagram
 INDICATOR_OPTIONAL = True
 Articulation = Annotated[Given, quantity("mm", least=0, below=1e5)]
 Force = Annotated[Given, quantity("N", least=-1e7, most=1e7)]
 
 
-class Parameters(Driven):
+class Parameters(
+    Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loads=("PC", "PE", "D")
+):
     """Lengths, the two axes, the speed; forces on the pistons, or their bore; what moves has mass if given one."""
 
     AB: Length
@@ -72,18 +61,6 @@ class Parameters(Driven):
     PE: Force | None = None
     D: Length | None = None
     second_top: Annotated[int, Whole(1, 2)] = 2
-    s2: Share | None = None
-    s4: Share | None = None
-    G2: Weight | None = None
-    G3: Weight | None = None
-    G4: Weight | None = None
-    G5: Weight | None = None
-    m2: Mass | None = None
-    m3: Mass | None = None
-    m4: Mass | None = None
-    m5: Mass | None = None
-    J2: MomentOfInertia | None = None
-    J4: MomentOfInertia | None = None
 
     @property
     def joint(self) -> str:
@@ -94,36 +71,6 @@ class Parameters(Driven):
     def turns(self) -> int:
         """Turns in a cycle: two of a four-stroke engine with its gas, else one."""
         return 2 if self.D is not None else 1
-
-    @property
-    def rods(self) -> tuple[Bar, Bar]:
-        """Rods 2 and 4, each with its mass centre if anything needs it."""
-        return (
-            bars.bar(self, 2, "B", "C", self.BC.si),
-            bars.bar(self, 4, self.joint, "E", self.DE.si),
-        )
-
-    def linkage(self) -> Linkage:
-        """The mechanism."""
-        articulation = (LinkPoint("D", 2, complex(self.BD.si)),) if self.BD.si else ()
-        first, second = (Guide(0j, axis.si) for axis in (self.alpha, self.beta))
-        return Linkage(
-            ground={"A": 0j},
-            driver=Crank("A", "B", self.AB.si),
-            dyads=(
-                Dyad("RRP", (2, 3), "B", "C", first, (self.BC.si, 0.0)),
-                Dyad("RRP", (4, 5), self.joint, "E", second, (self.DE.si, 0.0)),
-            ),
-            points=(*articulation, *(point for rod in self.rods for point in rod.point())),
-            inertias=tuple(self._inertias()),
-            gravity=-1j * self.g.si,
-        )
-
-    def _inertias(self) -> Iterator[Inertia]:
-        for rod, piston, pin in zip(self.rods, (3, 5), "CE", strict=True):
-            yield from rod.inertia(self.g.si)
-            if self.mass(piston):
-                yield Inertia(piston, pin, self.mass(piston))
 
 
 def _start(positions: Positions) -> float:
@@ -173,59 +120,97 @@ def _check_assembly(draft: Draft) -> Iterator[Finding]:
         (2, 3): Member("BC", ("parameters", "BC")),
         (4, 5): Member(f"{given.joint}E", ("parameters", "DE")),
     }
-    yield from reach.findings(given.linkage(), members)
+    yield from reach.findings(_linkage(given, _sheet(given)), members)
 
 
-CHECKS = (
-    checks.one_of("parameters", "n", "omega1"),
-    *bars.one_mass((2, 3, 4, 5)),
-    *gas.CHECKS,
-    _check_loads,
-    regulation.needs_loads((*mass_keys((2, 3, 4, 5)), "PC", "PE", "D")),
-    _check_assembly,
-)
+CHECKS = (*given_loads.DIAGRAM_CHECKS, _check_loads, _check_assembly)
 
 
 # --- the machine ----------------------------------------------------------------------------------
 
 
+def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> Sheet:
+    """Given data, λ = R/L, the angle between the cylinders, masses and moments of inertia, the area of a piston."""
+    q, rod = Sheet(), f"{given.joint}E"
+    for id, length in {"AB": given.AB, "BC": given.BC, "BD": given.BD, rod: given.DE}.items():
+        if length.si:
+            datum(q, f"l.{id}", length)
+    datum(q, "alpha", given.alpha, "α", "angle")
+    datum(q, "beta", given.beta, "β", "angle")
+    enter_speed(q, given.n, given.omega1, given.flywheel)
+    enter_drawn(q, "A", "B", crank)
+    q.define("lambda", q.define("R", q["l.AB"]) / q.define("L", q["l.BC"]))
+    q.give("delta", turn * (given.beta.si - given.alpha.si), "δ", "angle")
+    for force, pin in ((given.PC, "C"), (given.PE, "E")):
+        if force is not None:
+            datum(q, f"P{pin}.given", force, Symbol("P", pin), "force")
+    if given.D is not None:
+        q.define("F", PI * datum(q, "D", given.D) ** 2 / 4)
+    if any(given.typed(letter, link) for letter in "Gm" for link in (2, 3, 4, 5)):
+        datum(q, "g", given.g)
+    enter_bar(q, given, 2, "B", "C")
+    enter_bar(q, given, 4, given.joint, "E")
+    for piston in (3, 5):
+        enter_mass(q, piston, given.typed("G", piston), given.typed("m", piston))
+    return q
+
+
+def _linkage(given: Parameters, q: Sheet) -> Linkage:
+    articulation = (LinkPoint("D", 2, complex(given.BD.si)),) if given.BD.si else ()
+    first, second = (Guide(0j, axis.si) for axis in (given.alpha, given.beta))
+    return Linkage(
+        ground={"A": 0j},
+        driver=Crank("A", "B", q.si("R")),
+        dyads=(
+            Dyad("RRP", (2, 3), "B", "C", first, (q.si("L"), 0.0)),
+            Dyad("RRP", (4, 5), given.joint, "E", second, (given.DE.si, 0.0)),
+        ),
+        points=(*articulation, *centre_points(q, {2: "B", 4: given.joint})),
+        inertias=inertias(q, {2: "S2", 3: "C", 4: "S4", 5: "E"}),
+        gravity=-1j * given.g.si,
+    )
+
+
 def machine(assignment: Assignment) -> Machine:
-    """The engine of an assignment: linkage, forces on the pistons, closed formulas, the report's outline."""
+    """The engine of an assignment: linkage, forces on the pistons, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
-    linkage, start = given.linkage(), _start(assignment.positions)
+    q = _sheet(given, turn, assignment.drawing.crank)
+    linkage, start = _linkage(given, q), _start(positions)
     places, labels = _places(given, positions)
 
     def motion_at(angle: Floats) -> Motion:
         return solve_motion(linkage, start + turn * angle, turn * given.speed)
 
+    second_top = given.second_top if given.turns == 2 else 1
     courses = (
-        linkage_loads.course(linkage, 3, motion_at, given.turns),
-        linkage_loads.course(linkage, 5, motion_at, given.turns, given.second_top if given.turns == 2 else 1),
+        course(linkage, 3, motion_at, given.turns),
+        course(linkage, 5, motion_at, given.turns, second_top),
     )
     pistons: tuple[Piston, ...] = ()
     if given.D is not None:
-        table = assignment.indicator.table
-        pistons = tuple(Piston.on(course, given.D.si, table) for course in courses)
-    applied = gas_forces(pistons) if pistons else _constant(given)
-    angle = np.mod(turn * (start - given.alpha.si) + np.tile(places, given.turns) + 1e-12, FULL_TURN) - 1e-12
-    return Machine(
-        kind=KIND,
-        linkage=linkage,
-        start=start,
-        turn=turn,
-        speed=given.speed,
+        pistons = tuple(Piston.on(one, given.D.si, assignment.indicator.table) for one in courses)
+    angle = turn * (start - given.alpha.si) + np.tile(places, given.turns)
+    on_rod = given.joint == "D"
+
+    def formulas(q: Sheet) -> None:
+        centred_slider(q, 2, 3, "C", angle, "l.BD", "D" if on_rod else "")
+        second_cylinder(q, given.joint)
+
+    plans = ("v.C", "omega.2", "v.E", "omega.4", "a.C", "eps.2", "a.E", "eps.4", *(("v.D", "a.D") if on_rod else ()))
+    return driven(
+        assignment,
+        q,
+        linkage,
+        start,
+        formulas=formulas,
         count=len(places),
         turns=given.turns,
-        given=_items(given, turn, assignment.drawing.crank),
-        formulas=_formulas(given, angle),
-        outline=outline(bool(linkage.inertias), bool(applied), given.flywheel),
-        unevenness=given.unevenness,
         pistons=pistons,
-        applied=applied,
+        applied=gas_forces(pistons) if pistons else _constant(given),
         sliders=courses,
-        paths=("D",) if given.joint == "D" else (),
-        compared=_compared(given),
+        paths=("D",) if on_rod else (),
+        compared=compared(plans),
         places=places,
         labels=labels,
     )
@@ -239,53 +224,3 @@ def _constant(given: Parameters) -> tuple[Applied, ...]:
         for link, pin, force, axis in ends
         if force is not None
     )
-
-
-def _formulas(given: Parameters, angle: Floats) -> tuple[Item, ...]:
-    """The closed formulas of both cylinders; the articulation D takes the place of a mass centre on rod 2."""
-    items = crank_slider.formulas(2, 3, "B", "C", "D", angle)
-    if given.joint == "B":
-        items = tuple(item for item in items if not item.id.startswith(("f.x.D", "f.y.D")) and item.id[-2:] != ".D")
-        items = (*items, *articulated.crank_pin())
-    return (*items, *articulated.place(given.joint), *articulated.second(given.joint, f"{given.joint}E"))
-
-
-def _compared(given: Parameters) -> tuple[tuple[str, str], ...]:
-    on_rod = ("v.D", "a.D") if given.joint == "D" else ()
-    plans = ("v.C", "omega.2", "v.E", "omega.4", "a.C", "eps.2", "a.E", "eps.4", *on_rod)
-    return tuple((plan, f"f.{plan}") for plan in plans)
-
-
-def _items(given: Parameters, turn: int, crank: Given | None) -> tuple[Item, ...]:
-    """Given data, λ = R/L, the angle between the cylinders, masses and moments of inertia, the area of a piston."""
-    rod = f"l.{given.joint}E"
-    items = [
-        Item("l.AB", Symbol("l", "AB"), "length", given.AB.si),
-        Item("l.BC", Symbol("l", "BC"), "length", given.BC.si),
-        *((Item("l.BD", Symbol("l", "BD"), "length", given.BD.si),) if given.BD.si else ()),
-        Item(rod, Symbol("l", f"{given.joint}E"), "length", given.DE.si),
-        Item("alpha", Symbol("α"), "angle", given.alpha.si),
-        Item("beta", Symbol("β"), "angle", given.beta.si),
-        *rate_items(given),
-        Item("drawn.AB", Symbol("AB", over="segment"), "segment", crank.si if crank else CRANK_DRAWN),
-        Item("R", Symbol("R"), "length", definition=Ref("l.AB")),
-        Item("L", Symbol("L"), "length", definition=Ref("l.BC")),
-        Item("lambda", Symbol("λ"), "ratio", definition=divide("R", "L")),
-        Item("delta", Symbol("δ"), "angle", turn * (given.beta.si - given.alpha.si)),
-    ]
-    for force, name in ((given.PC, "PC"), (given.PE, "PE")):
-        if force is not None:
-            items.append(Item(f"{name}.given", Symbol("P", name[1]), "force", force.si))
-    if given.D is not None:
-        area = divide(multiply(PI, power("D", 2)), 4)
-        items += [
-            Item("D", Symbol("D"), "diameter", given.D.si),
-            Item("F", Symbol("F"), "area", definition=area),
-        ]
-    if any(given.mass(link) for link in (2, 3, 4, 5)):
-        items.append(Item("g", Symbol("g"), "gravity", given.g.si))
-    for bar in given.rods:
-        items += bar.items()
-    for piston in (3, 5):
-        items += mass_items(piston, getattr(given, f"G{piston}"), getattr(given, f"m{piston}"))
-    return tuple(items)

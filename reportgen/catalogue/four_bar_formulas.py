@@ -8,348 +8,180 @@ BC and DC from x.  With the diagonal BD and the angle δ at D, C on the left of 
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
-import numpy as np
-
-from reportgen.catalogue.course import FULL_TURN, Floats
-from reportgen.catalogue.machine import Item
+from reportgen.catalogue.driven import give_angle
+from reportgen.catalogue.loads import Floats
+from reportgen.catalogue.sliders import components
 from reportgen.mechanism.structure import LinkPoint
 from reportgen.notation.expressions import (
     Chain,
     Expression,
     Matrix,
     Number,
-    Product,
     Ref,
-    Root,
     Symbol,
-    add,
-    call,
+    acos,
+    atan,
+    atan2,
     column,
-    divide,
-    multiply,
-    negative,
-    power,
-    subtract,
+    cos,
+    sin,
+    sqrt,
 )
+from reportgen.notation.sheet import Sheet
 
-AB, BC, CD, AD = "l.AB", "l.BC", "l.DC", "l.AD"
 STRAIGHT = Number(180.0, None, "°")
-ROUND = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
-class Sides:
-    """Lengths (m) of a four-bar linkage whose crank AB turns fully: AB or AD is the shortest."""
+class FourBar:
+    """Crank angles φ₁ from x [N], points of the coupler, the rotation ±1, the side ±1 on which C lies in these axes."""
 
-    ab: float
-    bc: float
-    cd: float
-    ad: float
-
-    @property
-    def rocks(self) -> bool:
-        """Whether CD only swings: the crank, not the frame, is the shortest."""
-        return self.ab < self.ad
-
-
-@dataclass(frozen=True, slots=True)
-class Couplings:
-    """Points of the coupler, the rotation ±1, and the side ±1 on which C lies in axes that turn with it."""
-
+    φ1: Floats
     points: tuple[LinkPoint, ...]
     turn: int
     side: int
 
 
+def _rocks(q: Sheet) -> bool:
+    """Whether CD only swings: the crank, not the frame, is the shortest."""
+    return q.si("l.AB") < q.si("l.AD")
+
+
+def _cosine(one: Expression, other: Expression, opposite: Expression) -> Expression:
+    """The law of cosines for the angle between two sides."""
+    return (one**2 + other**2 - opposite**2) / (2 * one * other)
+
+
 # --- proportions ----------------------------------------------------------------------------------
 
 
-def proportions(sides: Sides) -> tuple[Item, ...]:
-    """Grashof's two sums; for a rocker the extreme positions C₁, C₂, its swing ψ and the ratio of times K."""
-    ids = {AB: sides.ab, BC: sides.bc, CD: sides.cd, AD: sides.ad}
-    first, *between, last = sorted(ids, key=lambda id: ids[id])
-    sums = (
-        Item("sum.ends", Symbol("l", "", "′"), "length", definition=add(first, last)),
-        Item("sum.others", Symbol("l", "", "″"), "length", definition=add(*between)),
-    )
-    return (*sums, *_extremes(sides)) if sides.rocks else sums
+def proportions(q: Sheet) -> None:
+    """Grashof's two sums; for a rocker the extreme positions C₁, C₂, its swing ψ and the ratio of times K.
+
+    AC₁ = BC + AB and AC₂ = BC − AB with the angles α at A and ψ at D; θ = α₁ − α₂, K = (180° + θ)/(180° − θ).
+    """
+    AB, BC, CD, AD = sides = tuple(q[f"l.{id}"] for id in ("AB", "BC", "DC", "AD"))
+    first, one, other, last = sorted(sides, key=q.si)
+    q.define("sum.ends", first + last, Symbol("l", "", "′"), "length")
+    q.define("sum.others", one + other, Symbol("l", "", "″"), "length")
+    if not _rocks(q):
+        return
+    angle = partial(q.define, kind="angle", scale=1.0)
+    α, ψ = [], []
+    for number, length in (("1", BC + AB), ("2", BC - AB)):
+        AC = q.define(f"l.AC{number}", length)
+        α.append(angle(f"alpha.{number}", acos(_cosine(AC, AD, CD)), Symbol("α", number)))
+        ψ.append(angle(f"psi.{number}", acos(_cosine(AD, CD, AC)), Symbol("ψ", number)))
+    larger, smaller = sorted(α, key=q.si, reverse=True)
+    θ = angle("theta", larger - smaller)
+    q.define("K", (STRAIGHT + θ) / (STRAIGHT - θ))
+    angle("swing", ψ[0] - ψ[1], "ψ")
 
 
-def _extremes(sides: Sides) -> tuple[Item, ...]:
-    """AC₁ = BC + AB and AC₂ = BC − AB with the angles at A and D; θ, K = (180° + θ)/(180° − θ), ψ."""
-    reach = {"1": sides.bc + sides.ab, "2": sides.bc - sides.ab}
-    items: list[Item] = []
-    at_a: dict[str, float] = {}
-    for number, length in reach.items():
-        ac = f"l.AC{number}"
-        with_ab = add(BC, AB) if number == "1" else subtract(BC, AB)
-        items += [
-            Item(ac, Symbol("l", f"AC{number}"), "length", definition=with_ab),
-            _angle(f"alpha.{number}", Symbol("α", number), call("arccos", _cosine(ac, AD, CD))),
-            _angle(f"psi.{number}", Symbol("ψ", number), call("arccos", _cosine(AD, CD, ac))),
-        ]
-        at_a[number] = math.acos((length**2 + sides.ad**2 - sides.cd**2) / (2 * length * sides.ad))
-    larger, smaller = sorted(at_a, key=lambda number: -at_a[number])
-    theta = subtract(f"alpha.{larger}", f"alpha.{smaller}")
-    return (
-        *items,
-        _angle("theta", Symbol("θ"), theta),
-        Item("K", Symbol("K"), "ratio", definition=divide(add(STRAIGHT, "theta"), subtract(STRAIGHT, "theta"))),
-        _angle("swing", Symbol("ψ"), subtract("psi.1", "psi.2")),
-    )
-
-
-def triangle(name: str, off_line: bool) -> tuple[Item, ...]:
+def triangle(q: Sheet, name: str) -> None:
     """l_BE² = x² + y² of a coupler point given by x along BC and y across it; off BC, l_CE² = (l − x)² + y²."""
-    along, across = f"{name}.along", f"{name}.across"
-
-    def side(start: str, x: Expression) -> Item:
-        length = Root(add(power(x, 2), power(across, 2)))
-        return Item(f"l.{start}{name}", Symbol("l", f"{start}{name}"), "length", definition=length)
-
-    if not off_line:
-        return (Item(f"l.B{name}", Symbol("l", f"B{name}"), "length", definition=call("abs", along)),)
-    return side("B", Ref(along)), side("C", subtract(BC, along))
-
-
-def _cosine(one: str, other: str, opposite: str) -> Expression:
-    """The law of cosines for the angle between two sides."""
-    return divide(
-        subtract(add(power(one, 2), power(other, 2)), power(opposite, 2)), multiply(2, one, other)
-    )
+    x, y, BC = q[f"{name}.along"], q[f"{name}.across"], q["l.BC"]
+    if q.si(y):
+        q.define(f"l.B{name}", sqrt(x**2 + y**2))
+        q.define(f"l.C{name}", sqrt((BC - x) ** 2 + y**2))
+    else:
+        q.define(f"l.B{name}", abs(x))
 
 
 # --- the analytic method --------------------------------------------------------------------------
 
 
-def formulas(sides: Sides, phi: Floats, couplings: Couplings) -> tuple[Item, ...]:
-    """Items at the crank angles `phi` [N] from x.
+def analytic_method(q: Sheet, bar: FourBar) -> None:
+    """Enter positions, entries of the matrices and rates.
 
     Ids: `f.phi.1`, `l.BD`, `f.phi.2`, `f.phi.3`; entries `A.11`, `B.1`, `dA.11`, `dB.1`; `A.det`;
     `f.omega.2`, …, `q.2`, `f.eps.3`; of every coupler point `f.x.E.v`, `f.y.E.v`, `f.v.E`, likewise for a.
     """
-    turned = np.mod(phi + ROUND, FULL_TURN) - ROUND
-    given = Item("f.phi.1", Symbol("φ", "1"), "angle", turned, traits={"exact": _is_round(turned), "scale": 1.0})
-    points = (item for point in couplings.points for item in _coupler_point(point, couplings.turn))
-    return (given, *_position(sides, couplings.side), *_entries(), *_rates(), *points)
+    AB, BC, CD, ω1 = q["l.AB"], q["l.BC"], q["l.DC"], q["omega.1"]
+    φ1, φ2, φ3 = _positions(q, bar)
+    a, b = partial(_entries, q, "A", "a", "length", 0.1), partial(_entries, q, "B", "b", "length", 0.1)
+    a({"11": -BC * sin(φ2), "12": CD * sin(φ3), "21": BC * cos(φ2), "22": -CD * cos(φ3)})
+    b({"1": AB * sin(φ1), "2": -AB * cos(φ1)})
+    q.define("A.det", BC * CD * sin(φ2 - φ3), "Δ", "product of lengths")
+    # Cramer's rule, with what stands in both numerators and in Δ left out.
+    ω2 = q.define("f.omega.2", ω1 * AB * sin(φ3 - φ1) / (BC * sin(φ2 - φ3)), scale=1.0)
+    ω3 = q.define("f.omega.3", ω1 * AB * sin(φ2 - φ1) / (CD * sin(φ2 - φ3)), scale=1.0)
+    a, b = partial(_entries, q, "dA", "ȧ", "velocity", 1.0), partial(_entries, q, "dB", "ḃ", "velocity", 1.0)
+    a({"11": -ω2 * BC * cos(φ2), "12": ω3 * CD * cos(φ3), "21": -ω2 * BC * sin(φ2), "22": ω3 * CD * sin(φ3)})
+    b({"1": ω1 * AB * cos(φ1), "2": ω1 * AB * sin(φ1)})
+    top2 = ω1**2 * AB * cos(φ1 - φ3) + ω2**2 * BC * cos(φ2 - φ3) - ω3**2 * CD
+    top3 = ω1**2 * AB * cos(φ1 - φ2) + ω2**2 * BC - ω3**2 * CD * cos(φ2 - φ3)
+    for link, top, length in (("2", top2, BC), ("3", top3, CD)):
+        q_k = q.define(f"q.{link}", top, Symbol("q", link), "acceleration", scale=1.0)
+        q.define(f"f.eps.{link}", -q_k / (length * sin(φ2 - φ3)), scale=1.0)
+    for point in bar.points:
+        _coupler_point(q, point, bar.turn)
 
 
-def _position(sides: Sides, side: int) -> tuple[Item, ...]:
+def _positions(q: Sheet, bar: FourBar) -> tuple[Ref, Ref, Ref]:
     """BD, then φ₂ = sβ − δ and φ₃ = 180° − δ − sγ, each from BD at once: sums of rounded angles lose a digit."""
-    phi = "f.phi.1"
-    across, along = multiply(AB, call("sin", phi)), subtract(AD, multiply(AB, call("cos", phi)))
-    delta = call("arctan", divide(across, along)) if sides.rocks else call("arctan2", across, along)
-    diagonal = Root(
-        subtract(add(power(AB, 2), power(AD, 2)), multiply(2, AB, AD, call("cos", phi)))
-    )
-    beta, gamma = call("arccos", _cosine(BC, "l.BD", CD)), call("arccos", _cosine(CD, "l.BD", BC))
-    second = subtract(beta if side > 0 else negative(beta), delta)
-    third = subtract(STRAIGHT, delta, gamma) if side > 0 else add(subtract(STRAIGHT, delta), gamma)
-    return (
-        Item("l.BD", Symbol("l", "BD"), "length", definition=diagonal),
-        _angle("f.phi.2", Symbol("φ", "2"), second),
-        _angle("f.phi.3", Symbol("φ", "3"), third),
-    )
+    AB, BC, CD, AD = q["l.AB"], q["l.BC"], q["l.DC"], q["l.AD"]
+    φ1 = give_angle(q, "f.phi.1", bar.φ1)
+    across, along = AB * sin(φ1), AD - AB * cos(φ1)
+    δ = atan(across / along) if _rocks(q) else atan2(across, along)
+    BD = q.define("l.BD", sqrt(AB**2 + AD**2 - 2 * AB * AD * cos(φ1)))
+    β, γ = acos(_cosine(BC, BD, CD)), acos(_cosine(CD, BD, BC))
+    φ2 = q.define("f.phi.2", β - δ if bar.side > 0 else -β - δ, scale=1.0)
+    φ3 = q.define("f.phi.3", STRAIGHT - δ - γ if bar.side > 0 else STRAIGHT - δ + γ, scale=1.0)
+    return φ1, φ2, φ3
 
 
-def _entries() -> tuple[Item, ...]:
-    """The entries of [A] and [B], and the determinant of [A]."""
-    s1, s2, s3 = (call("sin", f"f.phi.{link}") for link in "123")
-    c1, c2, c3 = (call("cos", f"f.phi.{link}") for link in "123")
-    named = {
-        "A.11": negative(multiply(BC, s2)),
-        "A.12": multiply(CD, s3),
-        "A.21": multiply(BC, c2),
-        "A.22": negative(multiply(CD, c3)),
-        "B.1": multiply(AB, s1),
-        "B.2": negative(multiply(AB, c1)),
-    }
-    items = [_entry(id, "length", definition, 0.1) for id, definition in named.items()]
-    return (*items, Item("A.det", Symbol("Δ"), "product of lengths", definition=multiply(BC, CD, _between("2", "3"))))
+def _entries(q: Sheet, matrix: str, letter: str, kind: str, scale: float, entries: Mapping[str, Expression]) -> None:
+    """The entries of a matrix by their places: a₁₁ of [A], ȧ₁₁ of [Ȧ]."""
+    for place, entry in entries.items():
+        q.define(f"{matrix}.{place}", entry, Symbol(letter, place), kind, scale=scale)
 
 
-def _between(one: str, other: str, function: str = "sin") -> Expression:
-    """sin (φ₂ − φ₃), or another function of the difference of two links' angles."""
-    return call(function, subtract(f"f.phi.{one}", f"f.phi.{other}"))
-
-
-def _rates() -> tuple[Item, ...]:
-    """ω₂, ω₃ by Cramer's rule; the entries of [Ȧ], [Ḃ]; ε₂, ε₃ by Cramer's rule.
-
-    ω₂ = ω₁ l_AB sin(φ₃ − φ₁)/(l_BC sin(φ₂ − φ₃)),  ω₃ = ω₁ l_AB sin(φ₂ − φ₁)/(l_CD sin(φ₂ − φ₃)),
-    q₂ = ω₁² l_AB cos(φ₁ − φ₃) + ω₂² l_BC cos(φ₂ − φ₃) − ω₃² l_CD,  ε₂ = −q₂/(l_BC sin(φ₂ − φ₃)),
-    q₃ = ω₁² l_AB cos(φ₁ − φ₂) + ω₂² l_BC − ω₃² l_CD cos(φ₂ − φ₃),  ε₃ = −q₃/(l_CD sin(φ₂ − φ₃)).
-    """
-    s1, s2, s3 = (call("sin", f"f.phi.{link}") for link in "123")
-    c1, c2, c3 = (call("cos", f"f.phi.{link}") for link in "123")
-    w1, w2, w3 = "omega.1", "f.omega.2", "f.omega.3"
-    first = {
-        "2": divide(multiply(w1, AB, _between("3", "1")), multiply(BC, _between("2", "3"))),
-        "3": divide(multiply(w1, AB, _between("2", "1")), multiply(CD, _between("2", "3"))),
-    }
-    named = {
-        "dA.11": negative(multiply(w2, BC, c2)),
-        "dA.12": multiply(w3, CD, c3),
-        "dA.21": negative(multiply(w2, BC, s2)),
-        "dA.22": multiply(w3, CD, s3),
-        "dB.1": multiply(w1, AB, c1),
-        "dB.2": multiply(w1, AB, s1),
-    }
-    crank, coupler, output = multiply(power(w1, 2), AB), multiply(power(w2, 2), BC), multiply(power(w3, 2), CD)
-    inward, between = _between("1", "3", "cos"), _between("2", "3", "cos")
-    tops = {
-        "2": add(_times(crank, inward), _times(coupler, between), negative(output)),
-        "3": add(_times(crank, _between("1", "2", "cos")), coupler, negative(_times(output, between))),
-    }
-    swings = [
-        item
-        for (link, top), length in zip(tops.items(), (BC, CD), strict=True)
-        for item in (
-            _rate(f"q.{link}", Symbol("q", link), "acceleration", top),
-            _rate(
-                f"f.eps.{link}",
-                Symbol("ε", link),
-                "angular acceleration",
-                negative(divide(f"q.{link}", multiply(length, _between("2", "3")))),
-            ),
-        )
-    ]
-    return (
-        *(_rate(f"f.omega.{link}", Symbol("ω", link), "angular velocity", rate) for link, rate in first.items()),
-        *(_entry(id, "velocity", definition, 1.0) for id, definition in named.items()),
-        *swings,
-    )
-
-
-def _times(product: Expression, factor: Expression) -> Expression:
-    assert isinstance(product, Product)
-    return Product((*product.factors, factor))
-
-
-def _coupler_point(point: LinkPoint, turn: int) -> tuple[Item, ...]:
+def _coupler_point(q: Sheet, point: LinkPoint, turn: int) -> None:
     """v and a of a point P of the coupler by components, BP at the angle φ₂ + η from x."""
-    name, arm = point.name, f"l.B{point.name}"
-    items: list[Item] = []
-    angle: Expression = Ref("f.phi.2")
+    name, AB, BP, φ1, ω1 = point.name, q["l.AB"], q[f"l.B{point.name}"], q["f.phi.1"], q["omega.1"]
+    ω2, ε2 = q["f.omega.2"], q["f.eps.2"]
+    φ: Expression = q["f.phi.2"]
     if point.local.imag:
-        eta = f"eta.{name}"
-        across, along = f"{name}.across", f"{name}.along"
-        slope = call("arctan", divide(across, along)) if point.local.real > 0 else call("arctan2", across, along)
-        items.append(_angle(eta, Symbol("η", name), slope if turn > 0 else negative(slope)))
-        angle = add("f.phi.2", eta)
-    phi, w1, w2, e2 = "f.phi.1", "omega.1", "f.omega.2", "f.eps.2"
-    s1, c1, s2, c2 = call("sin", phi), call("cos", phi), call("sin", angle), call("cos", angle)
-    v_x = negative(add(multiply(w1, AB, s1), multiply(w2, arm, s2)))
-    v_y = add(multiply(w1, AB, c1), multiply(w2, arm, c2))
-    a_x = negative(
-        add(multiply(power(w1, 2), AB, c1), multiply(e2, arm, s2), multiply(power(w2, 2), arm, c2))
-    )
-    a_y = subtract(
-        multiply(e2, arm, c2), multiply(power(w1, 2), AB, s1), multiply(power(w2, 2), arm, s2)
-    )
-    return (*items, *_components(name, "v", "velocity", v_x, v_y), *_components(name, "a", "acceleration", a_x, a_y))
-
-
-def _components(name: str, what: str, kind: str, x: Expression, y: Expression) -> tuple[Item, ...]:
-    along, across = f"f.x.{name}.{what}", f"f.y.{name}.{what}"
-    size = Root(add(power(along, 2), power(across, 2)))
-    return (
-        _rate(along, Symbol(what, f"{name}x"), kind, x),
-        _rate(across, Symbol(what, f"{name}y"), kind, y),
-        Item(f"f.{what}.{name}", Symbol(what, name), kind, definition=size),
-    )
-
-
-def _angle(id: str, symbol: Symbol, definition: Expression) -> Item:
-    return Item(id, symbol, "angle", definition=definition, traits={"scale": 1.0})
-
-
-def _rate(id: str, symbol: Symbol, kind: str, definition: Expression) -> Item:
-    return Item(id, symbol, kind, definition=definition, traits={"scale": 1.0})
-
-
-def _entry(id: str, kind: str, definition: Expression, scale: float) -> Item:
-    """A matrix entry: a₁₁ of [A], ȧ₁₁ of [Ȧ]."""
-    matrix, place = id.split(".")
-    letter = matrix[-1].lower()
-    dotted = {"a": "ȧ", "b": "ḃ"}[letter] if matrix.startswith("d") else letter
-    return Item(id, Symbol(dotted, place), kind, definition=definition, traits={"scale": scale})
-
-
-def _is_round(angle: Floats) -> bool:
-    """Whether all angles are whole hundredths of a degree, to be printed as they are."""
-    hundredths = np.degrees(angle) * 100
-    return bool(np.allclose(hundredths, np.round(hundredths), rtol=0, atol=1e-7))
+        x, y = q[f"{name}.along"], q[f"{name}.across"]
+        slope = atan(y / x) if point.local.real > 0 else atan2(y, x)
+        φ = φ + q.define(f"eta.{name}", slope if turn > 0 else -slope, Symbol("η", name), "angle", scale=1.0)
+    components(q, "v", name, -(ω1 * AB * sin(φ1) + ω2 * BP * sin(φ)), ω1 * AB * cos(φ1) + ω2 * BP * cos(φ))
+    a_x = -(ω1**2 * AB * cos(φ1) + ε2 * BP * sin(φ) + ω2**2 * BP * cos(φ))
+    a_y = ε2 * BP * cos(φ) - ω1**2 * AB * sin(φ1) - ω2**2 * BP * sin(φ)
+    components(q, "a", name, a_x, a_y)
 
 
 # --- what the words show --------------------------------------------------------------------------
 
 
-def compared(points: Iterable[LinkPoint]) -> tuple[tuple[str, str], ...]:
-    """Plan quantities and those of the analytic method that must have the same sizes."""
-    names = [point.name for point in points]
-    plans = ("omega.2", "omega.3", *(f"v.{name}" for name in names))
-    plans += ("eps.2", "eps.3", *(f"a.{name}" for name in names))
-    return tuple((plan, f"f.{plan}") for plan in plans)
-
-
 def equations() -> dict[str, tuple[Chain, ...]]:
     """The closed loop by components; the matrix equations in symbols, and `-numbers` with entries to fill in."""
-    ab, bc, cd, ad = (Symbol("l", name) for name in ("AB", "BC", "CD", "AD"))
-    s1, s2, s3 = (call("sin", Symbol("φ", link)) for link in "123")
-    c1, c2, c3 = (call("cos", Symbol("φ", link)) for link in "123")
-    w1, w2, w3 = (Symbol("ω", link) for link in "123")
-    omega, epsilon = column(w2, w3), column(Symbol("ε", "2"), Symbol("ε", "3"))
-    a = Matrix(
-        ((negative(multiply(bc, s2)), multiply(cd, s3)), (multiply(bc, c2), negative(multiply(cd, c3))))
+    AB, BC, CD, AD = (Symbol("l", name) for name in ("AB", "BC", "CD", "AD"))
+    φ1, φ2, φ3 = (Symbol("φ", link) for link in "123")
+    ω1, ω2, ω3 = (Symbol("ω", link) for link in "123")
+    ω, ε = column(ω2, ω3), column(Symbol("ε", "2"), Symbol("ε", "3"))
+    A = Matrix(((-BC * sin(φ2), CD * sin(φ3)), (BC * cos(φ2), -CD * cos(φ3))))
+    dA = Matrix(((-ω2 * BC * cos(φ2), ω3 * CD * cos(φ3)), (-ω2 * BC * sin(φ2), ω3 * CD * sin(φ3))))
+    B, dB = column(AB * sin(φ1), -AB * cos(φ1)), column(ω1 * AB * cos(φ1), ω1 * AB * sin(φ1))
+    a11, a12, a21, a22 = (Symbol("a", place) for place in ("11", "12", "21", "22"))
+    filled_A, filled_dA = (
+        Matrix(tuple(tuple(Ref(f"{name}.{i}{j}") for j in "12") for i in "12")) for name in ("A", "dA")
     )
-    rate = Matrix(
-        (
-            (negative(multiply(w2, bc, c2)), multiply(w3, cd, c3)),
-            (negative(multiply(w2, bc, s2)), multiply(w3, cd, s3)),
-        )
-    )
-    b, b_rate = column(multiply(ab, s1), negative(multiply(ab, c1))), column(multiply(w1, ab, c1), multiply(w1, ab, s1))
-    filled = {name: Matrix(tuple(tuple(Ref(f"{name}.{i}{j}") for j in "12") for i in "12")) for name in ("A", "dA")}
-    columns = {name: column(f"{name}.1", f"{name}.2") for name in ("B", "dB")}
+    filled_B, filled_dB = (column(Ref(f"{name}.1"), Ref(f"{name}.2")) for name in ("B", "dB"))
+    filled_ω, filled_ω1 = column(Ref("f.omega.2"), Ref("f.omega.3")), Ref("omega.1")
     return {
         "closure": (
-            Chain((add(multiply(ab, c1), multiply(bc, c2)), add(ad, multiply(cd, c3)))),
-            Chain((add(multiply(ab, s1), multiply(bc, s2)), multiply(cd, s3))),
+            Chain((AB * cos(φ1) + BC * cos(φ2), AD + CD * cos(φ3))),
+            Chain((AB * sin(φ1) + BC * sin(φ2), CD * sin(φ3))),
         ),
-        "velocity": (Chain((multiply(a, omega), multiply(b, w1))),),
-        "determinant": (
-            Chain(
-                (
-                    Symbol("Δ"),
-                    subtract(
-                        multiply(Symbol("a", "11"), Symbol("a", "22")), multiply(Symbol("a", "12"), Symbol("a", "21"))
-                    ),
-                    multiply(bc, cd, call("sin", subtract(Symbol("φ", "2"), Symbol("φ", "3")))),
-                )
-            ),
-        ),
-        "velocity-numbers": (Chain((multiply(filled["A"], omega), multiply(columns["B"], Ref("omega.1")))),),
-        "acceleration": (_second(a, epsilon, rate, omega, b_rate, w1),),
-        "acceleration-numbers": (
-            _second(
-                filled["A"],
-                epsilon,
-                filled["dA"],
-                column("f.omega.2", "f.omega.3"),
-                columns["dB"],
-                Ref("omega.1"),
-            ),
-        ),
+        "velocity": (Chain((A * ω, B * ω1)),),
+        "determinant": (Chain((Symbol("Δ"), a11 * a22 - a12 * a21, BC * CD * sin(φ2 - φ3))),),
+        "velocity-numbers": (Chain((filled_A * ω, filled_B * filled_ω1)),),
+        "acceleration": (Chain((A * ε, -(dA * ω) + dB * ω1)),),
+        "acceleration-numbers": (Chain((filled_A * ε, -(filled_dA * filled_ω) + filled_dB * filled_ω1)),),
     }
-
-
-def _second(
-    a: Matrix, epsilon: Matrix, rate: Matrix, omega: Matrix, b_rate: Matrix, w1: Expression
-) -> Chain:
-    """[A][ε] = −[Ȧ][ω] + [Ḃ]ω₁."""
-    return Chain((multiply(a, epsilon), add(negative(multiply(rate, omega)), multiply(b_rate, w1))))

@@ -8,34 +8,33 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from reportgen.assignment import checks
 from reportgen.assignment.common import Assignment, Draft, Part, Positions
 from reportgen.assignment.faults import Finding
-from reportgen.assignment.fields import (
-    Length,
-    Mass,
-    MomentOfInertia,
-    Share,
-    Weight,
-    quantity,
+from reportgen.assignment.fields import Length, quantity
+from reportgen.catalogue import reach
+from reportgen.catalogue.driven import (
+    CRANK_DRAWN,
+    Driven,
+    centre_points,
+    datum,
+    driven,
+    enter_bar,
+    enter_mass,
+    enter_speed,
+    inertias,
 )
-from reportgen.catalogue import bars, reach, regulation
-from reportgen.catalogue.course import Floats
-from reportgen.catalogue.driven import Driven, mass_keys, outline, rate_items
-from reportgen.catalogue.laws import Law
-from reportgen.catalogue.machine import Applied, Item, Machine, mass_items
-from reportgen.catalogue.resistance import Constant, opposing
+from reportgen.catalogue.loads import Applied, Constant, Floats, Law, opposing
+from reportgen.catalogue.machine import Machine
 from reportgen.mechanism.motion import solve_motion
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.notation.expressions import Symbol, subtract
+from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
+from reportgen.notation.expressions import Symbol
+from reportgen.notation.sheet import Sheet
+from reportgen.notation.symbols import drawn_length
 from reportgen.units import Given
 
-KIND = "lever-six-bar"
-TITLES = {"vi": "Cơ cấu đòn sáu khâu", "en": "Six-link lever mechanism"}
 TURNS = 1
-
-CRANK_DRAWN = 0.04
-"""Drawn length of the crank (m on paper) when none is asked for."""
+BARS = {1: "BA", 2: "AC", 3: "DC", 4: "EF"}
+"""The bars by the pins at their ends."""
 Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
 Size = Annotated[Given, quantity("N", least=0, most=1e9)]
 
@@ -54,7 +53,9 @@ class SliderForce(Part):
     sense: Literal["opposing", "right", "left"] = "opposing"
 
 
-class Parameters(Driven):
+class Parameters(
+    Driven, masses=(1, 2, 3, 4, 5), moments=(1, 2, 3, 4), shares=(1, 2, 3, 4), loads=("force",)
+):
     """Lengths, fixed points, the way the groups are assembled, the speed; masses and the load if given."""
 
     AB: Length
@@ -66,87 +67,73 @@ class Parameters(Driven):
     guide: Coordinate
     C: Literal["left", "right"] = "left"
     F: Literal["left", "right"] = "left"
-    s1: Share | None = None
-    s2: Share | None = None
-    s3: Share | None = None
-    s4: Share | None = None
-    G1: Weight | None = None
-    G2: Weight | None = None
-    G3: Weight | None = None
-    G4: Weight | None = None
-    G5: Weight | None = None
-    m1: Mass | None = None
-    m2: Mass | None = None
-    m3: Mass | None = None
-    m4: Mass | None = None
-    m5: Mass | None = None
-    J1: MomentOfInertia | None = None
-    J2: MomentOfInertia | None = None
-    J3: MomentOfInertia | None = None
-    J4: MomentOfInertia | None = None
     force: SliderForce | None = None
 
-    @property
-    def bars(self) -> tuple[bars.Bar, ...]:
-        """The bars with their mass centres S1…S4."""
-        return (
-            bars.bar(self, 1, "B", "A", self.AB.si, seen=True),
-            bars.bar(self, 2, "A", "C", self.AC.si, seen=True),
-            bars.bar(self, 3, "D", "C", self.CD.si, seen=True),
-            bars.bar(self, 4, "E", "F", self.EF.si, seen=True),
-        )
 
-    @property
-    def inertias(self) -> tuple[Inertia, ...]:
-        own = (Inertia(5, "F", self.mass(5)),) if self.mass(5) else ()
-        return (*(inertia for bar in self.bars for inertia in bar.inertia(self.g.si)), *own)
+def _sheet(given: Parameters, crank: Given | None = None) -> Sheet:
+    """Given data, the place of E, mass centres, masses and moments of inertia."""
+    q = Sheet()
+    datum(q, "l.BA", given.AB, Symbol("l", "AB"))
+    datum(q, "l.AC", given.AC)
+    datum(q, "l.DC", given.CD, Symbol("l", "CD"))
+    datum(q, "l.CE", given.CE)
+    datum(q, "l.EF", given.EF)
+    datum(q, "D.x", given.D.x, Symbol("x", "D"), "length")
+    datum(q, "D.y", given.D.y, Symbol("y", "D"), "length")
+    datum(q, "F.y", given.guide, Symbol("y", "F"), "length")
+    enter_speed(q, given.n, given.omega1, given.flywheel)
+    q.give("drawn.BA", crank.si if crank else CRANK_DRAWN, drawn_length("A", "B"))
+    q.define("l.AE", q["l.AC"] - q["l.CE"])
+    if any(given.typed(letter, link) for letter in "GmJ" for link in (*BARS, 5)):
+        datum(q, "g", given.g)
+    for link, (start, end) in BARS.items():
+        enter_bar(q, given, link, start, end, always=True)
+    enter_mass(q, 5, given.typed("G", 5), given.typed("m", 5))
+    if given.force is not None:
+        datum(q, "P.given", given.force.P, Symbol("P", "5"), "force")
+    return q
 
-    @property
-    def linkage(self) -> Linkage:
-        """The mechanism with B in the origin."""
-        rod = (self.EF.si, 0.0)
-        guide = Guide(1j * self.guide.si, 0.0)
-        return Linkage(
-            ground={"B": 0j, "D": complex(self.D.x.si, self.D.y.si)},
-            driver=Crank("B", "A", self.AB.si),
-            dyads=(
-                Dyad("RRR", (2, 3), "A", "C", "D", (self.AC.si, self.CD.si), 1 if self.C == "left" else -1),
-                Dyad("RRP", (4, 5), "E", "F", guide, rod, 1 if self.F == "right" else -1),
-            ),
-            points=(
-                LinkPoint("E", 2, complex(self.AC.si - self.CE.si)),
-                *(point for bar in self.bars for point in bar.point()),
-            ),
-            inertias=self.inertias,
-            gravity=-1j * self.g.si,
-        )
+
+def _linkage(given: Parameters, q: Sheet) -> Linkage:
+    """The mechanism with B in the origin."""
+    left, right = (1 if side else -1 for side in (given.C == "left", given.F == "right"))
+    return Linkage(
+        ground={"B": 0j, "D": complex(q.si("D.x"), q.si("D.y"))},
+        driver=Crank("B", "A", q.si("l.BA")),
+        dyads=(
+            Dyad("RRR", (2, 3), "A", "C", "D", (q.si("l.AC"), q.si("l.DC")), left),
+            Dyad("RRP", (4, 5), "E", "F", Guide(1j * q.si("F.y"), 0.0), (q.si("l.EF"), 0.0), right),
+        ),
+        points=(
+            LinkPoint("E", 2, complex(q.si("l.AE"))),
+            *centre_points(q, {link: start for link, (start, _) in BARS.items()}),
+        ),
+        inertias=inertias(q, {**{link: f"S{link}" for link in BARS}, 5: "F"}),
+        gravity=-1j * given.g.si,
+    )
 
 
 def _check_turning(draft: Draft) -> Iterator[Finding]:
     """The crank turns fully, without dead points, and CD is a rocker."""
-    given = draft.sections.get("parameters")
+    given: Parameters | None = draft.sections.get("parameters")
     if given is None:
         return
     if given.CE.si > given.AC.si:
         upper = f"≤ AC = {given.AC.text}"
         yield Finding("out-of-range", ("parameters", "CE"), {"text": given.CE.text, "range": upper})
         return
+    linkage = _linkage(given, _sheet(given))
     members = {
         (2, 3): reach.Member("AC, CD", ("parameters", "CD")),
         (4, 5): reach.Member("EF", ("parameters", "EF")),
     }
-    found = list(reach.findings(given.linkage, members))
+    found = list(reach.findings(linkage, members))
     yield from found
-    if not found and reach.turns_fully(given.linkage, 3):
+    if not found and reach.turns_fully(linkage, 3):
         yield Finding("not-a-rocker", ("parameters", "CD"), {"link": "3", "rods": "CD"})
 
 
-CHECKS = (
-    checks.one_of("parameters", "n", "omega1"),
-    *bars.one_mass((1, 2, 3, 4, 5)),
-    regulation.needs_loads((*mass_keys((1, 2, 3, 4, 5)), "force")),
-    _check_turning,
-)
+CHECKS = (_check_turning,)
 
 
 # --- the machine ----------------------------------------------------------------------------------
@@ -161,63 +148,32 @@ SUMMARY = (
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The six-link lever mechanism of an assignment: linkage, load, quantities of its own, outline."""
+    """The six-link lever mechanism of an assignment: linkage, load, a summary of its velocities."""
     given: Parameters = assignment.parameters
-    positions, linkage = assignment.positions, given.linkage
+    positions = assignment.positions
+    q = _sheet(given, assignment.drawing.crank)
+    linkage = _linkage(given, q)
     start = 0.0 if positions.start is None else positions.start.si
-    applied = _applied(given, positions, start)
-    return Machine(
-        kind=KIND,
-        linkage=linkage,
-        start=start,
-        turn=positions.sign,
-        speed=given.speed,
-        count=positions.count,
-        turns=TURNS,
-        given=_items(given, assignment.drawing.crank),
-        formulas=(),
-        outline=outline(bool(linkage.inertias), bool(applied), given.flywheel, summary=("summary",)),
-        unevenness=given.unevenness,
-        applied=applied,
+    return driven(
+        assignment,
+        q,
+        linkage,
+        start,
+        {"summary": ("summary",)},
+        applied=_applied(given, linkage, positions, start),
         paths=("S2", "E", "S4"),
         facts={"summary": SUMMARY},
     )
 
 
-def _applied(given: Parameters, positions: Positions, start: float) -> tuple[Applied, ...]:
+def _applied(given: Parameters, linkage: Linkage, positions: Positions, start: float) -> tuple[Applied, ...]:
     """The force on the slider, positive to the right."""
     if given.force is None:
         return ()
-    size, sense = given.force.P.si, given.force.sense
-    turn, linkage = positions.sign, given.linkage
+    size, sense, turn = given.force.P.si, given.force.sense, positions.sign
 
-    def course(angle: Floats) -> Floats:
+    def rate(angle: Floats) -> Floats:
         return solve_motion(linkage, start + turn * angle, turn * given.speed).points["F"].v.real
 
-    law: Law = opposing(size, course) if sense == "opposing" else Constant(size if sense == "right" else -size)
+    law: Law = opposing(size, rate) if sense == "opposing" else Constant(size if sense == "right" else -size)
     return (Applied("P5", 5, "F", 1 + 0j, law),)
-
-
-def _items(given: Parameters, crank: Given | None) -> tuple[Item, ...]:
-    """Given data, the place of E, mass centres, masses and moments of inertia."""
-    items = [
-        Item("l.BA", Symbol("l", "AB"), "length", given.AB.si),
-        Item("l.AC", Symbol("l", "AC"), "length", given.AC.si),
-        Item("l.DC", Symbol("l", "CD"), "length", given.CD.si),
-        Item("l.CE", Symbol("l", "CE"), "length", given.CE.si),
-        Item("l.EF", Symbol("l", "EF"), "length", given.EF.si),
-        Item("D.x", Symbol("x", "D"), "length", given.D.x.si),
-        Item("D.y", Symbol("y", "D"), "length", given.D.y.si),
-        Item("F.y", Symbol("y", "F"), "length", given.guide.si),
-        *rate_items(given),
-        Item("drawn.BA", Symbol("AB", over="segment"), "segment", crank.si if crank else CRANK_DRAWN),
-        Item("l.AE", Symbol("l", "AE"), "length", definition=subtract("l.AC", "l.CE")),
-    ]
-    if given.inertias:
-        items.append(Item("g", Symbol("g"), "gravity", given.g.si))
-    for bar in given.bars:
-        items += bar.items()
-    items += mass_items(5, given.G5, given.m5)
-    if given.force is not None:
-        items.append(Item("P.given", Symbol("P", "5"), "force", given.force.P.si))
-    return tuple(items)

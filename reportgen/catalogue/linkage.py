@@ -6,27 +6,42 @@ loads; `linkage_file` says what each key means.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+import cmath
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
-from reportgen.catalogue import linkage_checks, linkage_file, linkage_loads, linkage_told, regulation
-from reportgen.catalogue.course import FULL_TURN, Floats
-from reportgen.catalogue.driven import outline
-from reportgen.catalogue.laws import MotionAt
-from reportgen.catalogue.linkage_build import linkage
+from reportgen.catalogue import linkage_checks, linkage_words
+from reportgen.catalogue import linkage_file as file
+from reportgen.catalogue.driven import datum, enter_mass, enter_speed, needs_loads, outline
 from reportgen.catalogue.linkage_file import Parameters
-from reportgen.catalogue.machine import Applied, Item, Machine, Torque, lettered, mass_items, speed_items
+from reportgen.catalogue.loads import (
+    FULL_TURN,
+    AngleLaw,
+    Applied,
+    Constant,
+    Floats,
+    Law,
+    MotionAt,
+    TableLaw,
+    Torque,
+    WayLaw,
+    by_stroke,
+    course,
+    opposing,
+    rails,
+)
+from reportgen.catalogue.machine import Machine, lettered
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import Linkage
+from reportgen.mechanism.structure import DRIVER, Linkage
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import nice_up
+from reportgen.notation.sheet import Sheet
+from reportgen.notation.symbols import drawn_length
 
-KIND = "linkage"
-TITLES = {"vi": "Cơ cấu phẳng nhiều khâu", "en": "Plane linkage"}
 TURNS = 1
 """A cycle of two turns counts the second turn's positions among those added to the first."""
 
@@ -54,11 +69,11 @@ def _check_speed(draft: Draft) -> Iterator[Finding]:
 def _check_flywheel(draft: Draft) -> Iterator[Finding]:
     """A flywheel turns with a crank."""
     given: Parameters | None = draft.sections.get("parameters")
-    if given is not None and given.flywheel is not None and isinstance(given.driver, linkage_file.SlideDriver):
+    if given is not None and given.flywheel is not None and isinstance(given.driver, file.SlideDriver):
         yield Finding("flywheel-of-slide", ("parameters", "flywheel"), at="key")
 
 
-CHECKS = (_check_speed, regulation.needs_loads(("masses", "loads")), _check_flywheel, linkage_checks.check)
+CHECKS = (_check_speed, needs_loads(("masses", "loads")), _check_flywheel, linkage_checks.check)
 
 
 def added_positions(parameters: Parameters, positions: Positions) -> int:
@@ -75,7 +90,7 @@ def _start(positions: Positions) -> float:
 
 def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...], tuple[str, ...]]:
     """Uneven positions and their labels; none where every position is an even one."""
-    if not given.also_at or not isinstance(given.driver, linkage_file.CrankDriver):
+    if not given.also_at or not isinstance(given.driver, file.CrankDriver):
         return (), ()
     extra = (positions.sign * (angle.si - _start(positions)) for angle in dict.fromkeys(given.also_at))
     return lettered(positions.count, given.turns, extra)
@@ -87,41 +102,41 @@ def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...],
 def machine(assignment: Assignment) -> Machine:
     """The linkage of an assignment with its loads and the report's outline."""
     given: Parameters = assignment.parameters
-    positions, made = assignment.positions, linkage(assignment.parameters)
+    positions, driver, linkage = assignment.positions, given.driver, given.linkage
     places, labels = _places(given, positions)
-    crank = isinstance(given.driver, linkage_file.CrankDriver)
+    crank = isinstance(driver, file.CrankDriver)
     start, turn, span = _start(positions), positions.sign, 0.0
-    if isinstance(given.driver, linkage_file.SlideDriver):
-        start, span = given.driver.start.si, given.driver.span
-        turn = 1 if given.driver.end.si > start else -1
+    if isinstance(driver, file.SlideDriver):
+        start, span = driver.start.si, driver.span
+        turn = 1 if driver.end.si > start else -1
         places = tuple(np.linspace(0.0, FULL_TURN, positions.count))
     built = Machine(
-        kind=KIND,
-        linkage=made,
+        kind=assignment.kind,
+        linkage=linkage,
         start=start,
         turn=turn,
-        speed=given.driver.rate,
+        speed=driver.rate,
         count=len(places) or positions.count,
         turns=given.turns if crank else 1,
         span=span,
-        given=(),
-        formulas=(),
+        sheet=Sheet(),
         outline=(),
         paths=given.paths,
         places=places,
         labels=labels,
     )
-    loads = linkage_loads.laid_on(given, made, _motion_at(built))
+    loads = _loads(given, linkage, _motion_at(built))
     drawn = assignment.drawing.crank
-    items = _items(given, made, built, drawn.si if drawn else None)
     return replace(
         built,
-        given=items,
+        sheet=_sheet(given, linkage, built, drawn.si if drawn else None),
         applied=tuple(load for load in loads if isinstance(load, Applied)),
         torques=tuple(load for load in loads if isinstance(load, Torque)),
-        outline=outline(bool(made.inertias), bool(loads), given.flywheel, driver="crank" if crank else "slide"),
+        outline=outline(
+            bool(linkage.inertias), bool(loads), given.flywheel, driver="crank" if crank else "slide"
+        ),
         unevenness=None if given.flywheel is None else given.flywheel.delta.si,
-        facts=linkage_told.facts(given, tuple(load.name for load in loads)),
+        facts=linkage_words.facts(given, tuple(load.name for load in loads)),
     )
 
 
@@ -132,50 +147,35 @@ def _motion_at(machine: Machine) -> MotionAt:
     return motion_at
 
 
-def _items(given: Parameters, made: Linkage, built: Machine, drawn: float | None) -> tuple[Item, ...]:
-    """Fixed points, lengths, speed, drawn length, masses and moments of inertia, constant loads."""
-    items = [
-        Item(f"frame.{axis}.{name}", Symbol(axis, name), "length", value)
-        for name, place in made.ground.items()
-        for axis, value in (("x", place.real), ("y", place.imag))
-    ]
-    items += _driver_items(given, made, built, drawn)
-    for group in given.groups:
-        if isinstance(group, linkage_file.RRR):
-            first, middle, last = group.joints
-            ends = ((first, middle), (last, middle))
-            items += [_length(*pair, length.si) for pair, length in zip(ends, group.lengths, strict=True)]
-        elif isinstance(group, linkage_file.RRP):
-            items.append(_length(group.joints[0], group.joints[1], group.length.si))
-    if any(body.mass for body in made.inertias):
-        items.append(Item("g", Symbol("g"), "gravity", given.g.si))
-    for body in given.masses:
-        items += mass_items(body.link, body.G, body.m)
-        if body.J is not None:
-            symbol = Symbol("J", body.at if body.at[0] == "S" else f"{body.at}{body.link}")
-            items.append(Item(f"J.{body.link}", symbol, "moment of inertia", body.J.si))
-    return tuple({item.id: item for item in items}.values())
-
-
-def _length(start: str, end: str, value: float) -> Item:
-    return Item(f"l.{start}{end}", Symbol("l", f"{start}{end}"), "length", value)
-
-
-def _driver_items(given: Parameters, made: Linkage, built: Machine, drawn: float | None) -> list[Item]:
-    driver = given.driver
-    if isinstance(driver, linkage_file.CrankDriver):
-        arm = f"{driver.centre}{driver.pin}"
+def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | None) -> Sheet:
+    """Fixed points, lengths, speed, drawn length, masses and moments of inertia."""
+    q, driver = Sheet(), given.driver
+    for name, place in linkage.ground.items():
+        for axis, value in (("x", place.real), ("y", place.imag)):
+            q.give(f"frame.{axis}.{name}", value, Symbol(axis, name), "length")
+    if isinstance(driver, file.CrankDriver):
+        datum(q, f"l.{driver.centre}{driver.pin}", driver.length)
+        enter_speed(q, driver.n, driver.omega1, given.flywheel)
         paper = _drawn(built, driver.length.si) if drawn is None else drawn
-        return [
-            _length(driver.centre, driver.pin, driver.length.si),
-            *speed_items(driver.n, driver.omega1),
-            *regulation.items(given.flywheel),
-            Item(f"drawn.{arm}", Symbol(arm, over="segment"), "segment", paper),
-        ]
-    return [
-        Item(f"v.{driver.pin}", Symbol("v", driver.pin), "velocity", driver.speed.si),
-        Item("span", Symbol("H", "1"), "length", built.span),
-    ]
+        q.give(f"drawn.{driver.centre}{driver.pin}", paper, drawn_length(driver.centre, driver.pin))
+    else:
+        datum(q, f"v.{driver.pin}", driver.speed)
+        q.give("span", built.span, Symbol("H", "1"), "length")
+    for group in given.groups:
+        if isinstance(group, file.RRR):
+            first, middle, last = group.joints
+            for outer, length in zip((first, last), group.lengths, strict=True):
+                datum(q, f"l.{outer}{middle}", length)
+        elif isinstance(group, file.RRP):
+            datum(q, "l." + "".join(group.joints), group.length)
+    if any(body.mass for body in linkage.inertias):
+        datum(q, "g", given.g)
+    for body in given.masses:
+        enter_mass(q, body.link, body.G, body.m)
+        if body.J is not None:
+            at = body.at if body.at[0] == "S" else f"{body.at}{body.link}"
+            datum(q, f"J.{body.link}", body.J, Symbol("J", at))
+    return q
 
 
 def _drawn(built: Machine, crank: float) -> float:
@@ -184,3 +184,103 @@ def _drawn(built: Machine, crank: float) -> float:
     places = np.array([point.p for point in motion.points.values()])
     width, height = np.ptp(places.real), np.ptp(places.imag)
     return crank / nice_up(max(width / BOX[0], height / BOX[1], crank / LARGEST_CRANK))
+
+
+# --- loads ----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Resistance:
+    """−`size`·sgn(rate) over the way of a sliding driver, which does not come back to its start."""
+
+    size: float
+    rate: Callable[[Motion], Floats]
+    reversals: tuple[float, ...]
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        return -self.size * np.sign(self.rate(motion))
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        return self.reversals
+
+
+def _loads(given: file.Parameters, linkage: Linkage, motion_at: MotionAt) -> tuple[Applied | Torque, ...]:
+    """The loads in the order of the file, named P (forces) and M (torques) with their link's number."""
+    found: list[Applied | Torque] = []
+    for load in given.loads:
+        link = load.link
+        if isinstance(load, file.OverStroke | file.Gas):
+            found.append(_on_slider(load, given, linkage, motion_at, _name("P", link, found)))
+        elif load.at is None:
+            found.append(Torque(_name("M", link, found), link, _turning(load, given.driver, motion_at)))
+        else:
+            direction = cmath.exp(1j * load.direction.si)
+            law = _pushing(load, load.at, direction, given.driver, motion_at)
+            found.append(Applied(_name("P", link, found), link, load.at, direction, law))
+    return tuple(found)
+
+
+def _name(letter: str, link: int, others: Iterable[Applied | Torque]) -> str:
+    """P3; a second one on the same link P3a, then P3b."""
+    count = sum(one.link == link and one.name[0] == letter for one in others)
+    return f"{letter}{link}{chr(ord('a') + count - 1) if count else ''}"
+
+
+def _on_slider(
+    load: file.OverStroke | file.Gas, given: file.Parameters, linkage: Linkage, motion_at: MotionAt, name: str
+) -> Applied:
+    dyad, guide = rails(linkage)[load.link]
+    if isinstance(load, file.Gas):
+        top = 1 if load.intake == "first top" else 2
+        way = course(linkage, load.link, motion_at, given.turns, top)
+        area = float(np.pi * load.D.si**2 / 4)
+        return Applied(name, load.link, dyad.middle, way.inward, TableLaw(way, load.diagram.table, area))
+    one = load.unit.si
+    table = by_stroke(load.s, *(tuple(value * one for value in row) for row in (load.inward, load.outward)))
+    way = course(linkage, load.link, motion_at)
+    return Applied(name, load.link, dyad.middle, cmath.exp(1j * guide.angle), TableLaw(way, table, turns=1))
+
+
+def _pushing(
+    load: file.Constant | file.OverAngle | file.OverWay,
+    point: str,
+    direction: complex,
+    driver: file.Driver,
+    motion_at: MotionAt,
+) -> Law:
+    if not isinstance(load, file.Constant):
+        return _by_driver(load, load.unit.si if load.unit else 1.0, driver)
+    assert load.F is not None
+
+    def rate(motion: Motion) -> Floats:
+        return np.asarray(np.real(np.conj(direction) * motion.points[point].v))
+
+    return _constant(load, load.F.si, rate, motion_at)
+
+
+def _turning(
+    load: file.Constant | file.OverAngle | file.OverWay, driver: file.Driver, motion_at: MotionAt
+) -> Law:
+    if not isinstance(load, file.Constant):
+        return _by_driver(load, load.torque_unit.si if load.torque_unit else 1.0, driver)
+    assert load.M is not None
+    return _constant(load, load.M.si, lambda motion: motion.links[load.link].omega, motion_at)
+
+
+def _constant(
+    load: file.Constant, size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt
+) -> Law:
+    if not load.against:
+        return Constant(size)
+    found = opposing(abs(size), lambda angle: rate(motion_at(angle)))
+    # A crank has an angular velocity of its own, a slide has none.
+    turns = bool(np.any(motion_at(np.zeros(1)).links[DRIVER].omega))
+    return found if turns else Resistance(abs(size), rate, found.reversals)
+
+
+def _by_driver(load: file.OverAngle | file.OverWay, one: float, driver: file.Driver) -> Law:
+    values = tuple(value * one for value in load.values)
+    if isinstance(load, file.OverAngle):
+        return AngleLaw(tuple(angle.si for angle in load.angle), values)
+    assert isinstance(driver, file.SlideDriver), "a file with another driver is refused by the kind's checks"
+    return WayLaw(tuple(way.si for way in load.way), values, driver.span)

@@ -2,18 +2,30 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
 
+import numpy as np
+
 from reportgen.assignment.common import Draft, Positions
 from reportgen.assignment.faults import Finding, Where
 from reportgen.catalogue import linkage_file as file
-from reportgen.catalogue.linkage_assembly import TOP, assembly, guides
-from reportgen.catalogue.linkage_build import linkage
+from reportgen.catalogue import reach
+from reportgen.catalogue.loads import NotToAndFro, course
+from reportgen.catalogue.reach import Member
 from reportgen.mechanism.mobility import mobility
-from reportgen.mechanism.structure import DRIVER, GROUND
+from reportgen.mechanism.motion import Motion, solve_motion
+from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Linkage
+from reportgen.units import Given
+
+TOP: Where = ("parameters",)
+STEPS = 720
+SAME = 1e-9
+"""A way (m) beyond a slot by less than this is at its end."""
+
 
 TURNING = ("parameters", ("turns", "also_at"))
 """Parameters that count or place turns of a crank."""
@@ -24,13 +36,13 @@ def check(draft: Draft) -> Iterator[Finding]:
     given: file.Parameters | None = draft.sections.get("parameters")
     if given is None:
         return
-    told = [*_structure(given), *_bodies(given), *_loads(given), *_of_a_crank(draft, given)]
-    told += [] if told else _declared(given)
-    yield from told
-    if told:
+    found = [*_structure(given), *_bodies(given), *_loads(given), *_of_a_crank(draft, given)]
+    found += [] if found else _declared(given)
+    yield from found
+    if found:
         return
     positions = draft.sections.get("positions") or Positions()
-    yield from assembly(given, positions)
+    yield from _assembly(given, positions)
 
 
 def _of_a_crank(draft: Draft, given: file.Parameters) -> Iterator[Finding]:
@@ -126,7 +138,7 @@ def _group(given: file.Parameters, group: file.Group, at: Where, placed: _Placed
     for index, name in enumerate(group.joints):
         if index != middle:
             yield from placed.need(name, (*joints, index))
-    for guide, where in guides(group, at):
+    for guide, where in _guides(group, at):
         yield from placed.carrier(guide.on, (*where, "on"))
     yield from placed.enter(group.joints[middle], (*joints, middle))
     if group.type == "RPR":
@@ -270,7 +282,7 @@ def _declared(given: file.Parameters) -> Iterator[Finding]:
     """Degree of freedom, class and groups as the author holds them for."""
     declared, at = given.declared, (*TOP, "declared")
     try:
-        found = mobility(linkage(given))
+        found = mobility(given.linkage)
     except (KeyError, ValueError):
         return
     for key, said, is_so in (("W", declared.W, found.W), ("class", declared.class_, found.mechanism_class)):
@@ -284,3 +296,108 @@ def _declared(given: file.Parameters) -> Iterator[Finding]:
             yield Finding(
                 "not-as-declared", (*at, "groups"), {"text": text, "found": ", ".join(map(str, is_groups))}
             )
+
+
+# --- assembly -------------------------------------------------------------------------------------
+
+
+def _guides(group: file.Group, at: Where) -> list[tuple[file.GuideSection, Where]]:
+    """The guides of a group, each with its place in the file."""
+    if isinstance(group, file.PRP):
+        return [(guide, (*at, "guides", index)) for index, guide in enumerate(group.guides)]
+    return [(group.guide, (*at, "guide"))] if isinstance(group, file.RRP | file.RPP) else []
+
+
+def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]:
+    """The first group that does not follow the driver; else blocks that leave their slots, sliders of tables."""
+    made = given.linkage
+    members = {
+        (group.links[0], group.links[1]): Member(_rods(group), (*TOP, "groups", index))
+        for index, group in enumerate(given.groups)
+    }
+    if isinstance(given.driver, file.SlideDriver):
+        yield from _along_the_way(given, given.driver, made, members)
+        return
+    found = list(reach.findings(made, members))
+    yield from found
+    if found:
+        return
+    start = 0.0 if positions.start is None else positions.start.si
+
+    def motion_at(angle: np.ndarray) -> Motion:
+        return solve_motion(made, start + positions.sign * angle, positions.sign * 1.0)
+
+    yield from _slots(given, made, motion_at(np.linspace(0.0, 2 * np.pi, STEPS + 1)))
+    for index, load in enumerate(given.loads):
+        if isinstance(load, file.OverStroke | file.Gas):
+            try:
+                course(made, load.link, motion_at)
+            except NotToAndFro as fault:
+                words = {"text": str(load.link), "count": str(fault.reversals)}
+                yield Finding("not-to-and-fro", (*TOP, "loads", index, "link"), words)
+
+
+def _along_the_way(
+    given: file.Parameters, driver: file.SlideDriver, made: Linkage, members: dict[tuple[int, int], Member]
+) -> Iterator[Finding]:
+    start, end = driver.start, driver.end
+    slot = driver.guide.slot
+    for key, at in (("start", start), ("end", end)):
+        if slot is not None and not slot[0].si - SAME <= at.si <= slot[1].si + SAME:
+            words = {"text": at.text, "slot": f"{slot[0].text} … {slot[1].text}"}
+            yield Finding("driver-out-of-slot", (*TOP, "driver", key), words)
+    found = list(reach.findings(made, members, reach.Way(start.si, end.si, turning=False)))
+    yield from found
+    if not found:
+        yield from _slots(given, made, solve_motion(made, np.linspace(start.si, end.si, STEPS + 1), driver.rate))
+
+
+def _rods(group: file.Group) -> str:
+    """A group's links by the letters of their joints."""
+    names = group.joints
+    match group.type:
+        case "RRR":
+            return f"{names[0]}{names[1]}, {names[1]}{names[2]}"
+        case "RRP" | "RPP":
+            return f"{names[0]}{names[1]}"
+        case "RPR":
+            return f"{names[0]}{names[2]}"
+        case _:
+            return names[0]
+
+
+def _slots(given: file.Parameters, made: Linkage, motion: Motion) -> Iterator[Finding]:
+    """Every block stays in its slot, where a slot's ends are given."""
+    for index, group in enumerate(given.groups):
+        at = (*TOP, "groups", index)
+        i, j = group.links
+        watched = [
+            (guide, where, (guide.on, link))
+            for (guide, where), link in zip(
+                _guides(group, at), group.links if group.type == "PRP" else (j,), strict=False
+            )
+        ]
+        ways = [(guide.slot, (*where, "slot"), key) for guide, where, key in watched]
+        if isinstance(group, file.RPR):
+            ways.append((group.slot, (*at, "slot"), (j, i)))
+        for slot, where, key in ways:
+            if slot is not None:
+                yield from _stays(slot, where, key, motion, f"({i}, {j})", isinstance(made.driver, Crank))
+
+
+def _stays(
+    slot: tuple[Given, ...], where: Where, key: tuple[int, int], motion: Motion, group: str, turns: bool
+) -> Iterator[Finding]:
+    way = motion.slides[key].s
+    beyond = np.maximum(slot[0].si - way, way - slot[1].si)
+    worst = int(np.argmax(beyond))
+    if beyond[worst] > SAME:
+        driver = float(motion.driver[worst])
+        words = {
+            "block": str(key[1]),
+            "link": str(key[0]),
+            "group": group,
+            "at": f"{math.degrees(cmath.phase(cmath.exp(1j * driver))) if turns else driver * 1e3:.4g}",
+            "way": f"{way[worst] * 1e3:.4g}",
+        }
+        yield Finding("out-of-slot" if turns else "out-of-slot-slide", where, words)

@@ -14,9 +14,7 @@ from reportgen.assignment.fields import (
     Acceleration,
     Angle,
     AngularVelocity,
-    CycleAngle,
     Decimal,
-    Fraction,
     Interval,
     Length,
     Mass,
@@ -29,9 +27,18 @@ from reportgen.assignment.fields import (
     fault,
     quantity,
 )
-from reportgen.catalogue import gas
-from reportgen.catalogue.regulation import Flywheel
-from reportgen.mechanism.structure import DyadKind
+from reportgen.catalogue.driven import Flywheel
+from reportgen.catalogue.given_loads import CycleAngles, Diagram, Fractions
+from reportgen.mechanism.structure import (
+    Crank,
+    Dyad,
+    DyadKind,
+    Guide,
+    Inertia,
+    Linkage,
+    LinkPoint,
+    SlidingDriver,
+)
 from reportgen.units import Given
 
 MOST_GROUPS = 12
@@ -66,8 +73,6 @@ Row = Annotated[
     tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9))], ...],
     Field(min_length=2, max_length=MOST_NODES),
 ]
-Fractions = Annotated[tuple[Fraction, ...], Field(min_length=2, max_length=MOST_NODES)]
-CycleAngles = Annotated[tuple[CycleAngle, ...], Field(min_length=2, max_length=MOST_NODES)]
 DriverWays = Annotated[
     tuple[Annotated[Given, quantity("mm", least=0, below=1e5)], ...],
     Field(min_length=2, max_length=MOST_NODES),
@@ -90,7 +95,7 @@ def place(at: tuple[Given, ...]) -> complex:
     return complex(at[0].si, at[1].si)
 
 
-class Guide(Part):
+class GuideSection(Part):
     """A straight guide through `at` in direction `angle`, on the frame or in the axes of the link `on`.
 
     `slot` are the least and the greatest way of the slider from `at` in that direction.
@@ -100,6 +105,11 @@ class Guide(Part):
     angle: Angle = LEVEL
     on: Carrier = 0
     slot: Ways | None = None
+
+    @property
+    def line(self) -> Guide:
+        """The guide in the axes of its link."""
+        return Guide(place(self.at), self.angle.si, self.on)
 
 
 # --- driver and groups ----------------------------------------------------------------------------
@@ -116,6 +126,10 @@ class CrankDriver(Part):
     omega1: AngularVelocity | None = None
 
     @property
+    def driver(self) -> Crank:
+        return Crank(self.centre, self.pin, self.length.si)
+
+    @property
     def rate(self) -> float:
         """|ω1| (rad/s)."""
         given = self.n or self.omega1
@@ -128,10 +142,14 @@ class SlideDriver(Part):
 
     type: Literal["slider"]
     pin: Name
-    guide: Guide = Guide()
+    guide: GuideSection = GuideSection()
     start: Coordinate = NOWHERE
     end: Coordinate
     speed: Speed
+
+    @property
+    def driver(self) -> SlidingDriver:
+        return SlidingDriver(self.pin, self.guide.line)
 
     @property
     def rate(self) -> float:
@@ -147,6 +165,10 @@ class SlideDriver(Part):
 Driver = Annotated[CrankDriver | SlideDriver, Field(discriminator="type")]
 
 
+def _pair(links: tuple[int, ...]) -> tuple[int, int]:
+    return links[0], links[1]
+
+
 class RRR(Part):
     """Two rods: `joints` are the outer joint of the first, their common joint, the outer joint of the second.
 
@@ -159,6 +181,13 @@ class RRR(Part):
     lengths: Lengths
     side: Literal["left", "right"]
 
+    @property
+    def dyad(self) -> Dyad:
+        """The group as the mechanism core knows it."""
+        first, middle, last = self.joints
+        lengths = self.lengths[0].si, self.lengths[1].si
+        return Dyad("RRR", _pair(self.links), first, middle, last, lengths, 1 if self.side == "left" else -1)
+
 
 class RRP(Part):
     """A rod from the first of `joints` to the pin of a slider, the farther or nearer way along its guide."""
@@ -167,8 +196,14 @@ class RRP(Part):
     links: Pair
     joints: Two
     length: Length
-    guide: Guide
+    guide: GuideSection
     end: Literal["far", "near"] = "far"
+
+    @property
+    def dyad(self) -> Dyad:
+        """The group as the mechanism core knows it."""
+        (start, middle), sign = self.joints, 1 if self.end == "far" else -1
+        return Dyad("RRP", _pair(self.links), start, middle, self.guide.line, (self.length.si, 0.0), sign)
 
 
 class RPR(Part):
@@ -186,6 +221,12 @@ class RPR(Part):
     axis: Literal["towards", "away"] = "towards"
     slot: Ways | None = None
 
+    @property
+    def dyad(self) -> Dyad:
+        """The group as the mechanism core knows it."""
+        (start, middle, end), sign = self.joints, 1 if self.axis == "towards" else -1
+        return Dyad("RPR", _pair(self.links), start, middle, end, (0.0, self.offset.si), sign)
+
 
 class PRP(Part):
     """Two sliders with a common pin, each on its guide."""
@@ -193,7 +234,13 @@ class PRP(Part):
     type: Literal["PRP"]
     links: Pair
     joints: Annotated[tuple[Name, ...], Field(min_length=1, max_length=1)]
-    guides: Annotated[tuple[Guide, ...], Field(min_length=2, max_length=2)]
+    guides: Annotated[tuple[GuideSection, ...], Field(min_length=2, max_length=2)]
+
+    @property
+    def dyad(self) -> Dyad:
+        """The group as the mechanism core knows it."""
+        first, second = self.guides
+        return Dyad("PRP", _pair(self.links), first.line, self.joints[0], second.line)
 
 
 class RPP(Part):
@@ -206,8 +253,14 @@ class RPP(Part):
     type: Literal["RPP"]
     links: Pair
     joints: Two
-    guide: Guide
+    guide: GuideSection
     across: Angle = Given(math.pi / 2, 90.0, "deg", "90 deg")
+
+    @property
+    def dyad(self) -> Dyad:
+        """The group as the mechanism core knows it."""
+        start, middle = self.joints
+        return Dyad("RPP", _pair(self.links), start, middle, self.guide.line, slide_angle=self.across.si)
 
 
 Group = Annotated[RRR | RRP | RPR | PRP | RPP, Field(discriminator="type")]
@@ -297,7 +350,7 @@ class Gas(Part):
     link: Link
     D: Length
     intake: Literal["first top", "second top"] = "first top"
-    diagram: gas.Diagram
+    diagram: Diagram
 
 
 Loading = Annotated[Constant | OverAngle | OverWay | OverStroke | Gas, Field(discriminator="by")]
@@ -326,3 +379,18 @@ class Parameters(Part):
     g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
     flywheel: Flywheel | None = None
     declared: Declared = Declared()
+
+    @property
+    def linkage(self) -> Linkage:
+        """The whole mechanism: frame, driver, groups in their order, points, masses."""
+        return Linkage(
+            ground={name: place(at) for name, at in self.frame.items()},
+            driver=self.driver.driver,
+            dyads=tuple(group.dyad for group in self.groups),
+            points=tuple(LinkPoint(name, one.link, place(one.at)) for name, one in self.points.items()),
+            inertias=tuple(
+                Inertia(body.link, body.at, body.mass(self.g.si), body.J.si if body.J else 0.0)
+                for body in self.masses
+            ),
+            gravity=-1j * self.g.si,
+        )

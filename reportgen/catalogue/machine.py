@@ -1,95 +1,24 @@
 """What a machine of the catalogue turns its parameters into: plain data that the rest of the house reads.
 
-A catalogue file gives a `Machine`; nothing downstream asks which kind it is.  Quantities of its own
-(synthesis, closed formulas) are `Item`s: definitions over other quantities of the ledger.
+A catalogue file gives a `Machine`; nothing downstream asks which kind it is.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from string import ascii_lowercase
 from typing import Any
 
 import numpy as np
 
-from reportgen.catalogue.course import Course
-from reportgen.catalogue.laws import Law, TableLaw
-from reportgen.cycle.indicator import Indicator
+from reportgen.catalogue.loads import Applied, Course, Piston, Torque
 from reportgen.mechanism.structure import Linkage
-from reportgen.notation.expressions import PI, Chain, Expression, Symbol, divide, multiply
-from reportgen.units import Given
+from reportgen.notation.expressions import Chain
+from reportgen.notation.sheet import Sheet
 
 NEAR = 1e-6
 """Positions nearer than this (rad) are one."""
-
-
-@dataclass(frozen=True, slots=True)
-class Item:
-    """A quantity that a machine adds to the ledger: given (`value`, SI) or defined over other ids."""
-
-    id: str
-    symbol: Symbol
-    kind: str
-    value: Any = None
-    definition: Expression | None = None
-    traits: Mapping[str, Any] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Piston(Course):
-    """A piston and the gas on it; its cycle angle counts from its top at the start of intake.
-
-    A positive pressure pushes it along `inward`, towards the crank.
-    """
-
-    bore: float
-    indicator: Indicator
-
-    @classmethod
-    def on(cls, course: Course, bore: float, indicator: Indicator) -> Piston:
-        """The piston that is the slider of a course."""
-        return cls(**vars(course), bore=bore, indicator=indicator)
-
-    @property
-    def name(self) -> str:
-        """The id of its gas force."""
-        return f"P{self.link}"
-
-    @property
-    def area(self) -> float:
-        """A = π D²/4 (m²)."""
-        return float(np.pi * self.bore**2 / 4)
-
-    @property
-    def law(self) -> TableLaw:
-        """Pressure times area."""
-        return TableLaw(self, self.indicator, self.area)
-
-
-@dataclass(frozen=True)
-class Applied:
-    """A force that is neither weight nor inertia: its law times the unit vector `direction`, at `point`."""
-
-    name: str
-    link: int
-    point: str
-    direction: complex
-    law: Law
-
-
-@dataclass(frozen=True)
-class Torque:
-    """A torque on a link that is no inertia couple: its law (N·m), anticlockwise positive."""
-
-    name: str
-    link: int
-    law: Law
-
-
-def gas_forces(pistons: Iterable[Piston]) -> tuple[Applied, ...]:
-    """The gas on each piston."""
-    return tuple(Applied(one.name, one.link, one.pin, one.inward, one.law) for one in pistons)
 
 
 class Position(int):
@@ -106,13 +35,18 @@ class Position(int):
         return self.label
 
 
+def no_formulas(q: Sheet) -> None:
+    """A machine without closed formulas."""
+
+
 @dataclass(frozen=True, slots=True)
 class Machine:
     """A mechanism with its drive, its loads and the outline of its report.
 
     A turn has `count` positions, numbered from driver angle `start` in the direction `turn` (+1
-    anticlockwise); the cycle of loads takes `turns` turns of the driver.  `given` items enter the ledger
-    first, `formulas` after the plans.  `outline` names the report's sections in order.
+    anticlockwise); the cycle of loads takes `turns` turns of the driver.  `sheet` holds the given data and what
+    follows from them; `formulas` writes the closed formulas on it once the plans are there.  `outline` names the
+    report's sections in order.
     """
 
     kind: str
@@ -122,9 +56,9 @@ class Machine:
     speed: float
     count: int
     turns: int
-    given: tuple[Item, ...]
-    formulas: tuple[Item, ...]
+    sheet: Sheet
     outline: tuple[str, ...]
+    formulas: Callable[[Sheet], None] = no_formulas
     pistons: tuple[Piston, ...] = ()
     applied: tuple[Applied, ...] = ()
     """All forces that are neither weight nor inertia, the gas on `pistons` among them."""
@@ -193,40 +127,3 @@ def lettered(count: int, turns: int, extra: Iterable[float]) -> tuple[tuple[floa
     numbers, letters = iter(range(count * turns)), iter(ascii_lowercase)
     labels = [next(letters) if place in new else str(next(numbers)) for _ in range(turns) for place in places]
     return tuple(places), tuple(labels)
-
-
-def mass_items(link: int, weight: Given | None, mass: Given | None) -> tuple[Item, ...]:
-    """Weight and mass of a link: one as typed, the other from it; none of a link without mass."""
-    number = str(link)
-    if weight is not None:
-        return (
-            Item(f"G{link}", Symbol("G", number), "weight", weight.si),
-            Item(f"m.{link}", Symbol("m", number), "mass", definition=divide(f"G{link}", "g")),
-        )
-    if mass is not None:
-        return (
-            Item(f"m.{link}", Symbol("m", number), "mass", mass.si),
-            Item(f"G{link}", Symbol("G", number), "weight", definition=multiply(f"m.{link}", "g")),
-        )
-    return ()
-
-
-def ratio_item(id: str, symbol: Symbol, given: Given) -> Item:
-    """A ratio as typed: `1/3.6` is worked out on the page, `0.35` is given."""
-    top, slash, bottom = given.text.partition("/")
-    if slash:
-        return Item(id, symbol, "ratio", definition=divide(float(top), float(bottom)))
-    return Item(id, symbol, "ratio", given.si)
-
-
-def speed_items(n: Given | None, omega: Given | None) -> tuple[Item, ...]:
-    """The driver's angular velocity ω₁ (its size): given, or ω₁ = 2πn/60 from the speed in rpm."""
-    symbol = Symbol("ω", "1")
-    if n is None:
-        assert omega is not None, "a file without speed is refused by the kind's checks"
-        return (Item("omega.1", symbol, "angular velocity", omega.si),)
-    rpm = n.value if n.unit == "rpm" else n.si * 30 / np.pi
-    return (
-        Item("n", Symbol("n"), "speed of rotation", rpm),
-        Item("omega.1", symbol, "angular velocity", definition=divide(multiply(2, PI, "n"), 60)),
-    )

@@ -1,46 +1,43 @@
-"""A crank whose pin drives a lever through a block in the lever's slot.  A crank centre, B pin, C pivot.
+"""A crank whose pin drives a lever through a block in the lever's slot; the ram that the lever may carry on to.
 
-Own axes: y runs from C to A, x is y turned by 90° against the rotation, so that ω₁ > 0 turns x towards y.
-φ is the crank's angle from x, r = l_AB, d = l_AC, S = CB; a is square to the slot, r along it:
-S² = d² + r² + 2dr sin φ;  ω₃ = ω₁r(r + d sin φ)/S²;  v_r = ω₁dr cos φ/S;
-ε₃ = ω₁²dr(d² − r²) cos φ/S⁴;  a_r = ω₃²S − ω₁²r(r + d sin φ)/S;  aᵏ = 2ω₃v_r.
+A crank centre, B pin, C pivot.  Own axes: y runs from C to A, x is y turned by 90° against the rotation, so that
+ω₁ > 0 turns x towards y.  φ₁ is the crank's angle from x, r = l_AB, d = l_AC, S = CB; a is square to the slot, r along
+it.  D is the end of the lever, E the ram, b the height of the ram's line over C; for the ram x runs against the way it
+works, and S cos φ₃ = l₁ cos φ₁, S sin φ₃ = a + l₁ sin φ₁, l₃ sin φ₃ + l₄ sin φ₄ = b, x_E = l₃ cos φ₃ + l₄ cos φ₄.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
-from reportgen.catalogue.machine import Item
-from reportgen.mechanism.structure import Crank, Dyad
+from reportgen.catalogue.driven import give_angle
+from reportgen.catalogue.loads import FULL_TURN, Course, Floats
+from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import (
+    PI,
     Chain,
     Expression,
     Number,
-    Root,
+    Ref,
     Symbol,
-    add,
-    call,
-    divide,
-    multiply,
-    negative,
-    power,
-    subtract,
+    acos,
+    asin,
+    cos,
+    sin,
+    sqrt,
+    tan,
 )
+from reportgen.notation.sheet import Sheet
 
-Floats = NDArray[np.float64]
-FULL_TURN = 2 * math.pi
 ROUND = 1e-12
-
 DRAWN_CRANKS = (0.05, 0.04, 0.03, 0.025, 0.02, 0.015)
 """Drawn lengths of a crank (m on paper), the best first."""
 HIGHEST = 0.165
 """A mechanism is drawn no higher than this (m on paper), so that its plans stay on the page."""
+STRAIGHT = Number(180.0, unit="°")
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,119 +86,209 @@ class SlottedCrank:
         return Dyad("RPR", (2, 3), "B", "B3", "C")
 
 
-def whole_degrees(angle: Floats) -> bool:
-    """Whether all angles are whole hundredths of a degree, to be printed as they are."""
-    hundredths = np.degrees(angle) * 100
-    return bool(np.allclose(hundredths, np.round(hundredths), rtol=0, atol=1e-7))
-
-
-def angle_item(angle: Floats) -> Item:
-    """`phi.A`, the crank's angle φ₁ within one turn [N]."""
-    turned = np.mod(angle + ROUND, FULL_TURN) - ROUND
-    return Item(
-        "phi.A", Symbol("φ", "1"), "angle", turned, traits={"exact": whole_degrees(turned), "scale": 1.0}
-    )
-
-
 def drawn_crank(crank: float, height: float) -> float:
     """The drawn length of a crank (m on paper) with which what is `height` (m) high stays on the page."""
     return next((drawn for drawn in DRAWN_CRANKS if drawn * height / crank <= HIGHEST), DRAWN_CRANKS[-1])
 
 
-def lever(crank: str, centres: str) -> tuple[Item, ...]:
-    """`f.S`, `f.omega.3`, `f.v.r`, `f.eps.3`; uses the lengths r, d of these ids, `phi.A` and `omega.1`."""
-    r, d, w1, reach = crank, centres, "omega.1", "f.S"
-    sin, cos = call("sin", "phi.A"), call("cos", "phi.A")
-    square = add(power(d, 2), power(r, 2), multiply(2, d, r, sin))
-    arm = multiply(w1, r, add(r, multiply(d, sin)))
-    turned = multiply(power(w1, 2), d, r, subtract(power(d, 2), power(r, 2)), cos)
-    return (
-        formula(reach, Symbol("S"), "length", Root(square)),
-        formula("f.omega.3", Symbol("ω", "3"), "angular velocity", divide(arm, square)),
-        formula("f.v.r", Symbol("v", "r"), "velocity", divide(multiply(w1, d, r, cos), reach)),
-        formula("f.eps.3", Symbol("ε", "3"), "angular acceleration", divide(turned, power(square, 2))),
-    )
+@dataclass(frozen=True, slots=True)
+class Ram:
+    """The lever's crank, and of lengths (m) the lever's, the link's and the height of the ram's line over C."""
+
+    crank: SlottedCrank
+    lever: float
+    link: float
+    height: float
+
+    @property
+    def beginning(self) -> float:
+        """φ₁ at which the working stroke begins: −θ, the crank square to the lever."""
+        return -self.crank.half_swing
+
+    def end(self, side: int) -> complex:
+        """Where E stands at the beginning (+1) or the end (−1) of the working stroke, from A on the drawing."""
+        theta = self.crank.half_swing
+        rise = (self.height - self.lever * math.cos(theta)) / self.link
+        along = side * self.lever * math.sin(theta) - self.link * math.sqrt(1 - rise**2)
+        return self.crank.place(complex(along, self.height - self.crank.d))
+
+    def course(self, start: float) -> Course:
+        """The ram's way from the beginning of its working stroke, for a machine that starts at φ₁ = `start`."""
+        return Course(
+            link=5,
+            rod=4,
+            pin="E",
+            crank_pin="D",
+            top=self.end(1),
+            bottom=self.end(-1),
+            top_angle=0.0,
+            bottom_angle=math.pi + 2 * self.crank.half_swing,
+            phase=(start - self.beginning + ROUND) % FULL_TURN - ROUND,
+        )
+
+    def linkage(self, points: Sequence[LinkPoint], inertias: Sequence[Inertia], gravity: float) -> Linkage:
+        """The mechanism; the ram's guide points against its working way, E lies on the working side of D."""
+        towards = self.crank.place(1 + 0j)
+        guide = Guide(
+            self.crank.place(1j * (self.height - self.crank.d)), math.atan2(towards.imag, towards.real)
+        )
+        return Linkage(
+            ground=self.crank.ground,
+            driver=self.crank.driver,
+            dyads=(self.crank.group, Dyad("RRP", (4, 5), "D", "E", guide, (self.link, 0.0), -1)),
+            points=(LinkPoint("D", 3, complex(self.lever)), *points),
+            inertias=tuple(inertias),
+            gravity=-1j * gravity,
+        )
 
 
-def formulas(angle: Floats, speed: float, crank: float) -> tuple[Item, ...]:
-    """The closed formulas at φ = `angle` [N] for a crank (m) at a speed (rad/s).
+# --- closed formulas --------------------------------------------------------------------------------
 
-    Uses `l.AB`, `l.AC`, `l.CD`, `omega.1`.  Ids: `phi.A`, those of `lever`, `f.v.D`, `f.a.k`, `f.a.r`,
+
+def natural_scales(q: Sheet, crank: str) -> Callable[[str], float]:
+    """What is natural to the crank of id `crank`, by the kind of a quantity: a billionth of it prints as 0."""
+    r, ω1 = q.si(crank), q.si("omega.1")
+    natural = {
+        "length": r,
+        "velocity": ω1 * r,
+        "acceleration": ω1**2 * r,
+        "angular velocity": ω1,
+        "angular acceleration": ω1**2,
+    }
+    return lambda kind: natural.get(kind, 0.0)
+
+
+def lever_formulas(q: Sheet, angle: Floats, crank: str, centres: str) -> None:
+    """`phi.A`, `f.S`, `f.omega.3`, `f.v.r`, `f.eps.3` at φ₁ = `angle` [N] by the lengths r, d of these ids:
+
+    S² = d² + r² + 2dr sin φ;  ω₃ = ω₁r(r + d sin φ)/S²;  v_r = ω₁dr cos φ/S;  ε₃ = ω₁²dr(d² − r²) cos φ/S⁴.
+    """
+    scale = natural_scales(q, crank)
+    φ = give_angle(q, "phi.A", angle, Symbol("φ", "1"))
+    r, d, ω1 = q[crank], q[centres], q["omega.1"]
+    square = d**2 + r**2 + 2 * d * r * sin(φ)
+    S = q.define("f.S", sqrt(square), "S", "length", scale=scale("length"))
+    q.define("f.omega.3", ω1 * r * (r + d * sin(φ)) / square, scale=scale("angular velocity"))
+    q.define("f.v.r", ω1 * d * r * cos(φ) / S, scale=scale("velocity"))
+    swing = ω1**2 * d * r * (d**2 - r**2) * cos(φ) / square**2
+    q.define("f.eps.3", swing, scale=scale("angular acceleration"))
+
+
+def lever_end(q: Sheet, angle: Floats) -> None:
+    """The closed formulas of the lever CD at φ = `angle` [N]: a_r = ω₃²S − ω₁²r(r + d sin φ)/S;  aᵏ = 2ω₃v_r.
+
+    Uses `l.AB`, `l.AC`, `l.CD`, `omega.1`.  Ids: those of `lever_formulas`, `f.v.D`, `f.a.k`, `f.a.r`,
     `f.a.D.n`, `f.a.D.t`, `f.a.D`.
     """
-    r, d, w1, w3, reach = "l.AB", "l.AC", "omega.1", "f.omega.3", "f.S"
-    arm = multiply(r, add(r, multiply(d, call("sin", "phi.A"))))
-    sliding = subtract(multiply(power(w3, 2), reach), divide(multiply(power(w1, 2), arm), reach))
-    items = (
-        *lever(r, d),
-        formula("f.v.D", Symbol("v", "D"), "velocity", multiply(w3, "l.CD")),
-        formula("f.a.k", Symbol("a", "k"), "acceleration", multiply(2, w3, "f.v.r")),
-        formula("f.a.r", Symbol("a", "r"), "acceleration", sliding),
-        formula("f.a.D.n", Symbol("a", "D", "n"), "acceleration", multiply(power(w3, 2), "l.CD")),
-        formula("f.a.D.t", Symbol("a", "D", "τ"), "acceleration", multiply("f.eps.3", "l.CD")),
-        formula(
-            "f.a.D", Symbol("a", "D"), "acceleration", Root(add(power("f.a.D.n", 2), power("f.a.D.t", 2)))
-        ),
-    )
-    return (angle_item(angle), *scaled(items, speed, crank))
+    lever_formulas(q, angle, "l.AB", "l.AC")
+    scale = natural_scales(q, "l.AB")
+    r, d, l, ω1, φ = q["l.AB"], q["l.AC"], q["l.CD"], q["omega.1"], q["phi.A"]  # noqa: E741
+    ω3, S, v, a = q["f.omega.3"], q["f.S"], scale("velocity"), scale("acceleration")
+    q.define("f.v.D", ω3 * l, scale=v)
+    q.define("f.a.k", 2 * ω3 * q["f.v.r"], Symbol("a", "k"), scale=a)
+    q.define("f.a.r", ω3**2 * S - ω1**2 * (r * (r + d * sin(φ))) / S, Symbol("a", "r"), scale=a)
+    normal = q.define("f.a.D.n", ω3**2 * l, scale=a)
+    tangential = q.define("f.a.D.t", q["f.eps.3"] * l, scale=a)
+    q.define("f.a.D", sqrt(normal**2 + tangential**2), scale=a)
 
 
-def swing_items(sine: Expression) -> tuple[Item, ...]:
+def ram_formulas(q: Sheet, angle: Floats) -> None:
+    """The closed formulas of the ram at φ₁ = `angle` [N].
+
+    Uses `l.AB`, `l.CD`, `l.DE`, `a`, `b`, `omega.1`.  Ids: those of `lever_formulas`, `phi.3`, `phi.4`, `f.x.E`,
+    `f.omega.4`, `f.v.E`, `f.eps.4`, `f.a.Dx`, `f.a.E`.
+    """
+    lever_formulas(q, angle, "l.AB", "a")
+    scale = natural_scales(q, "l.AB")
+    l1, l3, l4, φ1, ω3, ε3 = (q[id] for id in ("l.AB", "l.CD", "l.DE", "phi.A", "f.omega.3", "f.eps.3"))
+    φ3 = q.define("phi.3", acos(l1 * cos(φ1) / q["f.S"]))
+    φ4 = q.define("phi.4", STRAIGHT - asin((q["b"] - l3 * sin(φ3)) / l4))
+    q.define("f.x.E", l3 * cos(φ3) + l4 * cos(φ4), scale=scale("length"))
+    ω4 = q.define("f.omega.4", -ω3 * l3 * cos(φ3) / (l4 * cos(φ4)), scale=scale("angular velocity"))
+    q.define("f.v.E", -(ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)), scale=scale("velocity"))
+    swing = l3 * (ω3**2 * sin(φ3) - ε3 * cos(φ3)) / (l4 * cos(φ4)) + ω4**2 * tan(φ4)
+    ε4 = q.define("f.eps.4", swing, scale=scale("angular acceleration"))
+    a_D = q.define("f.a.Dx", -l3 * (ε3 * sin(φ3) + ω3**2 * cos(φ3)), scale=scale("acceleration"))
+    q.define("f.a.E", a_D - l4 * (ε4 * sin(φ4) + ω4**2 * cos(φ4)), scale=scale("acceleration"))
+
+
+def swing(q: Sheet, sine: Expression) -> None:
     """The lever's greatest angle θ from CA by its sine, and the ratio K = (180° + 2θ)/(180° − 2θ) of the
     crank's turns for the lever's two ways."""
-    half = Number(180.0, unit="°")
-    twice = multiply(2, "theta")
-    return (
-        Item("theta", Symbol("θ"), "angle", definition=call("arcsin", sine)),
-        Item("K", Symbol("K"), "ratio", definition=divide(add(half, twice), subtract(half, twice))),
-    )
+    θ = q.define("theta", asin(sine))
+    q.define("K", (STRAIGHT + 2 * θ) / (STRAIGHT - 2 * θ))
 
 
-COMPARED = (
+def strokes(q: Sheet, H: Ref) -> None:
+    """The times of a turn and of the ram's two strokes, and its mean speeds over the stroke H."""
+    K = q["K"]
+    T = q.define("t.turn", 2 * PI / q["omega.1"], "T", "time")
+    work = q.define("t.work", T * K / (1 + K), Symbol("t", "1"), "time")
+    back = q.define("t.back", T - work, Symbol("t", "2"), "time")
+    q.define("v.work", H / work, Symbol("v", "m1"))
+    q.define("v.back", H / back, Symbol("v", "m2"))
+
+
+LEVER_COMPARED = (
     *((plan, f"f.{plan}") for plan in ("omega.3", "v.D", "eps.3", "a.D")),
     ("v.B3B", "f.v.r"),
     ("a.B3B.k", "f.a.k"),
     ("a.B3B.r", "f.a.r"),
 )
+RAM_COMPARED = (
+    *((plan, f"f.{plan}") for plan in ("omega.3", "omega.4", "v.E", "eps.3", "eps.4", "a.E")),
+    ("v.B3B", "f.v.r"),
+)
 """Plan quantities and the closed formulas that must give the same sizes."""
 
 
-def formula(id: str, symbol: Symbol, kind: str, definition: Expression) -> Item:
-    """A quantity by its closed formula."""
-    return Item(id, symbol, kind, definition=definition)
+# --- the equations they are solved from -------------------------------------------------------------
 
 
-def scaled(items: Iterable[Item], speed: float, crank: float) -> tuple[Item, ...]:
-    """The items with what is natural to a crank (m) at a speed (rad/s): a billionth of it prints as 0."""
-    natural = {
-        "length": crank,
-        "velocity": speed * crank,
-        "acceleration": speed**2 * crank,
-        "angular velocity": speed,
-        "angular acceleration": speed**2,
-    }
-    return tuple(
-        replace(one, traits={"scale": natural[one.kind]}) if one.kind in natural else one for one in items
-    )
-
-
-def equations(r: Symbol, d: Symbol) -> dict[str, tuple[Chain, ...]]:
+def lever_equations(r: Symbol, d: Symbol) -> dict[str, tuple[Chain, ...]]:
     """The triangle ABC on x and y, along and across the lever, and what its derivatives say of the lever."""
-    reach, first, third = Symbol("S"), Symbol("φ", "1"), Symbol("φ", "3")
-    w1, w3, slide, between = Symbol("ω", "1"), Symbol("ω", "3"), Symbol("v", "r"), subtract(first, third)
-    turned = add(multiply(reach, Symbol("ε", "3")), multiply(2, slide, w3))
+    S, φ1, φ3, ω1, ω3 = Symbol("S"), Symbol("φ", "1"), Symbol("φ", "3"), Symbol("ω", "1"), Symbol("ω", "3")
+    v_r, ε3 = Symbol("v", "r"), Symbol("ε", "3")
     return {
         "closure": (
-            Chain((multiply(reach, call("cos", third)), multiply(r, call("cos", first)))),
-            Chain((multiply(reach, call("sin", third)), add(d, multiply(r, call("sin", first))))),
+            Chain((S * cos(φ3), r * cos(φ1))),
+            Chain((S * sin(φ3), d + r * sin(φ1))),
         ),
         "between": (
-            Chain((multiply(reach, call("cos", between)), add(r, multiply(d, call("sin", first))))),
-            Chain((multiply(reach, call("sin", between)), negative(multiply(d, call("cos", first))))),
+            Chain((S * cos(φ1 - φ3), r + d * sin(φ1))),
+            Chain((S * sin(φ1 - φ3), -d * cos(φ1))),
         ),
         "velocity": (
-            Chain((multiply(reach, w3), multiply(w1, r, call("cos", between)))),
-            Chain((slide, negative(multiply(w1, r, call("sin", between))))),
+            Chain((S * ω3, ω1 * r * cos(φ1 - φ3))),
+            Chain((v_r, -ω1 * r * sin(φ1 - φ3))),
         ),
-        "acceleration": (Chain((turned, negative(multiply(power(w1, 2), r, call("sin", between))))),),
+        "acceleration": (Chain((S * ε3 + 2 * v_r * ω3, -(ω1**2) * r * sin(φ1 - φ3))),),
+    }
+
+
+def ram_equations() -> dict[str, tuple[Chain, ...]]:
+    """Both closed loops by components, and their first and second derivatives."""
+    l1, l3, l4 = (Symbol("l", link) for link in "134")
+    φ3, φ4, ω3, ω4, ε3, ε4 = (Symbol(letter, link) for letter in "φωε" for link in "34")
+    nothing = Number(0.0)
+    triangle = lever_equations(l1, Symbol("a"))
+    along = ε3 * l3 * sin(φ3) + ω3**2 * l3 * cos(φ3) + ε4 * l4 * sin(φ4) + ω4**2 * l4 * cos(φ4)
+    across = ε3 * l3 * cos(φ3) - ω3**2 * l3 * sin(φ3) + ε4 * l4 * cos(φ4) - ω4**2 * l4 * sin(φ4)
+    return {
+        "closure": (
+            *triangle["closure"],
+            Chain((Symbol("x", "E"), l3 * cos(φ3) + l4 * cos(φ4))),
+            Chain((l3 * sin(φ3) + l4 * sin(φ4), Symbol("b"))),
+        ),
+        "between": triangle["between"],
+        "velocity": (
+            *triangle["velocity"],
+            Chain((Symbol("v", "E"), -(ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))),
+            Chain((ω3 * l3 * cos(φ3) + ω4 * l4 * cos(φ4), nothing)),
+        ),
+        "acceleration": (
+            *triangle["acceleration"],
+            Chain((Symbol("a", "E"), -along)),
+            Chain((across, nothing)),
+        ),
     }

@@ -7,26 +7,36 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 
-from reportgen.assignment import checks
 from reportgen.assignment.common import Assignment, Draft
 from reportgen.assignment.faults import Finding
-from reportgen.assignment.fields import Angle, Length, Mass, MomentOfInertia, Share, Weight
-from reportgen.catalogue import bars, link_torque, regulation, slotted
-from reportgen.catalogue.driven import Driven, mass_keys, outline, rate_items
-from reportgen.catalogue.machine import Item, Machine, mass_items
+from reportgen.assignment.fields import Angle, Length
+from reportgen.catalogue import slotted
+from reportgen.catalogue.driven import (
+    Driven,
+    centre_points,
+    datum,
+    driven,
+    enter_bar,
+    enter_drawn,
+    enter_mass,
+    enter_speed,
+    even_angles,
+    inertias,
+)
+from reportgen.catalogue.given_loads import LinkTorque, torque_on
+from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.slotted import SlottedCrank
-from reportgen.mechanism.structure import Inertia, Linkage, LinkPoint
-from reportgen.notation.expressions import Symbol, divide
+from reportgen.mechanism.structure import Linkage, LinkPoint
+from reportgen.notation.expressions import Symbol
+from reportgen.notation.sheet import Sheet
+from reportgen.notation.symbols import drawn_length
 from reportgen.units import Given
 
-KIND = "slotted-lever"
-TITLES = {"vi": "Cơ cấu culít", "en": "Crank and slotted lever"}
 TURNS = 1
 
 
-class Parameters(Driven):
+class Parameters(Driven, masses=(2, 3), moments=(3,), shares=(3,), loads=("torque",)):
     """Lengths of crank AB, of AC between the fixed points and of the lever CD; the direction of CA; the speed.
 
     Masses of block and lever and the torque on the lever only if they are given.
@@ -36,35 +46,7 @@ class Parameters(Driven):
     AC: Length
     CD: Length
     axis: Angle = Given(math.pi / 2, 90.0, "deg", "90 deg")
-    s3: Share | None = None
-    G2: Weight | None = None
-    G3: Weight | None = None
-    m2: Mass | None = None
-    m3: Mass | None = None
-    J3: MomentOfInertia | None = None
-    torque: link_torque.LinkTorque | None = None
-
-    def geometry(self, turn: int) -> SlottedCrank:
-        """The mechanism in the axes that turn with the rotation."""
-        return SlottedCrank(self.AB.si, self.AC.si, self.axis.si, turn)
-
-    @property
-    def lever(self) -> bars.Bar:
-        """Lever 3 with its mass."""
-        return bars.bar(self, 3, "C", "D", self.CD.si)
-
-    def linkage(self, turn: int) -> Linkage:
-        """The mechanism with A in the origin; the block's mass centre is the pin."""
-        geometry = self.geometry(turn)
-        block = (Inertia(2, "B", self.mass(2)),) if self.mass(2) else ()
-        return Linkage(
-            ground=geometry.ground,
-            driver=geometry.driver,
-            dyads=(geometry.group,),
-            points=(LinkPoint("D", 3, complex(self.CD.si)), *self.lever.point()),
-            inertias=(*block, *self.lever.inertia(self.g.si)),
-            gravity=-1j * self.g.si,
-        )
+    torque: LinkTorque | None = None
 
 
 def _check_block(draft: Draft) -> Iterator[Finding]:
@@ -72,79 +54,68 @@ def _check_block(draft: Draft) -> Iterator[Finding]:
     given: Parameters | None = draft.sections.get("parameters")
     if given is None:
         return
-    geometry = given.geometry(1)
+    geometry = SlottedCrank(given.AB.si, given.AC.si, given.axis.si, 1)
     if given.AB.si == given.AC.si:
         near = math.degrees(geometry.crank_angle(-math.pi / 2)) % 360
-        yield Finding("block-on-pivot", ("parameters", "AB"), _told(near))
+        yield Finding("block-on-pivot", ("parameters", "AB"), _place(near))
     reach = given.AB.si + given.AC.si
     if given.CD.si <= reach:
         far = math.degrees(geometry.crank_angle(math.pi / 2)) % 360
         sizes = {"reach": f"{reach * 1e3:.6g}", "length": f"{given.CD.si * 1e3:.6g}"}
-        yield Finding("leaves-slot", ("parameters", "CD"), _told(far) | sizes)
+        yield Finding("leaves-slot", ("parameters", "CD"), _place(far) | sizes)
 
 
-def _told(angle: float) -> dict[str, str]:
+def _place(angle: float) -> dict[str, str]:
+    """Where the block is at fault: its group and the crank's angle in degrees."""
     return {"block": "2", "link": "3", "group": "(2, 3)", "pivot": "C", "angle": f"{angle:.6g}"}
 
 
-CHECKS = (
-    checks.one_of("parameters", "n", "omega1"),
-    *bars.one_mass((2, 3)),
-    regulation.needs_loads((*mass_keys((2, 3)), "torque")),
-    _check_block,
-)
+CHECKS = (_check_block,)
 
 
 def machine(assignment: Assignment) -> Machine:
-    """The slotted lever of an assignment: linkage, closed formulas, the report's outline."""
+    """The slotted lever of an assignment: linkage, torque, closed formulas."""
     given: Parameters = assignment.parameters
     positions, crank = assignment.positions, assignment.drawing.crank
-    geometry = given.geometry(positions.sign)
-    linkage = given.linkage(positions.sign)
+    q = Sheet()
+    r, d, l = datum(q, "l.AB", given.AB), datum(q, "l.AC", given.AC), datum(q, "l.CD", given.CD)  # noqa: E741
+    if given.axis.value != 90.0:
+        datum(q, "axis.CA", given.axis, "α", "angle")
+    enter_speed(q, given.n, given.omega1, given.flywheel)
+    height = max(q.si(l), q.si(d) + q.si(r)) + max(q.si(r) - q.si(d), 0.0)
+    enter_drawn(q, "A", "B", crank, slotted.drawn_crank(q.si(r), height))
+    if any((given.typed(letter, link)) for letter in "sGmJ" for link in (2, 3)):
+        datum(q, "g", given.g)
+    enter_mass(q, 2, given.typed("G", 2), given.typed("m", 2))
+    enter_bar(q, given, 3, "C", "D")
+    if given.torque is not None:
+        datum(q, "M.given", given.torque.M, Symbol("M", "3"))
+
+    geometry = SlottedCrank(q.si(r), q.si(d), given.axis.si, positions.sign)
     start = math.pi / 2 if positions.start is None else geometry.phi(positions.start.si)
-    height = max(given.CD.si, given.AC.si + given.AB.si) + max(given.AB.si - given.AC.si, 0.0)
-    drawn = crank.si if crank else slotted.drawn_crank(given.AB.si, height)
-    torques = link_torque.acting(given.torque, 3, linkage, positions, geometry.crank_angle(start))
-    built = Machine(
-        kind=KIND,
-        linkage=linkage,
-        start=geometry.crank_angle(start),
-        turn=positions.sign,
-        speed=given.speed,
-        count=positions.count,
-        turns=TURNS,
-        given=_items(given, drawn),
-        formulas=(),
-        outline=outline(bool(linkage.inertias), bool(torques), given.flywheel),
-        unevenness=given.unevenness,
-        torques=torques,
+    linkage = Linkage(
+        ground=geometry.ground,
+        driver=geometry.driver,
+        dyads=(geometry.group,),
+        points=(LinkPoint("D", 3, complex(q.si(l))), *centre_points(q, {3: "C"})),
+        inertias=inertias(q, {2: "B", 3: "S3"}),
+        gravity=-1j * given.g.si,
+    )
+
+    def formulas(q: Sheet) -> None:
+        q.define("drawn.AC", d / q["mu.l"], drawn_length("A", "C"))
+        if geometry.swings:
+            slotted.swing(q, r / d)
+        slotted.lever_end(q, start + even_angles(positions))
+
+    return driven(
+        assignment,
+        q,
+        linkage,
+        geometry.crank_angle(start),
+        formulas=formulas,
+        torques=torque_on(given.torque, 3, linkage, positions, geometry.crank_angle(start)),
         paths=("D",),
-        compared=slotted.COMPARED,
-        equations=slotted.equations(Symbol("l", "AB"), Symbol("l", "AC")),
+        compared=slotted.LEVER_COMPARED,
+        equations=slotted.lever_equations(Symbol("l", "AB"), Symbol("l", "AC")),
     )
-    angle = start + built.cycle_angles
-    return replace(built, formulas=(*_extremes(geometry), *slotted.formulas(angle, given.speed, given.AB.si)))
-
-
-def _items(given: Parameters, drawn: float) -> tuple[Item, ...]:
-    """Given data, the mass centre of the lever, masses and the moment of inertia."""
-    masses = (*mass_items(2, given.G2, given.m2), *given.lever.items())
-    return (
-        Item("l.AB", Symbol("l", "AB"), "length", given.AB.si),
-        Item("l.AC", Symbol("l", "AC"), "length", given.AC.si),
-        Item("l.CD", Symbol("l", "CD"), "length", given.CD.si),
-        *((Item("axis.CA", Symbol("α"), "angle", given.axis.si),) if given.axis.value != 90.0 else ()),
-        *rate_items(given),
-        Item("drawn.AB", Symbol("AB", over="segment"), "segment", drawn),
-        *((Item("g", Symbol("g"), "gravity", given.g.si),) if masses else ()),
-        *masses,
-        *((Item("M.given", Symbol("M", "3"), "torque", given.torque.M.si),) if given.torque else ()),
-    )
-
-
-def _extremes(geometry: SlottedCrank) -> tuple[Item, ...]:
-    """The drawn distance AC; of a swinging lever its greatest angle from CA."""
-    drawn = Item("drawn.AC", Symbol("AC", over="segment"), "segment", definition=divide("l.AC", "mu.l"))
-    if not geometry.swings:
-        return (drawn,)
-    return (drawn, *slotted.swing_items(divide("l.AB", "l.AC")))

@@ -1,7 +1,7 @@
 """Named numbers and their definitions.
 
-A `Family` is one quantity at all positions: an array with one definition.  A `Quantity` is the family
-at one position.  Definitions are expressions over other families, so the ledger evaluates itself
+The families of the finished sheet (`notation.sheet`) with their decimals.  A `Quantity` is a family at one
+position.  Definitions are expressions over other families, so the ledger evaluates itself
 (`Ledger.evaluate`), tells what depends on what (`refs`), and prints its own worked lines (`Ledger.chain`).
 """
 
@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import (
-    Call,
     Chain,
     Expression,
     Fraction,
@@ -24,70 +24,13 @@ from reportgen.notation.expressions import (
     Ref,
     Sum,
     Symbol,
-    as_expression,
-    evaluate,
     rebuild,
     refs,
-    walk,
 )
-from reportgen.notation.symbols import KINDS, Kind
-
-ZERO = 1e-9
-"""A value below this share of its own scale is nothing: it prints as 0."""
+from reportgen.notation.sheet import Family
 
 Entered = Callable[[str, dict[str, np.ndarray]], None]
 """What is called after each quantity of an evaluation, with its id and all values so far."""
-
-CONSTRUCTIONS = frozenset(
-    {"meet", "circle_line", "circle_circle", "abs", "cis", "turned", "arg", "re", "im", "cross", "dot"}
-    | {"mean", "quotient", "if_zero", "sign", "heading"}
-)
-"""Calls that stand for drawing and measuring: a definition with one of them is not printed as a formula."""
-
-
-@dataclass(frozen=True, slots=True)
-class Family:
-    """One quantity at all positions.
-
-    `values` are SI (complex for a point or vector of the plane), one per position or a single one.
-    `definition` is None for given data.  `exact` data print as they were given.  An `arm` is a signed
-    length printed by its size, its sign going to the term it stands in; an `optional` term is left out
-    of a sum where it is nothing.  `scale` is the size below which, times 1e-9, a value is nothing.  A
-    `hidden` family serves a construction and is never printed.
-    """
-
-    id: str
-    symbol: Symbol
-    kind: str
-    values: np.ndarray
-    definition: Expression | None = None
-    exact: bool = False
-    arm: bool = False
-    optional: bool = False
-    scale: float = 0.0
-    hidden: bool = False
-
-    @property
-    def how(self) -> Kind:
-        return KINDS[self.kind]
-
-    @property
-    def is_plane(self) -> bool:
-        """Whether its values are points or vectors of the plane, which are drawn and not printed."""
-        return bool(np.iscomplexobj(self.values))
-
-    @property
-    def constructed(self) -> bool:
-        """Whether a drawing gives it: it is measured, not computed by a printed formula."""
-        return self.definition is not None and any(
-            isinstance(part, Call) and part.name in CONSTRUCTIONS for part in walk(self.definition)
-        )
-
-    def at(self, position: int | None) -> Any:
-        """Its SI value at a position counted from 1; nothing is exactly 0."""
-        value = self.values[0 if len(self.values) == 1 or position is None else position - 1]
-        return value * 0 if abs(value) < ZERO * self.scale else value
-
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
@@ -104,56 +47,6 @@ class Quantity:
     @property
     def number(self) -> Number:
         return Number(self.value, self.decimals, self.unit)
-
-
-class Builder:
-    """Collects families in the order of their definition and evaluates each as it comes."""
-
-    def __init__(self, positions: int) -> None:
-        self.positions = positions
-        self.families: dict[str, Family] = {}
-        self._values: dict[str, np.ndarray] = {}
-
-    def copy(self) -> Builder:
-        """What is entered so far, for a trial."""
-        other = Builder(self.positions)
-        other.families, other._values = dict(self.families), dict(self._values)
-        return other
-
-    def __contains__(self, id: str) -> bool:
-        return id in self.families
-
-    def __getitem__(self, id: str) -> Family:
-        return self.families[id]
-
-    def value(self, id: str) -> np.ndarray:
-        return self._values[id]
-
-    def give(self, id: str, symbol: Symbol, kind: str, value: Any, exact: bool = True, **traits: Any) -> str:
-        """Enter given data (SI): a number, or one per position."""
-        return self._enter(Family(id, symbol, kind, np.atleast_1d(np.asarray(value)), exact=exact, **traits))
-
-    def define(
-        self, id: str, symbol: Symbol, kind: str, definition: Expression | float | str, **traits: Any
-    ) -> str:
-        """Enter a quantity defined by earlier ones; raises `KeyError` if one of them is missing."""
-        expression = as_expression(definition)
-        with np.errstate(all="ignore"):
-            values = np.atleast_1d(np.asarray(evaluate(expression, self._values)))
-        return self._enter(Family(id, symbol, kind, values, expression, **traits))
-
-    def construct(self, id: str, definition: Expression | str) -> str:
-        """Enter a point or vector of a drawing, which has no printed symbol of its own."""
-        return self.define(id, Symbol(id), "ratio", definition, hidden=True)
-
-    def _enter(self, family: Family) -> str:
-        if family.id in self.families:
-            raise ValueError(f"quantity {family.id} is defined twice")
-        if len(family.values) not in (1, self.positions):
-            raise ValueError(f"quantity {family.id} has {len(family.values)} values")
-        self.families[family.id] = family
-        self._values[family.id] = family.values
-        return family.id
 
 
 @dataclass(frozen=True)

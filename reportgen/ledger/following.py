@@ -26,15 +26,13 @@ def carried(ledger: Ledger) -> dict[str, str]:
                 vectors[id] = vector
             case Product(factors):
                 read = [vectors[ref.id] for ref in factors if isinstance(ref, Ref) and ref.id in vectors]
-                scales = [ref for ref in factors if isinstance(ref, Ref) and ref.id.startswith("mu.")]
+                scales = [ref for ref in factors if isinstance(ref, Ref) and ledger[ref.id].kind.endswith("scale")]
                 if len(factors) == 2 and len(read) == len(scales) == 1:
                     vectors[id] = read[0]
-        if id.startswith("F.") and family.is_plane:
-            name = id.removeprefix("F.")
-            size = name if name in ledger else f"R.{name.removeprefix('R')}"
-            # A vector that is computed from its size follows it by itself.
-            if size in ledger and family.definition is not None and size not in refs(family.definition):
-                vectors[size] = id
+        # A vector that is computed from its size follows it by itself.
+        size = family.of if family.is_plane else ""
+        if size in ledger and family.definition is not None and size not in refs(family.definition):
+            vectors[size] = id
     return vectors
 
 

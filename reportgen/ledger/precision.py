@@ -15,8 +15,9 @@ from decimal import Decimal
 
 import numpy as np
 
-from reportgen.ledger.core import Family
-from reportgen.notation.expressions import evaluate, refs
+from reportgen.notation.evaluation import evaluate
+from reportgen.notation.expressions import refs
+from reportgen.notation.sheet import Family, is_short
 from reportgen.notation.symbols import MAX_DIGITS
 
 LEAST_DIGITS = 3
@@ -55,8 +56,7 @@ def _is_short(family: Family) -> bool:
     """Whether one value serves all positions and has few enough digits to be printed as it is (0.171 m)."""
     if len(family.values) > 1 or family.definition is None:
         return False
-    value = float(family.values[0].real) / family.how.scale
-    return abs(float(f"{value:.{MAX_DIGITS - 1}g}") - value) <= 1e-12 * abs(value)
+    return is_short(float(family.values[0].real) / family.how.scale)
 
 
 def _shown_decimals(family: Family) -> int:
@@ -83,12 +83,12 @@ def _slopes(family: Family, inputs: tuple[str, ...], families: Mapping[str, Fami
 
 def choose(
     families: Mapping[str, Family],
-    alike: tuple[tuple[str, str], ...] = (),
+    same: tuple[tuple[str, str], ...] = (),
     fixed: Mapping[str, int | None] | None = None,
 ) -> tuple[dict[str, int | None], tuple[str, ...]]:
     """Decimals for every family (None: exact) and the ids of lines that cannot be made to recompute.
 
-    Pairs `alike` are two ways to one number and are printed with the decimals of the coarser.  Decimals `fixed`
+    Pairs of the `same` number, reached in two ways, are printed with the decimals of the coarser.  Decimals `fixed`
     before stay as they are, and the lines of those families are not judged again.
     """
     fixed = fixed or {}
@@ -168,7 +168,7 @@ def choose(
             if not all(map(holds, concerned)):
                 decimals[id] = digits
                 break
-    for pair in alike:
+    for pair in same:
         known = [digits for id in pair if (digits := decimals.get(id)) is not None]
         for id in pair:
             if decimals.get(id) is not None:

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen import regulation
 from reportgen.analysis import Analysis
-from reportgen.catalogue.laws import TableLaw
-from reportgen.catalogue.machine import Item
+from reportgen.catalogue.loads import TableLaw
 from reportgen.cycle.flywheel import Flywheel
-from reportgen.ledger import flywheel, forces, kinematics, precision
-from reportgen.ledger.core import ZERO, Builder, Ledger
-from reportgen.ledger.forces import Polygon
-from reportgen.notation.expressions import Ref, Symbol, call, divide, multiply, subtract
-from reportgen.notation.symbols import MAX_DIGITS
+from reportgen.ledger import precision
+from reportgen.ledger.core import Ledger
+from reportgen.ledger.flywheel import enter_flywheel
+from reportgen.ledger.forces import enter_forces
+from reportgen.ledger.forces.polygon import Polygon
+from reportgen.ledger.kinematics import centres, enter_kinematics
+from reportgen.notation.expressions import PI, Symbol, call
+from reportgen.notation.sheet import ZERO, Sheet, is_short
+from reportgen.notation.vocabulary import Chapter
 
 
 @dataclass(frozen=True)
@@ -28,113 +31,96 @@ class Books:
     flywheel: Flywheel | None = None
 
 
-def enter(b: Builder, items: Iterable[Item]) -> None:
-    """Enter a machine's own items."""
-    for item in items:
-        if item.definition is None:
-            b.give(item.id, item.symbol, item.kind, item.value, **({"exact": True} | dict(item.traits)))
-        else:
-            b.define(item.id, item.symbol, item.kind, item.definition, **item.traits)
-
-
 def keep(analysis: Analysis, units: Mapping[str, str] | None = None) -> Books:
     """The books of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures."""
     machine = analysis.machine
-    b = Builder(machine.positions)
+    q = Sheet(machine.positions)
     if machine.span:
-        b.give("s.1", Symbol("s", "1"), "length", machine.angles(analysis.cycle_angle), exact=False)
+        q.give("s.1", machine.angles(analysis.cycle_angle), exact=False)
     else:
-        b.give("phi.1", Symbol("φ", "1"), "angle", machine.angles(analysis.cycle_angle))
-    enter(b, machine.given)
-    kinematics.describe(b, machine.linkage, machine.turn)
-    enter(b, machine.formulas)
+        q.give("phi.1", machine.angles(analysis.cycle_angle))
+    q.extend(machine.sheet)
+    enter_kinematics(q, machine.linkage, machine.turn)
+    with q.within(Chapter.formulas):
+        machine.formulas(q)
     polygons: tuple[Polygon, ...] = ()
-    wheel: Flywheel | None = None
+    flywheel: Flywheel | None = None
     if analysis.loads:
-        _masses(b, analysis)
-        _gas(b, analysis)
-        _applied(b, analysis)
+        _masses(q, analysis)
+        _gas(q, analysis)
+        _applied(q, analysis)
         applied = {one.name: (one.link, one.point, one.direction) for one in machine.applied}
-        polygons = forces.describe(
-            b, machine.linkage, machine.turn, applied, {one.name: one.link for one in machine.torques}
-        )
-        _cycle(b, analysis)
-        if machine.unevenness is not None:
-            wheel = regulation.flywheel(machine, machine.unevenness)
-            flywheel.describe(b, machine.linkage, wheel, machine.cycle_angles)
+        torques = {one.name: one.link for one in machine.torques}
+        polygons = enter_forces(q, machine.linkage, machine.turn, applied, torques)
+        with q.within(Chapter.cycle):
+            _cycle(q, analysis)
+            if machine.unevenness is not None:
+                flywheel = regulation.flywheel(machine, machine.unevenness)
+                enter_flywheel(q, machine.linkage, flywheel, machine.cycle_angles)
     # The checks by instant centres take the other numbers as they are printed.
-    main = {id: family for id, family in b.families.items() if not id.startswith(kinematics.PREFIX)}
-    settled, listed = precision.choose(main, (("M.eq", "M.vw"),) if "M.eq" in b else ())
-    decimals, more = precision.choose(b.families, fixed=settled)
-    cancellations = listed + more
-    return Books(Ledger(b.families, decimals, machine.positions, cancellations, units or {}), polygons, wheel)
+    main = {id: family for id, family in q.families.items() if not id.startswith(centres.PREFIX)}
+    settled, listed = precision.choose(main, (("M.eq", "M.vw"),) if "M.eq" in q else ())
+    decimals, more = precision.choose(q.families, fixed=settled)
+    ledger = Ledger(q.families, decimals, machine.positions, listed + more, units or {})
+    return Books(ledger, polygons, flywheel)
 
 
-def _masses(b: Builder, analysis: Analysis) -> None:
+def _masses(q: Sheet, analysis: Analysis) -> None:
     """Mass m = G/g where the weight is given, weight G = m g where the mass is."""
     for body in analysis.machine.linkage.inertias:
-        link = str(body.link)
-        if body.mass > 0 and f"G{link}" in b and f"m.{link}" not in b:
-            b.define(f"m.{link}", Symbol("m", link), "mass", divide(f"G{link}", "g"))
-        elif f"m.{link}" in b and f"G{link}" not in b:
-            b.define(f"G{link}", Symbol("G", link), "weight", multiply(f"m.{link}", "g"))
+        weight, mass = f"G{body.link}", f"m.{body.link}"
+        if body.mass > 0 and weight in q and mass not in q:
+            q.define(mass, q[weight] / q["g"])
+        elif mass in q and weight not in q:
+            q.define(weight, q[mass] * q["g"])
 
 
-def _gas(b: Builder, analysis: Analysis) -> None:
+def _gas(q: Sheet, analysis: Analysis) -> None:
     """s/H and pressure read from the diagram, gas force P = p F."""
     for name, state in analysis.gas.items():
-        link = str(state.piston.link)
-        stroke = state.piston.stroke
-        b.give(f"s.{link}", Symbol("s", link), "length", state.fraction * stroke, exact=False, scale=stroke)
-        b.give(f"p.{link}", Symbol("p", link), "pressure", state.pressure, exact=False)
-        b.define(name, Symbol("P", link), "force", multiply(f"p.{link}", "F"))
+        link, stroke = state.piston.link, state.piston.stroke
+        q.give(f"s.{link}", state.fraction * stroke, exact=False, scale=stroke)
+        p = q.give(f"p.{link}", state.pressure, exact=False)
+        q.define(name, p * q["F"])
 
 
-def _applied(b: Builder, analysis: Analysis) -> None:
+def _applied(q: Sheet, analysis: Analysis) -> None:
     """Forces other than of gas, positive along their own direction, and torques, anticlockwise positive."""
     loads = {load.name: load for load in analysis.applied}
     for force in analysis.machine.applied:
-        if force.name not in b:
-            link, size = str(force.link), np.real(np.conj(force.direction) * loads[force.name].force)
+        if force.name not in q:
+            link, size = force.link, np.real(np.conj(force.direction) * loads[force.name].force)
             if isinstance(force.law, TableLaw):
                 course = force.law.course
                 way = course.fraction(analysis.motion) * course.stroke
-                b.give(f"s.{link}", Symbol("s", link), "length", way, exact=False, scale=course.stroke)
-            b.give(force.name, Symbol("P", link), "force", size, exact=_short(size))
+                q.give(f"s.{link}", way, exact=False, scale=course.stroke)
+            q.give(force.name, size, exact=is_short(size))
     for torque in analysis.machine.torques:
         size = loads[torque.name].couple
-        b.give(torque.name, Symbol("M", str(torque.link)), "torque", size, exact=_short(size))
+        q.give(torque.name, size, Symbol("M", str(torque.link)), exact=is_short(size))
 
 
-def _short(values: np.ndarray) -> bool:
-    """Whether all values have few digits, as typed sizes have, and can be printed as they are."""
-    return all(abs(float(f"{value:.{MAX_DIGITS - 1}g}") - value) <= 1e-12 * abs(value) for value in values)
-
-
-def _cycle(b: Builder, analysis: Analysis) -> None:
+def _cycle(q: Sheet, analysis: Analysis) -> None:
     """Mean, extremes, power and energy of the cycle."""
     summary, machine = analysis.summary, analysis.machine
     size = float(np.nanmax(np.abs(analysis.torque)))
     # A sliding driver is balanced by a force, and its way takes the place of the angle.
-    kind, letter = ("force", "P") if machine.span else ("torque", "M")
-    rate = f"v.{machine.linkage.driver.pin}" if machine.span else "omega.1"
-    turns = 2 * machine.turns
-    way = Ref("span") if machine.span else multiply(float(turns), Symbol("π", value=np.pi))
-    b.define(
-        "M.difference", Symbol(f"Δ{letter}", "cb"), kind, call("abs", subtract("M.eq", "M.vw")), scale=size
-    )
-    nothing = abs(float(np.nanmean(b.value("M.eq")))) < ZERO * size
-    b.define(
-        "M.mean.positions", Symbol(letter, "N"), kind, call("mean", "M.eq"), scale=size if nothing else 0.0
-    )
-    b.give("M.mean", Symbol(letter, "m"), kind, _dustless(summary.mean_torque, size), exact=False)
-    b.give("M.least", Symbol(letter, "min"), kind, summary.extremes[0][1], exact=False, scale=size)
-    b.give("M.greatest", Symbol(letter, "max"), kind, summary.extremes[1][1], exact=False, scale=size)
-    b.give("W", Symbol("W"), "work", _dustless(summary.work, size * machine.way), exact=False)
-    b.define("power", Symbol("N"), "power", multiply(call("abs", "M.mean"), rate))
-    b.define("M.energy", Symbol(letter, "W"), kind, divide("W", way))
+    letter, kind = ("P", "force") if machine.span else ("M", "torque")
+    rate = q[f"v.{machine.linkage.driver.pin}"] if machine.span else q["omega.1"]
+    way = q["span"] if machine.span else 2.0 * machine.turns * PI
+    q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size)
+    nothing = abs(float(np.nanmean(q.value("M.eq")))) < ZERO * size
+    mean_of_positions = call("mean", q["M.eq"])
+    q.define("M.mean.positions", mean_of_positions, Symbol(letter, "N"), kind, scale=size if nothing else 0.0)
+    mean = q.give("M.mean", _without_dust(summary.mean_torque, size), Symbol(letter, "m"), kind, exact=False)
+    (_, least), (_, greatest) = summary.extremes
+    q.give("M.least", least, Symbol(letter, "min"), kind, exact=False, scale=size)
+    q.give("M.greatest", greatest, Symbol(letter, "max"), kind, exact=False, scale=size)
+    work = q.give("W", _without_dust(summary.work, size * machine.way), exact=False)
+    q.define("power", abs(mean) * rate)
+    q.define("M.energy", work / way, Symbol(letter, "W"), kind)
 
 
-def _dustless(value: float, size: float) -> float:
+def _without_dust(value: float, size: float) -> float:
     """A mean that is nothing beside what it is the mean of is 0."""
     return 0.0 if abs(value) < ZERO * size else value

@@ -1,31 +1,74 @@
-"""Expressions that both render and evaluate.
+"""Expressions that both render and evaluate, written as mathematics is.
 
 One small algebra serves three readers.  The *ledger* defines every quantity by an expression over
 other quantities (`Ref`); the *document* shows it with symbols, then with the printed numbers; a
-*checker* evaluates either.  Passes (`substitute`, `refs`, `evaluate`) are plain functions over the
-frozen nodes, so a new writer needs no new node and a new node needs no new writer method.
+*checker* evaluates either (`notation.evaluation`).  Passes are plain functions over the frozen nodes, so a
+new writer needs no new node and a new node needs no new writer method.
 
-Geometric calls (`meet`, `circle_line`, `circle_circle`) stand for what a plan solves by drawing; they
-take and give points of the plane as complex numbers.
+    v = ω1 * R * sin(φ + β) / cos(β)
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-import numpy as np
-
 from reportgen.notation.numbers import printed
 
-Value = Any
-"""A float, a complex number, or an array of either: every pass is indifferent to the shape."""
+
+class _Algebra:
+    """The operators.  A sum or a product takes in its left operand's terms alone, so that parentheses are printed
+    where they are written; a minus before a product or a fraction stands before the whole of it.
+    """
+
+    __slots__ = ()
+    __array_ufunc__ = None  # a number of numpy leaves the operation to the expression
+
+    def __add__(self, other: Operand) -> Sum:
+        return Sum((*_terms(self), as_expression(other)))
+
+    def __radd__(self, other: float) -> Sum:
+        return Sum((as_expression(other), _node(self)))
+
+    def __sub__(self, other: Operand) -> Sum:
+        return Sum((*_terms(self), Negative(as_expression(other))))
+
+    def __rsub__(self, other: float) -> Sum:
+        return Sum((as_expression(other), Negative(_node(self))))
+
+    def __mul__(self, other: Operand) -> Expression:
+        match self:
+            case Negative(of):
+                return Negative(of * as_expression(other))
+            case Product(factors):
+                return Product((*factors, as_expression(other)))
+        return Product((_node(self), as_expression(other)))
+
+    def __rmul__(self, other: float) -> Product:
+        return Product((as_expression(other), _node(self)))
+
+    def __truediv__(self, other: Operand) -> Expression:
+        if isinstance(self, Negative):
+            return Negative(Fraction(self.of, as_expression(other)))
+        return Fraction(_node(self), as_expression(other))
+
+    def __rtruediv__(self, other: float) -> Fraction:
+        return Fraction(as_expression(other), _node(self))
+
+    def __pow__(self, exponent: float) -> Power:
+        return Power(_node(self), as_expression(exponent))
+
+    def __neg__(self) -> Negative:
+        return Negative(_node(self))
+
+    def __abs__(self) -> Call:
+        return Call("abs", (_node(self),))
 
 
 @dataclass(frozen=True, slots=True)
-class Symbol:
+class Symbol(_Algebra):
     """A printed symbol: base letter(s) with upright subscript and superscript.
 
     `over` is "vector" for an arrow above, "segment" for a bar above a length measured on a drawing.
@@ -40,7 +83,7 @@ class Symbol:
 
 
 @dataclass(frozen=True, slots=True)
-class Number:
+class Number(_Algebra):
     """A number as printed: `value` is in `unit`, shown with `decimals` (None: exact, shown as it is)."""
 
     value: float
@@ -59,61 +102,61 @@ class Number:
 
 
 @dataclass(frozen=True, slots=True)
-class Ref:
+class Ref(_Algebra):
     """Another quantity of the ledger, by its id."""
 
     id: str
 
 
 @dataclass(frozen=True, slots=True)
-class Sum:
+class Sum(_Algebra):
     terms: tuple[Expression, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Product:
+class Product(_Algebra):
     factors: tuple[Expression, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Negative:
+class Negative(_Algebra):
     of: Expression
 
 
 @dataclass(frozen=True, slots=True)
-class Fraction:
+class Fraction(_Algebra):
     top: Expression
     bottom: Expression
 
 
 @dataclass(frozen=True, slots=True)
-class Power:
+class Power(_Algebra):
     base: Expression
     exponent: Expression
 
 
 @dataclass(frozen=True, slots=True)
-class Root:
+class Root(_Algebra):
     of: Expression
 
 
 @dataclass(frozen=True, slots=True)
-class Call:
-    """A named function of `FUNCTIONS`: sin, cos, …, or a geometric construction."""
+class Call(_Algebra):
+    """A function of `evaluation.FUNCTIONS` by its name: sin, cos, …, or a construction of plane geometry."""
 
     name: str
     arguments: tuple[Expression, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Matrix:
+class Matrix(_Algebra):
     """A matrix, or with rows of one entry a column, of a displayed equation; it has no single value."""
 
     rows: tuple[tuple[Expression, ...], ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Chain:
+class Chain(_Algebra):
     """formula = substitution = result, as one printed line.
 
     `parts` are shown joined by "="; the last is the result.  `note` is a word of reason after the
@@ -138,7 +181,7 @@ class Term:
 
 
 @dataclass(frozen=True, slots=True)
-class VectorEquation:
+class VectorEquation(_Algebra):
     """Sides of a vector equation joined by "="; under each term its line of `rows` says what is known."""
 
     sides: tuple[tuple[Term, ...], ...]
@@ -161,144 +204,73 @@ Expression = (
     | VectorEquation
 )
 
+Operand = Expression | float
+
 PI = Symbol("π", value=math.pi)
 
 
 # --- building -------------------------------------------------------------------------------------
 
 
-def as_expression(value: Expression | float | int | str) -> Expression:
-    """A node as it is; a number as an exact `Number`; a string as a `Ref`."""
-    if isinstance(value, str):
-        return Ref(value)
-    if isinstance(value, (int, float)):
-        return Number(float(value))
-    return value
+def as_expression(value: Operand) -> Expression:
+    """A node as it is, a number as an exact `Number`."""
+    return Number(float(value)) if isinstance(value, (int, float)) else value
 
 
-def add(*terms: Expression | float | str) -> Expression:
-    return Sum(tuple(as_expression(term) for term in terms))
+def _node(value: Any) -> Expression:
+    """A node, which the type checker knows as the base of all."""
+    return value  # type: ignore[no-any-return]
 
 
-def subtract(first: Expression | float | str, *others: Expression | float | str) -> Expression:
-    return Sum((as_expression(first), *(Negative(as_expression(other)) for other in others)))
+def _terms(node: Any) -> tuple[Expression, ...]:
+    return node.terms if isinstance(node, Sum) else (node,)
 
 
-def multiply(*factors: Expression | float | str) -> Expression:
-    return Product(tuple(as_expression(factor) for factor in factors))
+def total(terms: Iterable[Expression]) -> Expression:
+    """The sum of terms as they are, none of them taken apart; a single one is itself."""
+    every = tuple(terms)
+    return every[0] if len(every) == 1 else Sum(every)
 
 
-def divide(top: Expression | float | str, bottom: Expression | float | str) -> Expression:
-    return Fraction(as_expression(top), as_expression(bottom))
+def call(name: str, *arguments: Operand) -> Call:
+    """A function of `evaluation.FUNCTIONS` by its name."""
+    return Call(name, tuple(map(as_expression, arguments)))
 
 
-def power(base: Expression | float | str, exponent: Expression | float) -> Expression:
-    return Power(as_expression(base), as_expression(exponent))
-
-
-def negative(of: Expression | float | str) -> Expression:
-    return Negative(as_expression(of))
-
-
-def column(*entries: Expression | float | str) -> Matrix:
+def column(*entries: Operand) -> Matrix:
     return Matrix(tuple((as_expression(entry),) for entry in entries))
 
 
-def call(name: str, *arguments: Expression | float | str) -> Expression:
-    return Call(name, tuple(as_expression(argument) for argument in arguments))
+def sqrt(of: Operand) -> Root:
+    return Root(as_expression(of))
 
 
-# --- geometry of the plane ------------------------------------------------------------------------
+def sin(angle: Operand) -> Call:
+    return call("sin", angle)
 
 
-def cross(a: Value, b: Value) -> Value:
-    """z-component of a × b for plane vectors as complex numbers."""
-    return np.imag(np.conj(a) * b)
+def cos(angle: Operand) -> Call:
+    return call("cos", angle)
 
 
-def dot(a: Value, b: Value) -> Value:
-    """Scalar product of plane vectors as complex numbers."""
-    return np.real(np.conj(a) * b)
+def tan(angle: Operand) -> Call:
+    return call("tan", angle)
 
 
-def meet(p: Value, u: Value, q: Value, w: Value) -> Value:
-    """Where the line through p along u meets the line through q along w."""
-    return p + u * cross(q - p, w) / cross(u, w)
+def asin(of: Operand) -> Call:
+    return call("arcsin", of)
 
 
-def circle_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value) -> Value:
-    """Where the circle meets the line through p along u; sign +1 takes the farther end along u."""
-    u = u / np.abs(u)
-    foot = p + u * dot(centre - p, u)
-    return foot + sign * u * np.sqrt(radius**2 - np.abs(centre - foot) ** 2 + 0j).real
+def acos(of: Operand) -> Call:
+    return call("arccos", of)
 
 
-def circle_circle(c1: Value, r1: Value, c2: Value, r2: Value, sign: Value) -> Value:
-    """Where two circles meet; sign +1 takes the point to the left of the way from c1 to c2."""
-    span = np.abs(c2 - c1)
-    along = (r1**2 - r2**2 + span**2) / (2 * span)
-    across = np.sqrt(r1**2 - along**2 + 0j).real
-    return c1 + (c2 - c1) / span * (along + 1j * sign * across)
+def atan(of: Operand) -> Call:
+    return call("arctan", of)
 
 
-def quotient(a: Value, b: Value) -> Value:
-    """a / b, and 0 where b is nothing: the arm of a force that is not there."""
-    b = np.asarray(b)
-    return np.where(b == 0, 0.0, a / np.where(b == 0, 1.0, b))
-
-
-def if_zero(a: Value, b: Value) -> Value:
-    """b where a is nothing, 0 elsewhere: the couple that remains when its force vanishes."""
-    return np.where(np.asarray(a) == 0, b, 0.0)
-
-
-def within(value: Value, least: Value, most: Value) -> Value:
-    """The value itself, nan where it is less than `least` or more than `most`."""
-    value = np.asarray(value)
-    return np.where((value >= least) & (value <= most), value, np.nan)
-
-
-def mean(values: Value) -> Value:
-    """The mean over positions, the last axis; it keeps that axis, so that it stands for all of them."""
-    return np.mean(np.atleast_1d(values), axis=-1, keepdims=True)
-
-
-def heading(vector: Value) -> Value:
-    """A vector's direction from +x, in [0, 2π); rounding just below a full turn counts as 0."""
-    return np.mod(np.angle(vector) + 1e-12, 2 * np.pi) - 1e-12
-
-
-FUNCTIONS: Mapping[str, Callable[..., Value]] = {
-    "sin": np.sin,
-    "cos": np.cos,
-    "tan": np.tan,
-    "arcsin": np.arcsin,
-    "arccos": np.arccos,
-    "arctan": np.arctan,
-    "arctan2": np.arctan2,
-    "abs": np.abs,
-    "sign": np.sign,
-    "re": np.real,
-    "im": np.imag,
-    "arg": np.angle,
-    "heading": heading,
-    "cis": lambda angle: np.exp(1j * np.asarray(angle)),
-    "cross": cross,
-    "dot": dot,
-    "meet": meet,
-    "circle_line": circle_line,
-    "circle_circle": circle_circle,
-    "turned": lambda vector: 1j * vector,
-    "min": np.minimum,
-    "max": np.maximum,
-    "mean": mean,
-    "quotient": quotient,
-    "if_zero": if_zero,
-    "within": within,
-}
-"""What a `Call` may name.  sin, cos and tan take radians; a `Number` in degrees converts itself."""
-
-TRIGONOMETRIC = frozenset({"sin", "cos", "tan"})
+def atan2(across: Operand, along: Operand) -> Call:
+    return call("arctan2", across, along)
 
 
 # --- passes ---------------------------------------------------------------------------------------
@@ -371,43 +343,3 @@ def substitute(node: Expression, change: Callable[[Ref], Expression]) -> Express
     if isinstance(node, Ref):
         return change(node)
     return rebuild(node, lambda child: substitute(child, change))
-
-
-def evaluate(node: Expression, values: Mapping[str, Value] | None = None) -> Value:
-    """The value of an expression; `values` gives that of every `Ref` by id.
-
-    Printed numbers evaluate as shown, degrees as radians.  Raises `KeyError` for an unknown id and
-    `ValueError` for a symbol without a value.
-    """
-    match node:
-        case Number():
-            return math.radians(node.shown) if node.unit == "°" else node.shown
-        case Ref(id):
-            if values is None:
-                raise KeyError(id)
-            return values[id]
-        case Symbol(value=value):
-            if value is None:
-                raise ValueError(f"symbol {node.base} has no value")
-            return value
-        case Sum(terms):
-            return sum(evaluate(term, values) for term in terms)
-        case Product(factors):
-            result: Value = 1.0
-            for factor in factors:
-                result = result * evaluate(factor, values)
-            return result
-        case Negative(of):
-            return -evaluate(of, values)
-        case Fraction(top, bottom):
-            return evaluate(top, values) / evaluate(bottom, values)
-        case Power(base, exponent):
-            return evaluate(base, values) ** evaluate(exponent, values)
-        case Root(of):
-            return np.sqrt(evaluate(of, values))
-        case Call(name, arguments):
-            return FUNCTIONS[name](*(evaluate(argument, values) for argument in arguments))
-        case Chain(parts):
-            return evaluate(parts[-1], values)
-        case _:
-            raise ValueError(f"a {type(node).__name__} has no single value")

@@ -77,3 +77,23 @@ def on_plan(name: str, prime: bool = False) -> Symbol:
 def vector(symbol: Symbol) -> Symbol:
     """The same symbol as a vector."""
     return Symbol(symbol.base, symbol.sub, symbol.sup, "vector")
+
+
+def lowered(text: str) -> str:
+    """Digits of point names as lowered digits: B3 → B₃."""
+    return text.translate(_LOWERED)
+
+
+_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+def segment(first: Symbol | str, second: Symbol | str) -> Symbol:
+    """A length between two points of a drawing: a bar over both letters, e.g. over p b or O₁A."""
+    one = first if isinstance(first, Symbol) else Symbol(first)
+    two = second if isinstance(second, Symbol) else Symbol(second)
+    return Symbol(one.base + lowered(one.sub) + one.sup + two.base, two.sub, two.sup, "segment")
+
+
+def drawn_length(first: str, second: str) -> Symbol:
+    """The symbol of a length between two points on a drawing, e.g. AS₂ under a bar."""
+    return segment(point(first), point(second))

@@ -11,27 +11,25 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from reportgen.ledger.core import Builder
 from reportgen.ledger.forces import driver
 from reportgen.ledger.forces.groups import group
-from reportgen.ledger.forces.loads import Applied, LoadOn, Statics, carried_reactions, enter_loads, joint
-from reportgen.ledger.forces.polygon import Polygon, Side
+from reportgen.ledger.forces.loads import Applied, Statics, carried_reactions, enter_loads
+from reportgen.ledger.forces.polygon import Polygon
+from reportgen.ledger.kinematics.linkage import natural_sizes
 from reportgen.ledger.kinematics.sides import scheme
-from reportgen.ledger.kinematics.site import sizes
 from reportgen.mechanism.structure import DRIVER, Linkage
+from reportgen.notation.sheet import Sheet
 
-__all__ = ["Applied", "LoadOn", "Polygon", "Side", "describe", "joint"]
 
-
-def describe(
-    b: Builder, linkage: Linkage, turn: int, applied: Applied, torques: Mapping[str, int] | None = None
+def enter_forces(
+    q: Sheet, linkage: Linkage, turn: int, applied: Applied, torques: Mapping[str, int] | None = None
 ) -> tuple[Polygon, ...]:
     """Enter all force quantities, the outermost group first; returns the force plans in that order.
 
     `applied` maps a force's id to (link, point, unit vector of its positive sense), `torques` a signed
     torque's id to its link.
     """
-    statics = Statics(b, scheme(linkage), turn, sizes(b, linkage))
+    statics = Statics(q, scheme(linkage), turn, natural_sizes(q, linkage))
     loads = enter_loads(statics, applied, torques or {})
     statics = replace(statics, loads=loads)
     polygons = []

@@ -23,28 +23,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.ledger.forces.loads import (
-    FAINT,
-    LoadOn,
-    Statics,
-    above,
-    joint,
-    moments,
-)
+from reportgen.ledger.forces.loads import FAINT, LoadOn, Statics, above, joint, moments, opposite
 from reportgen.ledger.forces.polygon import Path, Polygon, Side, drawn_sides, force_plan, read
-from reportgen.ledger.kinematics.names import length_symbol
 from reportgen.mechanism.structure import Dyad, DyadKind, Guide
-from reportgen.notation.expressions import (
-    Expression,
-    Ref,
-    Sum,
-    Symbol,
-    add,
-    call,
-    divide,
-    multiply,
-    negative,
-)
+from reportgen.notation.constructions import dot, meet, quotient, turned
+from reportgen.notation.expressions import Expression, Ref, Sum, Symbol, total
+from reportgen.notation.sheet import Sheet
+from reportgen.notation.symbols import drawn_length
 
 CLEAR = 1e-3
 """A slide's reaction that stays above this share of the loads has a distance printed as M/R."""
@@ -63,6 +48,10 @@ class Group:
     end: str
     on_i: tuple[LoadOn, ...]
     on_j: tuple[LoadOn, ...]
+
+    @property
+    def q(self) -> Sheet:
+        return self.statics.q
 
     @property
     def name(self) -> str:
@@ -97,60 +86,54 @@ def group(statics: Statics, dyad: Dyad) -> Polygon:
 
 def _rrr(g: Group) -> Polygon:
     assert isinstance(g.dyad.end, str)
-    q = g.dyad.middle
-    _tangential(g, g.i, g.outer, g.start, q, g.on_i)
-    _tangential(g, g.j, g.end, g.dyad.end, q, g.on_j)
-    return _close(g, f"rod.{g.i}", f"rod.{g.j}", tangents=(True, True))
+    middle = g.dyad.middle
+    _tangential(g, g.i, g.outer, g.start, middle, g.on_i)
+    _tangential(g, g.j, g.end, g.dyad.end, middle, g.on_j)
+    return _close(g, g.q[f"rod.{g.i}"], g.q[f"rod.{g.j}"], tangents=(True, True))
 
 
 def _rrp(g: Group) -> Polygon:
-    q = g.dyad.middle
-    _tangential(g, g.i, g.outer, g.start, q, g.on_i)
-    polygon = _close(g, f"rod.{g.i}", call("turned", f"guide.{g.j}"), tangents=(True, False))
-    _slide(g, g.end, q, g.on_j)
+    middle = g.dyad.middle
+    _tangential(g, g.i, g.outer, g.start, middle, g.on_i)
+    polygon = _close(g, g.q[f"rod.{g.i}"], turned(g.q[f"guide.{g.j}"]), tangents=(True, False))
+    _slide(g, g.end, middle, g.on_j)
     return polygon
 
 
 def _rpr(g: Group) -> Polygon:
     """Lever j about T: R_ij l = ΣM_T(j) + ΣM_P(i), l the distance of T from the line of R_ij."""
     assert isinstance(g.dyad.end, str)
-    b, across = g.statics.b, joint(g.i, g.j)
+    q, across = g.q, joint(g.i, g.j)
     couple = _moment(g, g.inner, g.start, g.on_i)
-    turned = moments(g.statics, g.on_j, g.dyad.end)
+    moment = moments(g.statics, g.on_j, g.dyad.end)
     # One flat sum: a sum within it would vanish with the first of its terms that is left out.
-    known = [*(turned.terms if isinstance(turned, Sum) else [turned] if turned else []), *([couple] if couple else [])]
-    b.define(
-        f"R.{across}.s",
-        Symbol("R", across),
-        "force",
-        divide(known[0] if len(known) == 1 else add(*known), _reach(g)) if known else 0.0,
-        scale=g.statics.force,
-    )
+    known = [*(moment.terms if isinstance(moment, Sum) else [moment] if moment else []), *([couple] if couple else [])]
+    size = total(known) / _reach(g) if known else 0.0
+    found = q.define(f"R.{across}.s", size, Symbol("R", across), scale=g.statics.force)
     sense = -float(g.dyad.sign)
-    b.construct(f"F.R{across}.s", multiply(f"R.{across}.s", sense, call("turned", f"slot.{g.j}")))
-    polygon = _close(g, None, None, laid=f"F.R{across}.s")
+    laid = q.construct(f"F.R{across}.s", found * sense * turned(q[f"slot.{g.j}"]), of=found.id)
+    polygon = _close(g, None, None, laid=laid)
     _offset(g, g.inner)
     return polygon
 
 
 def _prp(g: Group) -> Polygon:
-    q = g.dyad.middle
-    polygon = _close(g, call("turned", f"guide.{g.i}"), call("turned", f"guide.{g.j}"))
-    _slide(g, g.outer, q, g.on_i)
-    _slide(g, g.end, q, g.on_j)
+    middle = g.dyad.middle
+    polygon = _close(g, turned(g.q[f"guide.{g.i}"]), turned(g.q[f"guide.{g.j}"]))
+    _slide(g, g.outer, middle, g.on_i)
+    _slide(g, g.end, middle, g.on_j)
     return polygon
 
 
 def _rpp(g: Group) -> Polygon:
     """Link j under its loads, R_ij across the slot and R_kj across the guide; then block i."""
-    polygon = _close(g, call("turned", f"slot.{g.j}"), call("turned", f"guide.{g.j}"), from_between=True)
+    polygon = _close(g, turned(g.q[f"slot.{g.j}"]), turned(g.q[f"guide.{g.j}"]), from_between=True)
     _slide(g, g.inner, g.start, g.on_i)
-    b, back = g.statics.b, joint(g.i, g.j)
-    b.define(f"R.{back}", Symbol("R", back), "force", f"R.{g.inner}")
-    b.construct(f"F.R{back}", negative(f"F.R{g.inner}"))
-    if f"M.{g.inner}" in b:
-        b.construct(f"couple.R{back}", add(f"M.{g.inner}"))
-    _slide(g, g.end, g.dyad.middle, (LoadOn(f"R{back}", g.j, g.start, f"R.{back}"), *g.on_j))
+    q, back = g.q, joint(g.i, g.j)
+    reaction = opposite(q, back, g.inner, g.j, g.start)
+    if f"M.{g.inner}" in q:
+        q.construct(f"couple.R{back}", q[f"M.{g.inner}"])
+    _slide(g, g.end, g.dyad.middle, (reaction, *g.on_j))
     return polygon
 
 
@@ -161,41 +144,30 @@ def _tangential(
     g: Group, link: int, digits: str, pin: str, middle: str, loads: tuple[LoadOn, ...]
 ) -> None:
     """Moments of a rod about the inner joint: Rᵗ l = ΣM, positive along the rod turned by 90°."""
-    b, length = g.statics.b, f"l.{pin}{middle}"
-    turned = moments(g.statics, loads, middle)
-    b.define(
-        f"R.{digits}.t",
-        Symbol("R", digits, "τ"),
-        "force",
-        0.0 if turned is None else divide(turned, length),
-        scale=g.statics.force,
-    )
-    b.construct(f"F.R{digits}.t", multiply(f"R.{digits}.t", call("turned", divide(f"rod.{link}", length))))
+    q, length = g.q, g.q[f"l.{pin}{middle}"]
+    moment = moments(g.statics, loads, middle)
+    size = q.define(f"R.{digits}.t", 0.0 if moment is None else moment / length, scale=g.statics.force)
+    q.construct(f"F.R{digits}.t", size * turned(q[f"rod.{link}"] / length), of=size.id)
 
 
-def _reach(g: Group) -> str:
+def _reach(g: Group) -> Ref:
     """The length from T to the line of R_ij: TP itself, or from the foot H of T on the slot's line."""
-    b, q, end = g.statics.b, g.dyad.middle, g.dyad.end
+    q, middle, end = g.q, g.dyad.middle, g.dyad.end
     if not g.dyad.lengths[1]:
-        return f"l.{end}{q}"
-    foot = f"H{g.j}"
-    b.define(
-        f"drawn.{foot}{q}",
-        length_symbol(foot, q),
-        "segment",
-        divide(call("abs", call("dot", f"rod.{g.j}", f"slot.{g.j}")), "mu.l"),
-        scale=g.statics.span,
-    )
-    return b.define(f"l.{foot}{q}", Symbol("l", f"{foot}{q}"), "length", multiply("mu.l", f"drawn.{foot}{q}"))
+        return q[f"l.{end}{middle}"]
+    foot, μ_l = f"H{g.j}", q["mu.l"]
+    along = abs(dot(q[f"rod.{g.j}"], q[f"slot.{g.j}"])) / μ_l
+    drawn = q.define(f"drawn.{foot}{middle}", along, drawn_length(foot, middle), scale=g.statics.span)
+    return q.define(f"l.{foot}{middle}", μ_l * drawn)
 
 
 def _close(
     g: Group,
-    first: Expression | str | None,
-    second: Expression | str | None,
+    first: Expression | None,
+    second: Expression | None,
     *,
     tangents: tuple[bool, bool] = (False, False),
-    laid: str = "",
+    laid: Expression | None = None,
     from_between: bool = False,
 ) -> Polygon:
     """Lay the known forces, close the plan at n, and read every reaction from it.
@@ -203,7 +175,7 @@ def _close(
     `first` and `second` are the directions in which n is sought: from the last known vertex (or from b), and
     from e; `laid` instead is a force laid on from b.
     """
-    path = Path()
+    path = Path(g.q)
     if tangents[1]:
         path.lay(f"R{g.end}.t", g.j)
     after = path.last
@@ -219,14 +191,14 @@ def _close(
         path.lay(f"R{g.outer}.t", g.i)
     start = between if from_between else path.last
     statics, name, at = g.statics, g.name, path.corners
-    if laid:
-        closing: Expression = add(at[between], laid)
+    if laid is not None:
+        meeting: Expression = at[between] + laid
     else:
         assert first is not None
         assert second is not None
-        closing = call("meet", at[start], first, 0.0, second)
-    statics.b.construct(f"closing.{name}", closing)
-    force_plan(statics, name, f"R({g.i},{g.j})", {**at, "n": add(f"closing.{name}")})
+        meeting = meet(at[start], first, 0.0, second)
+    closing = g.q.construct(f"closing.{name}", meeting)
+    force_plan(statics, name, f"R({g.i},{g.j})", {**at, "n": closing})
 
     def take(digits: str, part: str, begin: str, end: str) -> None:
         dotted = f".{part}" if part else ""
@@ -257,25 +229,22 @@ def _slide(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> None:
 
 def _moment(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> Expression | None:
     """Enter the moment about the pin that a slide's reaction has to balance, if there is any."""
-    turned = moments(g.statics, loads, pin)
-    if turned is None:
-        return None
-    id = f"M.{digits}"
-    g.statics.b.define(id, Symbol("M", digits), "torque", turned, scale=g.statics.torque)
-    return Ref(id)
+    moment = moments(g.statics, loads, pin)
+    return None if moment is None else g.q.define(f"M.{digits}", moment, scale=g.statics.torque)
 
 
 def _offset(g: Group, digits: str) -> None:
     """The distance x = M/R from the pin to the line of a slide's reaction."""
-    b, statics, size = g.statics.b, g.statics, f"R.{digits}"
-    moment: Expression | float = Ref(f"M.{digits}") if f"M.{digits}" in b else 0.0
-    values = b.value(size)
-    clear = bool(np.all(values[np.isfinite(values)] > CLEAR * statics.force)) and f"M.{digits}" in b
-    if clear:
-        formula: Expression = divide(moment, size)
+    q, statics, size, id = g.q, g.statics, g.q[f"R.{digits}"], f"M.{digits}"
+    values = q.value(size)
+    formula: Expression
+    if id not in q:
+        formula = quotient(0.0, size)
+    elif np.all(values[np.isfinite(values)] > CLEAR * statics.force):
+        formula = q[id] / size
     else:
-        formula = call("quotient", moment, above(size, FAINT * statics.force) if f"M.{digits}" in b else size)
-    b.define(f"x.{digits}", Symbol("x", digits), "length", formula, scale=statics.span)
+        formula = quotient(q[id], above(size, FAINT * statics.force))
+    q.define(f"x.{digits}", formula, scale=statics.span)
 
 
 DYADS: Mapping[DyadKind, Callable[[Group], Polygon]] = {

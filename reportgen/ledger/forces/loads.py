@@ -6,35 +6,33 @@ R42), `couple.X` its couple if it has one, `h.X.D` its signed arm about a point 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from enum import IntEnum
 
 import numpy as np
 
-from reportgen.ledger.core import Builder
-from reportgen.ledger.kinematics.names import image
-from reportgen.ledger.kinematics.sides import Scheme
-from reportgen.ledger.kinematics.site import NOWHERE, Sizes, longest
+from reportgen.ledger.kinematics.linkage import NOWHERE, Sizes, longest
+from reportgen.ledger.kinematics.sides import Scheme, image
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Guide, Inertia
-from reportgen.notation.expressions import (
-    Expression,
-    Ref,
-    Symbol,
-    add,
-    call,
-    divide,
-    multiply,
-    negative,
-    subtract,
-)
+from reportgen.notation.constructions import cross, quotient, sign
+from reportgen.notation.expressions import Expression, Number, Ref, Sum, Symbol, call
+from reportgen.notation.sheet import Sheet
 
 FAINT = 1e-12
 """A reaction below this share of the loads is rounding and has no line of action."""
-RANKS = {"R": 0, "Pqt": 1, "G": 3}
-"""Order of a link's loads in its plan; applied forces come between inertia and weight."""
 
 Applied = Mapping[str, tuple[int, str, complex]]
 """Applied forces: id → (link, point, unit vector of the positive sense, constant or per position)."""
+
+
+class Origin(IntEnum):
+    """Where a load comes from, in the order in which a link's loads are laid in its plan."""
+
+    reaction = 0
+    inertia = 1
+    applied = 2
+    weight = 3
 
 
 def joint(one: int, other: int) -> str:
@@ -44,23 +42,21 @@ def joint(one: int, other: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class LoadOn:
-    """A load: its name, its link, the point it acts at ("" for a couple alone) and the id of its size."""
+    """A load: its name, its link, the point it acts at ("" for a couple alone), its size, what its arm is called."""
 
     name: str
     link: int
     point: str
-    size: str
-
-    @property
-    def rank(self) -> int:
-        return RANKS.get(self.name.rstrip("0123456789,"), 2)
+    size: Ref
+    origin: Origin
+    letters: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Statics:
-    """Builder, linkage and loads while reactions are entered group by group."""
+    """Sheet `q`, linkage and loads while reactions are entered group by group."""
 
-    b: Builder
+    q: Sheet
     scheme: Scheme
     turn: int
     sizes: Sizes
@@ -69,7 +65,7 @@ class Statics:
     @property
     def force(self) -> float:
         """The largest load (N): a billionth of it is nothing."""
-        sizes = (np.abs(self.b.value(load.size)) for load in self.loads if load.point)
+        sizes = (np.abs(self.q.value(load.size)) for load in self.loads if load.point)
         return max((float(size[np.isfinite(size)].max(initial=0.0)) for size in sizes), default=0.0)
 
     @property
@@ -77,8 +73,8 @@ class Statics:
         """The size on paper of what arms are compared with: the drawn crank."""
         driver = self.scheme.linkage.driver
         if isinstance(driver, Crank):
-            return float(self.b.value(f"drawn.{driver.centre}{driver.pin}")[0])
-        return longest(self.scheme.linkage) / float(self.b.value("mu.l")[0])
+            return self.q.si(f"drawn.{driver.centre}{driver.pin}")
+        return longest(self.scheme.linkage) / self.q.si("mu.l")
 
     @property
     def torque(self) -> float:
@@ -92,10 +88,14 @@ class Statics:
 
     def image(self, what: str, name: str) -> Expression:
         """A point's image on a plan, 0 for a fixed one."""
-        return NOWHERE if self.scheme.still(name) else Ref(f"plan.{what}.{image(name)}")
+        return NOWHERE if self.scheme.still(name) else self.q[f"plan.{what}.{image(name)}"]
 
-    def has_couple(self, load: LoadOn) -> bool:
-        return f"couple.{load.name}" in self.b
+    def vector(self, load: LoadOn) -> Ref:
+        return self.q[f"F.{load.name}"]
+
+    def couple(self, load: LoadOn) -> Ref | None:
+        """A load's couple, None if it has none."""
+        return self.q.find(f"couple.{load.name}")
 
 
 def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) -> tuple[LoadOn, ...]:
@@ -105,148 +105,131 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
     both together are one force at arm h = M/F.  Loads of a link without mass are absent.  `torques` maps
     the id of a signed torque to its link.
     """
-    b, loads = statics.b, []
-    linkage = statics.scheme.linkage
+    q, linkage, loads = statics.q, statics.scheme.linkage, []
     for body in linkage.inertias:
-        link, centre = body.link, body.centre
+        link, centre, name = body.link, body.centre, f"G{body.link}"
         if body.mass > 0:
             down = linkage.gravity / abs(linkage.gravity) if linkage.gravity else -1j
-            b.give(f"down.{link}", Symbol("g"), "ratio", complex(down))
-            b.construct(f"F.G{link}", multiply(f"G{link}", f"down.{link}"))
-            loads.append(LoadOn(f"G{link}", link, centre, f"G{link}"))
+            downwards = q.give(f"down.{link}", complex(down), "g", "ratio")
+            q.construct(f"F.{name}", q[name] * downwards, of=name)
+            loads.append(LoadOn(name, link, centre, q[name], Origin.weight, name))
         still_driver = link == DRIVER and isinstance(linkage.driver, Crank) and centre == linkage.driver.centre
         if (body.mass > 0 or body.moment > 0) and not still_driver:
             loads.append(_inertia(statics, body))
     for name, (link, place, sense) in applied.items():
-        b.give(f"sense.{name}", Symbol(name), "ratio", np.asarray(sense, dtype=complex))
-        b.construct(f"F.{name}", multiply(name, f"sense.{name}"))
-        loads.append(LoadOn(name, link, place, name))
-    loads += [LoadOn(name, link, "", name) for name, link in torques.items()]
-    return tuple(sorted(loads, key=lambda load: (load.link, load.rank)))
+        positive = q.give(f"sense.{name}", np.asarray(sense, dtype=complex), name, "ratio")
+        q.construct(f"F.{name}", q[name] * positive, of=name)
+        loads.append(LoadOn(name, link, place, q[name], Origin.applied, name))
+    loads += [LoadOn(name, link, "", q[name], Origin.applied) for name, link in torques.items()]
+    return tuple(sorted(loads, key=lambda load: (load.link, load.origin)))
 
 
 def _inertia(statics: Statics, body: Inertia) -> LoadOn:
     """P_qt = m a_S against a_S, and M_qt = J ε against ε."""
-    b, link, centre = statics.b, body.link, body.centre
+    q, link, centre = statics.q, body.link, body.centre
     name = f"Pqt{link}"
-    still = statics.scheme.still(centre)
-    nothing = still or body.mass <= 0
-    size = 0.0 if nothing else multiply(f"m.{link}", f"a.{centre}")
-    b.define(name, Symbol("P", f"qt{link}"), "force", size, scale=body.mass * statics.sizes.acceleration)
-    vector = multiply(0.0) if nothing else negative(multiply(f"m.{link}", "mu.a", statics.image("a", centre)))
-    b.construct(f"F.{name}", vector)
-    if f"turn.eps.{link}" in b and body.moment > 0:
-        b.define(
-            f"M.{name}",
-            Symbol("M", f"qt{link}"),
-            "torque",
-            multiply(f"J.{link}", f"eps.{link}"),
-            scale=body.moment * statics.sizes.rotation**2,
-        )
-        b.construct(f"couple.{name}", negative(multiply(f"J.{link}", f"turn.eps.{link}")))
+    nothing = statics.scheme.still(centre) or body.mass <= 0
+    size = 0.0 if nothing else q[f"m.{link}"] * q[f"a.{centre}"]
+    force = q.define(name, size, scale=body.mass * statics.sizes.acceleration)
+    vector = Number(0.0) if nothing else -(q[f"m.{link}"] * q["mu.a"] * statics.image("a", centre))
+    q.construct(f"F.{name}", vector, of=name)
+    if f"turn.eps.{link}" in q and body.moment > 0:
+        J = q[f"J.{link}"]
+        couple = q.define(f"M.{name}", J * q[f"eps.{link}"], scale=body.moment * statics.sizes.rotation**2)
+        q.construct(f"couple.{name}", -(J * q[f"turn.eps.{link}"]))
         if not nothing:
-            _line_of_action(statics, link, centre)
-    return LoadOn(name, link, centre, name)
+            q.define(f"e.{name}", couple / force, scale=1e-3)
+            _centre_of_percussion(statics, link, centre)
+    return LoadOn(name, link, centre, force, Origin.inertia, name)
 
 
-def _line_of_action(statics: Statics, link: int, centre: str) -> None:
-    """How far the one inertia force passes from S, e = M/P, and the centre of percussion, l_SK = J/(m l_AS)."""
-    b, name = statics.b, f"Pqt{link}"
-    b.define(f"e.{name}", Symbol("e", f"qt{link}"), "length", divide(f"M.{name}", name), scale=1e-3)
-    ends = {dyad.links[0]: dyad.start for dyad in statics.scheme.linkage.dyads}
-    ends |= {dyad.links[1]: dyad.end for dyad in statics.scheme.linkage.dyads}
+def _centre_of_percussion(statics: Statics, link: int, centre: str) -> None:
+    """Its distance from the mass centre, l_SK = J/(m l_AS), on a link that turns about a pin A."""
+    q = statics.q
+    ends = {
+        moved: end
+        for dyad in statics.scheme.linkage.dyads
+        for moved, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)
+    }
     start = ends.get(link)
     arm = f"l.{start}{centre}"
-    if isinstance(start, str) and arm in b and float(b.value(arm)[0]) > 0:
-        b.define(
-            f"l.{centre}K{link}",
-            Symbol("l", f"{centre}K{link}"),
-            "length",
-            divide(f"J.{link}", multiply(f"m.{link}", arm)),
-        )
+    if isinstance(start, str) and arm in q and q.si(arm) > 0:
+        q.define(f"l.{centre}K{link}", q[f"J.{link}"] / (q[f"m.{link}"] * q[arm]))
 
 
 def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn, ...]:
     """Enter the reactions of later groups on these links as loads, R42 = −R24, in the order of assembly."""
-    b, loads = statics.b, []
+    q, loads = statics.q, []
     for dyad in statics.scheme.linkage.dyads:
         for link, outer in zip(dyad.links, (dyad.start, dyad.end), strict=True):
             carrier = outer.link if isinstance(outer, Guide) else statics.scheme.owner[outer]
             if carrier == GROUND or carrier not in links:
                 continue
             here, there = joint(link, carrier), joint(carrier, link)
-            b.define(f"R.{here}", Symbol("R", here), "force", f"R.{there}")
-            b.construct(f"F.R{here}", negative(f"F.R{there}"))
-            if f"M.{there}" in b:
-                b.construct(f"couple.R{here}", add(f"M.{there}"))
-            loads.append(LoadOn(f"R{here}", carrier, outer if isinstance(outer, str) else dyad.middle, f"R.{here}"))
+            place = outer if isinstance(outer, str) else dyad.middle
+            loads.append(opposite(q, here, there, carrier, place))
+            if f"M.{there}" in q:
+                q.construct(f"couple.R{here}", q[f"M.{there}"])
     return tuple(loads)
+
+
+def opposite(q: Sheet, here: str, there: str, link: int, point: str) -> LoadOn:
+    """Enter a reaction as that of the other link turned round: R42 = −R24."""
+    size = q.define(f"R.{here}", q[f"R.{there}"])
+    q.construct(f"F.R{here}", -q[f"F.R{there}"], of=size.id)
+    return LoadOn(f"R{here}", link, point, size, Origin.reaction, here)
 
 
 # --- moments --------------------------------------------------------------------------------------
 
 
-def moment_about(statics: Statics, load: LoadOn, centre: str) -> Expression:
-    """The moment of a load about a point, its couple included."""
-    lever: Expression = call("cross", subtract(f"p.{load.point}", f"p.{centre}"), f"F.{load.name}")
-    return add(lever, f"couple.{load.name}") if statics.has_couple(load) else lever
-
-
 def _divisor(statics: Statics, load: LoadOn) -> Expression:
     """A load's size; that of a reaction is 0 where it is but rounding."""
-    if not load.name.startswith("R") or not statics.has_couple(load):
-        return Ref(load.size)
-    return above(load.size, FAINT * statics.force)
+    if load.origin is Origin.reaction and statics.couple(load) is not None:
+        return above(load.size, FAINT * statics.force)
+    return load.size
 
 
-def above(id: str, floor: float) -> Expression:
+def above(size: Ref, floor: float) -> Expression:
     """A size, 0 where it does not exceed `floor`."""
-    return multiply(id, call("sign", call("max", 0.0, subtract(id, floor))))
+    return size * sign(call("max", 0.0, size - floor))
 
 
-def arm(statics: Statics, load: LoadOn, centre: str) -> str:
-    """The signed arm, measured on the drawing, of a load about a point: h = M/(F μ_l)."""
+def arm(statics: Statics, load: LoadOn, centre: str) -> Ref:
+    """The signed arm, measured on the drawing, of a load about a point: h = M/(F μ_l), its couple included."""
+    q, couple = statics.q, statics.couple(load)
+    moment: Expression = cross(q[f"p.{load.point}"] - q[f"p.{centre}"], statics.vector(load))
+    if couple is not None:
+        moment = moment + couple
+    drawn = quotient(moment, _divisor(statics, load)) / q["mu.l"]
     id = f"h.{load.name}.{centre}"
-    moment = moment_about(statics, load, centre)
-    statics.b.define(
-        id,
-        Symbol("h", load.name.removeprefix("R")),
-        "segment",
-        divide(call("quotient", moment, _divisor(statics, load)), "mu.l"),
-        arm=True,
-        scale=statics.span,
-    )
-    return id
+    return q.define(id, drawn, Symbol("h", load.letters), arm=True, scale=statics.span)
 
 
-def moments(statics: Statics, loads: tuple[LoadOn, ...], centre: str) -> Expression | None:
+def moments(statics: Statics, loads: Iterable[LoadOn], centre: str) -> Expression | None:
     """Moments about a point as printed: (ΣF·h)·μ_l, and couples; None if there are none."""
     terms: list[Expression] = []
     couples: list[Expression] = []
     for load in loads:
+        couple = statics.couple(load)
         if not load.point:
-            couples.append(Ref(load.size))
-            continue
-        if load.point == centre and not statics.has_couple(load):
-            continue
-        terms.append(multiply(load.size, arm(statics, load, centre)))
-        if statics.has_couple(load):
-            couples.append(lone_couple(statics, load))
+            couples.append(load.size)
+        elif load.point != centre or couple is not None:
+            terms.append(load.size * arm(statics, load, centre))
+            if couple is not None:
+                couples.append(lone_couple(statics, load))
     if not terms:
-        return add(*couples) if couples else None
-    turned = multiply(add(*terms), "mu.l")
-    return add(turned, *couples) if couples else turned
+        return Sum(tuple(couples)) if couples else None
+    turned = Sum(tuple(terms)) * statics.q["mu.l"]
+    return Sum((turned, *couples)) if couples else turned
 
 
 def lone_couple(statics: Statics, load: LoadOn) -> Expression:
     """The couple of a load at positions where its force is nothing; left out of a line elsewhere."""
-    id = f"lone.{load.name}"
-    if id not in statics.b:
-        statics.b.define(
-            id,
-            Symbol("M", load.name.removeprefix("P").removeprefix("R")),
-            "torque",
-            call("if_zero", _divisor(statics, load), f"couple.{load.name}"),
-            optional=True,
-        )
-    return add(id)
+    q, id, couple = statics.q, f"lone.{load.name}", statics.couple(load)
+    assert couple is not None
+    if id not in q:
+        letters = load.letters.removeprefix("P")
+        alone = call("if_zero", _divisor(statics, load), couple)
+        q.define(id, alone, Symbol("M", letters), "torque", optional=True)
+    return Sum((q[id],))  # a term of its own, so that it can be left out

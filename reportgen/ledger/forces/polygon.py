@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.ledger.forces.loads import Statics
-from reportgen.ledger.kinematics.names import segment_symbol
-from reportgen.notation.expressions import (
-    Expression,
-    Symbol,
-    add,
-    call,
-    divide,
-    evaluate,
-    multiply,
-    subtract,
-)
+from reportgen.notation.constructions import heading
+from reportgen.notation.evaluation import evaluate
+from reportgen.notation.expressions import Expression, Number, Symbol
 from reportgen.notation.numbers import nice_up
+from reportgen.notation.sheet import Sheet
+from reportgen.notation.symbols import segment
 
 PLAN_BOX = (0.160, 0.200)
 """Every force plan of a group fits into this box on paper (m): one scale serves them all."""
@@ -56,62 +50,51 @@ class Polygon:
 class Path:
     """The known forces of a plan laid head to tail from vertex e."""
 
-    def __init__(self) -> None:
+    def __init__(self, q: Sheet) -> None:
+        self._q = q
         self._letters = iter(LETTERS)
         self.first = self.last = next(self._letters)
-        self.corners: dict[str, Expression] = {self.first: multiply(0.0)}
+        self.corners: dict[str, Expression] = {self.first: Number(0.0)}
         self.sides: list[Side] = []
 
     def lay(self, name: str, link: int) -> None:
         """Lay the force `F.name` on from the last vertex."""
         letter = next(self._letters)
-        self.corners[letter] = add(self.corners[self.last], f"F.{name}")
+        self.corners[letter] = self.corners[self.last] + self._q[f"F.{name}"]
         self.sides.append(Side(name, self.last, letter, link=link))
         self.last = letter
 
 
-def force_plan(statics: Statics, name: str, title: str, corners: Mapping[str, Expression]) -> str:
+def force_plan(statics: Statics, name: str, title: str, corners: Mapping[str, Expression]) -> None:
     """Choose μ_R so that the plan fits its box at every position, and enter the vertices on paper."""
-    b = statics.b
-    values = {id: family.values for id, family in b.families.items()}
-    places = np.array([np.broadcast_to(evaluate(corner, values), (b.positions,)) for corner in corners.values()])
+    q = statics.q
+    values = {id: family.values for id, family in q.families.items()}
+    places = np.array([np.broadcast_to(evaluate(corner, values), (q.positions,)) for corner in corners.values()])
     places = places[:, np.isfinite(places).all(axis=0)]
     needed = 0.0
     if places.size:
         width, height = np.ptp(places.real, axis=0).max(), np.ptp(places.imag, axis=0).max()
         needed = max(width / PLAN_BOX[0], height / PLAN_BOX[1])
-    mu = f"mu.R{name}"
-    b.give(mu, Symbol("μ", title), "force scale", nice_up(max(needed, 1e-9) / 1e3) * 1e3)
+    μ = q.give(f"mu.R{name}", nice_up(max(needed, 1e-9) / 1e3) * 1e3, Symbol("μ", title))
     for letter, corner in corners.items():
-        b.construct(f"plan.R{name}.{letter}", divide(corner, mu))
-    return mu
+        q.construct(f"plan.R{name}.{letter}", corner / μ)
 
 
 def read(statics: Statics, plan: str, name: str, symbol: Symbol, id: str, start: str, end: str) -> None:
-    """A force read from a plan between two vertices: its segment, its size and its vector."""
-    b, mu = statics.b, f"mu.R{plan}"
-    along = subtract(f"plan.R{plan}.{end}", f"plan.R{plan}.{start}")
-    scale = statics.force
-    segment = f"seg.{plan}.{name}"
-    b.define(
-        segment,
-        segment_symbol(start, end),
-        "segment",
-        call("abs", along),
-        scale=scale / float(b.value(mu)[0]),
-    )
-    b.define(id, symbol, "force", multiply(mu, segment), scale=scale)
-    b.construct(f"F.{name}", multiply(mu, along))
-    b.define(f"dir.{name}", Symbol("α", symbol.sub), "angle", call("heading", f"F.{name}"), scale=1.0)
+    """A force read from a plan between two vertices: its segment, its size, its vector and its direction."""
+    q, scale = statics.q, statics.force
+    μ, along = q[f"mu.R{plan}"], q[f"plan.R{plan}.{end}"] - q[f"plan.R{plan}.{start}"]
+    on_paper = scale / q.si(μ)
+    drawn = q.define(f"seg.{plan}.{name}", abs(along), segment(start, end), scale=on_paper, of=f"F.{name}")
+    q.define(id, μ * drawn, symbol, scale=scale)
+    vector = q.construct(f"F.{name}", μ * along, of=id)
+    q.define(f"dir.{name}", heading(vector), Symbol("α", symbol.sub), scale=1.0, of=id)
 
 
-def drawn_sides(statics: Statics, plan: str, sides: list[Side]) -> None:
+def drawn_sides(statics: Statics, plan: str, sides: Iterable[Side]) -> None:
     """The drawn lengths of a plan's known forces."""
+    q = statics.q
     for side in sides:
-        statics.b.define(
-            f"seg.{plan}.{side.name}",
-            segment_symbol(side.start, side.end),
-            "segment",
-            call("abs", divide(f"F.{side.name}", f"mu.R{plan}")),
-            scale=PLAN_BOX[1],
-        )
+        drawn = abs(q[f"F.{side.name}"] / q[f"mu.R{plan}"])
+        letters = segment(side.start, side.end)
+        q.define(f"seg.{plan}.{side.name}", drawn, letters, scale=PLAN_BOX[1], of=f"F.{side.name}")

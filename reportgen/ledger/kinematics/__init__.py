@@ -13,55 +13,40 @@ speed `v.A` of its pin.
 
 from __future__ import annotations
 
-from reportgen.ledger.core import Builder
-from reportgen.ledger.kinematics import centres, driver, points
-from reportgen.ledger.kinematics.centres import PREFIX, centre_symbol, centred
+from reportgen.ledger.kinematics import driver, points
+from reportgen.ledger.kinematics.centres import enter_centres
 from reportgen.ledger.kinematics.groups import group
-from reportgen.ledger.kinematics.names import difference, image, segment_symbol
-from reportgen.ledger.kinematics.sides import Side, Slide, Turn, scheme, sides
+from reportgen.ledger.kinematics.linkage import Kinematics
+from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import DRIVER, Crank, Linkage
+from reportgen.notation.sheet import Sheet
 from reportgen.notation.symbols import point
 
-__all__ = [
-    "PREFIX",
-    "Side",
-    "Slide",
-    "Turn",
-    "centre_symbol",
-    "centred",
-    "describe",
-    "difference",
-    "image",
-    "scheme",
-    "segment_symbol",
-    "sides",
-]
 
-
-def describe(b: Builder, linkage: Linkage, turn: int) -> None:
+def enter_kinematics(q: Sheet, linkage: Linkage, turn: int) -> None:
     """Enter every kinematic quantity of a linkage, link by link in order of assembly.
 
     With a sliding driver the plans are solved once on trial, to find the scales that fit the paper.
     """
-    if isinstance(linkage.driver, Crank):
-        _enter(b, linkage, turn)
-        return
-    trial = b.copy()
-    _enter(trial, linkage, turn)
-    _enter(b, linkage, turn, (driver.fitting(trial, "v"), driver.fitting(trial, "a")))
+    scales = None
+    if not isinstance(linkage.driver, Crank):
+        trial = _enter(q.copy(), linkage, turn)
+        scales = driver.fitting_scale(trial, "v"), driver.fitting_scale(trial, "a")
+    _enter(q, linkage, turn, scales)
 
 
-def _enter(b: Builder, linkage: Linkage, turn: int, scales: tuple[float, float] | None = None) -> None:
+def _enter(q: Sheet, linkage: Linkage, turn: int, scales: tuple[float, float] | None = None) -> Kinematics:
     for name, place in linkage.ground.items():
-        b.give(f"p.{name}", point(name), "length", complex(place))
+        q.give(f"p.{name}", complex(place), point(name), "length")
     plan = scheme(linkage)
     if isinstance(linkage.driver, Crank):
-        site = driver.crank(b, plan, linkage.driver, turn)
+        k = driver.crank(q, plan, linkage.driver, turn)
     else:
-        site = driver.slide(b, plan, linkage.driver, turn, scales)
-        points.place(site, DRIVER, None)
+        k = driver.slide(q, plan, linkage.driver, turn, scales)
+        points.places(k, DRIVER, None)
         for what in ("v", "a"):
-            points.images(site, what, DRIVER, None)
+            points.images(k, what, DRIVER, None)
     for dyad in linkage.dyads:
-        group(site, dyad)
-    centres.describe(site)
+        group(k, dyad)
+    enter_centres(k)
+    return k

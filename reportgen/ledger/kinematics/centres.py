@@ -8,20 +8,20 @@ the velocities and BC, `ic.along.k.B` = v_B cos ψ_B, `ic.along.k.C` = v_C cos �
 
 from __future__ import annotations
 
-from reportgen.ledger.kinematics.names import image, segment_symbol
-from reportgen.ledger.kinematics.sides import Scheme, Turn, sides
-from reportgen.ledger.kinematics.site import Site
+from reportgen.ledger.kinematics.linkage import Kinematics
+from reportgen.ledger.kinematics.sides import Scheme, Turn, image, sides
 from reportgen.mechanism.structure import DRIVER, Crank
-from reportgen.notation.expressions import Expression, Symbol, call, divide, multiply, subtract
-from reportgen.notation.symbols import point
+from reportgen.notation.constructions import arg, meet, quotient, turned
+from reportgen.notation.expressions import Expression, Symbol, call, cos
+from reportgen.notation.symbols import point, segment
 
 PREFIX = "ic."
 NEAREST, FARTHEST = 0.002, 0.3
 """Distances from a centre (m on paper) that are measured: a shorter one has no exact length, a longer one no sheet."""
 
 
-def centred(scheme: Scheme) -> tuple[Turn, ...]:
-    """The links in plane motion with two points whose velocities are drawn, each as one point turning about another."""
+def links_in_plane_motion(scheme: Scheme) -> tuple[Turn, ...]:
+    """The links with two points whose velocities are drawn, each as one point turning about another."""
     both = (side for dyad in scheme.linkage.dyads for side in sides(scheme, dyad))
     return tuple(side for side in both if isinstance(side, Turn) and not side.still)
 
@@ -31,57 +31,46 @@ def centre_symbol(link: int) -> Symbol:
     return Symbol("P", str(link))
 
 
-def describe(site: Site) -> None:
+def enter_centres(k: Kinematics) -> None:
     """Enter the centres of all links in plane motion and the checks by them."""
-    for turn in centred(site.scheme):
-        _check(site, turn)
+    for turn in links_in_plane_motion(k.scheme):
+        _enter_centre(k, turn)
 
 
-def _check(site: Site, turn: Turn) -> None:
-    b, link, base, end = site.b, turn.link, turn.base, turn.point
-    centre = f"{PREFIX}{link}"
-    b.construct(centre, call("meet", f"p.{base}", _normal(site, base), f"p.{end}", _normal(site, end)))
-    for name, nearest in ((base, NEAREST), (end, 0.0)):
-        drawn = divide(call("abs", subtract(f"p.{name}", centre)), "mu.l")
-        b.define(
-            f"{PREFIX}seg.{link}.{name}",
-            segment_symbol(centre_symbol(link), point(name)),
-            "segment",
-            call("within", drawn, nearest, FARTHEST),
-            scale=site.span(),
+def _enter_centre(k: Kinematics, turn: Turn) -> None:
+    q, link, base, end, sizes = k.q, turn.link, turn.base, turn.point, k.sizes
+    normals = k.place(base), _normal(k, base), k.place(end), _normal(k, end)
+    centre, μ_l = q.construct(f"ic.{link}", meet(*normals)), q["mu.l"]
+
+    def distance(name: str, nearest: float) -> Expression:
+        within = call("within", abs(k.place(name) - centre) / μ_l, nearest, FARTHEST)
+        return q.define(
+            f"ic.seg.{link}.{name}", within, segment(centre_symbol(link), point(name)), scale=k.span()
         )
-    by_centre = divide(f"v.{base}", multiply("mu.l", f"{PREFIX}seg.{link}.{base}"))
-    b.define(
-        f"{PREFIX}omega.{link}",
-        Symbol("ω", str(link)),
-        "angular velocity",
-        by_centre,
-        scale=site.sizes.rotation,
-    )
-    size = site.sizes.velocity
-    in_proportion = multiply(f"v.{base}", divide(f"{PREFIX}seg.{link}.{end}", f"{PREFIX}seg.{link}.{base}"))
-    b.define(f"{PREFIX}v.{link}", Symbol("v", end), "velocity", in_proportion, scale=size)
+
+    PB, PC, v = distance(base, NEAREST), distance(end, 0.0), q[f"v.{base}"]
+    q.define(f"ic.omega.{link}", v / (μ_l * PB), scale=sizes.rotation)
+    q.define(f"ic.v.{link}", v * (PC / PB), Symbol("v", end), scale=sizes.velocity)
     for name in (base, end):
-        angle = f"{PREFIX}angle.{link}.{name}"
-        to_link = call("abs", call("arg", call("quotient", site.image("v", name), f"rod.{link}")))
-        b.define(angle, Symbol("ψ", name), "angle", to_link, scale=1.0)
+        to_link = abs(arg(quotient(k.image("v", name), q[f"rod.{link}"])))
+        q.define(f"ic.angle.{link}.{name}", to_link, scale=1.0)
     for name in (base, end):
-        along = multiply(f"v.{name}", call("cos", f"{PREFIX}angle.{link}.{name}"))
-        b.define(f"{PREFIX}along.{link}.{name}", Symbol("u", name), "velocity", along, scale=size)
+        along = q[f"v.{name}"] * cos(q[f"ic.angle.{link}.{name}"])
+        q.define(f"ic.along.{link}.{name}", along, scale=sizes.velocity)
 
 
-def _normal(site: Site, name: str) -> Expression:
+def _normal(k: Kinematics, name: str) -> Expression:
     """A direction square to a point's velocity: by what leads it, so also where it stands still, else by the plan."""
-    scheme, driver = site.scheme, site.scheme.linkage.driver
+    scheme, driver = k.scheme, k.scheme.linkage.driver
     owner = scheme.owner.get(name)
     if owner == DRIVER:
         if isinstance(driver, Crank):
-            return subtract(f"p.{name}", f"p.{driver.centre}")
-        return call("turned", "guide.1")
+            return k.place(name) - k.place(driver.centre)
+        return turned(k.q["guide.1"])
     for side in (side for dyad in scheme.linkage.dyads for side in sides(scheme, dyad) if side.still):
         if isinstance(side, Turn):
             if side.point == name or side.link == owner:
-                return subtract(f"p.{name}", f"p.{side.base}")
-        elif side.point == name or (side.guided and side.along == f"guide.{owner}"):
-            return call("turned", side.along)
-    return call("turned", f"plan.v.{image(name)}")
+                return k.place(name) - k.place(side.base)
+        elif side.point == name or (side.carrier is not None and side.along == f"guide.{owner}"):
+            return turned(k.q[side.along])
+    return turned(k.q[f"plan.v.{image(name)}"])

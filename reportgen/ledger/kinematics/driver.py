@@ -6,23 +6,14 @@ import cmath
 
 import numpy as np
 
-from reportgen.ledger.core import Builder
-from reportgen.ledger.kinematics.names import image, length_symbol, segment_symbol
-from reportgen.ledger.kinematics.sides import Scheme
-from reportgen.ledger.kinematics.site import Site, longest, sizes
+from reportgen.ledger.kinematics.linkage import Kinematics, longest, natural_sizes
+from reportgen.ledger.kinematics.sides import Scheme, image
 from reportgen.mechanism.structure import DRIVER, Crank, SlidingDriver
-from reportgen.notation.expressions import (
-    Symbol,
-    add,
-    call,
-    divide,
-    multiply,
-    negative,
-    power,
-    subtract,
-)
+from reportgen.notation.constructions import cis, turned
+from reportgen.notation.expressions import Number
 from reportgen.notation.numbers import nice_up
-from reportgen.notation.symbols import on_plan
+from reportgen.notation.sheet import Sheet
+from reportgen.notation.symbols import drawn_length, on_plan, segment
 
 DRAWN = 0.05
 """Drawn length of the crank (m on paper) when the machine does not say."""
@@ -32,92 +23,79 @@ PLAN_BOX = (0.120, 0.160)
 """Plans of a sliding driver fit into this box on paper (m)."""
 
 
-def crank(b: Builder, scheme: Scheme, driver: Crank, turn: int) -> Site:
+def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int) -> Kinematics:
     """v_A = ω₁ l, a_A = ω₁² l; μ_v = ω₁ μ_l and μ_a = ω₁² μ_l, so that pa and πa′ equal the drawn crank."""
     centre, pin = driver.centre, driver.pin
-    length, drawn = f"l.{centre}{pin}", f"drawn.{centre}{pin}"
-    site = Site(b, scheme, turn, sizes(b, scheme.linkage))
-    site.length(centre, pin, driver.length)
-    if drawn not in b:
-        b.give(drawn, length_symbol(centre, pin), "segment", DRAWN)
-    b.define("mu.l", Symbol("μ", "l"), "length scale", divide(length, drawn))
-    b.construct(f"p.{pin}", add(f"p.{centre}", multiply(length, call("cis", "phi.1"))))
-    on_link = [place for place in scheme.linkage.points if place.link == DRIVER]
-    for place in on_link:
-        turned = add("phi.1", cmath.phase(place.local))
-        other = site.length(centre, place.name, abs(place.local))
-        b.construct(f"p.{place.name}", add(f"p.{centre}", multiply(other, call("cis", turned))))
-        site.drawn(centre, place.name)
+    k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
+    φ1, ω1, length = q["phi.1"], q["omega.1"], k.length(centre, pin, driver.length)
+    if f"drawn.{centre}{pin}" not in q:
+        q.give(f"drawn.{centre}{pin}", DRAWN, drawn_length(centre, pin))
+    drawn = q[f"drawn.{centre}{pin}"]
+    exact = q.families[drawn.id].exact
+    μ_l = q.define("mu.l", length / drawn)
+    q.construct(f"p.{pin}", k.place(centre) + length * cis(φ1))
+    further = [place for place in scheme.linkage.points if place.link == DRIVER]
+    for place in further:
+        other = k.length(centre, place.name, abs(place.local))
+        q.construct(f"p.{place.name}", k.place(centre) + other * cis(φ1 + cmath.phase(place.local)))
+        k.drawn(centre, place.name)
 
-    b.define(f"v.{pin}", Symbol("v", pin), "velocity", multiply("omega.1", length))
-    exact = b[drawn].exact
-    b.define(f"seg.v.p{image(pin)}", segment_symbol("p", on_plan(pin)), "segment", drawn, exact=exact)
-    b.define("mu.v", Symbol("μ", "v"), "velocity scale", multiply("omega.1", "mu.l"))
-    b.define(f"a.{pin}", Symbol("a", pin), "acceleration", multiply(power("omega.1", 2), length))
-    b.define(f"seg.a.p{image(pin)}", segment_symbol("π", on_plan(pin, True)), "segment", drawn, exact=exact)
-    b.define("mu.a", Symbol("μ", "a"), "acceleration scale", multiply(power("omega.1", 2), "mu.l"))
+    q.define(f"v.{pin}", ω1 * length)
+    q.define(f"seg.v.p{image(pin)}", drawn, segment("p", on_plan(pin)), exact=exact)
+    μ_v = q.define("mu.v", ω1 * μ_l)
+    q.define(f"a.{pin}", ω1**2 * length)
+    q.define(f"seg.a.p{image(pin)}", drawn, segment("π", on_plan(pin, True)), exact=exact)
+    μ_a = q.define("mu.a", ω1**2 * μ_l)
 
-    for name in (pin, *(place.name for place in on_link)):
-        arm = divide(subtract(f"p.{name}", f"p.{centre}"), "mu.l")
-        b.construct(f"plan.v.{image(name)}", multiply(turn, call("turned", arm)))
-        b.construct(f"plan.a.{image(name)}", negative(arm))
+    for name in (pin, *(place.name for place in further)):
+        arm = (k.place(name) - k.place(centre)) / μ_l
+        q.construct(f"plan.v.{image(name)}", turn * turned(arm))
+        q.construct(f"plan.a.{image(name)}", -arm)
         if name != pin:
-            _further_pin(b, centre, name)
-    axis = "axis.1"
-    if any(getattr(end, "link", None) == DRIVER for dyad in scheme.linkage.dyads for end in (dyad.start, dyad.end)):
-        b.construct(axis, call("cis", "phi.1"))
-    site.body(DRIVER, centre, axis)
-    return site
-
-
-def _further_pin(b: Builder, centre: str, name: str) -> None:
-    length = f"l.{centre}{name}"
-    b.define(f"v.{name}", Symbol("v", name), "velocity", multiply("omega.1", length))
-    b.define(f"a.{name}", Symbol("a", name), "acceleration", multiply(power("omega.1", 2), length))
-    for plan, pole, prime in (("v", "p", False), ("a", "π", True)):
-        b.define(
-            f"seg.{plan}.p{image(name)}",
-            segment_symbol(pole, on_plan(name, prime)),
-            "segment",
-            divide(f"{plan}.{name}", f"mu.{plan}"),
-        )
+            own = q[f"l.{centre}{name}"]
+            v, a = q.define(f"v.{name}", ω1 * own), q.define(f"a.{name}", ω1**2 * own)
+            q.define(f"seg.v.p{image(name)}", v / μ_v, segment("p", on_plan(name)))
+            q.define(f"seg.a.p{image(name)}", a / μ_a, segment("π", on_plan(name, True)))
+    ends = (end for dyad in scheme.linkage.dyads for end in (dyad.start, dyad.end))
+    carries = any(getattr(end, "link", None) == DRIVER for end in ends)
+    k.put(DRIVER, centre, q.construct("axis.1", cis(φ1)) if carries else None)
+    return k
 
 
 def slide(
-    b: Builder, scheme: Scheme, driver: SlidingDriver, turn: int, scales: tuple[float, float] | None
-) -> Site:
+    q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: tuple[float, float] | None
+) -> Kinematics:
     """The pin moves along its guide at constant v_A, a_A = 0; `scales` are μ_v and μ_a, None for a trial.
 
     Expects the driver's coordinate `s.1` and the size of its speed, `v.` and the pin's name.
     """
     pin, size = driver.pin, longest(scheme.linkage)
-    site = Site(b, scheme, turn, sizes(b, scheme.linkage))
-    if "mu.l" not in b:
-        b.give("mu.l", Symbol("μ", "l"), "length scale", nice_up(size / LONGEST_DRAWN / 1e3) * 1e3)
-    along = site.plane("guide.1", cmath.exp(1j * driver.guide.angle))
-    at = site.plane("guide.1.at", driver.guide.at)
-    b.construct(f"p.{pin}", add(at, multiply("s.1", along)))
+    k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
+    if "mu.l" not in q:
+        q.give("mu.l", nice_up(size / LONGEST_DRAWN / 1e3) * 1e3)
+    along = k.constant("guide.1", cmath.exp(1j * driver.guide.angle))
+    at = k.constant("guide.1.at", driver.guide.at)
+    q.construct(f"p.{pin}", at + q["s.1"] * along)
     mu_v, mu_a = scales or (1e3, 1e3)
-    b.give("mu.v", Symbol("μ", "v"), "velocity scale", mu_v)
-    b.give("mu.a", Symbol("μ", "a"), "acceleration scale", mu_a)
-    segment = f"seg.v.p{image(pin)}"
-    b.define(segment, segment_symbol("p", on_plan(pin)), "segment", divide(f"v.{pin}", "mu.v"))
-    b.construct(f"plan.v.{image(pin)}", multiply(turn, segment, along))
-    b.give(f"a.{pin}", Symbol("a", pin), "acceleration", 0.0)
-    b.define(f"seg.a.p{image(pin)}", segment_symbol("π", on_plan(pin, True)), "segment", 0.0)
-    b.construct(f"plan.a.{image(pin)}", multiply(0.0, along))
-    site.body(DRIVER, pin, along)
-    return site
+    μ_v = q.give("mu.v", mu_v)
+    q.give("mu.a", mu_a)
+    drawn = q.define(f"seg.v.p{image(pin)}", q[f"v.{pin}"] / μ_v, segment("p", on_plan(pin)))
+    q.construct(f"plan.v.{image(pin)}", turn * drawn * along)
+    q.give(f"a.{pin}", 0.0)
+    q.define(f"seg.a.p{image(pin)}", 0.0, segment("π", on_plan(pin, True)))
+    q.construct(f"plan.a.{image(pin)}", Number(0.0) * along)
+    k.put(DRIVER, pin, along)
+    return k
 
 
-def fitting(b: Builder, what: str) -> float:
+def fitting_scale(k: Kinematics, what: str) -> float:
     """The smallest scale of the series with which the trial's plans, drawn at 10³ a metre, fit their box."""
-    plans = [b.value(id) for id in b.families if id.startswith(f"plan.{what}.")]
-    points = np.array([np.broadcast_to(plan, (b.positions,)) for plan in plans] + [np.zeros(b.positions)])
+    q = k.q
+    names = {name: f"plan.{what}.{image(name)}" for name in k.scheme.owner}
+    plans = [q.value(id) for id in names.values() if id in q]
+    points = np.array([np.broadcast_to(plan, (q.positions,)) for plan in plans] + [np.zeros(q.positions)])
     points = points[:, np.isfinite(points).all(axis=0)]
     if not points.size:
         return 1e3
     needed = max(np.ptp(points.real, axis=0).max() / PLAN_BOX[0], np.ptp(points.imag, axis=0).max() / PLAN_BOX[1])
     return nice_up(needed) * 1e3 if needed > 0 else 1e3
-
-

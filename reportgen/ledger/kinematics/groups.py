@@ -6,153 +6,127 @@ import cmath
 from collections.abc import Callable, Mapping
 
 from reportgen.ledger.kinematics import points, rates
-from reportgen.ledger.kinematics.names import image, length_symbol, under
-from reportgen.ledger.kinematics.sides import Turn, sides
-from reportgen.ledger.kinematics.site import Site, What
+from reportgen.ledger.kinematics.linkage import Kinematics, What
+from reportgen.ledger.kinematics.sides import Turn, image, sides, under
 from reportgen.mechanism.structure import Dyad, DyadKind, Guide
-from reportgen.notation.expressions import (
-    Root,
-    Symbol,
-    add,
-    call,
-    divide,
-    multiply,
-    power,
-    subtract,
-)
+from reportgen.notation.constructions import circle_circle, circle_line, meet, turned
+from reportgen.notation.expressions import Expression, Ref, call, sqrt
+from reportgen.notation.symbols import drawn_length
 
 
-def group(site: Site, dyad: Dyad) -> None:
+def group(k: Kinematics, dyad: Dyad) -> None:
     """Enter a group: its places, velocities, accelerations, and those of its links' points."""
-    both = sides(site.scheme, dyad)
-    PLACES[dyad.kind](site, dyad)
+    both = sides(k.scheme, dyad)
+    PLACES[dyad.kind](k, dyad)
     turns = {link: points.turn_of(link, both) for link in dyad.links}
     for link, turn in turns.items():
-        points.place(site, link, turn)
-    _motion(site, dyad, "v", turns, lambda: rates.velocity(site, *both))
-    _motion(site, dyad, "a", turns, lambda: rates.acceleration(site, *both))
+        points.places(k, link, turn)
+    _motion(k, dyad, "v", turns, lambda: rates.velocity(k, *both))
+    _motion(k, dyad, "a", turns, lambda: rates.acceleration(k, *both))
 
 
 def _motion(
-    site: Site, dyad: Dyad, what: What, turns: Mapping[int, Turn | None], solve: Callable[[], None]
+    k: Kinematics, dyad: Dyad, what: What, turns: Mapping[int, Turn | None], solve: Callable[[], None]
 ) -> None:
     solve()
     for link in dyad.links:
-        site.share_rotation(what, link)
+        k.share_rotation(what, link)
     if dyad.kind == "RPP":
-        _middle_of_rpp(site, dyad, what)
+        _middle_of_rpp(k, dyad, what)
     for link, turn in turns.items():
-        points.images(site, what, link, turn)
+        points.images(k, what, link, turn)
 
 
-def _outer(end: str | Guide) -> str:
+def _pin(end: str | Guide) -> str:
     assert isinstance(end, str)
     return end
 
 
-def _rail(end: str | Guide) -> Guide:
+def _guide(end: str | Guide) -> Guide:
     assert isinstance(end, Guide)
     return end
 
 
-def _rod(site: Site, link: int, start: str, middle: str, length: float) -> None:
-    """A rod of fixed length from an outer joint to the inner one."""
-    site.length(start, middle, length)
-    site.b.construct(f"rod.{link}", subtract(f"p.{middle}", f"p.{start}"))
-    site.drawn(start, middle)
-    site.body(link, start, f"axis.{link}", middle)
+def _rod(k: Kinematics, link: int, start: str, middle: str, length: Ref) -> None:
+    """A rod of fixed length from an outer joint to the inner one; its unit axis, if it carries a guide."""
+    rod = k.q.construct(f"rod.{link}", k.place(middle) - k.place(start))
+    k.drawn(start, middle)
+    ends = (end for dyad in k.scheme.linkage.dyads for end in (dyad.start, dyad.end))
+    carries = any(isinstance(end, Guide) and end.link == link for end in ends)
+    k.put(link, start, k.q.construct(f"axis.{link}", rod / length) if carries else None, middle)
 
 
-def _axis(site: Site, link: int, length: str) -> None:
-    """The unit vector along a rod, for what is carried by it."""
-    ends = (end for dyad in site.scheme.linkage.dyads for end in (dyad.start, dyad.end))
-    if any(isinstance(end, Guide) and end.link == link for end in ends):
-        site.b.construct(f"axis.{link}", divide(f"rod.{link}", length))
+def _rrr(k: Kinematics, dyad: Dyad) -> None:
+    start, end, middle = _pin(dyad.start), _pin(dyad.end), dyad.middle
+    first = k.length(start, middle, dyad.lengths[0])
+    second = k.length(end, middle, dyad.lengths[1])
+    k.q.construct(f"p.{middle}", circle_circle(k.place(start), first, k.place(end), second, float(dyad.sign)))
+    _rod(k, dyad.links[0], start, middle, first)
+    _rod(k, dyad.links[1], end, middle, second)
 
 
-def _rrr(site: Site, dyad: Dyad) -> None:
-    start, end, q = _outer(dyad.start), _outer(dyad.end), dyad.middle
-    first = site.length(start, q, dyad.lengths[0])
-    second = site.length(end, q, dyad.lengths[1])
-    site.b.construct(
-        f"p.{q}", call("circle_circle", f"p.{start}", first, f"p.{end}", second, float(dyad.sign))
-    )
-    for link, outer, length in zip(dyad.links, (start, end), dyad.lengths, strict=True):
-        _rod(site, link, outer, q, length)
-        _axis(site, link, f"l.{outer}{q}")
-
-
-def _rrp(site: Site, dyad: Dyad) -> None:
-    start, q = _outer(dyad.start), dyad.middle
+def _rrp(k: Kinematics, dyad: Dyad) -> None:
+    start, middle = _pin(dyad.start), dyad.middle
     i, j = dyad.links
-    at, along = site.guide(j, _rail(dyad.end))
-    length = site.length(start, q, dyad.lengths[0])
-    site.b.construct(f"p.{q}", call("circle_line", f"p.{start}", length, at, along, float(dyad.sign)))
-    _rod(site, i, start, q, dyad.lengths[0])
-    _axis(site, i, length)
-    site.body(j, q, along)
+    at, along = k.guide(j, _guide(dyad.end))
+    length = k.length(start, middle, dyad.lengths[0])
+    k.q.construct(f"p.{middle}", circle_line(k.place(start), length, at, along, float(dyad.sign)))
+    _rod(k, i, start, middle, length)
+    k.put(j, middle, along)
 
 
-def _rpr(site: Site, dyad: Dyad) -> None:
+def _rpr(k: Kinematics, dyad: Dyad) -> None:
     """The slot's line is a tangent from P to the circle of radius e about T: u = TP/(s + i e)."""
-    start, end, q = _outer(dyad.start), _outer(dyad.end), dyad.middle
+    start, end, middle = _pin(dyad.start), _pin(dyad.end), dyad.middle
     i, j = dyad.links
-    b, rod, offset = site.b, f"rod.{j}", dyad.lengths[1]
-    b.construct(f"p.{q}", add(f"p.{start}"))
-    b.construct(rod, subtract(f"p.{start}", f"p.{end}"))
-    b.define(
-        f"drawn.{end}{q}", length_symbol(end, q), "segment", divide(call("abs", rod), "mu.l"), scale=site.span()
-    )
-    b.define(f"l.{end}{q}", Symbol("l", f"{end}{q}"), "length", multiply("mu.l", f"drawn.{end}{q}"))
-    reach = call("abs", rod)
+    q, offset, mu = k.q, dyad.lengths[1], k.q["mu.l"]
+    q.construct(f"p.{middle}", k.place(start))
+    rod = q.construct(f"rod.{j}", k.place(start) - k.place(end))
+    drawn = q.define(f"drawn.{end}{middle}", abs(rod) / mu, drawn_length(end, middle), scale=k.span())
+    q.define(f"l.{end}{middle}", mu * drawn)
+    along: Expression = float(dyad.sign) * abs(rod)
     if offset:
-        e = site.length(end, f"H{j}", abs(offset))
-        under_root = subtract(power(reach, 2), power(e, 2))
-        along = add(
-            multiply(float(dyad.sign), Root(call("max", 0.0, under_root))),
-            multiply(1.0 if offset > 0 else -1.0, call("turned", e)),
-        )
-    else:
-        along = multiply(float(dyad.sign), reach)
-    b.construct(f"slot.{j}", divide(rod, along))
-    site.body(i, start, f"slot.{j}")
-    site.body(j, end, f"slot.{j}", q)
+        e = k.length(end, f"H{j}", abs(offset))
+        reach = sqrt(call("max", 0.0, abs(rod) ** 2 - e**2))
+        along = float(dyad.sign) * reach + (1.0 if offset > 0 else -1.0) * turned(e)
+    slot = q.construct(f"slot.{j}", rod / along)
+    k.put(i, start, slot)
+    k.put(j, end, slot, middle)
 
 
-def _prp(site: Site, dyad: Dyad) -> None:
-    first, second = (
-        site.guide(link, _rail(end)) for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)
+def _prp(k: Kinematics, dyad: Dyad) -> None:
+    (at1, along1), (at2, along2) = (
+        k.guide(link, _guide(end)) for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)
     )
-    site.b.construct(f"p.{dyad.middle}", call("meet", *first, *second))
-    for link, (_, along) in zip(dyad.links, (first, second), strict=True):
-        site.body(link, dyad.middle, along)
+    k.q.construct(f"p.{dyad.middle}", meet(at1, along1, at2, along2))
+    for link, along in zip(dyad.links, (along1, along2), strict=True):
+        k.put(link, dyad.middle, along)
 
 
-def _rpp(site: Site, dyad: Dyad) -> None:
-    start, q = _outer(dyad.start), dyad.middle
+def _rpp(k: Kinematics, dyad: Dyad) -> None:
+    start, middle = _pin(dyad.start), dyad.middle
     i, j = dyad.links
-    at, along = site.guide(j, _rail(dyad.end))
-    slope = site.plane(f"slot.{j}.local", cmath.exp(1j * dyad.slide_angle))
-    site.b.construct(f"slot.{j}", multiply(along, slope))
-    site.b.construct(f"p.{q}", call("meet", at, along, f"p.{start}", f"slot.{j}"))
-    site.b.construct(f"p.{under(start, j, site.scheme.owner)}", add(f"p.{start}"))
-    site.body(i, start, along)
-    site.body(j, q, along)
+    at, along = k.guide(j, _guide(dyad.end))
+    slot = k.q.construct(f"slot.{j}", along * k.constant(f"slot.{j}.local", cmath.exp(1j * dyad.slide_angle)))
+    k.q.construct(f"p.{middle}", meet(at, along, k.place(start), slot))
+    k.q.construct(f"p.{under(start, j, k.scheme.owner)}", k.place(start))
+    k.put(i, start, along)
+    k.put(j, middle, along)
 
 
-def _middle_of_rpp(site: Site, dyad: Dyad, what: What) -> None:
+def _middle_of_rpp(k: Kinematics, dyad: Dyad, what: What) -> None:
     """The guided point Q of link j, from the point of j under P: they differ by j's rotation only."""
-    q, (_, j) = dyad.middle, dyad.links
-    known = under(_outer(dyad.start), j, site.scheme.owner)
-    arm = subtract(f"p.{q}", f"p.{known}")
-    body = site.bodies[j]
-    site.body(j, known, body.axis)
-    site.b.construct(f"plan.{what}.{image(q)}", site.carried(what, j, arm))
-    site.bodies[j] = body
-    rates.absolute(site, what, q)
+    middle, (_, j) = dyad.middle, dyad.links
+    known = under(_pin(dyad.start), j, k.scheme.owner)
+    arm = k.place(middle) - k.place(known)
+    placed = k.links[j]
+    k.put(j, known, placed.axis)
+    k.q.construct(f"plan.{what}.{image(middle)}", k.image_at(what, j, arm))
+    k.links[j] = placed
+    k.absolute(what, middle)
 
 
-PLACES: Mapping[DyadKind, Callable[[Site, Dyad], None]] = {
+PLACES: Mapping[DyadKind, Callable[[Kinematics, Dyad], None]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,

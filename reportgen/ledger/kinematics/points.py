@@ -4,65 +4,24 @@ from __future__ import annotations
 
 import cmath
 
-from reportgen.ledger.kinematics.names import difference, image, segment_symbol
-from reportgen.ledger.kinematics.rates import absolute
-from reportgen.ledger.kinematics.sides import Side, Turn
-from reportgen.ledger.kinematics.site import KINDS, NOWHERE, POLES, Body, Site, What
+from reportgen.ledger.kinematics.linkage import NOWHERE, POLES, Kinematics, PlacedLink, What
+from reportgen.ledger.kinematics.sides import Side, Turn, image
 from reportgen.mechanism.structure import LinkPoint
-from reportgen.notation.expressions import (
-    Expression,
-    Ref,
-    Symbol,
-    add,
-    call,
-    divide,
-    multiply,
-    power,
-    subtract,
-)
-from reportgen.notation.symbols import on_plan
+from reportgen.notation.expressions import Expression, Symbol
+from reportgen.notation.symbols import on_plan, segment
 
 OFF_LINE = 1e-9
 """A point nearer to the line of a link's joints than this share of its distance lies on it."""
 
 
-def points_of(site: Site, link: int) -> tuple[LinkPoint, ...]:
+def _points(k: Kinematics, link: int) -> tuple[LinkPoint, ...]:
     """The named points of a link besides its joints."""
-    return tuple(place for place in site.scheme.linkage.points if place.link == link)
+    return tuple(place for place in k.scheme.linkage.points if place.link == link)
 
 
-def off_line(place: LinkPoint) -> bool:
+def _off_line(point: LinkPoint) -> bool:
     """Whether a point forms a triangle with its link's joints."""
-    return abs(place.local.imag) > OFF_LINE * abs(place.local)
-
-
-def place(site: Site, link: int, turn: Turn | None) -> None:
-    """Enter the places of a link's points: on a rod by the ratio of lengths, else along the frame's axis."""
-    body = site.bodies[link]
-    for point in points_of(site, link):
-        length = site.length(body.origin, point.name, abs(point.local))
-        turned = cmath.exp(1j * cmath.phase(point.local)) if point.local else 1
-        angle = site.plane(f"turn.{point.name}", turned)
-        if turn is not None and not turn.measured:
-            whole = f"l.{turn.rod}"
-            reach: Expression = multiply(divide(length, whole), angle, f"rod.{link}")
-            if off_line(point):
-                site.length(turn.point, point.name, abs(point.local - float(site.b.value(whole)[0])))
-        else:
-            reach = multiply(length, angle, body.axis)
-        site.b.construct(f"p.{point.name}", add(f"p.{body.origin}", reach))
-        site.drawn(body.origin, point.name)
-
-
-def images(site: Site, what: What, link: int, turn: Turn | None) -> None:
-    """Enter velocities or accelerations of a link's points."""
-    for point in points_of(site, link):
-        if turn is not None:
-            _similar(site, what, point, turn)
-        elif site.bodies[link].spin is not None:
-            _carried(site, what, point, site.bodies[link])
-        else:
-            _shifted(site, what, point, site.bodies[link])
+    return abs(point.local.imag) > OFF_LINE * abs(point.local)
 
 
 def turn_of(link: int, sides: tuple[Side, Side]) -> Turn | None:
@@ -70,60 +29,82 @@ def turn_of(link: int, sides: tuple[Side, Side]) -> Turn | None:
     return next((side for side in sides if isinstance(side, Turn) and side.link == link), None)
 
 
-def _similar(site: Site, what: What, point: LinkPoint, turn: Turn) -> None:
-    """The similarity theorem: the plan's figure is similar to the link's and turned alike."""
-    base, tip, b = turn.base, turn.point, site.b
-    first, last, new = image(base), image(tip), image(point.name)
-    along = subtract(f"plan.{what}.{last}", site.image(what, base))
-    ratio = divide(f"l.{base}{point.name}", f"l.{turn.rod}")
-    angle = f"turn.{point.name}"
+def places(k: Kinematics, link: int, turn: Turn | None) -> None:
+    """Enter the places of a link's points: on a rod by the ratio of lengths, else along the frame's axis."""
+    q, placed = k.q, k.links[link]
+    for point in _points(k, link):
+        length = k.length(placed.origin, point.name, abs(point.local))
+        angle = k.constant(f"turn.{point.name}", cmath.exp(1j * cmath.phase(point.local)) if point.local else 1)
+        if turn is not None and not turn.measured:
+            whole = q[f"l.{turn.rod}"]
+            reach: Expression = length / whole * angle * q[f"rod.{link}"]
+            if _off_line(point):
+                k.length(turn.point, point.name, abs(point.local - q.si(whole)))
+        else:
+            reach = length * angle * k.axis(link)
+        q.construct(f"p.{point.name}", k.place(placed.origin) + reach)
+        k.drawn(placed.origin, point.name)
+
+
+def images(k: Kinematics, what: What, link: int, turn: Turn | None) -> None:
+    """Enter velocities or accelerations of a link's points."""
+    placed = k.links[link]
+    for point in _points(k, link):
+        if turn is not None:
+            _by_similarity(k, what, point, turn)
+        elif placed.omega is not None:
+            _by_rotation(k, what, point, placed)
+        else:
+            _by_translation(k, what, point, placed)
+
+
+def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Turn) -> None:
+    """The similarity theorem: the plan's figure is similar to the link's and turned in the same way."""
+    q, base, tip = k.q, turn.base, turn.point
+    first, last, new = "p" if turn.still else image(base), image(tip), image(point.name)
+    along = k.image(what, tip) - k.image(what, base)
+    ratio = q[f"l.{base}{point.name}"] / q[f"l.{turn.rod}"]
+    angle = q[f"turn.{point.name}"]
     if turn.measured:
-        angle = f"similar.{point.name}"
-        if angle not in b:
-            axis = multiply(f"turn.{point.name}", site.bodies[point.link].axis)
-            b.construct(angle, divide(multiply(axis, f"l.{turn.rod}"), f"rod.{point.link}"))
-    b.construct(f"plan.{what}.{new}", add(site.image(what, base), multiply(ratio, angle, along)))
-    from_base = "p" if turn.still else first
-    whole = f"seg.{what}.{from_base}{last}"
-    letters = site.letter(what, base), on_plan(tip, what == "a")
-    if whole not in b:
-        site.segment(whole, *letters, along, what)
+        id = f"similar.{point.name}"
+        if id not in q:
+            q.construct(id, angle * k.axis(point.link) * q[f"l.{turn.rod}"] / q[f"rod.{point.link}"])
+        angle = q[id]
+    q.construct(f"plan.{what}.{new}", k.image(what, base) + ratio * angle * along)
+    whole = f"seg.{what}.{first}{last}"
+    letters = k.letter(what, base), on_plan(tip, what == "a")
+    if whole not in q:
+        k.segment(whole, *letters, along, what)
     target = on_plan(point.name, what == "a")
-    b.define(f"seg.{what}.{from_base}{new}", segment_symbol(letters[0], target), "segment", multiply(ratio, whole))
-    if off_line(point) and not turn.measured:
-        other = divide(f"l.{tip}{point.name}", f"l.{turn.rod}")
-        b.define(f"seg.{what}.{last}{new}", segment_symbol(letters[1], target), "segment", multiply(other, whole))
-    absolute(site, what, point.name)
+    q.define(f"seg.{what}.{first}{new}", ratio * q[whole], segment(letters[0], target))
+    if _off_line(point) and not turn.measured:
+        other = q[f"l.{tip}{point.name}"] / q[f"l.{turn.rod}"]
+        q.define(f"seg.{what}.{last}{new}", other * q[whole], segment(letters[1], target))
+    k.absolute(what, point.name)
 
 
-def _carried(site: Site, what: What, point: LinkPoint, body: Body) -> None:
+def _by_rotation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedLink) -> None:
     """v_E = v_O + ω l_OE, a_E = a_O + ω² l_OE + ε l_OE, as the link turns about its origin."""
-    name, link = point.name, point.link
-    length, relative = f"l.{body.origin}{name}", difference(name, body.origin)
-    size = site.sizes.of(what)
-    parts: list[tuple[str, str, Expression]] = []
-    if what == "v":
-        parts.append(("", "", multiply(f"omega.{link}", length)))
-    else:
-        parts.append((".n", "n", multiply(power(f"omega.{link}", 2), length)))
-        if body.swing is not None:
-            parts.append((".t", "τ", multiply(f"eps.{link}", length)))
+    q, name, link = k.q, point.name, point.link
+    length, relative = q[f"l.{placed.origin}{name}"], f"{name}{placed.origin}"
     if point.local:
-        for suffix, sup, formula in parts:
-            site.b.define(f"{what}.{relative}{suffix}", Symbol(what, relative, sup), KINDS[what], formula, scale=size)
-    arm = subtract(f"p.{name}", f"p.{body.origin}")
-    site.b.construct(f"plan.{what}.{image(name)}", site.carried(what, link, arm))
-    absolute(site, what, name)
+        omega, size = q[f"omega.{link}"], k.sizes.of(what)
+        if what == "v":
+            q.define(f"v.{relative}", omega * length, scale=size)
+        else:
+            q.define(f"a.{relative}.n", omega**2 * length, scale=size)
+            if placed.eps is not None:
+                q.define(f"a.{relative}.t", q[f"eps.{link}"] * length, scale=size)
+    arm = k.place(name) - k.place(placed.origin)
+    q.construct(f"plan.{what}.{image(name)}", k.image_at(what, link, arm))
+    k.absolute(what, name)
 
 
-def _shifted(site: Site, what: What, point: LinkPoint, body: Body) -> None:
-    """A link that does not turn moves alike in all its points."""
-    new = image(point.name)
-    site.b.construct(f"plan.{what}.{new}", add(site.image(what, body.origin)))
-    target, along = on_plan(point.name, what == "a"), call("abs", f"plan.{what}.{new}")
-    site.segment(f"seg.{what}.p{new}", POLES[what], target, along, what)
-    alike = NOWHERE if site.scheme.still(body.origin) else Ref(f"{what}.{body.origin}")
-    size = site.sizes.of(what)
-    site.b.define(f"{what}.{point.name}", Symbol(what, point.name), KINDS[what], alike, scale=size)
-    heading = call("heading", f"plan.{what}.{new}")
-    site.b.define(f"dir.{what}.{point.name}", Symbol("α", f"{what}{point.name}"), "angle", heading, scale=1.0)
+def _by_translation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedLink) -> None:
+    """All points of a link that does not turn have one velocity and one acceleration."""
+    q, name = k.q, point.name
+    plan = q.construct(f"plan.{what}.{image(name)}", k.image(what, placed.origin))
+    k.segment(f"seg.{what}.p{image(name)}", Symbol(POLES[what]), on_plan(name, what == "a"), abs(plan), what)
+    same = NOWHERE if k.scheme.still(placed.origin) else q[f"{what}.{placed.origin}"]
+    q.define(f"{what}.{name}", same, scale=k.sizes.of(what))
+    k.direction(what, name)

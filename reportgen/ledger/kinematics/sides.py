@@ -20,12 +20,22 @@ RPP  P's point of j slides over P      it slides over the guide's link
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
-from reportgen.ledger.kinematics.names import difference, under
 from reportgen.mechanism.mobility import owners
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage
+
+
+def image(name: str) -> str:
+    """A point's letter on a plan: S2 → s2."""
+    return name.lower()
+
+
+def under(name: str, link: int, taken: Collection[str]) -> str:
+    """The name of the point of a link that lies under a pin now: B on link 3 → B3, B′3 where B3 is taken."""
+    plain = f"{name}{link}"
+    return f"{name}′{link}" if plain in taken else plain
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,11 +51,11 @@ class Turn:
 
     @property
     def relative(self) -> str:
-        return difference(self.point, self.base)
+        return f"{self.point}{self.base}"
 
     @property
     def rod(self) -> str:
-        return difference(self.base, self.point)
+        return f"{self.base}{self.point}"
 
     @property
     def shown(self) -> str:
@@ -76,7 +86,7 @@ class Slide:
 
     @property
     def relative(self) -> str:
-        return difference(self.point, self.base)
+        return f"{self.point}{self.base}"
 
     @property
     def turns(self) -> bool:

@@ -1,4 +1,4 @@
-"""A declared linkage as its words tell it: rows of plain values, quantities as they were typed."""
+"""What the words of a declared linkage name: rows of plain values, quantities as they were typed."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ def _motions(given: file.Parameters) -> Iterator[MotionRow]:
     level = {0} if isinstance(given.driver, file.CrankDriver) else {0, 1}
     for group in given.groups:
         names = group.joints
-        ends: list[str | file.Guide]
+        ends: list[str | file.GuideSection]
         match group:
             case file.RRR() | file.RPR():
                 ends = [names[0], names[2]]
@@ -145,10 +145,10 @@ def _motions(given: file.Parameters) -> Iterator[MotionRow]:
                 ends = [names[0], group.guide]
         turns_alike = isinstance(group, file.RPP) and group.guide.on in level
         for link, end in zip(group.links, ends, strict=True):
-            slides_level = isinstance(end, file.Guide) and end.on in level
+            slides_level = isinstance(end, file.GuideSection) and end.on in level
             if turns_alike or slides_level:
                 level.add(link)
-            if isinstance(end, file.Guide):
+            if isinstance(end, file.GuideSection):
                 yield MotionRow(link, "translation" if end.on == 0 else "shift" if slides_level else "plane")
             elif turns_alike:
                 yield MotionRow(link, "shift")
@@ -197,7 +197,7 @@ def _guides(given: file.Parameters) -> Iterator[GuideRow]:
             yield _guide(group.links[1], group.guide)
 
 
-def _guide(slider: int, guide: file.Guide) -> GuideRow:
+def _guide(slider: int, guide: file.GuideSection) -> GuideRow:
     return GuideRow(slider, guide.on, number(guide.at[0]), number(guide.at[1]), number(guide.angle))
 
 

@@ -1,0 +1,246 @@
+"""Crank and slider: geometry, linkage and closed formulas, with the guide through the crank centre or beside it.
+
+Centred, φ the crank's angle from the slider's outer dead centre in the direction of rotation, β the rod's angle to the
+axis, λ = R/L; x, v, a count from the dead centre towards the crank; ω₂, ε₂ as β grows.
+
+With an offset e: A crank centre, B pin, C slider; x runs from A along the guide away from the crank, y is x turned by
+90° in the direction of rotation, so that ω₁ > 0; φ is the crank's angle from x, β the rod's, r = l_AB, l = l_BC.
+
+The second rod of a V engine hangs on a joint at (x, y), y along the main cylinder's axis away from the crank and x to
+the side to which the crank turns from its top; h is the joint's distance from the second axis, at δ from the first.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from reportgen.catalogue.driven import give_angle
+from reportgen.catalogue.loads import FULL_TURN, Course, Floats
+from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+from reportgen.notation.expressions import Chain, Expression, Number, Symbol, asin, cos, sin, sqrt, tan
+from reportgen.notation.sheet import Sheet
+
+HALVINGS = 60
+"""π halved so often is below the spacing of floats there."""
+ROUND = 1e-12
+
+
+def compared(plans: Iterable[str]) -> tuple[tuple[str, str], ...]:
+    """Plan quantities and the closed formulas that must give the same sizes."""
+    return tuple((plan, f"f.{plan}") for plan in plans)
+
+
+# --- centred --------------------------------------------------------------------------------------
+
+
+def centred_slider(
+    q: Sheet, rod: int, slider: int, joint: str, angle: Floats, along: str = "", centre: str = ""
+) -> None:
+    """The closed formulas at φ = `angle` [N] of a slider whose pin is `joint`; uses R, L, lambda, omega.1.
+
+    Enters `phi.3`, `beta.2`, `x.3`, `f.v.B`, `f.a.B`, `f.omega.2`, `f.eps.2`, and of a point `centre` on the rod,
+    at the length of id `along` from the crank pin, the components, `f.v.S2`, `f.a.S2`.
+    """
+    R, L, λ, ω1 = q["R"], q["L"], q["lambda"], q["omega.1"]
+    line = partial(q.define, scale=1.0)
+    φ = give_angle(q, f"phi.{slider}", angle)
+    β = line(f"beta.{rod}", asin(λ * sin(φ)))
+    q.define(f"x.{slider}", R * (1 - cos(φ)) + L * (1 - cos(β)), Symbol("x", joint), "length", scale=0.01)
+    line(f"f.v.{joint}", ω1 * R * sin(φ + β) / cos(β))
+    ω2 = line(f"f.omega.{rod}", ω1 * λ * cos(φ) / cos(β))
+    line(f"f.a.{joint}", ω1**2 * R * (cos(φ + β) / cos(β) + λ * cos(φ) ** 2 / cos(β) ** 3))
+    ε2 = line(f"f.eps.{rod}", -(ω1**2) * λ * (1 - λ**2) * sin(φ) / cos(β) ** 3)
+    if centre:
+        s = q[along]
+        components(q, "v", centre, (1 - s / L) * ω1 * R * cos(φ), -(ω1 * R * sin(φ) + s * ω2 * sin(β)))
+        a_y = -(ω1**2 * R * cos(φ) + s * (ε2 * sin(β) + ω2**2 * cos(β)))
+        components(q, "a", centre, -((1 - s / L) * ω1**2 * R * sin(φ)), a_y)
+
+
+def components(q: Sheet, what: str, point: str, x: Expression, y: Expression) -> None:
+    """The velocity or acceleration of a point by its components, and its size."""
+    kind = {"v": "velocity", "a": "acceleration"}[what]
+    along = q.define(f"f.x.{point}.{what}", x, Symbol(what, f"{point}x"), kind, scale=1.0)
+    across = q.define(f"f.y.{point}.{what}", y, Symbol(what, f"{point}y"), kind, scale=1.0)
+    q.define(f"f.{what}.{point}", sqrt(along**2 + across**2))
+
+
+# --- the second cylinder of a V engine --------------------------------------------------------------
+
+
+def second_cylinder(q: Sheet, joint: str) -> None:
+    """The closed formulas of piston E, whose rod 4 hangs on D on the main rod, at l_BD from the crank pin, or on B.
+
+    sin γ = h/l₄;  v_E = v∥ − v⊥ tan γ;  a_E = a∥ − a⊥ tan γ − v⊥²/(l₄ cos³γ).  Uses `delta` and what `centred_slider`
+    enters; enters `beta.4`, `f.v.E`, `f.omega.4`, `f.a.E`, `f.eps.4`.
+    """
+    R, ω1, φ, δ, l4 = q["R"], q["omega.1"], q["phi.3"], q["delta"], q[f"l.{joint}E"]
+    line = partial(q.define, scale=1.0)
+    x: Expression = R * sin(φ)
+    y: Expression = R * cos(φ)
+    if joint == "B":
+        line("f.x.B.v", ω1 * R * cos(φ), Symbol("v", "Bx"))
+        line("f.y.B.v", -(ω1 * R * sin(φ)), Symbol("v", "By"))
+        line("f.x.B.a", -(ω1**2 * R * sin(φ)), Symbol("a", "Bx"))
+        line("f.y.B.a", -(ω1**2 * R * cos(φ)), Symbol("a", "By"))
+    else:
+        s = q[f"l.B{joint}"]
+        x, y = R * (1 - s / q["L"]) * sin(φ), y + s * cos(q["beta.2"])
+    line(f"f.x.{joint}", x)
+    line(f"f.y.{joint}", y)
+
+    def across(rate: str) -> Expression:
+        return q[f"f.x.{joint}{rate}"] * cos(δ) - q[f"f.y.{joint}{rate}"] * sin(δ)
+
+    def along(rate: str) -> Expression:
+        return q[f"f.y.{joint}{rate}"] * cos(δ) + q[f"f.x.{joint}{rate}"] * sin(δ)
+
+    h = line("f.h", across(""), "h", "length")
+    γ = line("beta.4", asin(h / l4), "γ")
+    v1 = line("f.across.v", across(".v"), Symbol("v", "⊥"), "velocity")
+    v2 = line("f.along.v", along(".v"), Symbol("v", "∥"), "velocity")
+    line("f.v.E", v2 - v1 * tan(γ))
+    ω4 = line("f.omega.4", v1 / (l4 * cos(γ)))
+    a1 = line("f.across.a", across(".a"), Symbol("a", "⊥"), "acceleration")
+    a2 = line("f.along.a", along(".a"), Symbol("a", "∥"), "acceleration")
+    line("f.a.E", a2 - a1 * tan(γ) - v1**2 / (l4 * cos(γ) ** 3))
+    line("f.eps.4", (a1 + l4 * ω4**2 * sin(γ)) / (l4 * cos(γ)))
+
+
+# --- with an offset ---------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class OffsetSlider:
+    """Crank r and rod l (m), offset e (m, along y), the guide's direction `axis` (rad) and the rotation ±1."""
+
+    r: float
+    l: float  # noqa: E741 - the length's own letter
+    e: float
+    axis: float
+    turn: int
+
+    @property
+    def stretched(self) -> float:
+        """φ at the outer dead centre, crank and rod in line: sin φ = e/(l + r)."""
+        return math.asin(self.e / (self.l + self.r))
+
+    @property
+    def folded(self) -> float:
+        """φ at the inner dead centre, the rod over the crank: φ = π + arcsin(e/(l − r))."""
+        return math.pi + math.asin(self.e / (self.l - self.r))
+
+    def slider(self, reach: float) -> complex:
+        """Where C stands at the distance `reach` (m) from A."""
+        return self._placed(complex(math.sqrt(reach**2 - self.e**2), self.e))
+
+    def crank_angle(self, phi: float) -> float:
+        """The crank's angle from +x of the drawing."""
+        return self.axis + self.turn * phi
+
+    def phi(self, crank_angle: float) -> float:
+        """φ of a crank's angle from +x of the drawing."""
+        return self.turn * (crank_angle - self.axis)
+
+    def _placed(self, own: complex) -> complex:
+        return complex(own.real, self.turn * own.imag) * cmath.exp(1j * self.axis)
+
+    def acceleration(self, phi: Floats) -> Floats:
+        """a_C/ω₁² (m) [N]."""
+        beta = np.arcsin((self.e - self.r * np.sin(phi)) / self.l)
+        omega = -self.r * np.cos(phi) / (self.l * np.cos(beta))
+        return -(self.r * np.cos(phi - beta) + omega**2 * self.l) / np.cos(beta)
+
+    def fastest(self) -> tuple[float, float]:
+        """φ of the slider's greatest speeds, inward and outward: a_C = 0, once in each stroke."""
+        low = np.array([self.stretched, self.folded])
+        high = np.array([self.folded, self.stretched + FULL_TURN])
+        before = self.acceleration(low)
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            same = before * self.acceleration(middle) > 0
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        return float(low[0]), float(low[1])
+
+    def course(self, start: float, turns: int) -> Course:
+        """The way of slider 3 in a machine that starts at φ = `start` and has a cycle of `turns` turns."""
+        return Course(
+            link=3,
+            rod=2,
+            pin="C",
+            crank_pin="B",
+            top=self.slider(self.l + self.r),
+            bottom=self.slider(self.l - self.r),
+            top_angle=0.0,
+            bottom_angle=self.folded - self.stretched,
+            phase=(start - self.stretched + ROUND) % (turns * FULL_TURN) - ROUND,
+        )
+
+    def linkage(self, inertias: Sequence[Inertia], gravity: float, centre: float | None = None) -> Linkage:
+        """The mechanism; S2 on the rod at `centre` (m) from B, if it is wanted."""
+        return Linkage(
+            ground={"A": 0j},
+            driver=Crank("A", "B", self.r),
+            dyads=(
+                Dyad("RRP", (2, 3), "B", "C", Guide(self._placed(1j * self.e), self.axis), (self.l, 0.0)),
+            ),
+            points=() if centre is None else (LinkPoint("S2", 2, complex(centre)),),
+            inertias=tuple(inertias),
+            gravity=-1j * gravity,
+        )
+
+
+def offset_slider(q: Sheet, angle: Floats, offset: Expression | None, centre: bool) -> None:
+    """The closed formulas at φ = `angle` [N], with `offset` e or none, of S2 too if there is a `centre`.
+
+    Enters `phi.3`, `beta.2`, `x.C`, `f.omega.2`, `f.v.C`, `f.eps.2`, `f.a.C`, and of S2 its components, `f.v.S2`,
+    `f.a.S2`.  Uses `l.AB`, `l.BC`, `l.BS2`, `omega.1`.
+    """
+    r, l, ω1 = q["l.AB"], q["l.BC"], q["omega.1"]  # noqa: E741 - the length's own letter
+    line = partial(q.define, scale=1.0)
+    φ = give_angle(q, "phi.3", angle, "φ")
+    β = line("beta.2", asin(-r * sin(φ) / l if offset is None else (offset - r * sin(φ)) / l), "β")
+    line("x.C", r * cos(φ) + l * cos(β), Symbol("x", "C"), "length")
+    ω2 = line("f.omega.2", -ω1 * r * cos(φ) / (l * cos(β)))
+    line("f.v.C", -ω1 * r * sin(φ - β) / cos(β))
+    ε2 = line("f.eps.2", (ω1**2 * (r * sin(φ)) + ω2**2 * l * sin(β)) / (l * cos(β)))
+    line("f.a.C", -((ω1**2 * r * cos(φ - β) + ω2**2 * l) / cos(β)))
+    if centre:
+        s = q["l.BS2"]
+        components(q, "v", "S2", -(ω1 * r * sin(φ) + ω2 * s * sin(β)), ω1 * r * cos(φ) + ω2 * s * cos(β))
+        a_x = -(ω1**2 * r * cos(φ) + s * (ε2 * sin(β) + ω2**2 * cos(β)))
+        a_y = s * (ε2 * cos(β) - ω2**2 * sin(β)) - ω1**2 * r * sin(φ)
+        components(q, "a", "S2", a_x, a_y)
+
+
+def loop_equations(offset: bool) -> dict[str, tuple[Chain, ...]]:
+    """The closed loop of the links by components, and its first and second derivatives."""
+    r, l, e = Symbol("l", "AB"), Symbol("l", "BC"), Symbol("e")  # noqa: E741
+    ω1, ω2, ε2 = Symbol("ω", "1"), Symbol("ω", "2"), Symbol("ε", "2")
+    φ, β, x, v, a = Symbol("φ"), Symbol("β"), Symbol("x", "C"), Symbol("v", "C"), Symbol("a", "C")
+    nothing = Number(0.0)
+    return {
+        "closure": (
+            Chain((r * cos(φ) + l * cos(β), x)),
+            Chain((r * sin(φ) + l * sin(β), e if offset else nothing)),
+        ),
+        "velocity": (
+            Chain((-ω1 * r * sin(φ) - ω2 * l * sin(β), v)),
+            Chain((ω1 * r * cos(φ) + ω2 * l * cos(β), nothing)),
+        ),
+        "acceleration": (
+            Chain((-(ω1**2) * r * cos(φ) - ε2 * l * sin(β) - ω2**2 * l * cos(β), a)),
+            Chain((-(ω1**2) * r * sin(φ) + ε2 * l * cos(β) - ω2**2 * l * sin(β), nothing)),
+        ),
+    }
+
+
+OFFSET_PLANS = ("v.C", "omega.2", "a.C", "eps.2")
+CENTRE_PLANS = ("v.S2", "a.S2")
+"""Plan quantities that the closed formulas give too, those of S2 where there is one."""

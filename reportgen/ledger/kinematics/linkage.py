@@ -1,0 +1,203 @@
+"""A linkage while its kinematics is entered: the sheet, and every link that is placed so far."""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from reportgen.ledger.kinematics.sides import Scheme, image
+from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Guide, Linkage
+from reportgen.notation.constructions import heading, turned
+from reportgen.notation.expressions import Expression, Number, Ref, Symbol
+from reportgen.notation.sheet import Sheet, is_short
+from reportgen.notation.symbols import drawn_length, on_plan, segment
+
+What = Literal["v", "a"]
+POLES: dict[str, str] = {"v": "p", "a": "π"}
+NOWHERE = Number(0.0)
+ROTATION = {"v": ("omega", 1), "a": ("eps", 2)}
+"""The id of a link's rotation, and the power of 1/s that it is counted in."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """What counts as one of each kind: a billionth of it is nothing."""
+
+    velocity: float
+    acceleration: float
+    rotation: float
+
+    def of(self, what: What) -> float:
+        return self.velocity if what == "v" else self.acceleration
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedLink:
+    """A link that is placed: the point its frame starts at, its unit axis, and how its points move.
+
+    With a second point `tip`, images follow by similarity; else by `omega` and `eps`, its signed angular
+    velocity and acceleration; where these are None the link only shifts.
+    """
+
+    origin: str
+    axis: Ref | None
+    tip: str = ""
+    omega: Expression | None = None
+    eps: Expression | None = None
+
+
+@dataclass
+class Kinematics:
+    """Sheet `q`, linkage and placed links while a linkage is entered link by link."""
+
+    q: Sheet
+    scheme: Scheme
+    turn: int
+    sizes: Sizes
+    links: dict[int, PlacedLink] = field(default_factory=dict)
+
+    # --- points and their images
+
+    def place(self, name: str) -> Ref:
+        """A point of the mechanism."""
+        return self.q[f"p.{name}"]
+
+    def is_fixed(self, name: str) -> bool:
+        return self.scheme.owner.get(name) == GROUND
+
+    def image(self, what: What, name: str) -> Expression:
+        """A point on a plan: 0, the pole, for one fixed to the ground."""
+        return NOWHERE if self.is_fixed(name) else self.q[f"plan.{what}.{image(name)}"]
+
+    def letter(self, what: What, name: str) -> Symbol:
+        """A point's letter on a plan, that of the pole for one fixed to the ground."""
+        return Symbol(POLES[what]) if self.is_fixed(name) else on_plan(name, what == "a")
+
+    def image_at(self, what: What, link: int, arm: Expression) -> Expression:
+        """The image of the point of a link that lies at `arm` from the origin of its frame."""
+        q, placed = self.q, self.links[link]
+        base = self.image(what, placed.origin)
+        if link == DRIVER and placed.omega is not None:
+            drawn = arm / q["mu.l"]
+            return self.turn * turned(drawn) if what == "v" else -drawn
+        if placed.tip:
+            ratio = arm / (self.place(placed.tip) - self.place(placed.origin))
+            return base + ratio * (self.image(what, placed.tip) - base)
+        if placed.omega is None:
+            return base
+        if what == "v":
+            return base + turned(arm) * placed.omega / q["mu.v"]
+        inward = -(arm * placed.omega**2)
+        if placed.eps is not None:
+            return base + (turned(arm) * placed.eps + inward) / q["mu.a"]
+        return base + inward / q["mu.a"]
+
+    def absolute(self, what: What, name: str) -> None:
+        """The segment from the pole to a point's image, and the velocity or acceleration it stands for."""
+        q, point = self.q, image(name)
+        on_paper = f"seg.{what}.p{point}"
+        if on_paper not in q:
+            self.segment(on_paper, POLES[what], on_plan(name, what == "a"), self.image(what, name), what)
+        q.define(f"{what}.{name}", q[f"mu.{what}"] * q[on_paper], scale=self.sizes.of(what))
+        self.direction(what, name)
+
+    def direction(self, what: What, name: str) -> None:
+        """The angle of a point's velocity or acceleration from +x."""
+        vector = self.q[f"plan.{what}.{image(name)}"]
+        self.q.define(f"dir.{what}.{name}", heading(vector), scale=1.0, of=f"{what}.{name}")
+
+    # --- sizes on paper
+
+    def paper(self, what: What) -> float:
+        """The size of a plan on paper (m)."""
+        return self.sizes.of(what) / self.q.si(f"mu.{what}")
+
+    def span(self) -> float:
+        """The size of the mechanism as it is drawn (m)."""
+        return longest(self.scheme.linkage) / self.q.si("mu.l")
+
+    def segment(
+        self, id: str, first: Symbol | str, second: Symbol | str, along: Expression, what: What
+    ) -> Ref:
+        """A segment measured on a plan."""
+        return self.q.define(id, abs(along), segment(first, second), scale=self.paper(what))
+
+    def constant(self, id: str, value: complex) -> Ref:
+        """A constant point or direction as a quantity, entered once."""
+        return self.q[id] if id in self.q else self.q.give(id, complex(value), Symbol(id), "ratio")
+
+    def length(self, start: str, end: str, value: float) -> Ref:
+        """A link's length, entered as given unless the machine has done so."""
+        id = f"l.{start}{end}"
+        return self.q[id] if id in self.q else self.q.give(id, value, exact=is_short(value))
+
+    def drawn(self, start: str, end: str) -> None:
+        """A length as it is drawn."""
+        q, name = self.q, f"{start}{end}"
+        q.define(f"drawn.{name}", q[f"l.{name}"] / q["mu.l"], drawn_length(start, end))
+
+    # --- links
+
+    def axis(self, link: int) -> Expression:
+        """The unit vector along the real axis of a link's frame."""
+        if link == GROUND:
+            return Number(1.0)
+        axis = self.links[link].axis
+        assert axis is not None, f"nothing is carried by link {link}"
+        return axis
+
+    def guide(self, slider: int, guide: Guide) -> tuple[Ref, Ref]:
+        """A guide's point and direction, carried along by its link."""
+        at, along = f"guide.{slider}.at", f"guide.{slider}"
+        if guide.link == GROUND:
+            return self.constant(at, guide.at), self.constant(along, cmath.exp(1j * guide.angle))
+        axis = self.axis(guide.link)
+        own_place = self.constant(f"{at}.local", guide.at)
+        own_direction = self.constant(f"{along}.local", cmath.exp(1j * guide.angle))
+        start = self.place(self.links[guide.link].origin)
+        return self.q.construct(at, start + own_place * axis), self.q.construct(along, own_direction * axis)
+
+    def share_rotation(self, what: What, link: int) -> None:
+        """Enter ω or ε of a link that turns with another one as that of the other."""
+        q, other = self.q, self.scheme.spins[link]
+        id, order = ROTATION[what]
+        if other == link or f"{id}.{other}" not in q:
+            return
+        size = self.sizes.rotation**order
+        signed = self.omega(other) if what == "v" else q[f"turn.{id}.{other}"]
+        q.define(f"{id}.{link}", q[f"{id}.{other}"], scale=size)
+        q.define(f"turn.{id}.{link}", signed, scale=size, of=f"{id}.{link}")
+
+    def omega(self, link: int) -> Expression:
+        """The signed angular velocity of a link that turns."""
+        if link == DRIVER:
+            return self.q["omega.1"] if self.turn > 0 else -self.q["omega.1"]
+        return Ref(f"turn.omega.{link}")
+
+    def put(self, link: int, origin: str, axis: Ref | None, tip: str = "") -> None:
+        """Place a link; how its points move follows from what it turns with."""
+        source = self.scheme.spins[link]
+        omega = self.omega(link) if source else None
+        eps = Ref(f"turn.eps.{link}") if source not in (0, DRIVER) else None
+        self.links[link] = PlacedLink(origin, axis, tip, omega, eps)
+
+
+def longest(linkage: Linkage) -> float:
+    """The longest length of a linkage (m): of a rod, or between fixed points."""
+    fixed = list(linkage.ground.values())
+    spans = [abs(p - q) for p in fixed for q in fixed]
+    rods = [length for dyad in linkage.dyads for length in dyad.lengths]
+    return max((*rods, *spans, *(abs(place.local) for place in linkage.points)), default=0.0) or 1.0
+
+
+def natural_sizes(q: Sheet, linkage: Linkage) -> Sizes:
+    """Velocity, acceleration and rotation that are natural to a linkage: those of its driver's pin."""
+    driver = linkage.driver
+    if isinstance(driver, Crank):
+        omega = q.si("omega.1")
+        return Sizes(omega * driver.length, omega**2 * driver.length, omega)
+    speed, size = float(np.abs(q.value(f"v.{driver.pin}")).max()), longest(linkage)
+    return Sizes(speed, speed**2 / size, speed / size)

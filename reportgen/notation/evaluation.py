@@ -1,0 +1,161 @@
+"""The values of expressions: functions by their names, and constructions of plane geometry.
+
+What a plan solves by drawing (`meet`, `circle_line`, `circle_circle`) takes and gives points of the plane as
+complex numbers.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from reportgen.notation.expressions import (
+    Call,
+    Chain,
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Ref,
+    Root,
+    Sum,
+    Symbol,
+)
+
+Value = Any
+"""A float, a complex number, or an array of either: every function is indifferent to the shape."""
+
+
+def cross(a: Value, b: Value) -> Value:
+    """z-component of a × b for plane vectors as complex numbers."""
+    return np.imag(np.conj(a) * b)
+
+
+def dot(a: Value, b: Value) -> Value:
+    """Scalar product of plane vectors as complex numbers."""
+    return np.real(np.conj(a) * b)
+
+
+def meet(p: Value, u: Value, q: Value, w: Value) -> Value:
+    """Where the line through p along u meets the line through q along w."""
+    return p + u * cross(q - p, w) / cross(u, w)
+
+
+def circle_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value) -> Value:
+    """Where the circle meets the line through p along u; sign +1 takes the farther end along u."""
+    u = u / np.abs(u)
+    foot = p + u * dot(centre - p, u)
+    return foot + sign * u * np.sqrt(radius**2 - np.abs(centre - foot) ** 2 + 0j).real
+
+
+def circle_circle(c1: Value, r1: Value, c2: Value, r2: Value, sign: Value) -> Value:
+    """Where two circles meet; sign +1 takes the point to the left of the way from c1 to c2."""
+    span = np.abs(c2 - c1)
+    along = (r1**2 - r2**2 + span**2) / (2 * span)
+    across = np.sqrt(r1**2 - along**2 + 0j).real
+    return c1 + (c2 - c1) / span * (along + 1j * sign * across)
+
+
+def quotient(a: Value, b: Value) -> Value:
+    """a / b, and 0 where b is nothing: the arm of a force that is not there."""
+    b = np.asarray(b)
+    return np.where(b == 0, 0.0, a / np.where(b == 0, 1.0, b))
+
+
+def if_zero(a: Value, b: Value) -> Value:
+    """b where a is nothing, 0 elsewhere: the couple that remains when its force vanishes."""
+    return np.where(np.asarray(a) == 0, b, 0.0)
+
+
+def within(value: Value, least: Value, most: Value) -> Value:
+    """The value itself, nan where it is less than `least` or more than `most`."""
+    value = np.asarray(value)
+    return np.where((value >= least) & (value <= most), value, np.nan)
+
+
+def mean(values: Value) -> Value:
+    """The mean over positions, the last axis; it keeps that axis, so that it stands for all of them."""
+    return np.mean(np.atleast_1d(values), axis=-1, keepdims=True)
+
+
+def heading(vector: Value) -> Value:
+    """A vector's direction from +x, in [0, 2π); rounding just below a full turn counts as 0."""
+    return np.mod(np.angle(vector) + 1e-12, 2 * np.pi) - 1e-12
+
+
+FUNCTIONS: Mapping[str, Callable[..., Value]] = {
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "arcsin": np.arcsin,
+    "arccos": np.arccos,
+    "arctan": np.arctan,
+    "arctan2": np.arctan2,
+    "abs": np.abs,
+    "sign": np.sign,
+    "re": np.real,
+    "im": np.imag,
+    "arg": np.angle,
+    "heading": heading,
+    "cis": lambda angle: np.exp(1j * np.asarray(angle)),
+    "cross": cross,
+    "dot": dot,
+    "meet": meet,
+    "circle_line": circle_line,
+    "circle_circle": circle_circle,
+    "turned": lambda vector: 1j * vector,
+    "min": np.minimum,
+    "max": np.maximum,
+    "mean": mean,
+    "quotient": quotient,
+    "if_zero": if_zero,
+    "within": within,
+}
+"""What a `Call` may name.  sin, cos and tan take radians; a `Number` in degrees converts itself."""
+
+TRIGONOMETRIC = frozenset({"sin", "cos", "tan"})
+
+
+def evaluate(node: Expression, values: Mapping[str, Value] | None = None) -> Value:
+    """The value of an expression; `values` gives that of every `Ref` by id.
+
+    Printed numbers evaluate as shown, degrees as radians.  Raises `KeyError` for an unknown id and
+    `ValueError` for a symbol without a value.
+    """
+    match node:
+        case Number():
+            return math.radians(node.shown) if node.unit == "°" else node.shown
+        case Ref(id):
+            if values is None:
+                raise KeyError(id)
+            return values[id]
+        case Symbol(value=value):
+            if value is None:
+                raise ValueError(f"symbol {node.base} has no value")
+            return value
+        case Sum(terms):
+            return sum(evaluate(term, values) for term in terms)
+        case Product(factors):
+            result: Value = 1.0
+            for factor in factors:
+                result = result * evaluate(factor, values)
+            return result
+        case Negative(of):
+            return -evaluate(of, values)
+        case Fraction(top, bottom):
+            return evaluate(top, values) / evaluate(bottom, values)
+        case Power(base, exponent):
+            return evaluate(base, values) ** evaluate(exponent, values)
+        case Root(of):
+            return np.sqrt(evaluate(of, values))
+        case Call(name, arguments):
+            return FUNCTIONS[name](*(evaluate(argument, values) for argument in arguments))
+        case Chain(parts):
+            return evaluate(parts[-1], values)
+        case _:
+            raise ValueError(f"a {type(node).__name__} has no single value")

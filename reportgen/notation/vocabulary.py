@@ -1,0 +1,170 @@
+"""What an id says: for each family of ids its letter, its kind, its chapter, its plan and how values compare.
+
+This is the one place where the text of an id is read.  A quantity asks here for its symbol, a key for its
+chapter, marking for the scale of a length on paper and for the distance of two values.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import lru_cache
+
+import numpy as np
+
+from reportgen.notation.evaluation import Value
+from reportgen.notation.expressions import Symbol
+
+
+class Chapter(StrEnum):
+    """The chapters of a key, in their order; `words.yaml` has their headings under `parts`."""
+
+    data = "data"
+    geometry = "geometry"
+    velocity = "velocity"
+    acceleration = "acceleration"
+    formulas = "formulas"
+    loads = "loads"
+    forces = "forces"
+    torque = "torque"
+    cycle = "cycle"
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A family of ids, as a regular expression.
+
+    Its groups `sub`, after the text `before`, and `sup` are printed below and above the `letter`.  `plan` is the id
+    of the scale that lengths on paper are measured with.  Values that go `around` the circle are directions.
+    """
+
+    ids: str
+    letter: str = ""
+    kind: str = ""
+    chapter: Chapter | None = None
+    plan: str = ""
+    before: str = ""
+    around: bool = False
+
+
+_NAME = r"(?P<sub>[^.]+)"
+_PART = r"(\.(?P<sup>[ntkrs]))?"
+
+ROWS: tuple[Row, ...] = (
+    # geometry
+    Row(rf"l\.{_NAME}(?<=K\d)", "l", "length", Chapter.loads),  # the centre of percussion K
+    Row(rf"l\.{_NAME}", "l", "length", Chapter.geometry),
+    Row(r"drawn\..+", "", "segment", Chapter.geometry, "mu.l"),
+    Row(r"mu\.(?P<sub>l)", "μ", "length scale", Chapter.geometry),
+    Row(r"R", "R", "length", Chapter.geometry),
+    Row(r"L", "L", "length", Chapter.geometry),
+    Row(r"H", "H", "length"),
+    Row(r"e", "e", "length"),
+    Row(r"D", "D", "diameter"),
+    Row(r"F", "F", "area", Chapter.geometry),
+    Row(r"lambda", "λ", "ratio", Chapter.geometry),
+    Row(r"theta", "θ", "angle"),
+    Row(r"K", "K", "ratio"),
+    Row(r"s", "s", "ratio"),
+    # masses
+    Row(r"g", "g", "gravity"),
+    Row(r"G(?P<sub>\d+)", "G", "weight", Chapter.loads),
+    Row(rf"m\.{_NAME}", "m", "mass", Chapter.geometry),
+    Row(r"J\.(?P<sub>\d+)", "J", "moment of inertia", Chapter.geometry, before="S"),
+    Row(rf"J\.{_NAME}(\..+)?", "J", "moment of inertia", Chapter.geometry),
+    # rotation
+    Row(r"n", "n", "speed of rotation"),
+    Row(rf"(turn\.)?omega\.{_NAME}", "ω", "angular velocity", Chapter.velocity),
+    Row(rf"(turn\.)?eps\.{_NAME}", "ε", "angular acceleration", Chapter.acceleration),
+    # plans of velocities and accelerations
+    Row(r"mu\.(?P<sub>v)", "μ", "velocity scale", Chapter.velocity),
+    Row(r"mu\.(?P<sub>a)", "μ", "acceleration scale", Chapter.acceleration),
+    Row(r"seg\.v\..+", "", "segment", Chapter.velocity, "mu.v"),
+    Row(r"seg\.a\..+", "", "segment", Chapter.acceleration, "mu.a"),
+    Row(rf"v\.{_NAME}", "v", "velocity", Chapter.velocity),
+    Row(rf"a\.{_NAME}{_PART}", "a", "acceleration", Chapter.acceleration),
+    Row(rf"dir\.v\.{_NAME}", "α", "angle", Chapter.velocity, before="v", around=True),
+    Row(rf"dir\.a\.{_NAME}", "α", "angle", Chapter.acceleration, before="a", around=True),
+    # instant centres
+    Row(r"ic\.seg\..+", "", "segment", Chapter.velocity, "mu.l"),
+    Row(rf"ic\.omega\.{_NAME}", "ω", "angular velocity", Chapter.velocity),
+    Row(r"ic\.v\..+", "v", "velocity", Chapter.velocity),
+    Row(rf"ic\.angle\.\d+\.{_NAME}", "ψ", "angle", Chapter.velocity),
+    Row(rf"ic\.along\.\d+\.{_NAME}", "u", "velocity", Chapter.velocity),
+    # closed formulas
+    Row(rf"(f\.)?phi\.{_NAME}", "φ", "angle"),
+    Row(rf"beta\.{_NAME}", "β", "angle"),
+    Row(rf"f\.v\.{_NAME}", "v", "velocity"),
+    Row(rf"f\.a\.{_NAME}{_PART}", "a", "acceleration"),
+    Row(rf"f\.omega\.{_NAME}", "ω", "angular velocity"),
+    Row(rf"f\.eps\.{_NAME}", "ε", "angular acceleration"),
+    Row(rf"f\.x\.{_NAME}", "x", "length"),
+    Row(rf"f\.y\.{_NAME}", "y", "length"),
+    Row(r"f\.[xy]\..+\.v", "v", "velocity"),
+    Row(r"f\.[xy]\..+\.a", "a", "acceleration"),
+    # loads
+    Row(r"s\.(?P<sub>\d+)", "s", "length", Chapter.loads),
+    Row(r"p\.(?P<sub>\d+)", "p", "pressure", Chapter.loads),
+    Row(r"Pqt(?P<sub>\d+)", "P", "force", Chapter.loads, before="qt"),
+    Row(r"M\.Pqt(?P<sub>\d+)", "M", "torque", Chapter.loads, before="qt"),
+    Row(r"e\.Pqt(?P<sub>\d+)", "e", "length", Chapter.loads, before="qt"),
+    Row(r"P(?P<sub>\d*)\w*", "P", "force", Chapter.loads),
+    Row(r"M(?P<sub>\d+)\w*", "M", "torque"),
+    # the balance of the driver
+    Row(r"h\.(?P<sub>.+)\.p", "h", "segment", Chapter.torque, "mu.v"),
+    Row(r"M\.(?P<sub>.+)\.p", "M", "torque", Chapter.torque),
+    Row(r"M\.(eq|vw)", "M", "torque", Chapter.torque),
+    # reactions
+    Row(rf"R\.{_NAME}{_PART}", "R", "force", Chapter.forces),
+    Row(r"M\.(?P<sub>[\d,]+)", "M", "torque", Chapter.forces),
+    Row(r"x\.(?P<sub>\d[\d,]+)", "x", "length", Chapter.forces),
+    Row(r"h\.R?(?P<sub>[^.]+)\..+", "h", "segment", Chapter.forces, "mu.l"),
+    Row(r"mu\.R.+", "μ", "force scale", Chapter.forces),
+    Row(r"dir\.R(?P<sub>[^.]+)(\..+)?", "α", "angle", Chapter.forces, around=True),
+    Row(r"seg\.(?P<group>[^.]+)\..+", "", "segment", Chapter.forces, "mu.R{group}"),
+    # the cycle
+    Row(rf"M\.{_NAME}(\..+)?", "M", "torque"),
+    Row(r"W", "W", "work"),
+    Row(r"power", "N", "power"),
+)
+_PATTERNS = tuple((re.compile(row.ids), row) for row in ROWS)
+_PRINTED = {"t": "τ"}
+_NO_ROW = Row("")
+
+
+@lru_cache(maxsize=4096)
+def _found(id: str) -> tuple[Row, dict[str, str]]:
+    for pattern, row in _PATTERNS:
+        if match := pattern.fullmatch(id):
+            return row, {name: text or "" for name, text in match.groupdict().items()}
+    return _NO_ROW, {}
+
+
+def row(id: str) -> Row:
+    """The row of an id; an empty one for a quantity that a machine has for itself."""
+    return _found(id)[0]
+
+
+def symbol(id: str) -> Symbol:
+    """The symbol of a quantity: the letter of its row, below it what the id names.
+
+    Raises `KeyError` for an id that no row gives a letter.
+    """
+    found, parts = _found(id)
+    if not found.letter:
+        raise KeyError(f"no letter for {id}")
+    sup = parts.get("sup", "")
+    return Symbol(found.letter, found.before + parts.get("sub", ""), _PRINTED.get(sup, sup))
+
+
+def plan(id: str) -> str:
+    """The id of the scale that a length on paper is measured with; "" for anything else."""
+    found, parts = _found(id)
+    return found.plan.format(**parts)
+
+
+def distance(id: str, one: Value, other: Value) -> Value:
+    """How far two values (SI) of a quantity lie apart: of directions, around the circle."""
+    apart = np.abs(one - other)
+    return np.abs(np.mod(one - other + np.pi, 2 * np.pi) - np.pi) if row(id).around else apart
