@@ -1,6 +1,7 @@
 """What a script or the command line calls: load, check, solve, build.
 
 The whole way in one place: file → `Assignment` → `Machine` → `Analysis` → `Ledger` → `Document` → PDF.
+What comes before the document is in a `Case`.
 """
 
 from __future__ import annotations
@@ -14,13 +15,13 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
+from reportgen.case import Case, open_case
 from reportgen.errors import Problem, ReportgenError
 from reportgen.notation.numbers import Language
 
 if TYPE_CHECKING:
     from reportgen.analysis import Analysis
     from reportgen.document.tree import Document
-    from reportgen.ledger.report import Books
 
 Engine = Literal["typst", "latex"]
 SUFFIX = {"typst": ".typ", "latex": ".tex"}
@@ -34,8 +35,7 @@ class OutputError(ReportgenError):
 
 def load(path: Path | str, language: Language | None = None) -> Assignment:
     """The assignment of a file; raises `AssignmentError` with all its faults, located."""
-    assignment = catalogue.load(Path(path), language)
-    return assignment if language is None else assignment.with_language(language)
+    return open_case(path, language).assignment
 
 
 def check(path: Path | str, language: Language | None = None) -> list[Problem]:
@@ -45,9 +45,7 @@ def check(path: Path | str, language: Language | None = None) -> list[Problem]:
 
 def analyse(assignment: Assignment) -> Analysis:
     """Everything computed of an assignment, as arrays over its positions."""
-    from reportgen.analysis import analyse as run
-
-    return run(catalogue.module(assignment.kind).machine(assignment))
+    return Case(assignment).analysis
 
 
 def solve(assignment: Assignment, positions: int | None = None) -> dict[str, Any]:
@@ -55,25 +53,14 @@ def solve(assignment: Assignment, positions: int | None = None) -> dict[str, Any
     from reportgen.answers.results import results
 
     chosen = assignment if positions is None else assignment.with_positions(positions)
-    return results(chosen, analyse(chosen))
-
-
-def keep_books(assignment: Assignment, analysis: Analysis) -> Books:
-    """The ledger of an analysis and its force plans, with the units of the assignment's language."""
-    from reportgen.document.prose import search_path
-    from reportgen.document.words import load_words
-    from reportgen.ledger.report import keep
-
-    return keep(analysis, load_words(search_path(assignment.language, assignment.kind))["units"])
+    return results(Case(chosen))
 
 
 def document(assignment: Assignment) -> Document:
     """The report as a numbered tree, ready for any writer."""
     from reportgen.document.outline import compose
 
-    analysis = analyse(assignment)
-    title = catalogue.title(assignment.kind, assignment.language)
-    return compose(assignment, analysis, keep_books(assignment, analysis), title)
+    return compose(Case(assignment))
 
 
 def build(
@@ -89,8 +76,7 @@ def build(
     `OutputError`.
     """
     assignment = load(path, language)
-    tree = document(assignment)
-    source, pdf = typeset(tree, engine)
+    source, pdf = typeset(document(assignment), engine)
     target = Path(out) / assignment.id / "report.pdf"
     with reported():
         target.parent.mkdir(parents=True, exist_ok=True)

@@ -7,43 +7,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
-from reportgen import api, catalogue
-from reportgen.analysis import Analysis
-from reportgen.answers.key import Key, make_key
+from reportgen import api
+from reportgen.answers.key import make_key
 from reportgen.api import Engine
-from reportgen.assignment import Assignment
-from reportgen.ledger.report import Books
+from reportgen.case import open_case
 from reportgen.notation.numbers import Language
 
 Maker = Callable[[Path, Engine, Language | None], Mapping[str, bytes]]
 """Makes the files of one product, by name, of an assignment file."""
 
 KEY_FORMATS = ("pdf", "xlsx", "csv", "json")
-
-
-@dataclass(frozen=True)
-class Opened:
-    """An assignment with all that is computed of it once."""
-
-    assignment: Assignment
-    analysis: Analysis
-    books: Books
-    title: str
-
-    @property
-    def key(self) -> Key:
-        return make_key(self.assignment, self.analysis, self.books.ledger)
-
-
-def opened(path: Path, language: Language | None = None) -> Opened:
-    """The assignment of a file, computed; raises `AssignmentError`, `TemplateError`."""
-    assignment = api.load(path, language)
-    analysis = api.analyse(assignment)
-    title = catalogue.title(assignment.kind, assignment.language)
-    return Opened(assignment, analysis, api.keep_books(assignment, analysis), title)
 
 
 def report_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
@@ -57,10 +32,9 @@ def task_files(path: Path, engine: Engine, language: Language | None) -> Mapping
     from reportgen.answers.task import task
     from reportgen.workbook import write_xlsx
 
-    one = opened(path, language)
-    key = one.key
-    tree = task(one.assignment, one.analysis, one.books, one.title, key)
-    return {"task.pdf": api.typeset(tree, engine)[1], "answers.xlsx": write_xlsx(answer_book(key))}
+    case = open_case(path, language)
+    key = make_key(case)
+    return {"task.pdf": api.typeset(task(case, key), engine)[1], "answers.xlsx": write_xlsx(answer_book(key))}
 
 
 def key_files(
@@ -72,15 +46,15 @@ def key_files(
     from reportgen.answers.key_tables import key_book, key_rows
     from reportgen.workbook import write_csv, write_xlsx
 
-    one = opened(path, language)
-    key = one.key
+    case = open_case(path, language)
+    key = make_key(case)
 
     def data() -> bytes:
         text = json.dumps(key_data(key), ensure_ascii=False, allow_nan=False, indent=1)
         return f"{text}\n".encode()
 
     makers: Mapping[str, Callable[[], bytes]] = {
-        "pdf": lambda: api.typeset(key_document(key, one.title), engine)[1],
+        "pdf": lambda: api.typeset(key_document(key, case.title), engine)[1],
         "xlsx": lambda: write_xlsx(key_book(key)),
         "csv": lambda: write_csv(key_rows(key)),
         "json": data,

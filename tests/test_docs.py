@@ -18,7 +18,8 @@ import typer
 
 from reportgen import api, catalogue
 from reportgen.cli import app
-from reportgen.document.prose import Prose, search_path
+from reportgen.document.prose import Prose
+from reportgen.words import search_path
 from reportgen.writers import pdflatex
 
 ROOT = Path(__file__).parent.parent

@@ -14,11 +14,8 @@ from itertools import dropwhile
 
 import numpy as np
 
-from reportgen.analysis import Analysis
 from reportgen.answers import bands
-from reportgen.assignment import Assignment
-from reportgen.document.prose import search_path
-from reportgen.document.words import load_words
+from reportgen.case import Case
 from reportgen.ledger.core import Family, Ledger
 from reportgen.notation.expressions import Symbol, refs
 from reportgen.notation.numbers import Language
@@ -109,10 +106,9 @@ class Key:
         return tuple(row for row in self.rows if row.positions)
 
 
-def make_key(assignment: Assignment, analysis: Analysis, ledger: Ledger) -> Key:
-    """The key of an assignment from its ledger, which is the one its report prints."""
-    machine = analysis.machine
-    words = load_words(search_path(assignment.language, assignment.kind))
+def make_key(case: Case) -> Key:
+    """The key of a case, from the ledger that its report prints."""
+    assignment, machine, ledger, words = case.assignment, case.analysis.machine, case.ledger, case.words
     on_paper, by_rounding = bands.drawn(ledger), bands.computed(ledger)
     formulas = {item.id for item in machine.formulas}
     balanced = {*dropwhile(lambda id: id != "M.vw", ledger.families)}

@@ -8,15 +8,16 @@ from typing import Any
 import numpy as np
 
 from reportgen.analysis import Analysis
-from reportgen.assignment import Assignment
+from reportgen.case import Case
 from reportgen.mechanism.loads import Load
 from reportgen.mechanism.structure import Crank
 
 FORMAT = "reportgen-results/1"
 
 
-def results(assignment: Assignment, analysis: Analysis) -> dict[str, Any]:
-    """The contract's JSON object of an analysis: one entry a position, null where it cannot be reached."""
+def results(case: Case) -> dict[str, Any]:
+    """The contract's JSON object of a case: one entry a position, null where it cannot be reached."""
+    assignment, analysis = case.assignment, case.analysis
     machine = analysis.machine
     return {
         "format": FORMAT,

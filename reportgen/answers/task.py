@@ -6,27 +6,26 @@ from reportgen.analysis import Analysis
 from reportgen.answers.key import Key
 from reportgen.answers.paper import fields, paper
 from reportgen.answers.sheet import answer_blocks, asked_positions, known_blocks, student_rows
-from reportgen.assignment import Assignment
+from reportgen.case import Case
 from reportgen.document.outline import PLATES_UP_TO, prepare
 from reportgen.document.tree import Block, Document, Paragraph, Strong, Text
-from reportgen.ledger.report import Books
 
 
-def task(assignment: Assignment, analysis: Analysis, books: Books, title: str, key: Key) -> Document:
-    """The handout of an assignment; `title` is the machine's name.  Raises `TemplateError`."""
-    prose, names = prepare(assignment, analysis, books, title)
-    words = names["words"]
+def task(case: Case, key: Key) -> Document:
+    """The handout of a case.  Raises `TemplateError`."""
+    assignment, words = case.assignment, case.words
+    prose, names = prepare(case)
     (heading, *given) = prose.render("given.md", names)
     names |= {
         "sheet": tuple(answer_blocks(key)),
         "asked": tuple(key.labels[k - 1] for k in asked_positions(key)),
-        "known_tables": tuple(known_blocks(key, _known_positions(key, analysis))),
+        "known_tables": tuple(known_blocks(key, _known_positions(key, case.analysis))),
     }
     report = assignment.report
     course = report.course or words["cover"]["course"]
     blocks: list[Block] = [
         heading,
-        Paragraph((Strong((Text(title),)),), "center"),
+        Paragraph((Strong((Text(case.title),)),), "center"),
         *fields(student_rows(key)),
         *given,
         *prose.render("task.md", names),

@@ -8,10 +8,9 @@ from statistics import median
 
 import numpy as np
 
-from reportgen import api
 from reportgen.assignment import Assignment
 from reportgen.assignment.messages import word
-from reportgen.ledger.report import keep
+from reportgen.case import Case
 from reportgen.notation.numbers import Language
 
 FIGURES = ("worked", "largest", "speed", "positive", "zeros")
@@ -59,8 +58,8 @@ class Spread:
 
 def effort(assignment: Assignment) -> Effort:
     """The figures of an assignment, from its ledger."""
-    analysis = api.analyse(assignment)
-    ledger = keep(analysis).ledger
+    case = Case(assignment)
+    analysis, ledger = case.analysis, case.ledger
     shown = [one for one in ledger.families.values() if not one.hidden and not one.is_plane]
     derived = [one for one in shown if one.definition is not None]
     zeros = sum(

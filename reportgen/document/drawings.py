@@ -66,7 +66,7 @@ class Drawings:
             **self.centres.figures,
             **self.acting.figures,
             **self.curves.figures,
-            **FlywheelFigures(self.facts.books.flywheel, self.ledger, self.words).figures,
+            **FlywheelFigures(self.facts.case.flywheel, self.ledger, self.words).figures,
         }
         return figures[name](*arguments)
 

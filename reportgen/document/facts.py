@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from reportgen.analysis import Analysis
+from reportgen.case import Case
 from reportgen.document.views import CentreView, DriverView, GroupView, known_part, sought_part
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces import Polygon
 from reportgen.ledger.kinematics import Side, Turn
-from reportgen.ledger.report import Books
 from reportgen.notation.expressions import Number, refs
 
 
@@ -47,15 +47,21 @@ class CarriedView:
 class Facts:
     """What a report has of each kind of quantity; ids in the order of the report."""
 
-    analysis: Analysis
-    books: Books
+    case: Case
     groups: tuple[GroupView, ...]
     driver: DriverView
-    worked: tuple[int, ...]
+
+    @property
+    def analysis(self) -> Analysis:
+        return self.case.analysis
 
     @property
     def ledger(self) -> Ledger:
-        return self.books.ledger
+        return self.case.ledger
+
+    @property
+    def worked(self) -> tuple[int, ...]:
+        return self.case.assignment.worked_positions
 
     def has(self, ids: Sequence[str]) -> list[str]:
         """Those of the ids that the ledger knows."""
@@ -281,7 +287,7 @@ class Facts:
 
     @property
     def driver_polygon(self) -> Polygon:
-        return self.books.polygons[-1]
+        return self.case.polygons[-1]
 
     @property
     def crank_lines(self) -> list[str]:

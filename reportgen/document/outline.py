@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from reportgen.analysis import Analysis
 from reportgen.assignment import Assignment
+from reportgen.case import Case
 from reportgen.catalogue.gas import ByOrdinates
 from reportgen.document.centres import plane_links, with_centres
 from reportgen.document.drawings import Drawings
 from reportgen.document.facts import Facts
 from reportgen.document.numbering import number
-from reportgen.document.prose import Prose, search_path
+from reportgen.document.prose import Prose
 from reportgen.document.tabled import lowered
 from reportgen.document.tables import Tables
 from reportgen.document.tree import (
@@ -33,9 +33,7 @@ from reportgen.document.tree import (
 )
 from reportgen.document.views import GroupView, driver, groups
 from reportgen.document.voice import Voice
-from reportgen.document.words import load_words
 from reportgen.ledger.core import Ledger
-from reportgen.ledger.report import Books
 from reportgen.mechanism.mobility import mobility
 from reportgen.notation.expressions import Expression, Number, Ref, Symbol, substitute
 
@@ -43,15 +41,12 @@ PLATES_UP_TO = 24
 """Above this many positions, plates are drawn for worked positions only."""
 
 
-def compose(assignment: Assignment, analysis: Analysis, books: Books, title: str) -> Document:
-    """The finished, numbered document of a report; raises `TemplateError` for a fault in its words.
-
-    `title` is the machine's name in the report's language.
-    """
-    prose, names = prepare(assignment, analysis, books, title)
-    words = names["words"]
+def compose(case: Case) -> Document:
+    """The finished, numbered document of a report; raises `TemplateError` for a fault in its words."""
+    assignment, words, title = case.assignment, case.words, case.title
+    prose, names = prepare(case)
     blocks: list[Block] = [_cover(assignment, words, title)]
-    for section in with_centres(analysis.machine.outline, names["plane_links"]):
+    for section in with_centres(case.analysis.machine.outline, names["plane_links"]):
         if section == "contents":
             blocks += [PageBreak(), Contents(words["document"]["contents"])]
         else:
@@ -71,20 +66,15 @@ def compose(assignment: Assignment, analysis: Analysis, books: Books, title: str
     )
 
 
-def prepare(
-    assignment: Assignment, analysis: Analysis, books: Books, title: str
-) -> tuple[Prose, dict[str, Any]]:
+def prepare(case: Case) -> tuple[Prose, dict[str, Any]]:
     """The templates of an assignment's language, machine and school, and all that they may name."""
-    path = search_path(assignment.language, analysis.machine.kind, assignment.report.school or "")
-    words = load_words(path)
-    prose = Prose(path)
-    facts = Facts(
-        analysis, books, groups(analysis, books.polygons), driver(analysis), assignment.worked_positions
-    )
-    voice = Voice(books.ledger, prose, words)
+    assignment = case.assignment
+    prose = Prose(case.directories)
+    facts = Facts(case, groups(case.analysis, case.polygons), driver(case.analysis))
+    voice = Voice(case.ledger, prose, case.words)
     tables = Tables(assignment, facts, voice)
-    drawings = Drawings(assignment, facts, words, plates_for(assignment))
-    return prose, _names(assignment, facts, voice, tables, drawings, title)
+    drawings = Drawings(assignment, facts, case.words, plates_for(assignment))
+    return prose, _names(assignment, facts, voice, tables, drawings, case.title)
 
 
 def plates_for(assignment: Assignment) -> tuple[int, ...]:
@@ -199,7 +189,7 @@ def _names(
         "crank_lines": facts.crank_lines,
         "lever_couples": facts.lever_couples,
         "crank_pins": facts.crank_pins,
-        "driver_polygon": facts.driver_polygon if facts.books.polygons else None,
+        "driver_polygon": facts.driver_polygon if facts.case.polygons else None,
         "lowered": lowered,
         "not_recomputing": _listed(voice.symbol(id) for id in facts.ledger.cancellations),
         "equations": lambda name, k=None: Equation(

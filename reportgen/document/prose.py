@@ -7,30 +7,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from reportgen import folders
 from reportgen.document.tree import Block, Inlines
-from reportgen.notation.numbers import Language
 
 if TYPE_CHECKING:
     from jinja2 import Environment
 
 ENVIRONMENTS = 8
 """How many search paths (language, kind, school) keep their compiled templates."""
-
-
-def search_path(
-    language: Language, kind: str = "", school: str = "", root: Path | None = None
-) -> tuple[Path, ...]:
-    """Where a template of words is looked for, the first found wins.
-
-    A school's own words, then those of one kind of machine, then those common to all.
-    """
-    root = root or folders.templates()
-    return (
-        *((root / school / language,) if school else ()),
-        *((root / language / kind,) if kind else ()),
-        root / language,
-    )
 
 
 class Prose:

@@ -9,7 +9,6 @@ from typing import Any
 
 from reportgen.answers.key import Key
 from reportgen.answers.paper import paper
-from reportgen.document.prose import search_path
 from reportgen.document.tree import (
     Block,
     Cell,
@@ -21,13 +20,13 @@ from reportgen.document.tree import (
     Table,
     Text,
 )
-from reportgen.document.words import load_words
 from reportgen.figures.labels import Content
 from reportgen.figures.tallies import bars, histogram
 from reportgen.grading.grades import who
 from reportgen.grading.marks import Marking
 from reportgen.grading.sentences import points_text
 from reportgen.notation.numbers import Language, write
+from reportgen.words import load_words, search_path
 
 CLASSES = 10
 """Columns of the histogram."""

@@ -7,10 +7,9 @@ from collections.abc import Iterable, Sequence
 
 from reportgen.answers.key import Key, Part
 from reportgen.answers.sheet import symbol_text
-from reportgen.document.prose import search_path
-from reportgen.document.words import load_words
 from reportgen.grading.marks import Marked, Marking
 from reportgen.notation.numbers import Language
+from reportgen.words import load_words, search_path
 
 Value = str | float | None
 

@@ -7,17 +7,14 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.analysis import Analysis, analyse
+from reportgen.analysis import Analysis
 from reportgen.answers import bands
 from reportgen.answers.key import Key, Role, Row, make_key
 from reportgen.assignment import Assignment
-from reportgen.catalogue import module
-from reportgen.document.prose import search_path
-from reportgen.document.words import load_words
+from reportgen.case import Case
 from reportgen.grading.policy import Policy
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.following import carried, standing_on
-from reportgen.ledger.report import keep
 
 ALMOST = 1e-12
 """Room for rounding in a comparison with a band."""
@@ -89,7 +86,5 @@ class Guide:
 
 def open_guide(assignment: Assignment, policy: Policy | None = None) -> Guide:
     """The marking guide of an assignment, computed as its report is."""
-    analysis = analyse(module(assignment.kind).machine(assignment))
-    units = load_words(search_path(assignment.language, assignment.kind))["units"]
-    ledger = keep(analysis, units).ledger
-    return Guide(make_key(assignment, analysis, ledger), ledger, analysis, policy or Policy())
+    case = Case(assignment)
+    return Guide(make_key(case), case.ledger, case.analysis, policy or Policy())

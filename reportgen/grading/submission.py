@@ -17,14 +17,13 @@ from typing import Any, get_args
 from reportgen.answers.key import Key, Row
 from reportgen.assignment.faults import Fault
 from reportgen.assignment.messages import as_problem
-from reportgen.document.prose import search_path
-from reportgen.document.words import load_words
 from reportgen.errors import AssignmentError, Mark, Problem
 from reportgen.grading.marks import Given, Place, Submission
 from reportgen.grading.written import DecimalMark, decimal_mark, is_blank, read_written
 from reportgen.notation.numbers import Language
 from reportgen.notation.symbols import KINDS
 from reportgen.units import QuantityFault
+from reportgen.words import load_words, search_path
 from reportgen.workbook import Cell, Page, read
 
 HEAD_WITHIN = 60

@@ -8,15 +8,14 @@ from pathlib import Path
 import pytest
 from openpyxl import load_workbook
 
-from reportgen import api, catalogue
 from reportgen.answers.key import make_key
 from reportgen.answers.key_document import key_document
 from reportgen.answers.key_json import key_data
 from reportgen.answers.key_tables import band, key_book, key_rows
+from reportgen.case import open_case
 from reportgen.document.plain import text_of
 from reportgen.document.tree import Table
 from reportgen.grading.submission import read_submission
-from reportgen.ledger.report import keep
 from reportgen.notation.numbers import Language
 from reportgen.workbook import write_xlsx
 from tests.grading.keys import small_key
@@ -71,10 +70,9 @@ def test_a_band_that_is_nothing_beside_its_row_is_nothing() -> None:
 
 @pytest.mark.parametrize("name", ["slider-crank-01", "engine-twin-05", "linkage-slide"])
 def test_the_document_has_every_quantity_at_every_position_on_pages_that_hold_it(name: str) -> None:
-    assignment = api.load(f"assignments/{name}.yaml", "en")
-    analysis = api.analyse(assignment)
-    key = make_key(assignment, analysis, keep(analysis).ledger)
-    tree = key_document(key, catalogue.titles("en")[assignment.kind])
+    case = open_case(f"assignments/{name}.yaml", "en")
+    key = make_key(case)
+    tree = key_document(key, case.title)
     tables = [block for block in tree.blocks if isinstance(block, Table)]
     assert all(sum(column.width for column in table.columns) < 160.001 for table in tables)
     # A list has a quantity a row; a table by position spans a quantity over its columns.

@@ -11,13 +11,12 @@ import numpy as np
 import pytest
 from openpyxl import load_workbook
 
-from reportgen import api, catalogue
 from reportgen.answers.key import Key, Role, make_key
 from reportgen.answers.sheet import answer_blocks, answer_book, answer_rows, number_format
 from reportgen.answers.task import task
+from reportgen.case import open_case
 from reportgen.document.plain import plain, text_of
 from reportgen.document.tree import Document, Table
-from reportgen.ledger.report import keep
 from reportgen.notation.numbers import Language, write
 from reportgen.workbook import write_xlsx
 from tests.grading.keys import small_key
@@ -112,12 +111,9 @@ def test_paper_does_not_tell_where_a_direction_does_not_exist() -> None:
 
 
 def handout(name: str, language: Language) -> tuple[Key, Document]:
-    assignment = api.load(f"assignments/{name}.yaml", language)
-    analysis = api.analyse(assignment)
-    books = keep(analysis)
-    key = make_key(assignment, analysis, books.ledger)
-    title = catalogue.titles(language)[assignment.kind]
-    return key, task(assignment, analysis, books, title, key)
+    case = open_case(f"assignments/{name}.yaml", language)
+    key = make_key(case)
+    return key, task(case, key)
 
 
 NAMES = ("engine-twin-05", "slider-crank-01", "shaper-01", "linkage-8", "linkage-slide", "four-bar-01")

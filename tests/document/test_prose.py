@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from reportgen import folders
-from reportgen.document.prose import Prose, search_path
+from reportgen.document.prose import Prose
 from reportgen.document.tree import (
     BlankLine,
     Block,
@@ -32,6 +32,7 @@ from reportgen.document.tree import (
 )
 from reportgen.errors import TemplateError
 from reportgen.notation.expressions import Number, Symbol
+from reportgen.words import search_path
 
 V_B = Symbol("v", "B")
 SPEED = Number(15.708, 2, "m/s")

@@ -6,16 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from reportgen import api
+from reportgen.case import open_case
 from reportgen.document.drawings import Drawings
 from reportgen.document.facts import Facts
-from reportgen.document.prose import search_path
 from reportgen.document.views import driver, groups
-from reportgen.document.words import load_words
 from reportgen.figures.plan import Plan, merged, stages
 from reportgen.figures.scene import Arrow, Line
 from reportgen.figures.style import NEW
-from reportgen.ledger.report import keep
 
 FILES = sorted((Path(__file__).parents[2] / "assignments").glob("*.yaml"))
 VISIBLE = 1e-6
@@ -38,12 +35,9 @@ def additions(drawing: Plan, stage: int) -> list[tuple[complex, complex]]:
 
 
 def drawn_up(file: Path) -> tuple[Facts, Drawings]:
-    assignment = api.load(file)
-    analysis = api.analyse(assignment)
-    books = keep(analysis)
-    worked = assignment.worked_positions
-    facts = Facts(analysis, books, groups(analysis, books.polygons), driver(analysis), worked)
-    return facts, Drawings(assignment, facts, load_words(search_path("en", assignment.kind)), worked)
+    case = open_case(file, "en")
+    facts = Facts(case, groups(case.analysis, case.polygons), driver(case.analysis))
+    return facts, Drawings(case.assignment, facts, case.words, facts.worked)
 
 
 @pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])

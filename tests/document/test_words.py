@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.document.prose import search_path
-from reportgen.document.words import load_words
 from reportgen.errors import TemplateError
+from reportgen.words import load_words, search_path
 
 
 def test_words_of_a_school_stand_before_the_common_ones(tmp_path: Path) -> None:

@@ -11,9 +11,7 @@ import pytest
 from openpyxl import load_workbook
 
 from reportgen.document.plain import text_of
-from reportgen.document.prose import search_path
 from reportgen.document.tree import Figure, Table
-from reportgen.document.words import load_words
 from reportgen.errors import CellMark, Problem
 from reportgen.figures.scene import Label
 from reportgen.grading.class_page import class_document
@@ -25,6 +23,7 @@ from reportgen.grading.misread import WRONG_DATUM
 from reportgen.grading.sentences import mistake_inlines, points_text
 from reportgen.grading.slips import CONVENTIONS
 from reportgen.notation.numbers import Language
+from reportgen.words import load_words, search_path
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.writing import FILLS
 from tests.grading.keys import small_key

@@ -12,13 +12,11 @@ from typing import Any
 import pytest
 
 from reportgen import api
-from reportgen.analysis import Analysis
 from reportgen.assignment import Assignment
-from reportgen.document.prose import search_path
+from reportgen.case import Case
+from reportgen.document import outline
 from reportgen.document.tree import Block, Document, Figure, List, Plate
-from reportgen.document.words import load_words
 from reportgen.figures.scene import Scene
-from reportgen.ledger.report import Books, keep
 from reportgen.notation.numbers import Language
 from tests.reports.pages import Glyph, body
 
@@ -70,9 +68,7 @@ PAIRS = [
 class Written:
     """A report below the typesetter: what it was made of, and its tree."""
 
-    assignment: Assignment
-    analysis: Analysis
-    books: Books
+    case: Case
     document: Document
 
     @property
@@ -111,9 +107,8 @@ class Report:
 
 def compose(assignment: Assignment) -> Written:
     """The tree of an assignment with all it stands on."""
-    analysis = api.analyse(assignment)
-    units = load_words(search_path(assignment.language, assignment.kind))["units"]
-    return Written(assignment, analysis, keep(analysis, units), api.document(assignment))
+    case = Case(assignment)
+    return Written(case, outline.compose(case))
 
 
 @cache

@@ -68,7 +68,7 @@ def segment(name: str, plan: str, known: Collection[str]) -> str:
 
 def segments(written: Written, key: str) -> dict[str, list[float]]:
     """Lengths (mm) at the positions of one plan's figure by the vector's name; none for other figures."""
-    ledger = written.books.ledger
+    ledger = written.case.ledger
     motion = re.fullmatch(r"fig\.([va])\.(?:stages\.)?(\w+?)(?:\.\d+)?", key)
     forces = re.fullmatch(
         r"fig\.R\.(?:plates\.(\w+)(?:\.\d+)?|(?:stages\.)?(\w+)\.(\w+))",
@@ -79,7 +79,7 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
         position = motion[2]
     elif forces:
         group = forces[1] or forces[2]
-        polygon = next(polygon for polygon in written.books.polygons if polygon.name == group)
+        polygon = next(polygon for polygon in written.case.polygons if polygon.name == group)
         sides = (*polygon.sides, *polygon.reads)
         ids = defaultdict(list)
         for side in sides:
@@ -87,7 +87,7 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
         position = forces[3] or "plates"
     else:
         return {}
-    count = written.analysis.machine.count if motion else written.analysis.machine.positions
+    count = written.case.analysis.machine.count if motion else written.case.analysis.machine.positions
     positions = range(1, count + 1) if position == "plates" else [worked(written, position, count)]
     scale = STAGES if ".stages." in key else 1.0
     return {
@@ -99,11 +99,11 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
 def worked(written: Written, label: str, count: int) -> int:
     """The position that a figure's key names: keys hold the labels of the worked positions, in order."""
     family = (
-        r"fig\.v\.(?!stages|plates)(\w+)" if count == written.analysis.machine.count else r"fig\.crank\.(\w+)"
+        r"fig\.v\.(?!stages|plates)(\w+)" if count == written.case.analysis.machine.count else r"fig\.crank\.(\w+)"
     )
     keys = (re.fullmatch(family, key) for key, _ in built.scenes(written.document))
     labels = dict.fromkeys(found[1] for found in keys if found)
-    numbers = dict.fromkeys((k - 1) % count + 1 for k in written.assignment.worked_positions)
+    numbers = dict.fromkeys((k - 1) % count + 1 for k in written.case.assignment.worked_positions)
     return dict(zip(labels, numbers, strict=True))[label]
 
 

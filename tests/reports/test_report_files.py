@@ -22,7 +22,7 @@ pymupdf = pytest.importorskip("pymupdf")
 
 
 def test_a_report_of_the_engine_has_thirty_to_sixty_pages(report: Report) -> None:
-    if report.written.assignment.kind != "engine-twin":
+    if report.written.case.assignment.kind != "engine-twin":
         pytest.skip("the number of pages is given for the engine only")
     assert 30 <= report.pages.page_count <= 60
 

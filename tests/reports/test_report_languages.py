@@ -14,7 +14,6 @@ from jinja2 import Environment, nodes
 from reportgen import catalogue
 from reportgen.document.numbering import unreferenced
 from reportgen.document.plain import formula, plain
-from reportgen.document.prose import search_path
 from reportgen.document.tree import (
     Block,
     Cover,
@@ -32,8 +31,8 @@ from reportgen.document.tree import (
     Value,
     Words,
 )
-from reportgen.document.words import load_words
 from reportgen.mechanism.structure import DyadKind
+from reportgen.words import load_words, search_path
 from tests.reports import built
 from tests.reports.built import Written
 
@@ -210,7 +209,7 @@ def test_every_word_is_used() -> None:
 
 def test_every_reason_for_a_nothing_fits_a_quantity() -> None:
     """Each pattern of `zero` is the first that fits some quantity of some machine."""
-    ids = {id for path in built.TYPESET for id in built.written(path, "en").books.ledger.families}
+    ids = {id for path in built.TYPESET for id in built.written(path, "en").case.ledger.families}
     patterns = list(load_words(search_path("en"))["zero"])
     first = {next((p for p in patterns if re.fullmatch(p, id)), None) for id in ids}
     assert set(patterns) - first == set()

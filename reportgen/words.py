@@ -1,4 +1,4 @@
-"""Short words (of captions, of directions) from `words.yaml`, as nested tables."""
+"""Where templates and words are looked for, and the short words of `words.yaml` as nested tables."""
 
 from __future__ import annotations
 
@@ -7,15 +7,32 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from reportgen import folders
 from reportgen.errors import Mark, TemplateError
+from reportgen.notation.numbers import Language
 
 FILE = "words.yaml"
 FILES = 32
 """How many files of words are kept."""
 
 
+def search_path(
+    language: Language, kind: str = "", school: str = "", root: Path | None = None
+) -> tuple[Path, ...]:
+    """The folders in which templates and words are looked for; the first that has a name wins.
+
+    A school's own words, then those of one kind of machine, then those common to all.
+    """
+    root = root or folders.templates()
+    return (
+        *((root / school / language,) if school else ()),
+        *((root / language / kind,) if kind else ()),
+        root / language,
+    )
+
+
 def load_words(directories: Sequence[Path]) -> Mapping[str, Any]:
-    """All words found in `directories` (`prose.search_path`): tables of tables, lists and words.
+    """All words found in `directories` (see `search_path`): tables of tables, lists and words.
 
     A file nearer on the search path need only hold the words it changes.  Raises `TemplateError` with
     file and line for what cannot be read, and where no directory has the file.

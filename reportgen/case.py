@@ -1,0 +1,81 @@
+"""An assignment opened once: report, key, task, marking and results are all made of one `Case`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from reportgen import catalogue
+from reportgen.assignment import Assignment
+from reportgen.notation.numbers import Language
+from reportgen.words import load_words, search_path
+
+if TYPE_CHECKING:
+    from reportgen.analysis import Analysis
+    from reportgen.cycle.flywheel import Flywheel
+    from reportgen.ledger.core import Ledger
+    from reportgen.ledger.forces import Polygon
+    from reportgen.ledger.report import Books
+
+
+@dataclass(frozen=True)
+class Case:
+    """An assignment with all that is computed of it; each part is computed when it is first asked for."""
+
+    assignment: Assignment
+
+    @cached_property
+    def analysis(self) -> Analysis:
+        """Everything computed, as arrays over the positions."""
+        from reportgen.analysis import analyse
+
+        return analyse(catalogue.module(self.assignment.kind).machine(self.assignment))
+
+    @cached_property
+    def _books(self) -> Books:
+        from reportgen.ledger.report import keep
+
+        return keep(self.analysis, self.words["units"])
+
+    @property
+    def ledger(self) -> Ledger:
+        """Every number by its id, with the units of the assignment's language."""
+        return self._books.ledger
+
+    @property
+    def polygons(self) -> tuple[Polygon, ...]:
+        """The force plans: one for each group, the driver's last; none without loads."""
+        return self._books.polygons
+
+    @property
+    def flywheel(self) -> Flywheel | None:
+        """The flywheel, if the assignment asks for one."""
+        return self._books.flywheel
+
+    @property
+    def directories(self) -> tuple[Path, ...]:
+        """Where the words of this language, machine and school are looked for."""
+        assignment = self.assignment
+        return search_path(assignment.language, assignment.kind, assignment.report.school or "")
+
+    @cached_property
+    def words(self) -> Mapping[str, Any]:
+        """The short words of `words.yaml`.  Raises `TemplateError`."""
+        return load_words(self.directories)
+
+    @property
+    def title(self) -> str:
+        """The machine's name in the assignment's language."""
+        return catalogue.title(self.assignment.kind, self.assignment.language)
+
+
+def open_case(path: Path | str, language: Language | None = None) -> Case:
+    """The case of an assignment file, in its own language or in `language`.
+
+    Raises `AssignmentError` with all faults of the file, located.
+    """
+    assignment = catalogue.load(Path(path), language)
+    return Case(assignment if language is None else assignment.with_language(language))
