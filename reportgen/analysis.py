@@ -8,7 +8,8 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from reportgen.catalogue.machine import Applied, Machine, Piston, Torque
+from reportgen.catalogue.loads import Applied, Piston, Torque
+from reportgen.catalogue.machine import Machine
 from reportgen.cycle.indicator import indicated_work, stroke_at
 from reportgen.mechanism.forces import Forces, solve_forces
 from reportgen.mechanism.loads import Load, inertia_loads, weights

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from reportgen.analysis import Analysis
     from reportgen.cycle.flywheel import Flywheel
     from reportgen.ledger.core import Ledger
-    from reportgen.ledger.forces import Polygon
+    from reportgen.ledger.forces.polygon import Polygon
     from reportgen.ledger.report import Books
 
 

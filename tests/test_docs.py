@@ -234,13 +234,13 @@ def test_the_readme_names_every_command_option_kind_and_result() -> None:
         row = next(line for line in text.splitlines() if line.startswith(f"| `reportgen {name}"))
         options = [name for parameter in command.params for name in parameter.opts if name.startswith("-")]
         assert all(option in row for option in options if option not in {"--help", "--output"})
-    for kind in catalogue.MODULES:
+    for kind in catalogue.kinds():
         assert re.search(rf"^\| \[`{kind}`\]\(#{kind}\) \| !\[[^\]]+\]\(docs/{kind}\.png\) \| ", text, re.MULTILINE)
         told = section(text, "## Machines") + section(text, f"### `{kind}`")
         for name, field in catalogue.kind(kind).parameters.model_fields.items():
             assert f"`{field.alias or name}`" in told, (kind, name)
     (row,) = [line for line in text.splitlines() if line.startswith("| `flywheel` |")]
-    with_flywheel = {kind for kind in catalogue.MODULES if "flywheel" in catalogue.kind(kind).parameters.model_fields}
+    with_flywheel = {kind for kind in catalogue.kinds() if "flywheel" in catalogue.kind(kind).parameters.model_fields}
     assert set(re.findall(r"`([a-z-]+)`", row)) - {"flywheel"} == with_flywheel
     for example in re.findall(r"(?<![\w/])assignments/[\w-]+\.yaml", text):
         assert (ROOT / example).is_file(), example

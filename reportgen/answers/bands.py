@@ -14,8 +14,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from reportgen.ledger.core import Family, Ledger
+from reportgen.ledger.core import Ledger
 from reportgen.notation.expressions import Call, Ref, refs
+from reportgen.notation.sheet import Family
 
 PAPER_ERROR = 0.5e-3
 """How far off a drawn point may lie (m on paper), at each end of a measured length."""

@@ -5,34 +5,20 @@ Its rows are the ledger's own families, so key, report and marker cannot disagre
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property, partial
-from itertools import dropwhile
 
 import numpy as np
 
 from reportgen.answers import bands
 from reportgen.case import Case
-from reportgen.ledger.core import Family, Ledger
+from reportgen.ledger.core import Ledger
 from reportgen.notation.expressions import Symbol, refs
 from reportgen.notation.numbers import Language
-
-
-class Part(StrEnum):
-    """The chapters of a key, in their order; `words.yaml` has their headings under `parts`."""
-
-    data = "data"
-    geometry = "geometry"
-    velocity = "velocity"
-    acceleration = "acceleration"
-    formulas = "formulas"
-    loads = "loads"
-    forces = "forces"
-    torque = "torque"
-    cycle = "cycle"
+from reportgen.notation.sheet import Family
+from reportgen.notation.vocabulary import Chapter
 
 
 class Role(StrEnum):
@@ -55,7 +41,7 @@ class Row:
     """
 
     id: str
-    part: Part
+    part: Chapter
     role: Role
     symbol: Symbol
     kind: str
@@ -110,8 +96,6 @@ def make_key(case: Case) -> Key:
     """The key of a case, from the ledger that its report prints."""
     assignment, machine, ledger, words = case.assignment, case.analysis.machine, case.ledger, case.words
     on_paper, by_rounding = bands.drawn(ledger), bands.computed(ledger)
-    formulas = {item.id for item in machine.formulas}
-    balanced = {*dropwhile(lambda id: id != "M.vw", ledger.families)}
     worked = tuple(assignment.worked_positions)
     complete = set(worked) == set(range(1, machine.positions + 1))
 
@@ -119,12 +103,12 @@ def make_key(case: Case) -> Key:
         family = ledger[id]
         scale = family.how.scale
         values = np.array([ledger[id].at(k + 1).real for k in range(len(family.values))])
-        if id.startswith("dir."):
-            values = np.where(_exists(ledger, id), np.abs(values), np.nan)
+        if family.is_direction:
+            values = np.where(_exists(ledger, family), np.abs(values), np.nan)
         if family.arm:
             values = np.abs(values)
-        role, part = _role(ledger, family), _part(id, ledger, formulas, balanced)
-        workable = _is_workable(id, family) and (part is not Part.cycle or complete)
+        role, part = _role(ledger, family), _chapter(ledger, family)
+        workable = _is_workable(id, family) and (part is not Chapter.cycle or complete)
         asked = (role is Role.scale and not bands.is_round_scale(family)) or (role is Role.asked and workable)
         return Row(
             id,
@@ -138,10 +122,10 @@ def make_key(case: Case) -> Key:
             on_paper[id] / scale,
             by_rounding[id] / scale,
             _asked_at(values, worked, machine.count) if asked else (),
-            tuple(_sense(id, value, words["sense"]) for value in values),
+            tuple(_sense(family, value, words["sense"]) for value in values),
         )
 
-    parts = list(Part)
+    parts = list(Chapter)
     rows = sorted(map(row, filter(partial(_is_shown, ledger), ledger.families)), key=lambda row: parts.index(row.part))
     student = assignment.report.student
     fields = {"name": student.name, "id": student.id, "class": student.class_}
@@ -159,7 +143,7 @@ def make_key(case: Case) -> Key:
 def _is_shown(ledger: Ledger, id: str) -> bool:
     """Whether a key has a row for it: not for points, for what mostly is not there, for the size of a signed twin."""
     family = ledger[id]
-    return not (family.hidden or family.is_plane or family.optional or f"turn.{id}" in ledger)
+    return not (family.hidden or family.is_plane or family.optional or id in ledger.signed)
 
 
 def _role(ledger: Ledger, family: Family) -> Role:
@@ -186,35 +170,19 @@ def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int) -> tuple[
     return tuple(dict.fromkeys(k for k in asked if np.isfinite(values[k - 1])))
 
 
-def _exists(ledger: Ledger, id: str) -> np.ndarray:
-    """Where a direction `dir.v.B`, `dir.R05` is that of a vector which is something."""
-    name = id.removeprefix("dir.")
-    size = name if name in ledger else f"R.{name.removeprefix('R')}"
-    return np.array([ledger[size].at(k + 1) != 0 for k in range(len(ledger[id].values))])
+def _exists(ledger: Ledger, direction: Family) -> np.ndarray:
+    """Where a direction is that of a vector which is something."""
+    return np.array([ledger[direction.of].at(k + 1) != 0 for k in range(len(direction.values))])
 
 
-def _sense(id: str, value: float, words: Mapping[str, str]) -> str:
+def _sense(family: Family, value: float, words: Mapping[str, str]) -> str:
     """The sense of a rotation in words; nothing for what has none."""
-    if not id.startswith("turn."):
+    if not family.is_signed_rotation:
         return ""
     return words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"]
 
 
-_PARTS = (
-    (r"(seg\.)?v\.|mu\.v$|dir\.v\.|(turn\.)?omega\.|ic\.", Part.velocity),
-    (r"(seg\.)?a\.|mu\.a$|dir\.a\.|(turn\.)?eps\.", Part.acceleration),
-    (r"(M\.)?Pqt\w*$|e\.Pqt|l\.\w+K\d+$|[sp]\.\d+$|P\w*$|G\d+$", Part.loads),
-    (r"[hM]\..*\.p$|M\.(eq|vw)$", Part.torque),
-    (r"R\.|M\.\d+$|x\.\d\d+$|h\.|mu\.R|dir\.R|seg\.", Part.forces),
-    (r"(l|drawn|m|J)\.|mu\.l$|[RLF]$|lambda$", Part.geometry),
-)
-
-
-def _part(id: str, ledger: Ledger, formulas: set[str], balanced: set[str]) -> Part:
-    """The chapter a quantity belongs to: given data, closed formulas, by its id, the cycle after the balance."""
-    if _role(ledger, ledger[id]) is Role.given and len(ledger[id].values) == 1:
-        return Part.data
-    if id in formulas:
-        return Part.formulas
-    named = next((part for pattern, part in _PARTS if re.match(pattern, id)), None)
-    return named or (Part.cycle if id in balanced else Part.geometry)
+def _chapter(ledger: Ledger, family: Family) -> Chapter:
+    """The chapter of the key: given data first, else what the vocabulary says of the family."""
+    given = _role(ledger, family) is Role.given and len(family.values) == 1
+    return Chapter.data if given else family.chapter

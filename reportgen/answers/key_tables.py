@@ -14,8 +14,8 @@ from reportgen.answers.sheet import (
     symbol_text,
     words_of,
 )
-from reportgen.ledger.core import ZERO
 from reportgen.notation.numbers import significant_decimals
+from reportgen.notation.sheet import ZERO
 from reportgen.workbook import Book, Entry
 
 BAND_DIGITS = 2

@@ -13,12 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.answers.key import Key, Part, Role, Row
+from reportgen.answers.key import Key, Role, Row
 from reportgen.document.plain import formula
 from reportgen.document.tree import Cell, Column, InlineMath, Inlines, LineBreak, Table, Text, Value
 from reportgen.document.voice import TEXT_WIDTH
 from reportgen.figures.metrics import box
 from reportgen.notation.expressions import Number, Symbol
+from reportgen.notation.vocabulary import Chapter
 from reportgen.words import load_words, search_path
 from reportgen.workbook import Book, Entry, Sheet
 
@@ -84,7 +85,7 @@ def open_cells(key: Key) -> Mapping[str, frozenset[int]]:
     A cell is open also where the quantity does not exist (the direction of a velocity that is zero) but
     others of its part are asked for, so that the sheet does not tell.
     """
-    of_part: dict[Part, set[int]] = {}
+    of_part: dict[Chapter, set[int]] = {}
     for row in key.asked:
         of_part.setdefault(row.part, set()).update(row.positions)
     return {
@@ -215,7 +216,7 @@ def known_blocks(key: Key, positions: Sequence[int]) -> Iterator[Table]:
     """What is given at each position (the crank's angle, a load that follows the motion), in the sheet's columns."""
     words = words_of(key)
     caption = (Text(str(words["answer_sheet"]["known"])),)
-    rows = [row for row in key.rows if row.role is Role.given and not row.single and row.part is not Part.formulas]
+    rows = [row for row in key.rows if row.role is Role.given and not row.single and row.part is not Chapter.formulas]
     for some in _split(positions) if rows else ():
         head = (words["table"]["symbol"], words["table"]["unit"], *(key.labels[k - 1] for k in some))
         body = tuple(

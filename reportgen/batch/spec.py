@@ -139,7 +139,7 @@ def read_spec(path: Path, language: Language | None = None) -> Spec:
     top = source.top
     kind = _kind(top)
     if source.faults or not isinstance(top, Table) or kind is None:
-        faults = assess(source, path, catalogue.KINDS)[1]
+        faults = assess(source, path, catalogue.known())[1]
         raise AssignmentError([as_problem(fault, spoken) for fault in faults])
     faults = []
     base = without(top, OWN_KEYS)
@@ -182,7 +182,7 @@ def place(kind: Kind, name: str) -> Where:
 
 def _kind(top: Node | None) -> Kind | None:
     name = at(top, ("kind",))
-    return catalogue.kind(name.text) if isinstance(name, Scalar) and name.text in catalogue.MODULES else None
+    return catalogue.kind(name.text) if isinstance(name, Scalar) and name.text in catalogue.kinds() else None
 
 
 def _own_text(top: Table, key: str, faults: list[Fault]) -> Scalar | None:

@@ -23,7 +23,7 @@ def trial(spec: Spec) -> Trial:
     mark = section[0].mark if section else spec.top.mark
 
     def judge(settings: Settings) -> tuple[Fault, ...]:
-        assignment, faults = assess(spec.source(settings), spec.path, catalogue.KINDS)
+        assignment, faults = assess(spec.source(settings), spec.path, catalogue.known())
         return tuple(faults) if assignment is None else _works(assignment, mark)
 
     return judge

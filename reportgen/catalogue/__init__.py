@@ -1,9 +1,9 @@
 """The machines the house knows: one module each, imported when its kind is asked for.
 
 A machine is found because its module is here and its words are in `templates/<language>/<kind>/`; the kind
-`slider-crank` is the module `slider_crank`.  A module gives `TURNS` of the driver in a cycle, the models `Parameters` and,
-if it has one, `Indicator`, and `CHECKS`; `added_positions` if a turn has more positions than the evenly spaced ones;
-`machine`, which makes a `Machine` of an assignment.
+`slider-crank` is the module `slider_crank`.  A module gives `TURNS` of the driver in a cycle, the models
+`Parameters` and, if it has one, `Indicator`, and `CHECKS`; `added_positions` if a turn has more positions than the
+evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
 from reportgen.errors import Problem
 from reportgen.notation.numbers import Language
-from reportgen.words import FILE, load_words, search_path
+from reportgen.words import FILE, load_words
 
 
 @cache
@@ -58,8 +58,13 @@ def known() -> reading.Kinds:
 
 
 def title(name: str, language: Language) -> str:
-    """The line of description of a kind; raises `KeyError`."""
-    return str(load_words(search_path(language, name))["title"]) if name in kinds() else kinds()[name]
+    """The line of description of a kind, from its words."""
+    return str(load_words((folders.templates() / language / name,))["title"])
+
+
+def titles(language: Language) -> dict[str, str]:
+    """Each kind with its line of description."""
+    return {name: title(name, language) for name in kinds()}
 
 
 def load(path: Path, language: Language | None = None) -> Assignment:

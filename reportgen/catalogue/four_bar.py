@@ -35,7 +35,7 @@ from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
 
 TURNS = 1
-LINKS = {1: "AB", 2: "BC", 3: "DC"}
+LINKS = {1: ("A", "B"), 2: ("B", "C"), 3: ("D", "C")}
 """The bars by the pins at their ends."""
 Offset = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
 Size = Annotated[Given, quantity("N", least=0, most=1e9)]

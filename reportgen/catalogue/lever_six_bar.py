@@ -33,7 +33,7 @@ from reportgen.notation.symbols import drawn_length
 from reportgen.units import Given
 
 TURNS = 1
-BARS = {1: "BA", 2: "AC", 3: "DC", 4: "EF"}
+BARS = {1: ("B", "A"), 2: ("A", "C"), 3: ("D", "C"), 4: ("E", "F")}
 """The bars by the pins at their ends."""
 Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
 Size = Annotated[Given, quantity("N", least=0, most=1e9)]

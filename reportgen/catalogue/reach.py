@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.assignment.faults import Finding, Where
-from reportgen.catalogue.course import FULL_TURN
+from reportgen.catalogue.loads import FULL_TURN
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.plane import SINGULAR, Complexes, Floats, cross, unit
 from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage

@@ -100,8 +100,8 @@ def new(
     from reportgen.assignment.messages import word
 
     spoken = language(lang) or "vi"
-    if kind not in catalogue.MODULES:
-        known = ", ".join(catalogue.MODULES)
+    if kind not in catalogue.kinds():
+        known = ", ".join(catalogue.kinds())
         raise typer.BadParameter(word("no_kind", spoken).format(kind=kind, known=known))
     with ending(lang) as outcome:
         write(output or Path("-"), catalogue.sample(kind, spoken))

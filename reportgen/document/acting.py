@@ -25,7 +25,7 @@ from reportgen.figures.lever import lever
 from reportgen.figures.scene import Circle, Item, Line, Scene
 from reportgen.figures.scheme import Looks
 from reportgen.figures.style import CONSTRUCTION, PAPER, VISIBLE
-from reportgen.ledger.forces import Polygon
+from reportgen.ledger.forces.polygon import Polygon
 from reportgen.mechanism.loads import Load, as_single_force, percussion_meeting
 from reportgen.mechanism.structure import DRIVER
 from reportgen.notation import symbols

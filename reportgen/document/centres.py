@@ -10,7 +10,8 @@ import numpy as np
 from reportgen.document.facts import Facts
 from reportgen.document.pictured import A3_ACROSS, A3_UPRIGHT, WHITE, Drawn, Pictured, on_paper
 from reportgen.figures.positions import Centre, centre_plan
-from reportgen.ledger.kinematics import PREFIX, centre_symbol, centred, scheme
+from reportgen.ledger.kinematics.centres import PREFIX, centre_symbol, links_in_plane_motion
+from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import DRIVER, GROUND
 
 ROOM = 24.0
@@ -30,7 +31,7 @@ class PlaneLink:
 
 def plane_links(facts: Facts) -> tuple[PlaneLink, ...]:
     """The links that turn about no fixed point and are no mere sliders, in the order of assembly."""
-    turns = centred(scheme(facts.analysis.machine.linkage))
+    turns = links_in_plane_motion(scheme(facts.analysis.machine.linkage))
     names = {link: group.name for group in facts.groups for link in (group.i, group.j)}
     return tuple(PlaneLink(turn.link, turn.base, turn.point, turn.rod, names[turn.link]) for turn in turns)
 

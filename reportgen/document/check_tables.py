@@ -11,7 +11,7 @@ import numpy as np
 from reportgen.document.tabled import Tabled
 from reportgen.document.tree import InlineMath, Table, Text, Value
 from reportgen.mechanism.mobility import mobility
-from reportgen.notation.expressions import Chain, Number, Power, Product, Sum, Symbol, multiply, subtract
+from reportgen.notation.expressions import Chain, Number, Power, Symbol
 
 
 class CheckTables(Tabled):
@@ -29,17 +29,10 @@ class CheckTables(Tabled):
         """W = 3n − (2t + c) + r − s with the numbers put in."""
         counted = mobility(self.facts.analysis.machine.linkage)
         n, t, c, r, s = (Symbol(letter) for letter in "ntcrs")
-        formula = Sum((*_difference(multiply(3, n), Sum((multiply(2, t), c))), r, *_minus(s)))
-        numbers = Sum(
-            (
-                *_difference(
-                    Product((Number(3), Number(counted.n))),
-                    Sum((Product((Number(2), Number(counted.lower_pairs))), Number(counted.higher_pairs))),
-                ),
-                Number(counted.passive),
-                *_minus(Number(counted.redundant)),
-            )
-        )
+        sizes = counted.n, counted.lower_pairs, counted.higher_pairs, counted.passive, counted.redundant
+        formula = 3 * n - (2 * t + c) + r - s
+        n_, t_, c_, r_, s_ = map(Number, sizes)
+        numbers = 3 * n_ - (2 * t_ + c_) + r_ - s_
         return self.voice.equal(Chain((Symbol("W"), formula, numbers, Number(counted.W))))
 
     def checks_table(self, key: str, caption: str, head: Sequence[str], names: Mapping[str, str]) -> Table:
@@ -91,17 +84,6 @@ class CheckTables(Tabled):
             for point in self.facts.analysis.machine.linkage.points
         ]
         return max(float(np.nanmax(np.abs(difference))) for difference in differences)
-
-
-def _difference(first: Any, second: Any) -> tuple[Any, ...]:
-    """The terms of first − second."""
-    difference = subtract(first, second)
-    assert isinstance(difference, Sum)
-    return difference.terms
-
-
-def _minus(node: Any) -> tuple[Any, ...]:
-    return _difference(Number(0), node)[1:]
 
 
 def _scientific(value: float) -> tuple[Any, ...]:

@@ -18,7 +18,7 @@ from reportgen.document.pictured import (
 from reportgen.document.views import GroupView
 from reportgen.figures import charts
 from reportgen.figures.scene import Scene
-from reportgen.ledger.kinematics import scheme as scheme_of
+from reportgen.ledger.kinematics.sides import scheme as scheme_of
 from reportgen.mechanism.structure import DRIVER, GROUND
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Symbol

@@ -22,8 +22,8 @@ from reportgen.document.views import GroupView, known_part, sought_part
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
 from reportgen.figures.sheet import sheets
 from reportgen.ledger.core import Ledger
-from reportgen.ledger.forces import Polygon
-from reportgen.ledger.kinematics import Side, Turn
+from reportgen.ledger.forces.polygon import Polygon
+from reportgen.ledger.kinematics.sides import Side, Turn
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Chain, Symbol
 

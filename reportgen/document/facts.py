@@ -9,8 +9,8 @@ from reportgen.analysis import Analysis
 from reportgen.case import Case
 from reportgen.document.views import CentreView, DriverView, GroupView, known_part, sought_part
 from reportgen.ledger.core import Ledger
-from reportgen.ledger.forces import Polygon
-from reportgen.ledger.kinematics import Side, Turn
+from reportgen.ledger.forces.polygon import Polygon
+from reportgen.ledger.kinematics.sides import Side, Turn
 from reportgen.notation.expressions import Number, refs
 
 

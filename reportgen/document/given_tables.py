@@ -7,9 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from reportgen.catalogue.gas import ByOrdinates
-from reportgen.catalogue.laws import AngleLaw, TableLaw, WayLaw
-from reportgen.catalogue.machine import Applied, Torque
+from reportgen.catalogue.given_loads import ByOrdinates
+from reportgen.catalogue.loads import AngleLaw, Applied, TableLaw, Torque, WayLaw
 from reportgen.cycle.indicator import StrokeIndicator
 from reportgen.document.tabled import Tabled, lowered
 from reportgen.document.tree import Cell, Column, Table, Text, Value

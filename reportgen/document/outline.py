@@ -7,7 +7,7 @@ from typing import Any
 
 from reportgen.assignment import Assignment
 from reportgen.case import Case
-from reportgen.catalogue.gas import ByOrdinates
+from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.document.centres import plane_links, with_centres
 from reportgen.document.drawings import Drawings
 from reportgen.document.facts import Facts

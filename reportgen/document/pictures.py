@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from reportgen.analysis import FULL_TURN, motion_at
-from reportgen.catalogue.machine import Machine, Piston
+from reportgen.catalogue.loads import Piston
+from reportgen.catalogue.machine import Machine
 from reportgen.cycle.indicator import StrokeIndicator
 from reportgen.document.pictured import (
     DENSE,
@@ -29,7 +30,7 @@ from reportgen.figures.draft import Draft
 from reportgen.figures.positions import PositionPlan, position_plan
 from reportgen.figures.scene import Scene
 from reportgen.figures.scheme import groups, scheme
-from reportgen.ledger.kinematics import Slide
+from reportgen.ledger.kinematics.sides import Slide
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Chain, Number, Symbol

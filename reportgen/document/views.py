@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from reportgen.analysis import Analysis
-from reportgen.ledger.forces import Polygon, joint
-from reportgen.ledger.kinematics import Side, Slide, Turn, image, scheme, sides
+from reportgen.ledger.forces.loads import joint
+from reportgen.ledger.forces.polygon import Polygon
+from reportgen.ledger.kinematics.sides import Side, Slide, Turn, image, scheme, sides
 from reportgen.mechanism.structure import DRIVER, Crank, Dyad, Guide
 
 

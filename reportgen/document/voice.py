@@ -24,8 +24,8 @@ from reportgen.document.tree import (
 )
 from reportgen.document.views import GroupView, sought_part
 from reportgen.ledger.core import Ledger
-from reportgen.ledger.forces import Side as PolygonSide
-from reportgen.ledger.kinematics import Side, Slide, Turn
+from reportgen.ledger.forces.polygon import Side as PolygonSide
+from reportgen.ledger.kinematics.sides import Side, Slide, Turn
 from reportgen.notation import symbols
 from reportgen.notation.expressions import (
     Chain,
@@ -34,11 +34,9 @@ from reportgen.notation.expressions import (
     Symbol,
     Term,
     VectorEquation,
-    multiply,
     refs,
 )
 from reportgen.notation.expressions import Fraction as FractionOf
-from reportgen.notation.expressions import Power as PowerOf
 
 TEXT_WIDTH = 160.0
 FIRST_COLUMN = 16.0
@@ -205,13 +203,13 @@ class Voice:
         words, relative, name = self.words["vector"], side.relative, f"{side.point}{side.shown}"
         sought = self._term("a", name, "τ" if isinstance(side, Turn) else "r", self._direction(side), None, None)
         if isinstance(side, Turn):
-            square = PowerOf(self.symbol(f"v.{relative}"), Number(2))
-            size: Expression = FractionOf(square, self.symbol(f"l.{side.rod}"))
+            square = self.symbol(f"v.{relative}") ** 2
+            size: Expression = square / self.symbol(f"l.{side.rod}")
             way = f"{_lowered(side.point)} → {_lowered(side.base)}"
             return self._term("a", name, "n", f"∥ {_lowered(side.rod)}", way, size), sought
         if not side.turning:
             return (sought,)
-        twice = multiply(2, self.symbol(f"omega.{side.turning}"), self.symbol(f"v.{relative}"))
+        twice = 2 * self.symbol(f"omega.{side.turning}") * self.symbol(f"v.{relative}")
         across = words["across_slot" if side.carrier is None else "across_guide"]
         return self._term("a", name, "k", across, words["turned"], twice), sought
 
@@ -251,9 +249,9 @@ class Voice:
         length = self.symbol(f"l.{arm}")
         omega = self.symbol("omega.1")
         if what == "v":
-            size: Expression = multiply(omega, length)
+            size: Expression = omega * length
             return self._term("v", name, "", f"⊥ {arm}", words["with_crank"], size)
-        size = multiply(PowerOf(omega, Number(2)), length)
+        size = omega**2 * length
         return self._term("a", name, "", f"∥ {arm}", f"{side.base} → {_centre(arm)}", size)
 
     def _on_crank(self, name: str) -> bool:

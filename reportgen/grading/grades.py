@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
-from reportgen.answers.key import Key, Part
+from reportgen.answers.key import Key
 from reportgen.answers.sheet import symbol_text
 from reportgen.grading.marks import Marked, Marking
 from reportgen.notation.numbers import Language
+from reportgen.notation.vocabulary import Chapter
 from reportgen.words import load_words, search_path
 
 Value = str | float | None
@@ -47,10 +48,10 @@ def grade_rows(
     return tuple(rows)
 
 
-def parts_of(markings: Iterable[Marking]) -> tuple[Part, ...]:
+def parts_of(markings: Iterable[Marking]) -> tuple[Chapter, ...]:
     """The parts in which anything was judged, in their order."""
     found = {marking.key.row(cell.id).part for marking in markings for cell in marking.cells}
-    return tuple(part for part in Part if part in found)
+    return tuple(part for part in Chapter if part in found)
 
 
 def cell_text(key: Key, cell: Marked) -> str:
@@ -76,7 +77,7 @@ def who(key: Key) -> tuple[str, str, str]:
     return (student_id(key), key.student.get("name", ""), key.student.get("class", ""))
 
 
-def _of_part(marking: Marking, part: Part) -> float:
+def _of_part(marking: Marking, part: Chapter) -> float:
     return _rounded(sum(cell.points for cell in marking.cells if marking.key.row(cell.id).part is part))
 
 

@@ -16,8 +16,9 @@ import numpy as np
 
 from reportgen.grading.guide import Guide
 from reportgen.grading.working import Change
-from reportgen.ledger.core import Family
-from reportgen.notation.expressions import Call, Expression, Negative, Sum, evaluate, rebuild, refs, walk
+from reportgen.notation.evaluation import evaluate
+from reportgen.notation.expressions import Call, Expression, Negative, Sum, rebuild, refs, walk
+from reportgen.notation.sheet import Family
 
 Values = Mapping[str, np.ndarray]
 DECIMAL_PLACES = (1, 2, 3, 4, 5)

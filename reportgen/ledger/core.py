@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,7 @@ from reportgen.notation.sheet import Family
 
 Entered = Callable[[str, dict[str, np.ndarray]], None]
 """What is called after each quantity of an evaluation, with its id and all values so far."""
+
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
@@ -59,6 +61,11 @@ class Ledger:
     cancellations: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
     """Units whose printed form depends on the language, e.g. rpm."""
+
+    @cached_property
+    def signed(self) -> Mapping[str, str]:
+        """The signed angular velocities and accelerations by their sizes: omega.2 → turn.omega.2."""
+        return {family.of: id for id, family in self.families.items() if family.is_signed_rotation}
 
     def __contains__(self, id: str) -> bool:
         return id in self.families

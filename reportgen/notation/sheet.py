@@ -73,6 +73,11 @@ class Family:
         return vocabulary.row(self.id).around
 
     @property
+    def is_signed_rotation(self) -> bool:
+        """Whether it is an angular velocity or acceleration with its sign, whose size is another quantity."""
+        return bool(self.of) and self.kind in ("angular velocity", "angular acceleration")
+
+    @property
     def constructed(self) -> bool:
         """Whether a drawing gives it: it is measured, not computed by a printed formula."""
         return self.definition is not None and any(

@@ -6,14 +6,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.ledger import Builder, Ledger, forces, kinematics, precision
-from reportgen.ledger.forces import Polygon
+from reportgen.ledger import forces, kinematics, precision
+from reportgen.ledger.core import Ledger
+from reportgen.ledger.forces.polygon import Polygon
 from reportgen.mechanism.forces import Forces, solve_forces
 from reportgen.mechanism.loads import Load, inertia_loads, weights
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.power import virtual_work_torque
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import Symbol
+from reportgen.notation.sheet import Sheet
 
 RATE = 7.0
 """The driver's speed, rad/s or m/s."""
@@ -29,7 +31,7 @@ class Book:
     loads: tuple[Load, ...]
     forces: Forces
     work: np.ndarray
-    b: Builder
+    b: Sheet
     polygons: tuple[Polygon, ...]
 
     def ledger(self) -> Ledger:
@@ -53,7 +55,7 @@ def keep(
     ]
     applied += [Load(f"M{link}", link, still + 0j, still + 0j, still + torque) for link, torque in torques]
     loads = (*weights(linkage, motion), *inertia_loads(linkage, motion), *applied)
-    b = Builder(len(driver))
+    b = Sheet(len(driver))
     if isinstance(linkage.driver, Crank):
         b.give("phi.1", Symbol("φ", "1"), "angle", driver)
         b.give("omega.1", Symbol("ω", "1"), "angular velocity", RATE)

@@ -10,17 +10,9 @@ import math
 from collections.abc import Iterator
 from decimal import Decimal
 
-from reportgen.ledger import Ledger
-from reportgen.notation.expressions import (
-    Chain,
-    Expression,
-    Number,
-    Symbol,
-    children,
-    evaluate,
-    rebuild,
-    walk,
-)
+from reportgen.ledger.core import Ledger
+from reportgen.notation.evaluation import evaluate
+from reportgen.notation.expressions import Chain, Expression, Number, Symbol, children, rebuild, walk
 from reportgen.notation.symbols import KINDS
 
 EXACT = 1e-9

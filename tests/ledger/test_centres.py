@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from books import MACHINES, keep
 
-from reportgen.ledger.kinematics import centred, scheme
+from reportgen.ledger.kinematics.centres import links_in_plane_motion
+from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import Crank, Dyad, Linkage, LinkPoint
 
 SWINGING_BLOCK = Linkage(
@@ -25,7 +26,7 @@ EXACT = 1e-9
 @pytest.mark.parametrize("name", LINKAGES)
 def test_centres_stand_still(name: str, turn: int) -> None:
     book = keep(LINKAGES[name], ANGLES[::turn], turn)
-    for one in centred(scheme(LINKAGES[name])):
+    for one in links_in_plane_motion(scheme(LINKAGES[name])):
         point, link = book.motion.points[one.base], book.motion.links[one.link]
         centre = book.b.value(f"ic.{one.link}")
         near = np.abs(centre - point.p) < 1e3
@@ -37,7 +38,7 @@ def test_centres_stand_still(name: str, turn: int) -> None:
 
 
 def test_which_links_have_a_centre_that_moves() -> None:
-    found = {name: [one.link for one in centred(scheme(linkage))] for name, linkage in LINKAGES.items()}
+    found = {name: [one.link for one in links_in_plane_motion(scheme(linkage))] for name, linkage in LINKAGES.items()}
     assert found == {
         "RRR": [2],
         "RRP": [2],

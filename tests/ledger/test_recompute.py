@@ -12,7 +12,8 @@ from books import MACHINES, RATE, keep
 from recompute import excess, worst_lines
 
 from reportgen import api
-from reportgen.ledger import Ledger, precision
+from reportgen.ledger import precision
+from reportgen.ledger.core import Ledger
 from reportgen.ledger.report import keep as keep_analysis
 from reportgen.notation.expressions import Chain, Number
 

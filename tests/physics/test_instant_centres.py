@@ -10,7 +10,8 @@ import pytest
 
 from reportgen import api
 from reportgen.analysis import Analysis
-from reportgen.ledger.kinematics import Turn, centred, scheme
+from reportgen.ledger.kinematics.centres import links_in_plane_motion
+from reportgen.ledger.kinematics.sides import Turn, scheme
 from reportgen.ledger.report import Books, keep
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -25,7 +26,7 @@ WITH_CENTRES = (
 
 def solved(name: str) -> tuple[Analysis, Books, tuple[Turn, ...]]:
     analysis = api.analyse(api.load(ASSIGNMENTS / f"{name}.yaml"))
-    return analysis, keep(analysis), centred(scheme(analysis.machine.linkage))
+    return analysis, keep(analysis), links_in_plane_motion(scheme(analysis.machine.linkage))
 
 
 @pytest.mark.parametrize("name", WITH_CENTRES)

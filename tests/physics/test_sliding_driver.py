@@ -13,7 +13,7 @@ from agreement import Pairs, agree, collect
 
 from reportgen import api
 from reportgen.analysis import Analysis, analyse
-from reportgen.catalogue.laws import WayLaw
+from reportgen.catalogue.loads import WayLaw
 
 AGREEMENT = 1e-9
 """Of each quantity's greatest size over the way."""

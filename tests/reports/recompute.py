@@ -28,6 +28,7 @@ from reportgen.document.tree import (
     Value,
 )
 from reportgen.figures.scene import Label
+from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import (
     Chain,
     Expression,
@@ -35,7 +36,6 @@ from reportgen.notation.expressions import (
     Symbol,
     Term,
     VectorEquation,
-    evaluate,
     rebuild,
     walk,
 )

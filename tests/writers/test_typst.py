@@ -31,6 +31,7 @@ from reportgen.document.tree import (
 )
 from reportgen.errors import TypesetterError
 from reportgen.figures.scene import Arc, Arrow, Label, Line, Polyline, Scene, Stroke
+from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import (
     Call,
     Chain,
@@ -46,7 +47,6 @@ from reportgen.notation.expressions import (
     Symbol,
     Term,
     VectorEquation,
-    evaluate,
 )
 from reportgen.paint.geometry import arc_to_beziers, arrow_head, clip_hatch
 from reportgen.writers import typst
