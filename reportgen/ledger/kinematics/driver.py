@@ -6,7 +6,7 @@ import cmath
 
 import numpy as np
 
-from reportgen.ledger.kinematics.linkage import Kinematics, longest, natural_sizes
+from reportgen.ledger.kinematics.linkage import Kinematics, What, longest, natural_sizes
 from reportgen.ledger.kinematics.sides import Scheme, image
 from reportgen.mechanism.structure import DRIVER, Crank, SlidingDriver
 from reportgen.notation.constructions import cis, turned
@@ -49,8 +49,8 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int) -> Kinematics:
 
     for name in (pin, *(place.name for place in further)):
         arm = (k.place(name) - k.place(centre)) / μ_l
-        q.construct(f"plan.v.{image(name)}", turn * turned(arm))
-        q.construct(f"plan.a.{image(name)}", -arm)
+        k.vertex("v", image(name), turn * turned(arm))
+        k.vertex("a", image(name), -arm)
         if name != pin:
             own = q[f"l.{centre}{name}"]
             v, a = q.define(f"v.{name}", ω1 * own), q.define(f"a.{name}", ω1**2 * own)
@@ -80,20 +80,18 @@ def slide(
     μ_v = q.give("mu.v", mu_v)
     q.give("mu.a", mu_a)
     drawn = q.define(f"seg.v.p{image(pin)}", q[f"v.{pin}"] / μ_v, segment("p", on_plan(pin)))
-    q.construct(f"plan.v.{image(pin)}", turn * drawn * along)
+    k.vertex("v", image(pin), turn * drawn * along)
     q.give(f"a.{pin}", 0.0)
     q.define(f"seg.a.p{image(pin)}", 0.0, segment("π", on_plan(pin, True)))
-    q.construct(f"plan.a.{image(pin)}", Number(0.0) * along)
+    k.vertex("a", image(pin), Number(0.0) * along)
     k.put(DRIVER, pin, along)
     return k
 
 
-def fitting_scale(k: Kinematics, what: str) -> float:
+def fitting_scale(k: Kinematics, what: What) -> float:
     """The smallest scale of the series with which the trial's plans, drawn at 10³ a metre, fit their box."""
-    q = k.q
-    names = {name: f"plan.{what}.{image(name)}" for name in k.scheme.owner}
-    plans = [q.value(id) for id in names.values() if id in q]
-    points = np.array([np.broadcast_to(plan, (q.positions,)) for plan in plans] + [np.zeros(q.positions)])
+    plans = [k.q.value(vertex) for vertex in k.vertices[what]]
+    points = np.array([np.broadcast_to(plan, (k.q.positions,)) for plan in (*plans, 0.0)])
     points = points[:, np.isfinite(points).all(axis=0)]
     if not points.size:
         return 1e3

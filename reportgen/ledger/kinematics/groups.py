@@ -121,7 +121,7 @@ def _middle_of_rpp(k: Kinematics, dyad: Dyad, what: What) -> None:
     arm = k.place(middle) - k.place(known)
     placed = k.links[j]
     k.put(j, known, placed.axis)
-    k.q.construct(f"plan.{what}.{image(middle)}", k.image_at(what, j, arm))
+    k.vertex(what, image(middle), k.image_at(what, j, arm))
     k.links[j] = placed
     k.absolute(what, middle)
 

@@ -58,6 +58,8 @@ class Kinematics:
     turn: int
     sizes: Sizes
     links: dict[int, PlacedLink] = field(default_factory=dict)
+    vertices: dict[What, list[Ref]] = field(default_factory=lambda: {"v": [], "a": []})
+    """All points of the plans."""
 
     # --- points and their images
 
@@ -71,6 +73,11 @@ class Kinematics:
     def image(self, what: What, name: str) -> Expression:
         """A point on a plan: 0, the pole, for one fixed to the ground."""
         return NOWHERE if self.is_fixed(name) else self.q[f"plan.{what}.{image(name)}"]
+
+    def vertex(self, what: What, name: str, place: Expression) -> Ref:
+        """Enter a point of a plan (m on paper)."""
+        self.vertices[what].append(self.q.construct(f"plan.{what}.{name}", place))
+        return self.vertices[what][-1]
 
     def letter(self, what: What, name: str) -> Symbol:
         """A point's letter on a plan, that of the pole for one fixed to the ground."""

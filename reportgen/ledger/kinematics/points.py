@@ -70,7 +70,7 @@ def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Turn) -> N
         if id not in q:
             q.construct(id, angle * k.axis(point.link) * q[f"l.{turn.rod}"] / q[f"rod.{point.link}"])
         angle = q[id]
-    q.construct(f"plan.{what}.{new}", k.image(what, base) + ratio * angle * along)
+    k.vertex(what, new, k.image(what, base) + ratio * angle * along)
     whole = f"seg.{what}.{first}{last}"
     letters = k.letter(what, base), on_plan(tip, what == "a")
     if whole not in q:
@@ -96,14 +96,14 @@ def _by_rotation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedLink
             if placed.eps is not None:
                 q.define(f"a.{relative}.t", q[f"eps.{link}"] * length, scale=size)
     arm = k.place(name) - k.place(placed.origin)
-    q.construct(f"plan.{what}.{image(name)}", k.image_at(what, link, arm))
+    k.vertex(what, image(name), k.image_at(what, link, arm))
     k.absolute(what, name)
 
 
 def _by_translation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedLink) -> None:
     """All points of a link that does not turn have one velocity and one acceleration."""
     q, name = k.q, point.name
-    plan = q.construct(f"plan.{what}.{image(name)}", k.image(what, placed.origin))
+    plan = k.vertex(what, image(name), k.image(what, placed.origin))
     k.segment(f"seg.{what}.p{image(name)}", Symbol(POLES[what]), on_plan(name, what == "a"), abs(plan), what)
     same = NOWHERE if k.scheme.still(placed.origin) else q[f"{what}.{placed.origin}"]
     q.define(f"{what}.{name}", same, scale=k.sizes.of(what))

@@ -14,7 +14,7 @@ def velocity(k: Kinematics, one: Side, two: Side) -> None:
     for side in (one, two):
         _guide_point(k, "v", side)
     start1, start2 = _start(k, "v", one), _start(k, "v", two)
-    k.q.construct(f"plan.v.{image(one.point)}", meet(start1, _sought(k, one), start2, _sought(k, two)))
+    k.vertex("v", image(one.point), meet(start1, _sought(k, one), start2, _sought(k, two)))
     for side in (one, two):
         if not side.still:
             _relative_velocity(k, side)
@@ -31,7 +31,7 @@ def acceleration(k: Kinematics, one: Side, two: Side) -> None:
         _guide_point(k, "a", side)
     starts = [_known_acceleration(k, side) for side in (one, two)]
     crossing = meet(starts[0], _sought(k, one), starts[1], _sought(k, two))
-    k.q.construct(f"plan.a.{image(one.point)}", crossing)
+    k.vertex("a", image(one.point), crossing)
     same_letter = _known_part(one) == _known_part(two)
     for side, start in zip((one, two), starts, strict=True):
         _unknown_acceleration(k, side, start, same_letter)
@@ -42,7 +42,7 @@ def _guide_point(k: Kinematics, what: What, side: Side) -> None:
     """The point of a moving guide's link that lies under the sliding point."""
     if isinstance(side, Slide) and side.carrier is not None and not side.still:
         arm = k.place(side.point) - k.place(k.links[side.carrier].origin)
-        k.q.construct(f"plan.{what}.{image(side.base)}", k.image_at(what, side.carrier, arm))
+        k.vertex(what, image(side.base), k.image_at(what, side.carrier, arm))
         k.absolute(what, side.base)
 
 
@@ -97,10 +97,10 @@ def _known_acceleration(k: Kinematics, side: Side) -> Expression:
     last = Symbol(part, f"{side.point}{side.shown}")
     drawn = q.define(f"seg.a.{name}", known / q["mu.a"], segment(first, last), scale=k.paper("a"))
     if isinstance(side, Turn):
-        return q.construct(f"plan.a.{name}", start - drawn * (q[f"rod.{side.link}"] / q[f"l.{side.rod}"]))
+        return k.vertex("a", name, start - drawn * (q[f"rod.{side.link}"] / q[f"l.{side.rod}"]))
     # The relative velocity turned by 90° in the sense of ω.
     across = turned(quotient(_along(k, side), relative / q["mu.v"]))
-    return q.construct(f"plan.a.{name}", start + drawn * sign(k.omega(side.turning)) * across)
+    return k.vertex("a", name, start + drawn * sign(k.omega(side.turning)) * across)
 
 
 def _known_part(side: Side) -> str:
