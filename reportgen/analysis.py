@@ -9,7 +9,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from reportgen.catalogue.machine import Applied, Machine, Piston, Torque
-from reportgen.cycle.indicator import indicated_work, stroke_at
+from reportgen.cycle.applied import indicated_work, stroke_at
 from reportgen.mechanism.forces import Forces, solve_forces
 from reportgen.mechanism.loads import Load, inertia_loads, weights
 from reportgen.mechanism.motion import Motion, solve_motion

@@ -7,7 +7,7 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from reportgen.assignment.messages import word
+from reportgen.assignment.faults import word
 from reportgen.notation.numbers import Language, significant_decimals, write
 
 DIGITS = 5

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Literal, TextIO
 
-from reportgen.assignment.messages import word
+from reportgen.assignment.faults import word
 from reportgen.notation.numbers import Language, write
 
 if TYPE_CHECKING:
@@ -15,31 +15,22 @@ if TYPE_CHECKING:
 Event = Literal["kept", "retried", "done", "failed"]
 """`kept`: made by an earlier run; `retried`: its worker died, another one begins anew."""
 Watch = Callable[[str, str, Event], None]
-"""Is told the student's folder, the product and what happened: no name, nothing of any content."""
+"""Receives the student's folder, the product and what happened: no names, no content."""
 
 
 @contextmanager
 def watching(total: int, stream: TextIO, language: Language) -> Iterator[Watch]:
-    """What shows the events of `total` products on a stream in the way that suits it."""
+    """Shows the events of `total` products on a stream: a bar on a terminal, else a line with tabs for each."""
     if stream.isatty():
         with _bar(total, stream, language) as watch:
             yield watch
     else:
-        yield lines(stream)
-
-
-def lines(stream: TextIO) -> Watch:
-    """A line for each event: folder, product and event, parted by tabs."""
-
-    def watch(folder: str, product: str, event: Event) -> None:
-        print(folder, product, event, sep="\t", file=stream, flush=True)
-
-    return watch
+        yield lambda *event: print(*event, sep="\t", file=stream, flush=True)
 
 
 @contextmanager
 def _bar(total: int, stream: TextIO, language: Language) -> Iterator[Watch]:
-    """A bar with count, rate, time left and the number of failures; what was kept shortens the way."""
+    """A bar with count, rate, time left and the number of failures; what was kept lowers the total."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
@@ -61,8 +52,8 @@ def _bar(total: int, stream: TextIO, language: Language) -> Iterator[Watch]:
                 progress.update(task, total=total)
             elif event != "retried":
                 failed += event == "failed"
-                told = word("bar_failed", language).format(count=failed) if failed else ""
-                progress.update(task, advance=1, failed=told)
+                text = word("bar_failed", language, count=failed) if failed else ""
+                progress.update(task, advance=1, failed=text)
 
         yield watch
 
@@ -77,6 +68,6 @@ def _rate(language: Language) -> ProgressColumn:
         def render(self, task: Task) -> Text:
             speed = task.finished_speed or task.speed
             rate = "–" if speed is None else write(60 * speed, 0 if speed > 1 else 1, language)
-            return Text(word("bar_rate", language).format(rate=rate), style="progress.data.speed")
+            return Text(word("bar_rate", language, rate=rate), style="progress.data.speed")
 
     return Rate()

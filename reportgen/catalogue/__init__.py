@@ -13,7 +13,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from reportgen import folders
+from reportgen import installation
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
 from reportgen.errors import Problem
@@ -80,7 +80,7 @@ def sample(name: str, language: Language) -> str:
     if name not in MODULES:
         raise KeyError(name)
     file = f"{name}.yaml"
-    return (folders.templates() / language / "new" / file).read_text(encoding="utf-8")
+    return (installation.templates() / language / "new" / file).read_text(encoding="utf-8")
 
 
 def schema() -> dict[str, Any]:

@@ -28,7 +28,7 @@ from reportgen.assignment.fields import (
 from reportgen.catalogue import crank_slider, gas
 from reportgen.catalogue.driven import Driven, outline, rate_items
 from reportgen.catalogue.machine import Item, Machine, Piston, gas_forces, ratio_item
-from reportgen.cycle.indicator import STROKES, Stroke, stroke_at
+from reportgen.cycle.applied import STROKES, Stroke, stroke_at
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import PI, Ref, Symbol, divide, multiply, power
 from reportgen.units import Given

@@ -10,7 +10,7 @@ from pydantic import Field
 from reportgen.assignment import checks
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import CycleAngle, Fraction, Pressure, PressureUnit, PressureValue
-from reportgen.cycle.indicator import STROKES, AngleIndicator, StrokeIndicator
+from reportgen.cycle.applied import STROKES, AngleIndicator, StrokeIndicator
 from reportgen.units import Given
 
 MOST_NODES = 2000

@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from reportgen.catalogue.course import FULL_TURN, Course, Floats
-from reportgen.cycle.indicator import AngleIndicator, Indicator, StrokeIndicator
+from reportgen.cycle.applied import AngleIndicator, Indicator, StrokeIndicator
 from reportgen.mechanism.motion import Motion
 
 ROUND = 1e-9

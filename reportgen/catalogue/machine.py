@@ -15,7 +15,7 @@ import numpy as np
 
 from reportgen.catalogue.course import Course
 from reportgen.catalogue.laws import Law, TableLaw
-from reportgen.cycle.indicator import Indicator
+from reportgen.cycle.applied import Indicator
 from reportgen.mechanism.structure import Linkage
 from reportgen.notation.expressions import PI, Chain, Expression, Symbol, divide, multiply
 from reportgen.units import Given

@@ -22,7 +22,7 @@ from reportgen.catalogue.course import Course
 from reportgen.catalogue.laws import MotionAt
 from reportgen.catalogue.machine import Item
 from reportgen.catalogue.slotted import FULL_TURN, ROUND, Floats, SlottedCrank, angle_item, formula, scaled
-from reportgen.cycle.cutting import Cutting
+from reportgen.cycle.applied import Cutting
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import (

@@ -30,7 +30,7 @@ from reportgen.catalogue.machine import Applied, Item, Machine, mass_items
 from reportgen.catalogue.ram import CuttingLaw, Ram
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.slotted import HIGHEST, SlottedCrank
-from reportgen.cycle.cutting import Cutting
+from reportgen.cycle.applied import Cutting
 from reportgen.mechanism.structure import Inertia, LinkPoint
 from reportgen.notation.expressions import PI, Symbol, add, divide, multiply, power, subtract
 from reportgen.notation.numbers import nice_up

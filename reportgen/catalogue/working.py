@@ -13,7 +13,7 @@ from reportgen.assignment.common import Check, Draft, Part
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Decimal, Fraction, Interval, UnitOf, quantity
 from reportgen.catalogue.laws import by_angle, by_stroke
-from reportgen.cycle.indicator import Indicator
+from reportgen.cycle.applied import Indicator
 from reportgen.units import Given
 
 MOST_NODES = 2000

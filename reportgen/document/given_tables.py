@@ -10,7 +10,7 @@ from typing import Any
 from reportgen.catalogue.gas import ByOrdinates
 from reportgen.catalogue.laws import AngleLaw, TableLaw, WayLaw
 from reportgen.catalogue.machine import Applied, Torque
-from reportgen.cycle.indicator import StrokeIndicator
+from reportgen.cycle.applied import StrokeIndicator
 from reportgen.document.tabled import Tabled, lowered
 from reportgen.document.tree import Cell, Column, Table, Text, Value
 from reportgen.document.voice import FIRST_COLUMN, TEXT_WIDTH

@@ -12,7 +12,7 @@ import numpy as np
 
 from reportgen.analysis import FULL_TURN, motion_at
 from reportgen.catalogue.machine import Machine, Piston
-from reportgen.cycle.indicator import StrokeIndicator
+from reportgen.cycle.applied import StrokeIndicator
 from reportgen.document.pictured import (
     DENSE,
     SAME,

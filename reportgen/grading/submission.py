@@ -15,8 +15,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from reportgen.answers.key import Key, Row
-from reportgen.assignment.faults import Fault
-from reportgen.assignment.messages import as_problem
+from reportgen.assignment.faults import Fault, as_problem
 from reportgen.document.prose import search_path
 from reportgen.document.words import load_words
 from reportgen.errors import AssignmentError, Mark, Problem

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen import folders
+from reportgen import installation
 from reportgen.batch import manifest
 from reportgen.batch.jobs import Job, Outcome, making, templates_hash
 from reportgen.batch.manifest import Entry, Journal
@@ -144,7 +144,7 @@ def test_neither_times_nor_places_are_told(tmp_path: Path) -> None:
         texts.append(batch.run().result.manifest.read_text(encoding="utf-8"))
     assert texts[0] == texts[1]
     assert str(tmp_path) not in texts[0]
-    assert not any(folder in texts[0] for folder in ("/tmp", str(folders.templates())))
+    assert not any(folder in texts[0] for folder in ("/tmp", str(installation.templates())))
 
 
 def test_an_entry_without_files_holds_nothing(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from reportgen.assignment.messages import messages
+from reportgen.assignment.faults import messages
 from reportgen.batch.names import folder_name
 from reportgen.batch.roster import NAME_PARTS, PERSONAL, read_roster
 from reportgen.batch.table import folded
