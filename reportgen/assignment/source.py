@@ -108,7 +108,8 @@ def read_text(text: str, file: str = "") -> Source:
         return Source(file, text, faults=(*loader.faults, _syntax(fault, file)))
     except ValueError:
         # A number in an escape or a directive that Python refuses to read.
-        return Source(file, text, faults=(*loader.faults, Fault("syntax", Mark(file, loader.line + 1, loader.column + 1))))
+        here = Mark(file, loader.line + 1, loader.column + 1)
+        return Source(file, text, faults=(*loader.faults, Fault("syntax", here)))
     finally:
         loader.dispose()
     if root is None:
