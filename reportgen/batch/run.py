@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING, Literal, TextIO
 
 from reportgen import api
 from reportgen.api import Engine
@@ -18,12 +18,14 @@ from reportgen.batch import manifest
 from reportgen.batch.jobs import Job, Outcome, failed, making
 from reportgen.batch.manifest import Entry
 from reportgen.batch.pool import Pool, local
-from reportgen.batch.progress import Watch, watching
 from reportgen.batch.roster import Assigned, Roster, Student, match_files, read_roster
 from reportgen.batch.variants import make_variants
 from reportgen.errors import Mark, Problem
-from reportgen.notation.numbers import Language
+from reportgen.notation.numbers import Language, write
 from reportgen.products import MAKERS, Maker
+
+if TYPE_CHECKING:
+    from rich.progress import ProgressColumn
 
 DRAWN = "assignments"
 """The folder, among the results, of the assignment files that are drawn."""
@@ -32,6 +34,11 @@ NO_ROOM = frozenset({errno.ENOSPC, errno.EROFS, errno.EIO, getattr(errno, "EDQUO
 NO_LOCKS = frozenset({errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS})
 _TEMPORARY = re.compile(r"\..+\.(?:pdf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
 """What `api.replace` leaves when it is killed."""
+
+Event = Literal["kept", "retried", "done", "failed"]
+"""`kept`: made by an earlier run; `retried`: its worker died, another one begins anew."""
+Watch = Callable[[str, str, Event], None]
+"""Receives the student's folder, the product and what happened: no names, no content."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +144,7 @@ def _run(
             (kept if entry is not None and entry.holds(job, out) else jobs).append(job)
     with (
         watching(len(assigned) * len(makers), stream, order.language or DEFAULT_LANGUAGE) as watch,
-        manifest.Journal(out) as record,
+        manifest.journal(out) as record,
     ):
         results = _Results(entries, record, watch)
         for job in kept:
@@ -192,6 +199,64 @@ def _in_file(problem: Problem | str, file: str) -> Problem | str:
     if isinstance(problem, str):
         return problem
     return replace(problem, mark=replace(problem.mark, file=file))
+
+
+# --- progress ---------------------------------------------------------------------------------------
+
+
+@contextmanager
+def watching(total: int, stream: TextIO, language: Language) -> Iterator[Watch]:
+    """Shows the events of `total` products on a stream: a bar on a terminal, else a line with tabs for each."""
+    if stream.isatty():
+        with _bar(total, stream, language) as watch:
+            yield watch
+    else:
+        yield lambda *event: print(*event, sep="\t", file=stream, flush=True)
+
+
+@contextmanager
+def _bar(total: int, stream: TextIO, language: Language) -> Iterator[Watch]:
+    """A bar with count, rate, time left and the number of failures; what was kept lowers the total."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (
+        BarColumn(),
+        MofNCompleteColumn(),
+        _rate(language),
+        TimeRemainingColumn(elapsed_when_finished=True),
+        TextColumn("{task.fields[failed]}", style="red"),
+    )
+    with Progress(*columns, console=Console(file=stream)) as progress:
+        task = progress.add_task("", total=total, failed="")
+        failed = 0
+
+        def watch(_folder: str, _product: str, event: Event) -> None:
+            nonlocal total, failed
+            if event == "kept":
+                total -= 1
+                progress.update(task, total=total)
+            elif event != "retried":
+                failed += event == "failed"
+                text = word("bar_failed", language, count=failed) if failed else ""
+                progress.update(task, advance=1, failed=text)
+
+        yield watch
+
+
+def _rate(language: Language) -> ProgressColumn:
+    from rich.progress import ProgressColumn, Task
+    from rich.text import Text
+
+    class Rate(ProgressColumn):
+        """Products a minute."""
+
+        def render(self, task: Task) -> Text:
+            speed = task.finished_speed or task.speed
+            rate = "–" if speed is None else write(60 * speed, 0 if speed > 1 else 1, language)
+            return Text(word("bar_rate", language, rate=rate), style="progress.data.speed")
+
+    return Rate()
 
 
 # --- students and processes -------------------------------------------------------------------------

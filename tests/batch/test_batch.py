@@ -15,8 +15,7 @@ import pytest
 
 from reportgen import api
 from reportgen.api import Engine
-from reportgen.batch.progress import watching
-from reportgen.batch.run import Order, locked, run_batch
+from reportgen.batch.run import Order, locked, run_batch, watching
 from reportgen.errors import AssignmentError
 from reportgen.notation.numbers import Language
 from tests.batch.classes import Batch, here, tree, write_class

@@ -11,9 +11,8 @@ import pytest
 
 from reportgen.assignment.source import plain, read_text
 from reportgen.batch.draw import draw, judge_of, pick
-from reportgen.batch.effort import Effort, compare
 from reportgen.batch.spec import read_spec
-from reportgen.batch.variants import make_variants
+from reportgen.batch.variants import Effort, compare, make_variants
 from reportgen.errors import AssignmentError
 from reportgen.workbook import Book, Sheet, write_xlsx
 from tests.batch.specs import BARS, ROOT, Put, classes, ids, located

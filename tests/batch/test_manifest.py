@@ -12,7 +12,7 @@ import pytest
 from reportgen import installation
 from reportgen.batch import manifest
 from reportgen.batch.jobs import Job, Outcome, making
-from reportgen.batch.manifest import Entry, Journal
+from reportgen.batch.manifest import Entry, journal
 from reportgen.errors import Mark, Problem
 from reportgen.installation import templates_hash
 from tests.batch.classes import Batch
@@ -74,7 +74,7 @@ def test_it_is_read_as_it_was_written(tmp_path: Path) -> None:
 def test_the_journal_comes_after_the_manifest_and_goes_with_the_next(tmp_path: Path) -> None:
     older = replace(DONE, files={"a.pdf": "0"})
     manifest.write(tmp_path, [older])
-    with Journal(tmp_path) as record:
+    with journal(tmp_path) as record:
         record(DONE)
         record(FAILED)
     assert manifest.read(tmp_path) == {("Số 7", "little"): DONE, ("8", "little"): FAILED}
@@ -84,7 +84,7 @@ def test_the_journal_comes_after_the_manifest_and_goes_with_the_next(tmp_path: P
 
 def test_a_torn_line_costs_no_other(tmp_path: Path) -> None:
     """Cut at any byte, the journal gives the lines before the cut, and never a half of one."""
-    with Journal(tmp_path) as record:
+    with journal(tmp_path) as record:
         record(DONE)
         record(FAILED)
     path = tmp_path / manifest.JOURNAL
