@@ -5,8 +5,9 @@ The messages stand in `templates/<language>/messages.yaml`, with all that the co
 
 from __future__ import annotations
 
+import difflib
 import unicodedata
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from string import Formatter
@@ -81,6 +82,13 @@ def as_problem(fault: Fault, language: Language | None) -> Problem:
 def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentError:
     """The error that carries these faults in words, each once."""
     return AssignmentError(list(dict.fromkeys(as_problem(fault, language) for fault in faults)))
+
+
+def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
+    """What to say of an unknown key: the known one it was probably meant to be, or all that are known."""
+    same = [name for name in known if name.casefold() == key.casefold()]
+    close = difflib.get_close_matches(key, known, n=1, cutoff=0.6) or same
+    return {"close": close[0]} if close else {"known": ", ".join(known)}
 
 
 def _fields(template: str) -> set[str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -15,7 +14,7 @@ from pydantic_core import ErrorDetails
 
 from reportgen.assignment import checks
 from reportgen.assignment.common import Assignment, Draft, Kind, file_model, sections
-from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, Finding, Where, as_error
+from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, Finding, Where, as_error, close_or_known
 from reportgen.assignment.source import List, Node, Scalar, Source, Table, plain, read_source
 from reportgen.errors import AssignmentError, Mark, Problem
 from reportgen.notation.numbers import Language
@@ -197,13 +196,6 @@ def _finding(key: str, detail: ErrorDetails, content: Any, schema: dict[str, Any
 def _unknown(where: Where, known: Sequence[str]) -> Finding:
     key = str(where[-1])
     return Finding("unknown-key", where, {"key": key, **close_or_known(key, known)}, at="key")
-
-
-def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
-    """What to say of an unknown key: the known one it was probably meant to be, or all that are known."""
-    same = [name for name in known if name.casefold() == key.casefold()]
-    close = difflib.get_close_matches(key, known, n=1, cutoff=0.6) or same
-    return {"close": close[0]} if close else {"known": ", ".join(known)}
 
 
 def _real(location: Where, content: Any) -> Iterator[str | int]:

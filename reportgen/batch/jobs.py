@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import tempfile
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
 
@@ -101,7 +101,7 @@ def _make(job: Job, scratch: Path) -> Outcome:
     try:
         return Outcome(files=dict(job.maker(file, job.making.engine, job.making.language)))
     except AssignmentError as error:
-        problems = tuple(replace(one, mark=replace(one.mark, file=job.file)) for one in error.problems)
+        problems = tuple(problem.in_file(job.file) for problem in error.problems)
         return Outcome(problems=problems, exit_code=error.exit_code)
     except ReportgenError as error:
         return Outcome(problems=(without_paths(str(error)),), exit_code=error.exit_code)

@@ -7,7 +7,7 @@ import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TextIO
 
@@ -150,12 +150,17 @@ def _run(
         for job in kept:
             watch(job.folder, job.product, "kept")
         for student, problem in refused:
+            # The manifest names no folders.
+            text = str(problem.in_file(Path(problem.mark.file).name))
             for product in makers:
-                results.refuse(student, product, problem)
+                results.add(Entry(student.id, student.folder, product, problems=(text,)), (problem,), exit_code=1)
         files = {one.student.id: str(one.file) for one in assigned}
         with closing(pool(jobs, lambda job: watch(job.folder, job.product, "retried"))) as outcomes:
-            for job, outcome in outcomes:
-                results.finish(job, _written(job, outcome, out), files[job.student])
+            for job, made in outcomes:
+                outcome = _written(job, made, out)
+                file = files[job.student]
+                problems = tuple(one if isinstance(one, str) else one.in_file(file) for one in outcome.problems)
+                results.add(manifest.entry(job, outcome), problems, outcome.exit_code)
     with api.reported():
         target = manifest.write(out, entries.values())
     failures = tuple(sorted(results.failures, key=lambda failure: number[failure.student]))
@@ -175,30 +180,15 @@ class _Results:
     made: int = 0
     exit_code: int = 0
 
-    def finish(self, job: Job, outcome: Outcome, file: str) -> None:
-        problems = tuple(_in_file(problem, file) for problem in outcome.problems)
-        self._add(manifest.entry(job, outcome), problems, outcome.exit_code)
-
-    def refuse(self, student: Student, product: str, problem: Problem) -> None:
-        # The manifest names no folders.
-        text = str(_in_file(problem, Path(problem.mark.file).name))
-        self._add(Entry(student.id, student.folder, product, problems=(text,)), (problem,), 1)
-
-    def _add(self, entry: Entry, problems: tuple[Problem | str, ...], code: int) -> None:
+    def add(self, entry: Entry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
         self.entries[entry.student, entry.product] = entry
         with api.reported():
             self.record(entry)
-        self.exit_code = max(self.exit_code, code)
+        self.exit_code = max(self.exit_code, exit_code)
         if problems:
             self.failures.append(Failure(entry.student, entry.product, problems))
         self.made += not problems
         self.watch(entry.folder, entry.product, "failed" if problems else "done")
-
-
-def _in_file(problem: Problem | str, file: str) -> Problem | str:
-    if isinstance(problem, str):
-        return problem
-    return replace(problem, mark=replace(problem.mark, file=file))
 
 
 # --- progress ---------------------------------------------------------------------------------------

@@ -25,15 +25,8 @@ from pathlib import Path
 
 from reportgen import catalogue
 from reportgen.assignment.common import Kind
-from reportgen.assignment.faults import Fault, Where, as_error
-from reportgen.assignment.reading import (
-    allowed_forms,
-    assess,
-    close_or_known,
-    known_keys,
-    language_of,
-    misread,
-)
+from reportgen.assignment.faults import Fault, Where, as_error, close_or_known
+from reportgen.assignment.reading import allowed_forms, assess, known_keys, language_of, misread
 from reportgen.assignment.source import List, Node, Scalar, Source, Table, read_source
 from reportgen.batch.editing import at, path_text, put, without
 from reportgen.batch.table import Column, columns, records, repeated
