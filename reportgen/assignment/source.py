@@ -65,7 +65,7 @@ Node = Scalar | List | Table
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A file as read: its top node (None when there is none to speak of) and the faults met on the way."""
+    """A file as read: its top node (None if it could not be read) and the faults met on the way."""
 
     file: str
     text: str = ""

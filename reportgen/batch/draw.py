@@ -100,7 +100,7 @@ class _Lottery:
             elif student.overrides:
                 faults += self._faults_of_roster(student)
             else:
-                # What one student cannot get nobody can.
+                # No combination is usable: no other student could get one either.
                 return Draw((), tuple(self._faults_of_spec(student)))
         shared = any(count > 1 for count in self.taken.values())
         return Draw(tuple(drawn), tuple(faults), len(self.taken) if shared else None)
@@ -180,9 +180,6 @@ def shared(drawn: Iterable[Drawn]) -> list[tuple[Drawn, ...]]:
     for one in drawn:
         groups.setdefault(_key(one.settings), []).append(one)
     return [tuple(group) for group in groups.values() if len(group) > 1]
-
-
-# --- is a variant usable? ---------------------------------------------------------------------------
 
 
 def judge_of(spec: Spec) -> Judge:

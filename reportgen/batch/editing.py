@@ -19,9 +19,6 @@ _RESERVED = re.compile(r"(~|null|true|false|yes|no|on|off|)", re.IGNORECASE)
 _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 
 
-# --- nodes ------------------------------------------------------------------------------------------
-
-
 def at(node: Node | None, where: Where) -> Node | None:
     """The node at a place; None if there is none."""
     for step in where:
@@ -58,9 +55,6 @@ def without(table: Table, keys: Collection[str]) -> Table:
 def path_text(where: Where) -> str:
     """A place as users write it: parameters.H, parameters.groups.0.length."""
     return ".".join(map(str, where))
-
-
-# --- text -------------------------------------------------------------------------------------------
 
 
 def text_of(table: Table, source: str, original: Table) -> str:

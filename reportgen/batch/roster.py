@@ -76,9 +76,6 @@ class Assigned:
     file: Path | Problem
 
 
-# --- the table --------------------------------------------------------------------------------------
-
-
 def read_roster(path: Path, language: Language | None = None) -> Roster:
     """The class of a table file; raises `AssignmentError` with all its faults, in `language`."""
     page, start = _page(read(path, language or DEFAULT_LANGUAGE))
@@ -175,9 +172,6 @@ def _student(row: Record) -> Student:
     return Student(**personal, class_=class_, overrides=overrides, mark=row.mark)
 
 
-# --- names of files and folders ---------------------------------------------------------------------
-
-
 def folder_name(id: str) -> str:
     """One path component that stands for an id and for no other, harmless on any system.
 
@@ -221,7 +215,7 @@ def assignment_files(folder: Path, language: Language | None) -> dict[str, Path]
 def match_files(
     students: Sequence[Student], folder: Path, language: Language | None
 ) -> tuple[list[Assigned], list[Path]]:
-    """Each student with the file in `folder` or below whose stem is the id, and the files that nobody has.
+    """Each student with the file in `folder` or below whose stem is the id, and the files of no student.
 
     A stem may spell the id as `folder_name` does or as the roster does, whatever its case.  Raises
     `AssignmentError` as `assignment_files` does.

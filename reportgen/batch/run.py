@@ -43,7 +43,7 @@ Watch = Callable[[str, str, Event], None]
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """What is asked for: assignments drawn of `spec` into `out`, or found in `assignments`; one of both.
+    """What is asked for: assignments drawn from `spec` into `out`, or found in `assignments`; exactly one of both.
 
     `jobs` processes of this machine (0: one for each core), unless a scheduler's address `cluster` is given.
     """
@@ -72,7 +72,7 @@ class Failure:
 class Result:
     """What a batch came to: counts of products, the failures by student, the exit code they mean.
 
-    `notes` say in words which files, columns and students of an earlier run served nobody.
+    `notes` say in words which files and columns were not used, and which students of an earlier run are gone.
     """
 
     manifest: Path
@@ -102,7 +102,7 @@ def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS
 
     What the manifest of an earlier run vouches for is kept; events go to `stream` as they happen; `pool` may
     replace the order's.  A student's failure is part of the result.  Raises `AssignmentError` for a faulty
-    roster, spec or folder of assignments, `OutputError` where nothing can be written (any more), `ClusterError`
+    roster, spec or folder of assignments, `OutputError` where nothing can be written, `ClusterError`
     where there is no cluster.
     """
     roster = read_roster(order.roster, order.language)
@@ -171,7 +171,7 @@ def _run(
 
 @dataclass(slots=True)
 class _Results:
-    """What has come so far; each entry stands in the journal before anybody is told."""
+    """What has come so far; each entry stands in the journal before its event is shown."""
 
     entries: dict[tuple[str, str], Entry]
     record: Callable[[Entry], None]
@@ -253,7 +253,7 @@ def _rate(language: Language) -> ProgressColumn:
 
 
 def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
-    """Each student with a file, and notes on files and columns that served nobody."""
+    """Each student with a file, and notes on files and columns that were not used."""
     if order.spec is not None:
         folder = order.out / DRAWN
         _remove_temporary(folder)

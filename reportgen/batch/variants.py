@@ -231,10 +231,10 @@ def _outliers(name: str, values: Sequence[float | None], middle: float) -> tuple
     return tuple(k for k, value in known.items() if abs(value - middle) > limit)
 
 
-def table(spreads: Sequence[Spread], language: Language) -> list[str]:
+def _table(spreads: Sequence[Spread], language: Language) -> list[str]:
     """The spreads as lines of text: a figure, its least, median and greatest value."""
     rows = [["", *(word(name, language) for name in ("least", "median", "greatest"))]]
-    rows += [[word(one.name, language), *map(shown, (one.least, one.median, one.greatest))] for one in spreads]
+    rows += [[word(one.name, language), *map(_shown, (one.least, one.median, one.greatest))] for one in spreads]
     first, *others = (max(map(len, cells)) for cells in zip(*rows, strict=True))
     return [
         "  ".join([name.ljust(first), *(cell.rjust(width) for cell, width in zip(cells, others, strict=True))])
@@ -242,12 +242,12 @@ def table(spreads: Sequence[Spread], language: Language) -> list[str]:
     ]
 
 
-def shown(value: float) -> str:
+def _shown(value: float) -> str:
     """A figure with four digits, a count with all."""
     return f"{value:.0f}" if float(value).is_integer() and abs(value) < 1e9 else f"{value:.4g}"
 
 
-# --- what the instructor is told --------------------------------------------------------------------
+# --- what the instructor sees -----------------------------------------------------------------------
 
 
 def _effort(file: StudentFile) -> Effort | None:
@@ -282,11 +282,11 @@ def _sharing(result: Draw, spec: Spec) -> Iterator[str]:
 def _summary(ids: Sequence[str], efforts: Sequence[Effort], language: Language) -> Iterator[str]:
     spreads = compare(efforts)
     yield word("variants_table", language, count=len(efforts))
-    yield from table(spreads, language)
+    yield from _table(spreads, language)
     for spread in spreads:
-        values = [f"{ids[k]} ({shown(getattr(efforts[k], spread.name))})" for k in spread.outliers]
+        values = [f"{ids[k]} ({_shown(getattr(efforts[k], spread.name))})" for k in spread.outliers]
         if values:
-            about = {"name": word(spread.name, language), "median": shown(spread.median)}
+            about = {"name": word(spread.name, language), "median": _shown(spread.median)}
             yield word("variants_apart", language, ids=", ".join(values), **about)
 
 
