@@ -89,7 +89,7 @@ def _peaks() -> Iterator[dict[int, float]]:
                 peaks[process] = max(peaks.get(process, 0.0), peak(process))
 
     looking = threading.Thread(target=look, daemon=True)
-    looking.run_batch()
+    looking.start()
     try:
         yield peaks
     finally:
