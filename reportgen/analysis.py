@@ -10,7 +10,7 @@ import numpy as np
 
 from reportgen.catalogue.loads import Applied, Piston, Torque
 from reportgen.catalogue.machine import Machine
-from reportgen.cycle.indicator import indicated_work, stroke_at
+from reportgen.cycle.applied import indicated_work, stroke_at
 from reportgen.mechanism.forces import Forces, solve_forces
 from reportgen.mechanism.loads import Load, inertia_loads, weights
 from reportgen.mechanism.motion import Motion, solve_motion

@@ -7,7 +7,7 @@ asked for.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +62,10 @@ class Problem:
     message: str
     mark: Mark
     hint: str | None = None
+
+    def in_file(self, file: str) -> Problem:
+        """The same problem, its file named as `file`."""
+        return replace(self, mark=replace(self.mark, file=file))
 
     def __str__(self) -> str:
         line = f"{self.mark}: error[{self.code}]: {self.message}"

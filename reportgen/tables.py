@@ -7,7 +7,7 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from reportgen.assignment.messages import word
+from reportgen.assignment.faults import word
 from reportgen.notation.numbers import Language, significant_decimals, write
 
 DIGITS = 5
@@ -70,11 +70,11 @@ def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]
         for name, row in rows.items():
             if row:
                 found[name].append(lead | row)
-    return {name: _moving(rows) for name, rows in found.items()}
+    return {name: _without_zeros(rows) for name, rows in found.items()}
 
 
 def _driver(position: Mapping[str, Any]) -> Row:
-    """Where the driver stands: the angle of a crank in degrees, the way of a slider in mm."""
+    """The position of the driver: the angle of a crank in degrees, the way of a slider in mm."""
     if "driver_way" in position:
         return {"driver_way": position["driver_way"] * MM}
     return {"crank_angle": round(math.degrees(position["crank_angle"]), 6) % 360}
@@ -89,8 +89,8 @@ def _once(reactions: Row) -> Row:
     return shown
 
 
-def _moving(rows: list[Row]) -> list[Row]:
-    """The rows without the columns that are nothing throughout (a slider's angular velocity)."""
+def _without_zeros(rows: list[Row]) -> list[Row]:
+    """The rows without the columns that are zero at every position (a slider's angular velocity)."""
     kept = [key for key in rows[0] if any(row.get(key) for row in rows) or key in WORDS]
     return [{key: row.get(key) for key in kept} for row in rows]
 
@@ -102,7 +102,7 @@ def _size(vector: Any) -> float | None:
 
 
 def _column(rows: Sequence[Row], heading: str, language: Language) -> list[str]:
-    """The column's numbers with one count of decimals, that shows the largest with `DIGITS` figures."""
+    """The column's numbers, all with the decimals that give the largest of them `DIGITS` digits."""
     values = [row.get(heading) for row in rows]
     numbers = [value for value in values if not (value is None or isinstance(value, str))]
     largest = max(map(abs, numbers), default=0.0)

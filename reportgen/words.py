@@ -7,7 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from reportgen import folders
+from reportgen import installation
 from reportgen.errors import Mark, TemplateError
 from reportgen.notation.numbers import Language
 
@@ -23,7 +23,7 @@ def search_path(
 
     A school's own words, then those of one kind of machine, then those common to all.
     """
-    root = root or folders.templates()
+    root = root or installation.templates()
     return (
         *((root / school / language,) if school else ()),
         *((root / language / kind,) if kind else ()),

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen import api, folders
+from reportgen import api, installation
 from reportgen.document.plain import text_of
 
 SAMPLE = Path(__file__).parent.parent / "assignments" / "engine-twin-05.yaml"
@@ -22,12 +22,12 @@ def with_school(folder: Path, name: str) -> Path:
 
 def test_a_school_overrides_one_section(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = tmp_path / "templates"
-    shutil.copytree(folders.templates(), root)
+    shutil.copytree(installation.templates(), root)
     (root / "my-school" / "en").mkdir(parents=True)
     (root / "my-school" / "en" / "foreword.md").write_text(
         "# Preface {{ unnumbered() }}\n\nAs our department asks.\n", encoding="utf-8"
     )
-    monkeypatch.setattr(folders, "templates", lambda: root)
+    monkeypatch.setattr(installation, "templates", lambda: root)
     text = text_of(api.document(api.load(with_school(tmp_path, "my-school"))))
     assert "As our department asks." in text
     assert "Position plan" in text

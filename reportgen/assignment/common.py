@@ -21,9 +21,7 @@ Count = Annotated[int, Whole(FEWEST_POSITIONS, MOST_POSITIONS)]
 class Part(BaseModel):
     """A section of the file: frozen, its keys known."""
 
-    model_config = ConfigDict(
-        extra="forbid", frozen=True, populate_by_name=True, arbitrary_types_allowed=True
-    )
+    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True, arbitrary_types_allowed=True)
 
     @model_validator(mode="before")
     @classmethod

@@ -17,7 +17,7 @@ from typing import Annotated, Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
-from reportgen import folders
+from reportgen import installation
 from reportgen.units import NUMBER, Given, QuantityFault, read_quantity, read_ratio, read_unit
 
 LONGEST_TEXT = 300
@@ -43,9 +43,7 @@ class Reader:
     def schema(self) -> dict[str, Any]:
         return {}
 
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> core_schema.CoreSchema:
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(self.read)
 
     def __get_pydantic_json_schema__(
@@ -72,13 +70,9 @@ class Interval:
         return f"{low}, {high}"
 
     def schema(self) -> dict[str, float]:
-        ends = {
-            "exclusiveMinimum": self.above,
-            "exclusiveMaximum": self.below,
-            "minimum": self.least,
-            "maximum": self.most,
-        }
-        return {key: end for key, end in ends.items() if math.isfinite(end)}
+        keys = ("exclusiveMinimum", "exclusiveMaximum", "minimum", "maximum")
+        ends = zip(keys, (self.above, self.below, self.least, self.most), strict=True)
+        return {key: end for key, end in ends if math.isfinite(end)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,11 +90,7 @@ class Quantity(Reader):
         return given
 
     def schema(self) -> dict[str, Any]:
-        return {
-            "type": "string",
-            "pattern": rf"^\s*{NUMBER}\s*{_UNIT_PATTERN}$",
-            "examples": [f"1 {self.unit}"],
-        }
+        return {"type": "string", "pattern": rf"^\s*{NUMBER}\s*{_UNIT_PATTERN}$", "examples": [f"1 {self.unit}"]}
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,22 +98,13 @@ class SchoolFolder(Reader):
     """The folder of a school's own words beside those of the languages, e.g. `tnut` for templates/tnut/vi."""
 
     def read(self, value: object) -> str:
-        known = _schools()
+        known = installation.schools()
         if value not in known:
             raise fault("no-such-school", text=str(value), known=", ".join(known) or "–")
         return str(value)
 
     def schema(self) -> dict[str, Any]:
         return {"type": "string", "pattern": f"^{_SLUG}$"}
-
-
-def _schools() -> list[str]:
-    """Folders of words that are no language's own."""
-    return sorted(
-        folder.name
-        for folder in folders.templates().iterdir()
-        if folder.name not in {"vi", "en", "frames"} and any((folder / name).is_dir() for name in ("vi", "en"))
-    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,10 +114,7 @@ class UnitOf(Reader):
     unit: str
 
     def read(self, value: object) -> Given:
-        def one(text: str) -> Given:
-            return Given(read_unit(text, self.unit), 1.0, text.strip(), text)
-
-        return _measured(one, value)
+        return _measured(lambda text: Given(read_unit(text, self.unit), 1.0, text.strip(), text), value)
 
     def schema(self) -> dict[str, Any]:
         return {"type": "string", "pattern": f"^{_UNIT_PATTERN}$", "examples": [self.unit]}
@@ -265,9 +243,7 @@ class WorkedPositions(Reader):
 
     def schema(self) -> dict[str, Any]:
         item = Whole(1, MOST_WORKED).schema()
-        return {
-            "anyOf": [{"const": "all"}, {"type": "array", "items": item, "minItems": 1, "uniqueItems": True}]
-        }
+        return {"anyOf": [{"const": "all"}, {"type": "array", "items": item, "minItems": 1, "uniqueItems": True}]}
 
 
 def _text(value: object, expected: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -15,16 +14,14 @@ from pydantic_core import ErrorDetails
 
 from reportgen.assignment import checks
 from reportgen.assignment.common import Assignment, Draft, Kind, file_model, sections
-from reportgen.assignment.faults import Fault, Finding, Where
-from reportgen.assignment.messages import as_problem
+from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, Finding, Where, as_error, close_or_known
 from reportgen.assignment.source import List, Node, Scalar, Source, Table, plain, read_source
 from reportgen.errors import AssignmentError, Mark, Problem
 from reportgen.notation.numbers import Language
 
-DEFAULT_LANGUAGE: Language = "vi"
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"
-_SORTS = {"object": "table", "array": "list"}
+_FORMS = {"object": "table", "array": "list"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +40,7 @@ def load(path: Path, kinds: Kinds, language: Language | None = None) -> Assignme
     source = read_source(path)
     assignment, faults = assess(source, path, kinds)
     if assignment is None:
-        raise AssignmentError(_in_words(source, faults, language))
+        raise as_error(faults, language or language_of(source))
     return assignment.with_language(language) if language else assignment
 
 
@@ -58,11 +55,8 @@ def check(path: Path, kinds: Kinds, language: Language | None = None) -> list[Pr
 
 def assess(source: Source, path: Path, kinds: Kinds) -> tuple[Assignment | None, list[Fault]]:
     """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
-    faults = list(source.faults)
-    top = source.top
-    if not isinstance(top, Table):
-        if top is not None and not faults:
-            faults.append(Fault("wrong-type", top.mark, {"expected": "mapping"}))
+    top, faults = _top(source)
+    if top is None:
         return None, faults
     raw: dict[str, Any] = plain(top)
     name = raw.get("kind")
@@ -71,19 +65,17 @@ def assess(source: Source, path: Path, kinds: Kinds) -> tuple[Assignment | None,
     if kind is None:
         findings.insert(0, _no_kind(name, kinds))
     else:
-        for one in (*kind.checks, checks.worked_positions(kind.turns, kind.added)):
-            told = {finding.where for finding in findings}
-            findings += [finding for finding in one(draft) if finding.where not in told]
+        for check_one in (*kind.checks, checks.worked_positions(kind.turns, kind.added)):
+            found = {finding.where for finding in findings}
+            findings += [finding for finding in check_one(draft) if finding.where not in found]
     # What the source already refuses is not judged a second time.
     refused = {fault.mark.line for fault in faults if fault.code in {"alias", "tag", "tab"}}
     placed = [_placed(finding, top) for finding in findings]
     faults += [fault for fault in placed if fault.mark.line not in refused]
     if faults or kind is None:
         return None, faults
-    filled = _filled(draft)
-    return Assignment(
-        kind.name, **filled, source=path, id=path.stem, turns=kind.turns, added=kind.added
-    ), []
+    values = {"indicator": None, **draft.sections}
+    return Assignment(kind.name, **values, source=path, id=path.stem, turns=kind.turns, added=kind.added), []
 
 
 def read_model(path: Path, model: type[Model], language: Language | None = None) -> Model:
@@ -92,49 +84,35 @@ def read_model(path: Path, model: type[Model], language: Language | None = None)
     Raises `AssignmentError` with every fault of the file.
     """
     source = read_source(path)
-    faults = list(source.faults)
+    top, faults = _top(source)
     value: Model | None = None
-    if isinstance(source.top, Table):
-        top = source.top
+    if top is not None:
         value, findings = _section(_WHOLE, model, plain(top))
         faults += [_placed(replace(finding, where=finding.where[1:]), top) for finding in findings]
-    elif source.top is not None and not faults:
-        faults.append(Fault("wrong-type", source.top.mark, {"expected": "mapping"}))
     if faults or value is None:
-        raise AssignmentError(_in_words(source, faults, language))
+        raise as_error(faults, language or language_of(source))
     return value
 
 
 def misread(top: Table, kind: Kind) -> list[Fault]:
-    """The faults that single values and keys show by themselves; no check looks at several of them."""
+    """The faults that single values and keys show by themselves, without the checks of several values."""
     return [_placed(finding, top) for finding in _sections(plain(top), kind)[0]]
 
 
-def known_keys(kind: Kind, where: Where) -> list[str]:
-    """The keys that a table at `where` in a file of a kind may have; none if no table stands there."""
-    return _keys_at(file_schema(kind), where)
+def language_of(source: Source) -> Language:
+    """The language a faulty file asks for, found by its line so that faulty syntax does not matter."""
+    found = re.search(r"^[^#\n]*[\s{]language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
+    return "en" if found and found[1] == "en" else DEFAULT_LANGUAGE
 
 
-def wants(kind: Kind, where: Where) -> frozenset[str]:
-    """What a file of a kind may hold at `where`: "table", "list", "scalar"; nothing at a place nobody knows."""
-    schema = file_schema(kind)
-    found = _at(schema, where)
-    return frozenset(_SORTS.get(str(name), "scalar") for one in found for name in _types(one))
-
-
-@cache
-def file_schema(kind: Kind) -> dict[str, Any]:
-    """The JSON Schema of a whole file of a kind."""
-    return file_model(kind).model_json_schema(by_alias=True)
-
-
-def _types(one: dict[str, Any]) -> list[Any]:
-    kinds = one.get("type", "string")
-    return [name for name in (kinds if isinstance(kinds, list) else [kinds]) if name != "null"]
-
-
-def _filled(draft: Draft) -> dict[str, Any]:
-    return {"indicator": None, **draft.sections}
+def _top(source: Source) -> tuple[Table | None, list[Fault]]:
+    """The table at the top of a file, and the file's faults."""
+    faults = list(source.faults)
+    if isinstance(source.top, Table):
+        return source.top, faults
+    if source.top is not None and not faults:
+        faults.append(Fault("wrong-type", source.top.mark, {"expected": "mapping"}))
+    return None, faults
 
 
 def _no_kind(name: object, kinds: Kinds) -> Finding:
@@ -217,11 +195,7 @@ def _finding(key: str, detail: ErrorDetails, content: Any, schema: dict[str, Any
 
 def _unknown(where: Where, known: Sequence[str]) -> Finding:
     key = str(where[-1])
-    close = difflib.get_close_matches(key, known, n=1, cutoff=0.6) or [
-        name for name in known if name.lower() == key.lower()
-    ]
-    hint = {"close": close[0]} if close else {"known": ", ".join(known)}
-    return Finding("unknown-key", where, {"key": key, **hint}, at="key")
+    return Finding("unknown-key", where, {"key": key, **close_or_known(key, known)}, at="key")
 
 
 def _real(location: Where, content: Any) -> Iterator[str | int]:
@@ -240,19 +214,33 @@ def _real(location: Where, content: Any) -> Iterator[str | int]:
 
 def _without(content: Any, places: Sequence[Where]) -> Any:
     """The content without the keys at `places`."""
+
+    def inside(step: str | int) -> list[Where]:
+        return [place[1:] for place in places if place[0] == step and len(place) > 1]
+
     if isinstance(content, list):
-        return [
-            _without(value, [place[1:] for place in places if place[0] == index and len(place) > 1])
-            for index, value in enumerate(content)
-        ]
-    if not isinstance(content, dict):
-        return content
-    first = {place[0] for place in places if len(place) == 1}
-    return {
-        key: _without(value, [place[1:] for place in places if place[0] == key and len(place) > 1])
-        for key, value in content.items()
-        if key not in first
-    }
+        return [_without(value, inside(index)) for index, value in enumerate(content)]
+    if isinstance(content, dict):
+        return {key: _without(value, inside(key)) for key, value in content.items() if (key,) not in places}
+    return content
+
+
+@cache
+def _file_schema(kind: Kind) -> dict[str, Any]:
+    """The JSON Schema of a whole file of a kind."""
+    return file_model(kind).model_json_schema(by_alias=True)
+
+
+def known_keys(kind: Kind, where: Where) -> list[str]:
+    """The keys that a table at `where` in a file of a kind may have; none if no table stands there."""
+    return _keys_at(_file_schema(kind), where)
+
+
+def allowed_forms(kind: Kind, where: Where) -> frozenset[str]:
+    """What a file of a kind may hold at `where`: "table", "list", "scalar"; empty for an unknown place."""
+    found = [one.get("type", "string") for one in _at(_file_schema(kind), where)]
+    types = [name for type_ in found for name in (type_ if isinstance(type_, list) else [type_])]
+    return frozenset(_FORMS.get(str(name), "scalar") for name in types if name != "null")
 
 
 def _keys_at(schema: dict[str, Any], where: Where) -> list[str]:
@@ -261,11 +249,11 @@ def _keys_at(schema: dict[str, Any], where: Where) -> list[str]:
 
 
 def _at(schema: dict[str, Any], where: Where) -> list[dict[str, Any]]:
-    """What a JSON Schema says of a place, alternatives apart."""
-    level = list(_opened(schema, schema))
+    """The alternatives that a JSON Schema allows at a place."""
+    level = list(_alternatives(schema, schema))
     for step in where:
         inner = [inner for one in level for inner in _inside(one, step)]
-        level = [opened for one in inner for opened in _opened(one, schema)]
+        level = [alternative for one in inner for alternative in _alternatives(one, schema)]
     return level
 
 
@@ -280,14 +268,14 @@ def _inside(one: dict[str, Any], step: str | int) -> Iterator[dict[str, Any]]:
         yield one["additionalProperties"]
 
 
-def _opened(one: dict[str, Any], schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def _alternatives(one: dict[str, Any], schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """A part of a JSON Schema with references followed and `oneOf`, `anyOf` taken apart."""
     if "$ref" in one:
-        yield from _opened(schema["$defs"][one["$ref"].rsplit("/", 1)[-1]], schema)
-        return
-    alternatives = [*one.get("oneOf", ()), *one.get("anyOf", ())]
-    for alternative in alternatives:
-        yield from _opened(alternative, schema)
-    if not alternatives:
+        yield from _alternatives(schema["$defs"][one["$ref"].rsplit("/", 1)[-1]], schema)
+    elif choices := [*one.get("oneOf", ()), *one.get("anyOf", ())]:
+        for choice in choices:
+            yield from _alternatives(choice, schema)
+    else:
         yield one
 
 
@@ -309,14 +297,3 @@ def _placed(finding: Finding, top: Table) -> Fault:
     unwritten = isinstance(node, Scalar) and node.null
     mark: Mark = key_mark if finding.at == "key" or unwritten else node.mark
     return Fault(finding.code, mark, finding.arguments)
-
-
-def _in_words(source: Source, faults: Sequence[Fault], language: Language | None) -> list[Problem]:
-    spoken = language or language_of(source)
-    return [as_problem(fault, spoken) for fault in faults]
-
-
-def language_of(source: Source) -> Language:
-    """The language a faulty file asks for; also of one whose syntax is wrong, as far as a line shows it."""
-    found = re.search(r"^[^#\n]*[\s{]language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
-    return "en" if found and found[1] == "en" else DEFAULT_LANGUAGE

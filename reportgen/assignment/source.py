@@ -65,7 +65,7 @@ Node = Scalar | List | Table
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A file as read: its top node (None when there is none to speak of) and the faults met on the way."""
+    """A file as read: its top node (None if it could not be read) and the faults met on the way."""
 
     file: str
     text: str = ""
@@ -76,21 +76,20 @@ class Source:
 def read_source(path: Path) -> Source:
     """The nodes of a file; every fault of its bytes and syntax is in `faults`, none is raised."""
     file = str(path)
-    start = Mark(file)
     try:
         with path.open("rb") as stream:
             data = stream.read(LARGEST + 1)
-    except OSError as fault:
-        return Source(file, faults=(Fault("unreadable", start, {"reason": type(fault).__name__}),))
-    if len(data) > LARGEST:
-        return Source(file, faults=(Fault("too-large", start, {"largest": str(LARGEST // 1000)}),))
-    if b"\0" in data:
-        return Source(file, faults=(Fault("binary", mark_in(data, data.index(b"\0"), file)),))
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as fault:
-        return Source(file, faults=(Fault("encoding", mark_in(data, fault.start, file)),))
-    return read_text(text, file)
+        if len(data) > LARGEST:
+            fault = Fault("too-large", Mark(file), {"largest": str(LARGEST // 1000)})
+        elif b"\0" in data:
+            fault = Fault("binary", mark_in(data, data.index(b"\0"), file))
+        else:
+            return read_text(data.decode("utf-8-sig"), file)
+    except OSError as error:
+        fault = Fault("unreadable", Mark(file), {"reason": type(error).__name__})
+    except UnicodeDecodeError as error:
+        fault = Fault("encoding", mark_in(data, error.start, file))
+    return Source(file, faults=(fault,))
 
 
 def read_text(text: str, file: str = "") -> Source:
@@ -109,7 +108,8 @@ def read_text(text: str, file: str = "") -> Source:
         return Source(file, text, faults=(*loader.faults, _syntax(fault, file)))
     except ValueError:
         # A number in an escape or a directive that Python refuses to read.
-        return Source(file, text, faults=(*loader.faults, Fault("syntax", loader.here())))
+        here = Mark(file, loader.line + 1, loader.column + 1)
+        return Source(file, text, faults=(*loader.faults, Fault("syntax", here)))
     finally:
         loader.dispose()
     if root is None:
@@ -137,9 +137,7 @@ def words_of(path: Path) -> Mapping[str, Any]:
     source = read_source(path)
     if source.faults or not isinstance(source.top, Table):
         raise ValueError(f"{path}: {[fault.code for fault in source.faults]}")
-    content = plain(source.top)
-    assert isinstance(content, dict)
-    return content
+    return dict(plain(source.top))
 
 
 class _Loader(yaml.SafeLoader):
@@ -151,14 +149,11 @@ class _Loader(yaml.SafeLoader):
         self.faults: list[Fault] = []
         self.depth = 0
 
-    def here(self) -> Mark:
-        return Mark(self.file, self.line + 1, self.column + 1)
-
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
         parser: Any = self  # whose methods the stubs leave without types
         event = parser.peek_event()
         ends = event.start_mark, event.end_mark
-        mark = Mark(self.file, event.start_mark.line + 1, event.start_mark.column + 1)
+        mark = _mark(event.start_mark, self.file)
         if isinstance(event, yaml.AliasEvent):
             parser.get_event()
             self.faults.append(Fault("alias", mark))
@@ -176,8 +171,12 @@ class _Loader(yaml.SafeLoader):
         return node
 
 
+def _mark(place: yaml.Mark, file: str) -> Mark:
+    return Mark(file, place.line + 1, place.column + 1)
+
+
 def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
-    mark = Mark(file, node.start_mark.line + 1, node.start_mark.column + 1)
+    mark = _mark(node.start_mark, file)
     if isinstance(node, yaml.SequenceNode):
         return List(tuple(_node(item, file, faults) for item in node.value), mark)
     if isinstance(node, yaml.MappingNode):
@@ -192,10 +191,8 @@ def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator
     """The entries of a mapping; a key met again is a fault and is left out."""
     seen: dict[str, Mark] = {}
     if len(node.value) > MOST_KEYS:
-        place = node.value[MOST_KEYS][0].start_mark
-        faults.append(
-            Fault("too-many", Mark(file, place.line + 1, place.column + 1), {"most": str(MOST_KEYS)})
-        )
+        first_too_many = node.value[MOST_KEYS][0].start_mark
+        faults.append(Fault("too-many", _mark(first_too_many, file), {"most": str(MOST_KEYS)}))
         return
     for key_node, value_node in node.value:
         key, value = _node(key_node, file, faults), _node(value_node, file, faults)
@@ -219,7 +216,7 @@ def _tabs(text: str, file: str) -> Iterator[Fault]:
 
 def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:
     place = fault.problem_mark or fault.context_mark
-    mark = Mark(file, place.line + 1, place.column + 1) if place else Mark(file)
+    mark = _mark(place, file) if place else Mark(file)
     problem = f"{fault.context or ''} {fault.problem or ''}"
     if "too deep" in problem:
         return Fault("too-deep", mark, {"deepest": str(DEEPEST)})

@@ -10,13 +10,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-from reportgen import api, catalogue
+from reportgen import api, catalogue, products
 from reportgen.answers.key import Key
 from reportgen.api import Engine
-from reportgen.assignment.faults import Fault
-from reportgen.assignment.messages import as_problem, word
-from reportgen.batch.matching import assignment_files, spelt
-from reportgen.batch.names import folder_name
+from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_problem, word
+from reportgen.batch.roster import assignment_files, comparable, folder_name
 from reportgen.errors import AssignmentError, Mark, Problem, ReportgenError
 from reportgen.grading.class_page import class_document
 from reportgen.grading.feedback import feedback_book
@@ -32,7 +30,7 @@ from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.files import BOOKS
 
 SUBMISSIONS = BOOKS | {".csv"}
-"""Endings of what somebody may have handed in as a sheet; those that are not read are told of."""
+"""Endings of files that may be meant as sheets; a fault is reported for those that cannot be read."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +44,7 @@ class Classroom:
 
     def guide(self, name: str) -> Guide:
         """The marking guide of an assignment.  Raises `KeyError` for a name that no file has."""
-        stem = spelt(name)
+        stem = comparable(name)
         if stem not in self.opened:
             self.opened[stem] = open_guide(api.load(self.files[stem], self.language), self.policy)
         return self.opened[stem]
@@ -64,7 +62,7 @@ class Classroom:
         return tuple(found)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Graded:
     """What marking a class gave: markings by assignment, faults of sheets, keys of those who handed nothing in."""
 
@@ -77,63 +75,65 @@ def grade(
     submissions: Sequence[Path], assignments: Path, policy: Policy, language: Language | None = None
 ) -> Graded:
     """Mark the sheets of files and folders; raises `AssignmentError` if `assignments` is at fault."""
-    room = Classroom(assignment_files(assignments, language or "vi"), policy, language)
+    room = Classroom(assignment_files(assignments, language), policy, language)
     markings: dict[str, Marking] = {}
     problems: list[Problem] = []
-    for path in found(submissions, language or "vi", problems):
+    for path in _sheets(submissions):
         try:
-            submission = read_submission(path, lambda name: room.guide(name).key, language or "vi")
+            if not path.exists():
+                fault = Fault("unreadable", Mark(str(path)), {"reason": "FileNotFoundError"})
+                problems.append(as_problem(fault, language))
+                continue
+            submission = read_submission(path, lambda name: room.guide(name).key, language or DEFAULT_LANGUAGE)
             earlier = markings.get(submission.assignment)
             if earlier is not None:
-                kept, left = _kept(Path(earlier.submission.file), path, submission.assignment)
+                kept, left = _preferred(Path(earlier.submission.file), path, submission.assignment)
                 fault = Fault("sheet-twice", Mark(str(left)), {"text": submission.assignment, "first": kept.name})
-                problems.append(as_problem(fault, language or "vi"))
+                problems.append(as_problem(fault, language))
                 if kept != path:
                     continue
             guide = room.guide(submission.assignment)
             classmates = room.keys if policy.guard else ()
             markings[submission.assignment] = mark(guide, submission, classmates)
-        except AssignmentError as fault:
-            problems += fault.problems
+        except AssignmentError as error:
+            problems += error.problems
     missing = tuple(key for key in room.keys if key.id not in markings)
     order = {name: index for index, name in enumerate(room.files)}
-    marked = sorted(markings.values(), key=lambda marking: order[spelt(marking.key.id)])
+    marked = sorted(markings.values(), key=lambda marking: order[comparable(marking.key.id)])
     return Graded(tuple(marked), tuple(problems), missing)
 
 
-def _kept(first: Path, second: Path, assignment: str) -> tuple[Path, Path]:
-    """Of two sheets of one assignment the one to mark, and the other: none displaces the one of its own name."""
-    own = [spelt(path.stem) == spelt(assignment) for path in (first, second)]
-    return (second, first) if own == [False, True] else (first, second)
-
-
-def found(paths: Sequence[Path], language: Language, problems: list[Problem]) -> Iterator[Path]:
-    """The answer sheets among files and in folders; what a spreadsheet keeps open beside them is none."""
+def _sheets(paths: Sequence[Path]) -> Iterator[Path]:
+    """The answer sheets among files and in folders, without what a spreadsheet keeps beside an open file."""
     for path in paths:
         if path.is_dir():
-            inside = sorted(one for one in path.rglob("*") if one.suffix.lower() in SUBMISSIONS and one.is_file())
-            yield from (one for one in inside if not one.name.startswith((".", "~$")))
-        elif path.exists():
-            yield path
+            inside = sorted(file for file in path.rglob("*") if file.suffix.lower() in SUBMISSIONS and file.is_file())
+            yield from (file for file in inside if not file.name.startswith((".", "~$")))
         else:
-            problems.append(as_problem(Fault("unreadable", Mark(str(path)), {"reason": "FileNotFoundError"}), language))
+            yield path
+
+
+def _preferred(first: Path, second: Path, assignment: str) -> tuple[Path, Path]:
+    """Of two sheets of one assignment the one to mark and the other; a file named like the assignment wins."""
+    own = [comparable(path.stem) == comparable(assignment) for path in (first, second)]
+    return (second, first) if own == [False, True] else (first, second)
 
 
 def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language | None) -> Iterator[tuple[Path, bytes]]:
     """Every file of a graded class with its content: two for each student, two for the instructor."""
     for marking in graded.markings:
-        folder = Path(_folder(marking.key))
+        key = marking.key
+        # As the batch names it, or the assignment's own stem.
+        folder = Path(folder_name(key.student["id"]) if "id" in key.student else key.id)
         yield folder / "feedback.xlsx", write_xlsx(feedback_book(marking, policy.show_answers))
-        title = catalogue.titles(marking.key.language)[marking.key.kind]
-        tree = feedback_document(marking, title, policy.show_answers)
+        tree = feedback_document(marking, catalogue.title(key.kind, key.language), policy.show_answers)
         yield folder / "feedback.pdf", api.typeset(tree, engine)[1]
-    if not graded.markings:
-        return
-    spoken = language or graded.markings[0].key.language
-    yield Path("grades.csv"), write_csv(grade_rows(graded.markings, spoken, graded.missing))
-    title = catalogue.titles(spoken)[graded.markings[0].key.kind]
-    page = class_document(graded.markings, title, spoken, graded.missing)
-    yield Path("class.pdf"), api.typeset(page, engine)[1]
+    if graded.markings:
+        key = graded.markings[0].key
+        spoken = language or key.language
+        yield Path("grades.csv"), write_csv(grade_rows(graded.markings, spoken, graded.missing))
+        page = class_document(graded.markings, catalogue.title(key.kind, spoken), spoken, graded.missing)
+        yield Path("class.pdf"), api.typeset(page, engine)[1]
 
 
 def put(
@@ -141,22 +141,13 @@ def put(
 ) -> Iterator[Path]:
     """Write every file of a graded class below `out`, each in one step; raises `OutputError`."""
     for name, content in files_of(graded, policy, engine, language):
-        with api.reported():
-            (out / name).parent.mkdir(parents=True, exist_ok=True)
-            api.replace(out / name, content)
-        yield out / name
+        yield from products.put(out / name.parent, {name.name: content})
 
 
-def told(graded: Graded, language: Language) -> Iterator[str]:
+def summary(graded: Graded, language: Language | None) -> Iterator[str]:
     """A line for each student marked, and how many handed nothing in."""
     for marking in graded.markings:
-        yield word("graded", language).format(
-            id=marking.key.id, points=f"{marking.points:g}", out_of=f"{marking.out_of:g}", firsts=len(marking.firsts)
-        )
+        points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
+        yield word("graded", language, id=marking.key.id, points=points, out_of=out_of, firsts=len(marking.firsts))
     if graded.missing:
-        yield word("graded_missing", language).format(count=len(graded.missing))
-
-
-def _folder(key: Key) -> str:
-    """The folder of a student's results: as the batch names it, or the assignment's own stem."""
-    return folder_name(key.student["id"]) if "id" in key.student else key.id
+        yield word("graded_missing", language, count=len(graded.missing))

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
 from typing import Any
 
-from reportgen.assignment.messages import word
-from reportgen.batch.jobs import SYSTEM, Job, Outcome, run_job, unexpected
+from reportgen.assignment.faults import unexpected, word
+from reportgen.batch.jobs import SYSTEM, Job, Outcome, failed, run_job
 from reportgen.batch.pool import Pool, Results, Retried
 from reportgen.errors import ReportgenError
 from reportgen.notation.numbers import Language
@@ -27,7 +27,7 @@ class ClusterError(ReportgenError):
     exit_code = SYSTEM
 
 
-def cluster(address: str, language: Language) -> Pool:
+def cluster(address: str, language: Language | None) -> Pool:
     """A pool of the workers that a Dask scheduler has; raises `ClusterError` without Dask.
 
     Jobs go out as bytes and files come back as bytes: workers need this package in the same version, but
@@ -44,7 +44,7 @@ def cluster(address: str, language: Language) -> Pool:
         try:
             client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
         except (OSError, ValueError) as error:
-            raise ClusterError(word("no_scheduler", language).format(address=address)) from error
+            raise ClusterError(word("no_scheduler", language, address=address)) from error
         with client:
             try:
                 suspects: list[Job] = []
@@ -52,16 +52,15 @@ def cluster(address: str, language: Language) -> Pool:
                 for job in suspects:
                     retried(job)
                     outcome = _outcome(job, client.submit(_run, job, pure=False))
-                    text = word("worker_died", job.making.language or "vi")
-                    yield job, outcome or Outcome(problems=(text,), exit_code=SYSTEM)
+                    yield job, outcome or failed(word("worker_died", job.making.language))
             except (distributed.client.FutureCancelledError, OSError) as error:
-                raise ClusterError(word("scheduler_lost", language).format(address=address)) from error
+                raise ClusterError(word("scheduler_lost", language, address=address)) from error
 
     return pool
 
 
 def _results(client: Any, jobs: Iterator[Job], suspect: Callable[[Job], None]) -> Results:
-    """As they come; only so many are handed out that results never pile up on the workers."""
+    """Results as they come; only so many jobs are handed out that results never pile up on the workers."""
     from distributed import as_completed
 
     handed_out: dict[Any, Job] = {}
@@ -84,7 +83,7 @@ def _results(client: Any, jobs: Iterator[Job], suspect: Callable[[Job], None]) -
 
 
 def _outcome(job: Job, future: Any) -> Outcome | None:
-    """What a job came to, which the cluster then may forget; none if its workers died.
+    """The outcome of a job, which the cluster may then forget; None if its workers died.
 
     Raises `OSError` or `FutureCancelledError` if the scheduler has gone.
     """
@@ -97,16 +96,16 @@ def _outcome(job: Job, future: Any) -> Outcome | None:
         return None
     except (FutureCancelledError, OSError):
         raise
-    except Exception as fault:
-        # Of the job nothing is raised: the worker could not even take it, as where another version is at work.
-        return Outcome(problems=(unexpected(fault, job.making.language or "vi"),), exit_code=SYSTEM)
+    except Exception as error:
+        # A job raises nothing itself: the worker could not even receive it, as where it has another version.
+        return failed(unexpected(error, job.making.language))
     finally:
         future.release()
     return outcome
 
 
 def _threads(client: Any) -> int:
-    """Of all workers there are now; they may come and go."""
+    """The threads of all workers there are now; workers may come and go."""
     return sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
 
 

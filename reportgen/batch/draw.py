@@ -11,9 +11,9 @@ row of a table; "scan" see below) and ATTEMPT a decimal number from 0.
 
 A combination that fails, or that another student has, is drawn again with the next attempt.  Students draw in the
 order of the roster, so a clash moves only the later of two, and whoever is added at the end moves nobody.  After
-`ATTEMPTS` the combinations are walked through from number d mod (their number) on, PARAMETER "scan" and ATTEMPT 0:
-the first that nobody has, else of those that fewest have the first.  So nobody shares before all usable
-combinations are out (of more than `MOST_WALKED`, before as many have been looked at), and then all are shared alike.
+`ATTEMPTS` the combinations are tried in order from number d mod (their number) on, PARAMETER "scan" and ATTEMPT 0:
+the first that nobody has is taken, else the first of those that fewest have.  So nobody shares before all usable
+combinations are taken (of more than `MOST_TRIED`, before that many have been tried), and then all are shared evenly.
 """
 
 from __future__ import annotations
@@ -24,42 +24,44 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
-from reportgen.assignment import Fault
-from reportgen.assignment.faults import Where
-from reportgen.assignment.source import Scalar
-from reportgen.batch.nodes import path_text
+import numpy as np
+
+from reportgen import api, catalogue
+from reportgen.analysis import Analysis, motion_at
+from reportgen.assignment.faults import Fault
+from reportgen.assignment.reading import assess
+from reportgen.batch.editing import path_text
 from reportgen.batch.roster import Roster, Student
 from reportgen.batch.spec import DRAWN_SECTIONS, Settings, Spec, place
+from reportgen.catalogue.machine import Machine
 
 ATTEMPTS = 64
-MOST_WALKED = 4096
+MOST_TRIED = 4096
 MOST_REASONS = 3
 FORMAT = "reportgen-draw/1"
+STEPS = 720
+"""Places in a turn, half a degree apart, that the mechanism must reach."""
 
-Trial = Callable[[Settings], tuple[Fault, ...]]
-"""What is wrong with the assignment of some values; nothing if it is usable."""
+Judge = Callable[[Settings], tuple[Fault, ...]]
+"""Finds what is wrong with the assignment of some values; nothing if it is usable."""
 Combination = tuple[int, ...]
 Key = frozenset[tuple[str, str]]
 
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A student's values: of the combination drawn, and over them those of the roster.
-
-    `overridden` are the places that the roster sets.
-    """
+    """A student's values: of the combination drawn, and over them those of the roster."""
 
     student: Student
     combination: Combination
     settings: Settings
-    overridden: Settings
 
 
 @dataclass(frozen=True, slots=True)
 class Draw:
     """The class's variants in the order of the roster, or what made it impossible.
 
-    `usable` is the number of usable variants where all of them are out and some are shared, else None.
+    `usable` is the number of usable variants where all of them are taken and some are shared, else None.
     """
 
     drawn: tuple[Drawn, ...]
@@ -73,51 +75,50 @@ def pick(assignment: str, salt: str, student: str, parameter: str, attempt: int,
     return int.from_bytes(hashlib.sha256(text.encode()).digest(), "big") % count
 
 
-def draw(spec: Spec, roster: Roster, trial: Trial) -> Draw:
-    """Draw for the whole class; `trial` judges an assignment with given values."""
-    return _Hat(spec, trial).draw(roster)
+def draw(spec: Spec, roster: Roster, judge: Judge) -> Draw:
+    """Draw for the whole class."""
+    return _Lottery(spec, judge).draw(roster)
 
 
-@dataclass
-class _Hat:
-    """Where variants are drawn from: what is out already, and how each was judged."""
+@dataclass(slots=True)
+class _Lottery:
+    """A draw under way: how often each variant is taken, and how each was judged."""
 
     spec: Spec
-    trial: Trial
-    out: Counter[Key] = field(default_factory=Counter)
+    judge: Judge
+    taken: Counter[Key] = field(default_factory=Counter)
     judged: dict[Key, tuple[Fault, ...]] = field(default_factory=dict)
 
     def draw(self, roster: Roster) -> Draw:
         drawn: list[Drawn] = []
         faults: list[Fault] = []
         for student in roster.students:
-            one = self._for(student)
+            one = self._draw_for(student)
             if one is not None:
                 drawn.append(one)
-                self.out[_key(one.settings)] += 1
+                self.taken[_key(one.settings)] += 1
             elif student.overrides:
-                faults += self._blamed(student)
+                faults += self._faults_of_roster(student)
             else:
-                # What one student cannot get nobody can.
-                return Draw((), tuple(self._hopeless(student)))
-        shared = any(count > 1 for count in self.out.values())
-        return Draw(tuple(drawn), tuple(faults), len(self.out) if shared else None)
+                # No combination is usable: no other student could get one either.
+                return Draw((), tuple(self._faults_of_spec(student)))
+        shared = any(count > 1 for count in self.taken.values())
+        return Draw(tuple(drawn), tuple(faults), len(self.taken) if shared else None)
 
-    def _for(self, student: Student) -> Drawn | None:
-        overridden = self._overridden(student)
+    def _draw_for(self, student: Student) -> Drawn | None:
         for combination in self._attempts(student):
-            settings = {**self.spec.settings(combination), **overridden}
-            if not self.out[_key(settings)] and not self._judge(settings):
-                return Drawn(student, combination, settings, overridden)
+            settings = self._settings(student, combination)
+            if not self.taken[_key(settings)] and not self._faults(settings):
+                return Drawn(student, combination, settings)
         found: Drawn | None = None
         fewest = 0
-        for combination in self._walk(student):
-            settings = {**self.spec.settings(combination), **overridden}
-            if self._judge(settings):
+        for combination in self._in_order(student):
+            settings = self._settings(student, combination)
+            if self._faults(settings):
                 continue
-            count = self.out[_key(settings)]
+            count = self.taken[_key(settings)]
             if found is None or count < fewest:
-                found, fewest = Drawn(student, combination, settings, overridden), count
+                found, fewest = Drawn(student, combination, settings), count
             if not count:
                 break
         return found
@@ -129,44 +130,42 @@ class _Hat:
                 pick(spec.name, spec.salt, student.id, axis.name, attempt, len(axis.choices)) for axis in spec.axes
             )
 
-    def _walk(self, student: Student) -> Iterator[Combination]:
-        spec = self.spec
-        start = pick(spec.name, spec.salt, student.id, "scan", 0, spec.size)
-        for step in range(min(spec.size, MOST_WALKED)):
-            yield spec.combination((start + step) % spec.size)
+    def _in_order(self, student: Student) -> Iterator[Combination]:
+        spec, size = self.spec, self.spec.size
+        start = pick(spec.name, spec.salt, student.id, "scan", 0, size)
+        for step in range(min(size, MOST_TRIED)):
+            yield spec.combination((start + step) % size)
 
-    def _overridden(self, student: Student) -> dict[Where, Scalar]:
-        return {place(self.spec.kind, name): value for name, value in student.overrides.items()}
+    def _settings(self, student: Student, combination: Combination) -> Settings:
+        overridden = {place(self.spec.kind, name): value for name, value in student.overrides.items()}
+        return {**self.spec.settings(combination), **overridden}
 
-    def _judge(self, settings: Settings) -> tuple[Fault, ...]:
+    def _faults(self, settings: Settings) -> tuple[Fault, ...]:
         key = _key(settings)
         if key not in self.judged:
-            self.judged[key] = self.trial(settings)
+            self.judged[key] = self.judge(settings)
         return self.judged[key]
 
     def _reasons(self, student: Student) -> list[Fault]:
         """Why the first combinations fail."""
-        overridden = self._overridden(student)
-        told: dict[tuple[str, str], Fault] = {}
+        found: dict[tuple[str, str], Fault] = {}
         for combination in self._attempts(student):
-            for fault in self._judge({**self.spec.settings(combination), **overridden}):
-                told.setdefault((fault.code, str(fault.mark)), fault)
-            if len(told) >= MOST_REASONS:
+            for fault in self._faults(self._settings(student, combination)):
+                found.setdefault((fault.code, str(fault.mark)), fault)
+            if len(found) >= MOST_REASONS:
                 break
-        return list(told.values())[:MOST_REASONS]
+        return list(found.values())[:MOST_REASONS]
 
-    def _blamed(self, student: Student) -> list[Fault]:
-        """The reasons, at the cells of the student's own values: one in the spec becomes one of the first cell."""
+    def _faults_of_roster(self, student: Student) -> list[Fault]:
+        """The reasons at the cells of the student's own values, or else the first reason at the first cell."""
         cells = [value.mark for value in student.overrides.values()]
         reasons = self._reasons(student)
         own = [fault for fault in reasons if fault.mark in cells]
         return own or [Fault(fault.code, cells[0], fault.arguments) for fault in reasons[:1]]
 
-    def _hopeless(self, student: Student) -> list[Fault]:
-        entry = self.spec.top.find("parameters")
-        mark = entry[0].mark if entry else self.spec.top.mark
-        tried = str(min(self.spec.size, MOST_WALKED))
-        return [Fault("no-variant", mark, {"count": tried, "size": str(self.spec.size)}), *self._reasons(student)]
+    def _faults_of_spec(self, student: Student) -> list[Fault]:
+        tried = {"count": str(min(self.spec.size, MOST_TRIED)), "size": str(self.spec.size)}
+        return [Fault("no-variant", self.spec.mark, tried), *self._reasons(student)]
 
 
 def _key(settings: Settings) -> Key:
@@ -181,3 +180,36 @@ def shared(drawn: Iterable[Drawn]) -> list[tuple[Drawn, ...]]:
     for one in drawn:
         groups.setdefault(_key(one.settings), []).append(one)
     return [tuple(group) for group in groups.values() if len(group) > 1]
+
+
+def judge_of(spec: Spec) -> Judge:
+    """Judges variants of a spec: each must pass `check`, turn fully and have finite results."""
+
+    def judge(settings: Settings) -> tuple[Fault, ...]:
+        assignment, faults = assess(spec.source(settings), spec.path, catalogue.known())
+        if assignment is None:
+            return tuple(faults)
+        try:
+            analysis = api.analyse(assignment)
+            if not _turns(analysis.machine):
+                return (Fault("not-turning", spec.mark),)
+            return () if _finite(analysis) else (Fault("not-finite-results", spec.mark),)
+        except np.linalg.LinAlgError:
+            return (Fault("not-finite-results", spec.mark),)
+
+    return judge
+
+
+def _turns(machine: Machine) -> bool:
+    """Whether the mechanism assembles all the way round (or along, for a sliding driver)."""
+    return bool(motion_at(machine, np.linspace(0.0, 2 * np.pi, STEPS, endpoint=bool(machine.span))).reachable.all())
+
+
+def _finite(analysis: Analysis) -> bool:
+    """Whether motion, reactions and both torques are finite at every position."""
+    motion = analysis.motion
+    arrays = [part for link in motion.links.values() for part in (link.angle, link.omega, link.epsilon)]
+    if analysis.loads:
+        arrays += [analysis.torque, analysis.torque_by_work]
+        arrays += [np.abs(reaction.force) for reaction in analysis.forces.reactions.values()]
+    return bool(motion.reachable.all()) and all(bool(np.isfinite(array).all()) for array in arrays)

@@ -9,20 +9,19 @@ from __future__ import annotations
 import os
 import tempfile
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
 
-from reportgen import folders
+from reportgen import installation
 from reportgen.api import Engine
-from reportgen.assignment.messages import word
+from reportgen.assignment.faults import unexpected, word
 from reportgen.errors import AssignmentError, Problem, ReportgenError
 from reportgen.notation.numbers import Language
 from reportgen.products import Maker
-from reportgen.version import version
 
 SYSTEM = 3
-"""Exit code of what no assignment can mend."""
+"""Exit code of a failure that no change of the assignment can mend."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,60 +70,43 @@ class Outcome:
 
 def making(engine: Engine, language: Language | None) -> Making:
     """How this installation would make a product now."""
-    return Making(version(), templates_hash(), engine, language)
-
-
-def templates_hash() -> str:
-    """SHA-256 of all words and frames, those of schools included: their names and contents, sorted."""
-    root = folders.templates()
-    digest = sha256()
-    for path in sorted(path for path in root.rglob("*") if path.is_file()):
-        for part in (path.relative_to(root).as_posix().encode(), path.read_bytes()):
-            digest.update(len(part).to_bytes(8, "big") + part)
-    return digest.hexdigest()
+    return Making(installation.version(), installation.templates_hash(), engine, language)
 
 
 def run_job(job: Job) -> Outcome:
     """The outcome of a job; whatever goes wrong in it is an outcome, too."""
-    language = job.making.language or "vi"
+    language = job.making.language
     try:
-        if making(job.making.engine, job.making.language) != job.making:
-            return Outcome(problems=(word("other_templates", language),), exit_code=SYSTEM)
+        if making(job.making.engine, language) != job.making:
+            return failed(word("other_templates", language))
         with tempfile.TemporaryDirectory(prefix="reportgen-") as name:
-            return _make(job, Path(name), language)
-    except OSError as fault:
-        text = word("system", language).format(text=fault.strerror or fault)
-        return Outcome(problems=(text,), exit_code=SYSTEM)
+            return _make(job, Path(name))
+    except OSError as error:
+        return failed(word("system", language, text=error.strerror or error))
 
 
-def _make(job: Job, scratch: Path, language: Language) -> Outcome:
+def failed(problem: str) -> Outcome:
+    """The outcome of a job that failed for a reason outside the assignment."""
+    return Outcome(problems=(problem,), exit_code=SYSTEM)
+
+
+def _make(job: Job, scratch: Path) -> Outcome:
+    """The files of a product, made in a folder of its own whose name is left out of what is said of failures."""
+
+    def without_paths(text: str) -> str:
+        return text.replace(f"{scratch}{os.sep}", "").replace(str(installation.templates()), "templates")
+
     file = scratch / job.file
     file.write_bytes(job.content)
     try:
         return Outcome(files=dict(job.maker(file, job.making.engine, job.making.language)))
-    except AssignmentError as fault:
-        problems = tuple(_without_folder(problem, job.file) for problem in fault.problems)
-        return Outcome(problems=problems, exit_code=fault.exit_code)
-    except ReportgenError as fault:
-        return Outcome(problems=(_without_paths(str(fault), scratch),), exit_code=fault.exit_code)
+    except AssignmentError as error:
+        problems = tuple(problem.in_file(job.file) for problem in error.problems)
+        return Outcome(problems=problems, exit_code=error.exit_code)
+    except ReportgenError as error:
+        return Outcome(problems=(without_paths(str(error)),), exit_code=error.exit_code)
     except OSError:
         raise
-    except Exception as fault:
+    except Exception as error:
         # A fault of the program itself must not cost the others their results.
-        said = _without_paths(unexpected(fault, language), scratch)
-        return Outcome(problems=(said,), exit_code=SYSTEM)
-
-
-def unexpected(fault: Exception, language: Language) -> str:
-    """A fault of the program, in a line."""
-    text = " ".join(str(fault).split())
-    return word("unexpected", language).format(name=type(fault).__name__, text=text)
-
-
-def _without_folder(problem: Problem, file: str) -> Problem:
-    return replace(problem, mark=replace(problem.mark, file=file))
-
-
-def _without_paths(text: str, scratch: Path) -> str:
-    """What is said of a file without where this machine keeps it."""
-    return text.replace(f"{scratch}{os.sep}", "").replace(str(folders.templates()), "templates")
+        return failed(without_paths(unexpected(error, job.making.language)))

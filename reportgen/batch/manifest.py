@@ -8,13 +8,12 @@ same for the first and the thousandth student, and a torn one costs no other.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
-from types import TracebackType
-from typing import IO, Any
+from typing import Any
 
 from reportgen import api
 from reportgen.batch.jobs import Job, Outcome
@@ -22,6 +21,8 @@ from reportgen.batch.jobs import Job, Outcome
 NAME = "manifest.json"
 JOURNAL = ".manifest.journal"
 FORMAT = "reportgen-batch/1"
+MADE_OF = ("assignment", "engine", "language", "templates", "version")
+"""All that decides the bytes of a product."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,14 +54,9 @@ def entry(job: Job, outcome: Outcome) -> Entry:
 
 
 def made_of(job: Job) -> dict[str, str | None]:
-    """All that decides the bytes of a product."""
-    return {
-        "assignment": job.assignment,
-        "engine": job.making.engine,
-        "language": job.making.language,
-        "templates": job.making.templates,
-        "version": job.making.version,
-    }
+    """The values of `MADE_OF` for a job."""
+    how = job.making
+    return dict(zip(MADE_OF, (job.assignment, how.engine, how.language, how.templates, how.version), strict=True))
 
 
 def read(out: Path) -> dict[tuple[str, str], Entry]:
@@ -68,16 +64,17 @@ def read(out: Path) -> dict[tuple[str, str], Entry]:
 
     A file that cannot be understood counts as missing: its products are made again.
     """
-    entries = [*_entries_of_manifest(_text(out / NAME)), *_entries_of_journal(_text(out / JOURNAL))]
-    return {(found.student, found.product): found for found in entries}
+    lines = map(_parsed, _text(out / JOURNAL).split("\n"))
+    entries = (_entry(line) for line in (*_lines(_parsed(_text(out / NAME))), *lines))
+    return {(entry.student, entry.product): entry for entry in entries if entry is not None}
 
 
 def write(out: Path, entries: Iterable[Entry]) -> Path:
     """Replaces the manifest, sorted by student and product; then the journal has nothing to add."""
     students: dict[str, Any] = {}
-    for found in entries:
-        of_student = students.setdefault(found.student, {"folder": found.folder, "products": {}})
-        of_student["products"][found.product] = _plain(found)
+    for entry in entries:
+        of_student = students.setdefault(entry.student, {"folder": entry.folder, "products": {}})
+        of_student["products"][entry.product] = _plain(entry)
     content = {"format": FORMAT, "students": students}
     target = out / NAME
     text = json.dumps(content, ensure_ascii=False, indent=1, sort_keys=True) + "\n"
@@ -86,63 +83,49 @@ def write(out: Path, entries: Iterable[Entry]) -> Path:
     return target
 
 
-class Journal(AbstractContextManager[Callable[[Entry], None]]):
-    """Takes down each entry as soon as its files stand; gone again with the next `write`."""
+@contextmanager
+def journal(out: Path) -> Iterator[Callable[[Entry], None]]:
+    """Records each entry as soon as its files stand; the next `write` removes the journal."""
+    with (out / JOURNAL).open("a", encoding="utf-8", newline="\n") as stream:
 
-    def __init__(self, out: Path) -> None:
-        self.path = out / JOURNAL
-        self.stream: IO[str] | None = None
-
-    def __enter__(self) -> Callable[[Entry], None]:
-        stream = self.stream = self.path.open("a", encoding="utf-8", newline="\n")
-
-        def record(made: Entry) -> None:
-            head = {"student": made.student, "folder": made.folder, "product": made.product}
-            stream.write(json.dumps(head | _plain(made), ensure_ascii=False) + "\n")
+        def record(entry: Entry) -> None:
+            head = {"student": entry.student, "folder": entry.folder, "product": entry.product}
+            stream.write(json.dumps(head | _plain(entry), ensure_ascii=False) + "\n")
             stream.flush()
 
-        return record
-
-    def __exit__(
-        self, kind: type[BaseException] | None, fault: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if self.stream is not None:
-            self.stream.close()
+        yield record
 
 
-def _plain(made: Entry) -> dict[str, Any]:
-    common = {**made.made_of, "state": "failed" if made.problems else "done"}
-    return common | ({"problems": list(made.problems)} if made.problems else {"files": dict(made.files)})
+def _plain(entry: Entry) -> dict[str, Any]:
+    common = {**entry.made_of, "state": "failed" if entry.problems else "done"}
+    return common | ({"problems": list(entry.problems)} if entry.problems else {"files": dict(entry.files)})
 
 
-def _entries_of_manifest(text: str) -> Iterable[Entry]:
-    content = _parsed(text)
-    if content.get("format") != FORMAT or not isinstance(content.get("students"), dict):
+def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """The entries of a manifest as lines of a journal."""
+    students = content.get("students")
+    if content.get("format") != FORMAT or not isinstance(students, dict):
         return
-    for student, of_student in content["students"].items():
+    for student, of_student in students.items():
         if isinstance(of_student, dict) and isinstance(of_student.get("products"), dict):
             for product, plain in of_student["products"].items():
-                yield from _entry(student, of_student.get("folder"), product, plain)
+                if isinstance(plain, dict):
+                    yield plain | {"student": student, "folder": of_student.get("folder"), "product": product}
 
 
-def _entries_of_journal(text: str) -> Iterable[Entry]:
-    for line in text.split("\n"):
-        plain = _parsed(line)
-        yield from _entry(plain.get("student"), plain.get("folder"), plain.get("product"), plain)
-
-
-def _entry(student: Any, folder: Any, product: Any, plain: Any) -> Iterable[Entry]:
-    """The entry, unless it is not of the form that `_plain` gives."""
-    if not (isinstance(plain, dict) and all(isinstance(name, str) for name in (student, folder, product))):
-        return
-    files, problems = plain.get("files", {}), plain.get("problems", [])
+def _entry(line: dict[str, Any]) -> Entry | None:
+    """The entry of a line, unless the line is not of the form that `journal` gives."""
+    student, folder, product = (line.get(name) for name in ("student", "folder", "product"))
+    files, problems = line.get("files", {}), line.get("problems", [])
+    if not (isinstance(student, str) and isinstance(folder, str) and isinstance(product, str)):
+        return None
     if not (isinstance(files, dict) and isinstance(problems, list)):
-        return
+        return None
     if any(Path(name).name != name for name in files):
-        return
-    made = {key: plain.get(key) for key in ("assignment", "engine", "language", "templates", "version")}
+        return None
+    made = {key: line.get(key) for key in MADE_OF}
     names = {str(name): str(known) for name, known in files.items()}
-    yield Entry(student, folder, product, made, names, tuple(map(str, problems)))
+    return Entry(student, folder, product, made, names, tuple(map(str, problems)))
 
 
 def _parsed(text: str) -> dict[str, Any]:

@@ -1,6 +1,6 @@
-"""Jobs in processes of this machine, which may die without taking more than their own job along.
+"""Jobs in processes of this machine, which may die without harm to any job but their own.
 
-Each job has a process of its own, started by pebble: what it came to arrives on a pipe that it shares with
+Each job has a process of its own, started by pebble: its outcome arrives on a pipe that it shares with
 nobody, and all its memory ends with it.
 """
 
@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING
 
 from pebble import concurrent
 
-from reportgen.assignment.messages import word
-from reportgen.batch.jobs import SYSTEM, Job, Outcome, run_job
+from reportgen.assignment.faults import word
+from reportgen.batch.jobs import Job, Outcome, failed, run_job
 
 if TYPE_CHECKING:
     from multiprocessing.context import ForkServerContext, SpawnContext
@@ -37,11 +37,11 @@ LIMIT = 900.0
 PATIENCE = 10.0
 """Seconds in which a process that was told to end may tidy up."""
 NAME = "reportgen-job"
-"""Of the processes, by which they are known among others."""
+"""The name of the processes, which distinguishes them from others."""
 
 
 def local(workers: int) -> Pool:
-    """A pool of so many processes at a time; what they come from gets ready at once, beside whatever is first."""
+    """A pool of so many processes at a time; the server that starts them begins to load at once."""
     # It understands `context` but is annotated with another name.
     start: Callable[[Job], Future[Outcome]] = concurrent.process(  # type: ignore[call-overload]
         name=NAME, timeout=LIMIT, context=_context()
@@ -69,8 +69,7 @@ def local(workers: int) -> Pool:
                         waiting.appendleft((job, tries + 1))
                         retried(job)
                     else:
-                        text = word("worker_died", job.making.language or "vi")
-                        results.append((job, Outcome(problems=(text,), exit_code=SYSTEM)))
+                        results.append((job, failed(word("worker_died", job.making.language))))
                 # The next ones go on while results are written.
                 fill()
                 yield from results
@@ -107,7 +106,7 @@ def _context() -> ForkServerContext | SpawnContext:
 
 @contextmanager
 def _uninterrupted() -> Iterator[None]:
-    """What is started inside never sees Ctrl-C, which reaches all processes of a terminal: we tell them."""
+    """Processes started inside never see Ctrl-C, which reaches all processes of a terminal: we end them."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return

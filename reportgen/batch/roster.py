@@ -1,15 +1,16 @@
-"""The class: a CSV or XLSX table with a row for each student.
+"""The class: a CSV or XLSX table with a row for each student, and the assignment files that belong to them.
 
 Columns are id, name, class, section, email (or their Vietnamese names, see `columns` of `messages.yaml`), and any
 path such as `parameters.H`, `positions.start` or `report.supervisor`, which sets that value for the student.  Other
 columns are left alone, and so is a second one for the same thing (a class and a class of the course).  A name may
 stand in two columns, one for the family name and one for the given name, and is put together in their order.
-Headings may follow a title; rows without anything in them are passed over.
+Headings may follow a title; empty rows are passed over.
 """
 
 from __future__ import annotations
 
 import difflib
+import hashlib
 import re
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
@@ -18,20 +19,27 @@ from pathlib import Path
 
 from pydantic_core import PydanticCustomError
 
-from reportgen.assignment.faults import Fault
+from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_error, as_problem
 from reportgen.assignment.fields import Text
-from reportgen.assignment.messages import as_problem
 from reportgen.assignment.source import Scalar
-from reportgen.batch.names import folder_name
-from reportgen.batch.table import Column, Record, columns, heading_row, records, twice
-from reportgen.errors import AssignmentError, Mark
+from reportgen.batch.table import Column, Record, columns, heading_row, records, repeated
+from reportgen.errors import Mark, Problem
 from reportgen.notation.numbers import Language
 from reportgen.workbook import Page, read
 
 PERSONAL = ("id", "name", "class", "section", "email")
 NAME_PARTS = ("family", "given")
 SECTIONS = ("parameters", "positions", "drawing", "indicator", "report")
-_DOTTED = re.compile(r"([A-Za-z_]+)((?:\.\w+)+)")
+ASSIGNMENT_SUFFIXES = frozenset({".yaml", ".yml"})
+_PATH = re.compile(r"([A-Za-z_]+)((?:\.\w+)+)")
+
+LONGEST_NAME = 64
+KEPT_CHARACTERS = 32
+"""Characters of an id that is changed; the hash after them distinguishes it from all others."""
+HASH_DIGITS = 12
+_ORDINARY = re.compile(rf"[A-Z0-9][A-Z0-9_-]{{0,{LONGEST_NAME - 1}}}")
+_RESERVED = re.compile(r"(CON|PRN|AUX|NUL|CLOCK|CONIN|CONOUT|COM[0-9]|LPT[0-9])")
+_LIKE_HASHED = re.compile(rf".*-[0-9A-F]{{{HASH_DIGITS}}}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,38 +66,44 @@ class Roster:
 
     students: tuple[Student, ...]
     columns: tuple[Column, ...] = ()
-    file: str = ""
 
 
-def read_roster(path: Path, language: Language = "vi") -> Roster:
+@dataclass(frozen=True, slots=True)
+class Assigned:
+    """A student with the assignment file, or with the reason why there is none."""
+
+    student: Student
+    file: Path | Problem
+
+
+def read_roster(path: Path, language: Language | None = None) -> Roster:
     """The class of a table file; raises `AssignmentError` with all its faults, in `language`."""
-    pages = read(path, language)
-    page, start = _page(pages)
+    page, start = _page(read(path, language or DEFAULT_LANGUAGE))
     faults: list[Fault] = []
     if start is None:
         first = next((cell.mark for row in page.rows for cell in row if not cell.blank), Mark(str(path)))
-        raise AssignmentError([as_problem(Fault("no-id-column", first), language)])
-    headings = [_dotted(column, faults) for column in columns(page.rows[start])]
+        raise as_error([Fault("no-id-column", first)], language)
+    headings = [_normal(column, faults) for column in columns(page.rows[start])]
     used = _used(headings)
-    faults += twice(used)
+    faults += repeated(used)
     rows: list[Record] = []
-    for one in records(page, used, start + 1):
-        if isinstance(one, Fault):
-            faults.append(one)
-        elif one.values or one.refused:
-            rows.append(one)
+    for record in records(page, used, start + 1):
+        if isinstance(record, Fault):
+            faults.append(record)
+        elif record.values or record.refused:
+            rows.append(record)
     faults += [fault for row in rows for fault in _unfit(row)]
-    faults += _ids(rows)
+    faults += _id_faults(rows)
     if not rows:
         faults.append(Fault("empty-roster", headings[0].mark))
     if faults:
-        raise AssignmentError([as_problem(fault, language) for fault in faults])
-    overriding = tuple(column for column in used if _DOTTED.fullmatch(column.name))
-    return Roster(tuple(map(_student, rows)), overriding, str(path))
+        raise as_error(faults, language)
+    overriding = tuple(column for column in used if _PATH.fullmatch(column.name))
+    return Roster(tuple(map(_student, rows)), overriding)
 
 
 def _page(pages: Sequence[Page]) -> tuple[Page, int | None]:
-    """The first sheet in view with an id column and the index of its headings; else the first with anything."""
+    """The first visible sheet with an id column and the index of its headings; else the first that is not empty."""
     full = [page for page in pages if any(page.rows) and not page.hidden] or list(pages)
     for page in full:
         start = heading_row(page, "id")
@@ -99,30 +113,29 @@ def _page(pages: Sequence[Page]) -> tuple[Page, int | None]:
 
 
 def _used(headings: Sequence[Column]) -> list[Column]:
-    """The headings that count: ids and paths, of which there may be one each, and the first of the others."""
+    """The headings that count: all ids and paths, which must not be repeated, and the first of each other."""
     used: list[Column] = []
     taken: set[str] = set()
     for column in headings:
         optional = column.name in (*PERSONAL[1:], *NAME_PARTS)
-        if column.name == "id" or _DOTTED.fullmatch(column.name) or (optional and column.name not in taken):
+        if column.name == "id" or _PATH.fullmatch(column.name) or (optional and column.name not in taken):
             used.append(column)
             taken.add(column.name)
     return used
 
 
-def _dotted(column: Column, faults: list[Fault]) -> Column:
+def _normal(column: Column, faults: list[Fault]) -> Column:
     """A column whose heading is a path, its section's name in small letters; a misspelt section is a fault."""
-    match = _DOTTED.fullmatch(column.name)
+    match = _PATH.fullmatch(column.name)
     if match is None:
         return column
     section = match[1].casefold()
-    if section not in SECTIONS:
-        close = difflib.get_close_matches(section, SECTIONS, n=1, cutoff=0.7)
-        if close:
-            about = {"key": column.name, "close": f"{close[0]}{match[2]}"}
-            faults.append(Fault("unknown-column", column.mark, about))
-        return Column(column.index, "", "", column.mark)
-    return Column(column.index, f"{section}{match[2]}", column.unit, column.mark)
+    if section in SECTIONS:
+        return Column(column.index, f"{section}{match[2]}", column.unit, column.mark)
+    close = difflib.get_close_matches(section, SECTIONS, n=1, cutoff=0.7)
+    if close:
+        faults.append(Fault("unknown-column", column.mark, {"key": column.name, "close": f"{close[0]}{match[2]}"}))
+    return Column(column.index, "", "", column.mark)
 
 
 def _unfit(row: Record) -> Iterable[Fault]:
@@ -136,8 +149,8 @@ def _unfit(row: Record) -> Iterable[Fault]:
                 yield Fault(context.pop("code"), row.values[name].mark, context)
 
 
-def _ids(rows: Iterable[Record]) -> Iterable[Fault]:
-    """Ids that are missing, or there already but for case and composition."""
+def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
+    """Ids that are missing, or that differ from an earlier one in case and composition at most."""
     seen: dict[str, Mark] = {}
     for row in rows:
         id = row.values.get("id")
@@ -145,17 +158,78 @@ def _ids(rows: Iterable[Record]) -> Iterable[Fault]:
             if "id" not in row.refused:
                 yield Fault("missing-id", row.cells.get("id", row.mark))
             continue
-        same = unicodedata.normalize("NFC", id.text.casefold())
-        if same in seen:
-            place = str(seen[same]).removeprefix(f"{seen[same].file}:")
-            yield Fault("duplicate-id", id.mark, {"text": id.text, "place": place})
-        seen.setdefault(same, id.mark)
+        first = seen.setdefault(comparable(id.text), id.mark)
+        if first is not id.mark:
+            yield Fault("duplicate-id", id.mark, {"text": id.text, "place": str(first).removeprefix(f"{first.file}:")})
 
 
 def _student(row: Record) -> Student:
     personal = {name: row.values[name].text if name in row.values else "" for name in PERSONAL}
     parts = (value.text for name, value in row.values.items() if name in NAME_PARTS)
     personal["name"] = personal["name"] or " ".join(parts)
-    overrides = {name: value for name, value in row.values.items() if _DOTTED.fullmatch(name)}
+    overrides = {name: value for name, value in row.values.items() if _PATH.fullmatch(name)}
     class_ = personal.pop("class")
     return Student(**personal, class_=class_, overrides=overrides, mark=row.mark)
+
+
+def folder_name(id: str) -> str:
+    """One path component that stands for an id and for no other, harmless on any system.
+
+    An id of capital letters, digits, - and _ stays as it is.  Any other is reduced to letters and digits and
+    gets "-" and the first 12 hexadecimal digits of the SHA-256 of its composed form (NFC, UTF-8); so does one
+    in small letters, since some systems do not distinguish them from capitals.
+    """
+    composed = unicodedata.normalize("NFC", id)
+    if _ORDINARY.fullmatch(composed) and not _RESERVED.fullmatch(composed) and not _LIKE_HASHED.fullmatch(composed):
+        return composed
+    digest = hashlib.sha256(composed.encode("utf-8", "surrogatepass")).hexdigest()[:HASH_DIGITS]
+    bare = unicodedata.normalize("NFD", composed.replace("đ", "d").replace("Đ", "D"))
+    letters = "".join(letter for letter in bare if not unicodedata.combining(letter))
+    kept = re.sub(r"[^A-Za-z0-9]+", "_", letters).strip("_")[:KEPT_CHARACTERS]
+    return f"{kept or 'id'}-{digest}"
+
+
+def comparable(name: str) -> str:
+    """An id or the stem of a file in the one spelling by which they are compared."""
+    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", name).casefold())
+
+
+def assignment_files(folder: Path, language: Language | None) -> dict[str, Path]:
+    """The assignment files in a folder and below by their `comparable` stems.
+
+    Raises `AssignmentError` for two files of one stem and for a folder that does not exist.
+    """
+    if not folder.is_dir():
+        raise as_error([Fault("no-folder", Mark(str(folder)))], language)
+    files: dict[str, Path] = {}
+    faults: list[Fault] = []
+    for path in sorted(path for path in folder.rglob("*") if _is_assignment(path, folder)):
+        first = files.setdefault(comparable(path.stem), path)
+        if first is not path:
+            faults.append(Fault("same-stem", Mark(str(path)), {"text": path.stem, "first": str(first)}))
+    if faults:
+        raise as_error(faults, language)
+    return files
+
+
+def match_files(
+    students: Sequence[Student], folder: Path, language: Language | None
+) -> tuple[list[Assigned], list[Path]]:
+    """Each student with the file in `folder` or below whose stem is the id, and the files of no student.
+
+    A stem may spell the id as `folder_name` does or as the roster does, whatever its case.  Raises
+    `AssignmentError` as `assignment_files` does.
+    """
+    files = assignment_files(folder, language)
+    assigned = []
+    for student in students:
+        found = next((files[stem] for stem in map(comparable, (student.folder, student.id)) if stem in files), None)
+        missing = Fault("no-assignment", student.mark, {"text": student.id})
+        assigned.append(Assigned(student, found or as_problem(missing, language)))
+    taken = {one.file for one in assigned}
+    return assigned, [path for path in files.values() if path not in taken]
+
+
+def _is_assignment(path: Path, folder: Path) -> bool:
+    hidden = any(part.startswith(".") for part in path.relative_to(folder).parts)
+    return path.suffix.lower() in ASSIGNMENT_SUFFIXES and not hidden and path.is_file()

@@ -7,28 +7,56 @@ import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING, Literal, TextIO
 
 from reportgen import api
-from reportgen.assignment.faults import Fault
-from reportgen.assignment.messages import as_problem, word
+from reportgen.api import Engine
+from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_problem, word
 from reportgen.batch import manifest
-from reportgen.batch.jobs import SYSTEM, Job, Making, Outcome
+from reportgen.batch.jobs import Job, Outcome, failed, making
 from reportgen.batch.manifest import Entry
-from reportgen.batch.matching import Assigned
-from reportgen.batch.pool import Pool
-from reportgen.batch.progress import Watch, watching
+from reportgen.batch.pool import Pool, local
+from reportgen.batch.roster import Assigned, Roster, Student, match_files, read_roster
+from reportgen.batch.variants import make_variants
 from reportgen.errors import Mark, Problem
-from reportgen.notation.numbers import Language
-from reportgen.products import Maker
+from reportgen.notation.numbers import Language, write
+from reportgen.products import MAKERS, Maker
 
+if TYPE_CHECKING:
+    from rich.progress import ProgressColumn
+
+DRAWN = "assignments"
+"""The folder, among the results, of the assignment files that are drawn."""
 NO_ROOM = frozenset({errno.ENOSPC, errno.EROFS, errno.EIO, getattr(errno, "EDQUOT", errno.ENOSPC)})
-"""What would meet every other student, too."""
+"""Errors that every other student would meet, too."""
 NO_LOCKS = frozenset({errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS})
 _TEMPORARY = re.compile(r"\..+\.(?:pdf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
 """What `api.replace` leaves when it is killed."""
+
+Event = Literal["kept", "retried", "done", "failed"]
+"""`kept`: made by an earlier run; `retried`: its worker died, another one begins anew."""
+Watch = Callable[[str, str, Event], None]
+"""Receives the student's folder, the product and what happened: no names, no content."""
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """What is asked for: assignments drawn from `spec` into `out`, or found in `assignments`; exactly one of both.
+
+    `jobs` processes of this machine (0: one for each core), unless a scheduler's address `cluster` is given.
+    """
+
+    roster: Path
+    spec: Path | None = None
+    assignments: Path | None = None
+    out: Path = Path("out")
+    products: tuple[str, ...] = tuple(MAKERS)
+    engine: Engine = "typst"
+    language: Language | None = None
+    jobs: int = 0
+    cluster: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,68 +72,234 @@ class Failure:
 class Result:
     """What a batch came to: counts of products, the failures by student, the exit code they mean.
 
-    `gone` counts students of an earlier run who are no longer on the roster; their folders are left alone.
+    `notes` say in words which files and columns were not used, and which students of an earlier run are gone.
     """
 
     manifest: Path
     made: int
     kept: int
     failures: tuple[Failure, ...]
-    gone: int
+    notes: tuple[str, ...]
     exit_code: int
 
+    def summary(self, language: Language | None) -> Iterator[str]:
+        """The batch's end in lines: notes, each problem once with all students it met, the counts."""
+        yield from self.notes
+        if self.failures:
+            yield word("batch_failed", language, count=len(self.failures))
+        met: dict[Problem | str, list[str]] = {}
+        for failure in self.failures:
+            for problem in failure.problems:
+                met.setdefault(problem, []).append(f"{failure.student} {failure.product}")
+        for problem, products in met.items():
+            # A problem of a file says by its place whose it is.
+            yield f"{', '.join(products)}: {problem}" if isinstance(problem, str) else str(problem)
+        yield word("batch_ended", language, made=self.made, kept=self.kept, failed=len(self.failures))
 
-def run(
+
+def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS, pool: Pool | None = None) -> Result:
+    """Makes the ordered products of each student, into `out`/<folder>/, and `manifest.json`.
+
+    What the manifest of an earlier run vouches for is kept; events go to `stream` as they happen; `pool` may
+    replace the order's.  A student's failure is part of the result.  Raises `AssignmentError` for a faulty
+    roster, spec or folder of assignments, `OutputError` where nothing can be written, `ClusterError`
+    where there is no cluster.
+    """
+    roster = read_roster(order.roster, order.language)
+    chosen = {name: makers[name] for name in order.products}
+    workers = pool or _pool(order)
+    with locked(order.out, order.language):
+        assigned, notes = _assigned(order, roster)
+        return _run(order, assigned, notes, chosen, workers, stream)
+
+
+def _run(
+    order: Order,
     assigned: Sequence[Assigned],
-    out: Path,
+    notes: Sequence[str],
     makers: Mapping[str, Maker],
-    making: Making,
     pool: Pool,
     stream: TextIO,
 ) -> Result:
-    """Makes the products named by `makers` for each student, into `out`/<folder>/, and `manifest.json`.
-
-    What the manifest of an earlier run vouches for is kept; events go to `stream`.  A student's failure
-    is part of the result; raises `OutputError` when nothing can be written any more.  The caller holds
-    `out` (`held`).
-    """
+    out = order.out
     for folder in (out, *(out / one.student.folder for one in assigned)):
-        sweep(folder)
+        _remove_temporary(folder)
     before = manifest.read(out)
-    order = {one.student.id: number for number, one in enumerate(assigned)}
-    entries = {key: found for key, found in before.items() if found.student in order}
+    number = {one.student.id: number for number, one in enumerate(assigned)}
+    entries = {key: entry for key, entry in before.items() if entry.student in number}
     with api.reported():
         manifest.write(out, entries.values())
-    opened = [_opened(one, making.language or "vi") for one in assigned]
-    jobs: dict[bool, list[Job]] = {True: [], False: []}
-    for one, content in opened:
-        for job in _jobs(one, content, makers, making):
-            jobs[_holds(entries.get((job.student, job.product)), job, out)].append(job)
-    kept, todo = jobs[True], jobs[False]
+    how = making(order.engine, order.language)
+    kept: list[Job] = []
+    jobs: list[Job] = []
+    refused: list[tuple[Student, Problem]] = []
+    for one in assigned:
+        student, read = one.student, _read(one.file, order.language)
+        if isinstance(read, Problem):
+            refused.append((student, read))
+            continue
+        for product, maker in makers.items():
+            job = Job(student.id, student.folder, product, maker, *read, how)
+            entry = entries.get((job.student, product))
+            (kept if entry is not None and entry.holds(job, out) else jobs).append(job)
     with (
-        watching(len(assigned) * len(makers), stream, making.language or "vi") as watch,
-        manifest.Journal(out) as record,
+        watching(len(assigned) * len(makers), stream, order.language or DEFAULT_LANGUAGE) as watch,
+        manifest.journal(out) as record,
     ):
-        book = _Book(entries, record, watch)
+        results = _Results(entries, record, watch)
         for job in kept:
             watch(job.folder, job.product, "kept")
-        for one, _ in opened:
-            if one.problem is not None:
-                for product in makers:
-                    book.without_file(one, product, one.problem)
+        for student, problem in refused:
+            # The manifest names no folders.
+            text = str(problem.in_file(Path(problem.mark.file).name))
+            for product in makers:
+                results.add(Entry(student.id, student.folder, product, problems=(text,)), (problem,), exit_code=1)
         files = {one.student.id: str(one.file) for one in assigned}
-        with closing(pool(todo, lambda job: watch(job.folder, job.product, "retried"))) as outcomes:
-            for job, outcome in outcomes:
-                book.ended(job, _written(job, outcome, out), files[job.student])
+        with closing(pool(jobs, lambda job: watch(job.folder, job.product, "retried"))) as outcomes:
+            for job, made in outcomes:
+                outcome = _written(job, made, out)
+                file = files[job.student]
+                problems = tuple(one if isinstance(one, str) else one.in_file(file) for one in outcome.problems)
+                results.add(manifest.entry(job, outcome), problems, outcome.exit_code)
     with api.reported():
         target = manifest.write(out, entries.values())
-    failures = tuple(sorted(book.failures, key=lambda failure: order[failure.student]))
-    gone = {found.student for found in before.values()} - order.keys()
-    return Result(target, book.made, len(kept), failures, len(gone), book.exit_code)
+    failures = tuple(sorted(results.failures, key=lambda failure: number[failure.student]))
+    if gone := {entry.student for entry in before.values()} - number.keys():
+        notes = (*notes, word("batch_gone", order.language, count=len(gone)))
+    return Result(target, results.made, len(kept), failures, tuple(notes), results.exit_code)
+
+
+@dataclass(slots=True)
+class _Results:
+    """What has come so far; each entry stands in the journal before its event is shown."""
+
+    entries: dict[tuple[str, str], Entry]
+    record: Callable[[Entry], None]
+    watch: Watch
+    failures: list[Failure] = field(default_factory=list)
+    made: int = 0
+    exit_code: int = 0
+
+    def add(self, entry: Entry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
+        self.entries[entry.student, entry.product] = entry
+        with api.reported():
+            self.record(entry)
+        self.exit_code = max(self.exit_code, exit_code)
+        if problems:
+            self.failures.append(Failure(entry.student, entry.product, problems))
+        self.made += not problems
+        self.watch(entry.folder, entry.product, "failed" if problems else "done")
+
+
+# --- progress ---------------------------------------------------------------------------------------
 
 
 @contextmanager
-def held(out: Path, language: Language) -> Iterator[None]:
+def watching(total: int, stream: TextIO, language: Language) -> Iterator[Watch]:
+    """Shows the events of `total` products on a stream: a bar on a terminal, else a line with tabs for each."""
+    if stream.isatty():
+        with _bar(total, stream, language) as watch:
+            yield watch
+    else:
+        yield lambda *event: print(*event, sep="\t", file=stream, flush=True)
+
+
+@contextmanager
+def _bar(total: int, stream: TextIO, language: Language) -> Iterator[Watch]:
+    """A bar with count, rate, time left and the number of failures; what was kept lowers the total."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (
+        BarColumn(),
+        MofNCompleteColumn(),
+        _rate(language),
+        TimeRemainingColumn(elapsed_when_finished=True),
+        TextColumn("{task.fields[failed]}", style="red"),
+    )
+    with Progress(*columns, console=Console(file=stream)) as progress:
+        task = progress.add_task("", total=total, failed="")
+        failed = 0
+
+        def watch(_folder: str, _product: str, event: Event) -> None:
+            nonlocal total, failed
+            if event == "kept":
+                total -= 1
+                progress.update(task, total=total)
+            elif event != "retried":
+                failed += event == "failed"
+                text = word("bar_failed", language, count=failed) if failed else ""
+                progress.update(task, advance=1, failed=text)
+
+        yield watch
+
+
+def _rate(language: Language) -> ProgressColumn:
+    from rich.progress import ProgressColumn, Task
+    from rich.text import Text
+
+    class Rate(ProgressColumn):
+        """Products a minute."""
+
+        def render(self, task: Task) -> Text:
+            speed = task.finished_speed or task.speed
+            rate = "–" if speed is None else write(60 * speed, 0 if speed > 1 else 1, language)
+            return Text(word("bar_rate", language, rate=rate), style="progress.data.speed")
+
+    return Rate()
+
+
+# --- students and processes -------------------------------------------------------------------------
+
+
+def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
+    """Each student with a file, and notes on files and columns that were not used."""
+    if order.spec is not None:
+        folder = order.out / DRAWN
+        _remove_temporary(folder)
+        variants = make_variants(order.spec, order.roster, folder, language=order.language)
+        files = zip(roster.students, variants.files, strict=True)
+        return [Assigned(student, file.path) for student, file in files], list(variants.remarks)
+    if order.assignments is None:
+        raise ValueError("assignments are either drawn or given")
+    assigned, unused = match_files(roster.students, order.assignments, order.language)
+    notes = [word("batch_nobodys", order.language, path=path) for path in unused]
+    if roster.columns:
+        names = ", ".join(column.name for column in roster.columns)
+        notes.append(word("batch_columns", order.language, columns=names))
+    return assigned, notes
+
+
+def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes] | Problem:
+    """Name and content of an assignment file; one that cannot be read must not stop the others."""
+    if isinstance(file, Problem):
+        return file
+    try:
+        return file.name, file.read_bytes()
+    except OSError as error:
+        return as_problem(Fault("unreadable", Mark(str(file)), {"reason": type(error).__name__}), language)
+
+
+def _pool(order: Order) -> Pool:
+    if order.cluster is None:
+        return local(order.jobs or _cores())
+    from reportgen.batch.cluster import cluster
+
+    return cluster(order.cluster, order.language)
+
+
+def _cores() -> int:
+    """The cores of this machine that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+# --- files ------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def locked(out: Path, language: Language | None) -> Iterator[None]:
     """Makes the folder and keeps other batches away from it, without leaving a trace.
 
     Raises `OutputError` if there is another one, or if there can be no such folder.
@@ -122,7 +316,7 @@ def held(out: Path, language: Language) -> Iterator[None]:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
-            raise api.OutputError(word("out_in_use", language).format(out=out)) from error
+            raise api.OutputError(word("out_in_use", language, out=out)) from error
         except OSError as error:
             # Some network folders know no locks.
             if error.errno not in NO_LOCKS:
@@ -132,7 +326,7 @@ def held(out: Path, language: Language) -> Iterator[None]:
         os.close(handle)
 
 
-def sweep(folder: Path) -> None:
+def _remove_temporary(folder: Path) -> None:
     """Removes what a killed run was writing just then."""
     if folder.is_dir():
         for path in folder.iterdir():
@@ -140,66 +334,10 @@ def sweep(folder: Path) -> None:
                 path.unlink(missing_ok=True)
 
 
-@dataclass(slots=True)
-class _Book:
-    """What has come so far; each entry is taken down before it is told."""
-
-    entries: dict[tuple[str, str], Entry]
-    record: Callable[[Entry], None]
-    watch: Watch
-    failures: list[Failure] = field(default_factory=list)
-    made: int = 0
-    exit_code: int = 0
-
-    def ended(self, job: Job, outcome: Outcome, file: str) -> None:
-        problems = tuple(_from_here(problem, file) for problem in outcome.problems)
-        self._take_down(manifest.entry(job, outcome), problems, outcome.exit_code)
-
-    def without_file(self, one: Assigned, product: str, problem: Problem) -> None:
-        told = str(_from_here(problem, Path(problem.mark.file).name))
-        made = Entry(one.student.id, one.student.folder, product, problems=(told,))
-        self._take_down(made, (problem,), 1)
-
-    def _take_down(self, made: Entry, problems: tuple[Problem | str, ...], code: int) -> None:
-        self.entries[made.student, made.product] = made
-        with api.reported():
-            self.record(made)
-        self.exit_code = max(self.exit_code, code)
-        if problems:
-            self.failures.append(Failure(made.student, made.product, problems))
-        self.made += not problems
-        self.watch(made.folder, made.product, "failed" if problems else "done")
-
-
-def _opened(one: Assigned, language: Language) -> tuple[Assigned, bytes]:
-    """A student's assignment with the content of its file; one that cannot be read is this student's matter."""
-    if one.file is None:
-        return one, b""
-    try:
-        return one, one.file.read_bytes()
-    except OSError as error:
-        fault = Fault("unreadable", Mark(str(one.file)), {"reason": type(error).__name__})
-        return Assigned(one.student, None, as_problem(fault, language)), b""
-
-
-def _jobs(one: Assigned, content: bytes, makers: Mapping[str, Maker], making: Making) -> list[Job]:
-    if one.file is None:
-        return []
-    student = one.student
-    return [
-        Job(student.id, student.folder, product, maker, one.file.name, content, making)
-        for product, maker in makers.items()
-    ]
-
-
-def _holds(found: Entry | None, job: Job, out: Path) -> bool:
-    return found is not None and found.holds(job, out)
-
-
 def _written(job: Job, outcome: Outcome, out: Path) -> Outcome:
     """The outcome once its files stand; if they cannot, and it is this student's matter alone, a failure.
 
-    Raises `OutputError` where it is not.
+    Raises `OutputError` where every other student would meet the same.
     """
     try:
         if outcome.files:
@@ -209,12 +347,6 @@ def _written(job: Job, outcome: Outcome, out: Path) -> Outcome:
     except OSError as error:
         if error.errno in NO_ROOM:
             raise api.OutputError(f"{error.filename or ''}: {error.strerror or error}") from error
-        text = word("system", job.making.language or "vi").format(text=error.strerror or error)
-        return Outcome(problems=(f"{job.folder}: {text}",), exit_code=SYSTEM)
+        text = word("system", job.making.language, text=error.strerror or error)
+        return failed(f"{job.folder}: {text}")
     return outcome
-
-
-def _from_here(problem: Problem | str, file: str) -> Problem | str:
-    if isinstance(problem, str):
-        return problem
-    return replace(problem, mark=replace(problem.mark, file=file))

@@ -7,7 +7,7 @@ Beside the keys of an assignment file it may have
 - `variants: table.csv` (or .xlsx, beside the spec): one row a variant, columns named like the parameters (`H`,
   or `H (mm)` for bare numbers; `positions.start` for other sections), and if wished a column `variant`
   with its name;
-- `salt: text`, which changes all draws; without it they stand on the key `variant` of the spec.
+- `salt: text`, which changes all draws; without it they depend on the key `variant` of the spec.
 
 Choices may stand at any depth of `parameters`, `positions`, `drawing` and `indicator`.  What the kind's own
 model wants as a list stays a list.  Every combination of the choices is a variant.
@@ -15,30 +15,33 @@ model wants as a list stays a list.  Every combination of the choices is a varia
 
 from __future__ import annotations
 
-import difflib
 import hashlib
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from decimal import Decimal
 from pathlib import Path
 
 from reportgen import catalogue
-from reportgen.assignment import Fault, Kind
-from reportgen.assignment.faults import Where
-from reportgen.assignment.messages import as_problem
-from reportgen.assignment.reading import assess, known_keys, language_of, misread, wants
+from reportgen.assignment.common import Kind
+from reportgen.assignment.faults import Fault, Where, as_error, close_or_known
+from reportgen.assignment.reading import allowed_forms, assess, known_keys, language_of, misread
 from reportgen.assignment.source import List, Node, Scalar, Source, Table, read_source
-from reportgen.batch import stepped
-from reportgen.batch.nodes import at, path_text, put, without
-from reportgen.batch.table import Column, Record, columns, records, twice
-from reportgen.errors import AssignmentError, Mark
+from reportgen.batch.editing import at, path_text, put, without
+from reportgen.batch.table import Column, columns, records, repeated
+from reportgen.errors import Mark
 from reportgen.notation.numbers import Language
+from reportgen.units import NUMBER, QuantityFault, read_number, read_quantity, read_unit
 from reportgen.workbook import read
 
 OWN_KEYS = ("variants", "salt")
 DRAWN_SECTIONS = ("parameters", "positions", "drawing", "indicator")
+RANGE_KEYS = ("from", "to", "step")
 MOST_CHOICES = 10_000
+_TYPED = re.compile(rf"({NUMBER})\s*(\S.*)?", re.DOTALL)
+_DUST = Decimal("1e-9")
+"""Shares of a step below which an end counts as met: what is left of a change of units."""
 
 Settings = Mapping[Where, Scalar]
 """Values with the place in the assignment where each stands."""
@@ -60,11 +63,11 @@ class Axis:
     choices: tuple[Choice, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Spec:
     """A spec in order: every choice can be read as what it stands for; not every combination need turn.
 
-    `name` is the file's stem, `digest` the SHA-256 of its text and its table.
+    `digest` is the SHA-256 of its text and its table.
     """
 
     path: Path
@@ -83,7 +86,13 @@ class Spec:
     def name(self) -> str:
         return self.path.stem
 
-    @cached_property
+    @property
+    def mark(self) -> Mark:
+        """Where faults of whole combinations are shown: at the parameters."""
+        section = self.top.find("parameters")
+        return section[0].mark if section else self.top.mark
+
+    @property
     def size(self) -> int:
         """The number of combinations."""
         return math.prod(len(axis.choices) for axis in self.axes)
@@ -128,20 +137,20 @@ class Spec:
 
     def column_faults(self, overriding: Iterable[Column]) -> list[Fault]:
         """Faults of a roster's headings that set what this kind of machine does not have."""
-        found = (_no_place(self.kind, self.top, place(self.kind, one.name), one) for one in overriding)
-        return [fault for fault in found if fault]
+        return [fault for column in overriding for fault in _no_place(self.kind, self.top, column)]
 
 
 def read_spec(path: Path, language: Language | None = None) -> Spec:
     """The spec of a file; raises `AssignmentError` with all faults that its choices show by themselves."""
     source = read_source(path)
-    spoken = language or language_of(source)
+    language = language or language_of(source)
     top = source.top
-    kind = _kind(top)
-    if source.faults or not isinstance(top, Table) or kind is None:
-        faults = assess(source, path, catalogue.known())[1]
-        raise AssignmentError([as_problem(fault, spoken) for fault in faults])
-    faults = []
+    name = at(top, ("kind",))
+    named = isinstance(name, Scalar) and name.text in catalogue.kinds()
+    if source.faults or not isinstance(top, Table) or not isinstance(name, Scalar) or not named:
+        raise as_error(assess(source, path, catalogue.known())[1], language)
+    kind = catalogue.kind(name.text)
+    faults: list[Fault] = []
     base = without(top, OWN_KEYS)
     axes = list(_axes(base, (), kind, faults))
     table = _own_text(top, "variants", faults)
@@ -149,16 +158,16 @@ def read_spec(path: Path, language: Language | None = None) -> Spec:
     digest = hashlib.sha256(source.text.encode())
     if table is not None:
         file = path.parent / table.text
-        rows = _rows(file, kind, base, faults, spoken)
+        rows = _rows(file, kind, base, faults, language)
         faults += _given_twice(base, axes, rows)
         axes.append(Axis("variants", rows))
         if not faults:
             digest.update(file.read_bytes())
     salted = salt.text if salt else ""
-    spec = Spec(path, source.text, top, base, kind, tuple(axes), salted, digest.hexdigest(), spoken)
+    spec = Spec(path, source.text, top, base, kind, tuple(axes), salted, digest.hexdigest(), language)
     faults += _unreadable(spec)
     if faults:
-        raise AssignmentError(list(dict.fromkeys(as_problem(fault, spoken) for fault in faults)))
+        raise as_error(faults, language)
     return spec
 
 
@@ -172,17 +181,12 @@ def assembled(top: Table, settings: Settings) -> Table:
 
 
 def place(kind: Kind, name: str) -> Where:
-    """The place that a heading speaks of; a bare name is one of the parameters."""
+    """The place that a heading names; a bare name is one of the parameters."""
     steps = name.split(".")
     where: Where = () if steps[0] in DRAWN_SECTIONS or steps[0] == "report" else ("parameters",)
     for step in steps:
-        where = (*where, int(step) if step.isdecimal() and "list" in wants(kind, where) else step)
+        where = (*where, int(step) if step.isdecimal() and "list" in allowed_forms(kind, where) else step)
     return where
-
-
-def _kind(top: Node | None) -> Kind | None:
-    name = at(top, ("kind",))
-    return catalogue.kind(name.text) if isinstance(name, Scalar) and name.text in catalogue.kinds() else None
 
 
 def _own_text(top: Table, key: str, faults: list[Fault]) -> Scalar | None:
@@ -195,21 +199,23 @@ def _own_text(top: Table, key: str, faults: list[Fault]) -> Scalar | None:
     return None
 
 
+# --- lists and ranges -------------------------------------------------------------------------------
+
+
 def _axes(node: Node, where: Where, kind: Kind, faults: list[Fault]) -> Iterator[Axis]:
     """Lists and ranges that stand where the model wants one value."""
-    sorts = wants(kind, where)
-    one_value = "scalar" in sorts and bool(where) and where[0] in DRAWN_SECTIONS
-    if isinstance(node, List):
-        if one_value and "list" not in sorts:
+    forms = allowed_forms(kind, where)
+    one_value = "scalar" in forms and bool(where) and where[0] in DRAWN_SECTIONS
+    match node:
+        case List() if one_value and "list" not in forms:
             yield _axis(where, _listed(node, faults))
-        else:
-            for index, item in enumerate(node.items):
+        case List(items):
+            for index, item in enumerate(items):
                 yield from _axes(item, (*where, index), kind, faults)
-    elif isinstance(node, Table):
-        if one_value and "table" not in sorts:
-            yield _axis(where, stepped.values(node, faults))
-        else:
-            for key, value in node.entries:
+        case Table() if one_value and "table" not in forms:
+            yield _axis(where, _stepped(node, faults))
+        case Table(entries):
+            for key, value in entries:
                 yield from _axes(value, (*where, key.text), kind, faults)
 
 
@@ -224,17 +230,88 @@ def _listed(node: List, faults: list[Fault]) -> tuple[Scalar, ...]:
     if len(node.items) > MOST_CHOICES:
         faults.append(Fault("too-many", node.mark, {"most": str(MOST_CHOICES)}))
         return ()
-    seen: set[str] = set()
-    values = []
+    values: dict[str, Scalar] = {}
     for item in node.items:
         if not isinstance(item, Scalar) or item.null:
             faults.append(Fault("wrong-type", item.mark, {"expected": "text"}))
-        elif item.text in seen:
+        elif item.text in values:
             faults.append(Fault("choice-repeated", item.mark, {"text": item.text}))
         else:
-            seen.add(item.text)
-            values.append(item)
-    return tuple(values)
+            values[item.text] = item
+    return tuple(values.values())
+
+
+def _stepped(node: Table, faults: list[Fault]) -> tuple[Scalar, ...]:
+    """The choices of a range: from, from + step, …, up to `to` inclusive, in the unit of `from`.
+
+    Steps are added in decimal numbers, so that 0.1 steps give 0.3.  None if something is at fault.
+    """
+    ends = list(_ends(node, faults))
+    if len(ends) < len(RANGE_KEYS):
+        return ()
+    first, last, _ = ends
+    unit = _number_and_unit(first.text)[1]
+    numbers = []
+    for end in ends:
+        try:
+            numbers.append(_number(end.text, unit))
+        except QuantityFault as fault:
+            faults.append(Fault(fault.code, end.mark, fault.arguments))
+            return ()
+    start, stop, step = numbers
+    if step <= 0:
+        faults.append(Fault("range-step", ends[2].mark))
+    elif start > stop:
+        faults.append(Fault("range-order", first.mark, {"last": last.text}))
+    elif (stop - start) / step + _DUST >= MOST_CHOICES:
+        faults.append(Fault("too-many", node.mark, {"most": str(MOST_CHOICES)}))
+    else:
+        count = int((stop - start) / step + _DUST) + 1
+        return tuple(Scalar(f"{_typed(start + k * step)} {unit}".strip(), first.mark) for k in range(count))
+    return ()
+
+
+def _ends(node: Table, faults: list[Fault]) -> Iterator[Scalar]:
+    """The scalars of from, to and step, as far as they are there; the rest are faults."""
+    for key, _ in node.entries:
+        if key.text not in RANGE_KEYS:
+            faults.append(Fault("unknown-key", key.mark, {"key": key.text, "known": ", ".join(RANGE_KEYS)}))
+    for name in RANGE_KEYS:
+        entry = node.find(name)
+        if entry is None:
+            faults.append(Fault("missing-key", node.mark, {"key": name}))
+        elif isinstance(entry[1], Scalar) and not entry[1].null:
+            yield entry[1]
+        else:
+            faults.append(Fault("wrong-type", entry[1].mark, {"expected": "number"}))
+
+
+def _number(text: str, unit: str) -> Decimal:
+    """The number of an end in `unit`; raises `QuantityFault`."""
+    number, own_unit = _number_and_unit(text)
+    if not unit:
+        read_number(text)
+        return Decimal(number)
+    si = read_quantity(text, unit).si
+    if own_unit == unit:
+        return Decimal(number)
+    # Another unit of the same kind: 12 digits are more than anyone types and fewer than rounding reaches.
+    return Decimal(f"{si / read_unit(unit, unit):.12g}")
+
+
+def _number_and_unit(text: str) -> tuple[str, str]:
+    """A quantity as typed, taken apart; empty where it is none."""
+    match = _TYPED.fullmatch(text.strip().replace("\N{MINUS SIGN}", "-"))
+    return (match[1], (match[2] or "").strip()) if match else ("", "")
+
+
+def _typed(number: Decimal) -> str:
+    """A decimal number without exponent and trailing zeros."""
+    text = format(number.normalize(), "f")
+    return "0" if text in ("-0", "0") else text
+
+
+# --- the table of variants --------------------------------------------------------------------------
 
 
 def _rows(file: Path, kind: Kind, base: Table, faults: list[Fault], language: Language) -> tuple[Choice, ...]:
@@ -243,41 +320,34 @@ def _rows(file: Path, kind: Kind, base: Table, faults: list[Fault], language: La
     page = next((page for page in pages if any(page.rows)), pages[0])
     start = next(index for index, row in enumerate(page.rows) if row)
     headings = columns(page.rows[start])
-    faults += twice(headings)
-    places = {one.name: place(kind, one.name) for one in headings if one.name != "variant"}
-    found = [_no_place(kind, base, places[one.name], one) for one in headings if one.name in places]
-    faults += [fault for fault in found if fault]
+    faults += repeated(headings)
+    values = [column for column in headings if column.name != "variant"]
+    faults += [fault for column in values for fault in _no_place(kind, base, column)]
+    places = {column.name: place(kind, column.name) for column in values}
     rows: list[Choice] = []
     names: set[str] = set()
-    for one in records(page, headings, start + 1):
-        if isinstance(one, Fault):
-            faults.append(one)
+    for record in records(page, headings, start + 1):
+        if isinstance(record, Fault):
+            faults.append(record)
             continue
-        name = _row_name(one, len(rows) + 1)
+        name = record.values["variant"].text if "variant" in record.values else str(len(rows) + 1)
         if name in names:
-            faults.append(Fault("choice-repeated", one.mark, {"text": name}))
+            faults.append(Fault("choice-repeated", record.mark, {"text": name}))
         names.add(name)
-        rows.append(Choice(name, {places[key]: value for key, value in one.values.items() if key in places}))
+        rows.append(Choice(name, {places[key]: value for key, value in record.values.items() if key in places}))
     if not rows:
         faults.append(Fault("empty-roster", headings[0].mark))
     return tuple(rows)
 
 
-def _row_name(row: Record, number: int) -> str:
-    return row.values["variant"].text if "variant" in row.values else str(number)
-
-
-def _no_place(kind: Kind, base: Table, where: Where, column: Column) -> Fault | None:
-    """The fault of a heading that stands for nothing that a single cell can say, or for an item no list has."""
+def _no_place(kind: Kind, base: Table, column: Column) -> Iterator[Fault]:
+    """The fault of a heading that names no place where a single value can stand, or an item no list has."""
+    where = place(kind, column.name)
     items = [where[: k + 1] for k, step in enumerate(where) if isinstance(step, int)]
-    if "scalar" in wants(kind, where) and all(at(base, item) is not None for item in items):
-        return None
-    known = known_keys(kind, where[:-1])
-    close = difflib.get_close_matches(str(where[-1]), known, n=1, cutoff=0.6) or [
-        name for name in known if name.casefold() == str(where[-1]).casefold()
-    ]
-    hint = {"close": close[0]} if close else {"known": ", ".join(known)} if known else {}
-    return Fault("unknown-column", column.mark, {"key": column.name, **hint})
+    if "scalar" not in allowed_forms(kind, where) or any(at(base, item) is None for item in items):
+        known = known_keys(kind, where[:-1])
+        hint = close_or_known(str(where[-1]), known) if known else {}
+        yield Fault("unknown-column", column.mark, {"key": column.name, **hint})
 
 
 def _given_twice(base: Table, axes: Iterable[Axis], rows: Iterable[Choice]) -> Iterator[Fault]:
@@ -291,12 +361,14 @@ def _given_twice(base: Table, axes: Iterable[Axis], rows: Iterable[Choice]) -> I
 
 def _unreadable(spec: Spec) -> list[Fault]:
     """Faults of single values: of the first combination, and of every other choice put into it."""
-    if not spec.axes or any(not axis.choices for axis in spec.axes):
-        return [] if spec.axes else misread(spec.top, spec.kind)
+    if not spec.axes:
+        return misread(spec.top, spec.kind)
+    if any(not axis.choices for axis in spec.axes):
+        return []
     first = assembled(spec.top, spec.settings([0] * len(spec.axes)))
-    told: dict[tuple[str, Mark], Fault] = {}
+    found: dict[tuple[str, Mark], Fault] = {}
     for axis in spec.axes:
         for choice in axis.choices:
             for fault in misread(assembled(first, choice.settings), spec.kind):
-                told.setdefault((fault.code, fault.mark), fault)
-    return list(told.values())
+                found.setdefault((fault.code, fault.mark), fault)
+    return list(found.values())

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import get_args
 
-from reportgen.assignment.faults import Fault
-from reportgen.assignment.messages import messages
+from reportgen.assignment.faults import Fault, messages
 from reportgen.assignment.source import Scalar
 from reportgen.errors import Mark
 from reportgen.notation.numbers import Language
@@ -25,7 +24,7 @@ _NUMBER = re.compile(NUMBER)
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A heading: `name` is one of the known columns or what was written, `unit` what stood in brackets after it."""
+    """A heading: `name` is one of the known columns or what was typed, `unit` what stood in brackets after it."""
 
     index: int
     name: str
@@ -47,7 +46,7 @@ class Record:
 
 
 @cache
-def known_columns() -> Mapping[str, str]:
+def _known_columns() -> Mapping[str, str]:
     """The name of a column by any heading it may have, in every language, folded."""
     return {
         folded(heading): name
@@ -58,7 +57,7 @@ def known_columns() -> Mapping[str, str]:
 
 
 def folded(text: str) -> str:
-    """A heading as headings are compared: composed, without regard to case and blanks, without marks at its end."""
+    """A heading without what does not tell two headings apart: case, blanks, composition, marks at its end."""
     return " ".join(unicodedata.normalize("NFC", text).casefold().split()).rstrip(" .:*")
 
 
@@ -67,18 +66,18 @@ def columns(row: Sequence[Cell]) -> list[Column]:
     found = []
     for index, cell in enumerate(row):
         title = unicodedata.normalize("NFC", cell.text).strip()
-        known = known_columns().get(folded(title))
+        known = _known_columns().get(folded(title))
         match = None if known else _WITH_UNIT.fullmatch(title)
         name, unit = (match[1], match[2]) if match else (title, "")
         if title:
-            found.append(Column(index, known or known_columns().get(folded(name)) or name, unit, cell.mark))
+            found.append(Column(index, known or _known_columns().get(folded(name)) or name, unit, cell.mark))
     return found
 
 
 def heading_row(page: Page, wanted: str) -> int | None:
     """The index of the first row near the top that has a column `wanted`."""
     rows = enumerate(page.rows[:FIRST_ROWS])
-    return next((k for k, row in rows if any(one.name == wanted for one in columns(row))), None)
+    return next((k for k, row in rows if any(column.name == wanted for column in columns(row))), None)
 
 
 def records(page: Page, headings: Sequence[Column], start: int) -> Iterator[Record | Fault]:
@@ -88,29 +87,26 @@ def records(page: Page, headings: Sequence[Column], start: int) -> Iterator[Reco
         refused: set[str] = set()
         present = [(column, row[column.index]) for column in headings if column.index < len(row)]
         for column, cell in present:
-            if not (cell.text.strip() or cell.kind == "formula"):
+            text = cell.text.strip()
+            if not (text or cell.kind == "formula"):
                 continue
             if cell.kind in ("error", "formula") and (cell.value is None or str(cell.value).startswith("#")):
                 yield Fault("no-cell-value", cell.mark, {"text": cell.formula or cell.text})
                 refused.add(column.name)
                 continue
-            values[column.name] = Scalar(_text(cell, column.unit), cell.mark)
+            # A bare number has the unit of its heading.
+            bare = column.unit and _NUMBER.fullmatch(text)
+            values[column.name] = Scalar(f"{text} {column.unit}" if bare else text, cell.mark)
         first = next((cell for cell in row if not cell.blank), None)
         if first is not None:
             cells = {column.name: cell.mark for column, cell in present}
             yield Record(values, first.mark, cells, frozenset(refused))
 
 
-def twice(headings: Sequence[Column]) -> Iterator[Fault]:
-    """Headings that stand for a column there is already."""
+def repeated(headings: Sequence[Column]) -> Iterator[Fault]:
+    """A fault for each heading that stands for a column there is already."""
     seen: set[str] = set()
     for column in headings:
         if column.name in seen:
             yield Fault("column-twice", column.mark, {"key": column.name})
         seen.add(column.name)
-
-
-def _text(cell: Cell, unit: str) -> str:
-    """What a cell says, with the unit of its heading where it is a bare number."""
-    text = cell.text.strip()
-    return f"{text} {unit}" if unit and _NUMBER.fullmatch(text) else text

@@ -1,35 +1,93 @@
-"""Spec and roster → an assignment file a student, and a table that tells the instructor how alike they are."""
+"""Spec and roster → an assignment file for each student, and a table of how equal the variants are.
+
+A student's file stays as it is once somebody has edited it.  Its head names the version, the spec with its
+SHA-256, the salt and the student; the head's last line is the SHA-256 of all that follows.  A file whose text still
+has that hash has not been edited since it was made.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import hashlib
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from statistics import median
+from typing import Literal, NamedTuple
+
+import numpy as np
 
 from reportgen import api
-from reportgen.assignment import Fault
-from reportgen.assignment.faults import Where
-from reportgen.assignment.messages import as_problem, word
-from reportgen.assignment.source import Scalar, read_source
-from reportgen.batch.alike import FIGURES, Effort, Spread, compare, effort, shown, table
-from reportgen.batch.draw import Draw, Drawn, draw, shared
-from reportgen.batch.freeze import Frozen, freeze
-from reportgen.batch.nodes import at, path_text
+from reportgen.assignment import Assignment
+from reportgen.assignment.faults import Fault, Where, as_error, word
+from reportgen.assignment.source import Node, Scalar, Table, read_source
+from reportgen.batch.draw import Draw, Drawn, draw, judge_of, shared
+from reportgen.batch.editing import at, path_text, put, quoted, text_of
 from reportgen.batch.roster import read_roster
-from reportgen.batch.spec import Spec, read_spec
-from reportgen.batch.trial import trial
-from reportgen.errors import AssignmentError
+from reportgen.batch.spec import Spec, assembled, read_spec
+from reportgen.case import Case
+from reportgen.errors import AssignmentError, Mark
+from reportgen.installation import version
 from reportgen.notation.numbers import Language
 from reportgen.workbook import write_csv
 
 TABLE = "variants.csv"
+HEAD_LINES = 3
+_HASH = re.compile(r"#.*\b([0-9a-f]{64})")
+_HERE = Mark("")
+
+MOST_TIMES = 2.0
+"""A count is an outlier if it differs from the median by more than this factor."""
+MOST_DEVIATIONS = 3.0
+"""A size is an outlier if it is further from the median than so many median absolute deviations …"""
+LEAST_SHARE = 0.1
+"""… and than this share of the median: in a class of near equals there is no outlier."""
+
+State = Literal["new", "changed", "same", "kept"]
+"""Of a file: made, made anew, left since nothing changed, left since it was edited by hand."""
+
+
+@dataclass(frozen=True, slots=True)
+class StudentFile:
+    """A student's assignment file: where it belongs, its whole text, and what is to be done with it."""
+
+    path: Path
+    text: str
+    state: State
+
+
+class Effort(NamedTuple):
+    """What a variant asks for; the order is that of the columns of `variants.csv`.
+
+    `worked` counts the printed values that are derived, over all positions; `largest` is the greatest balancing
+    torque (N·m) or force (N) of the positions, `speed` that of the driver (rad/s or m/s), `positive` the share
+    of positions where the balance is positive (`largest` and `positive` are None without loads); `zeros` counts
+    the values that are zero beside their scale.
+    """
+
+    worked: int
+    largest: float | None
+    speed: float
+    positive: float | None
+    zeros: int
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """One figure over the class; `outliers` are the indices of variants out of proportion."""
+
+    name: str
+    least: float
+    median: float
+    greatest: float
+    outliers: tuple[int, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Variants:
-    """What was made: the files in the order of the roster, remarks, and how alike the variants are, in words."""
+    """What was made: the files in the order of the roster, remarks, and how equal the variants are, in words."""
 
-    files: tuple[Frozen, ...]
+    files: tuple[StudentFile, ...]
     remarks: tuple[str, ...]
     summary: tuple[str, ...]
 
@@ -37,93 +95,210 @@ class Variants:
 def make_variants(
     spec_path: Path, roster_path: Path, out: Path, force: bool = False, language: Language | None = None
 ) -> Variants:
-    """Draw for the class of a roster and freeze each student's assignment in `out`.
+    """Draw for the class of a roster and write each student's assignment file into `out`.
 
     Files appear whole; one that was edited since it was made is kept unless `force`.  Also writes
-    `out`/variants.csv, which is the instructor's alone.  Raises `AssignmentError` with the faults of spec and
+    `out`/variants.csv, which is for the instructor alone.  Raises `AssignmentError` with the faults of spec and
     roster, before anything is written.
     """
     spec = read_spec(spec_path, language)
     roster = read_roster(roster_path, spec.language)
     _refuse(spec.column_faults(roster.columns), spec)
-    result = draw(spec, roster, trial(spec))
+    result = draw(spec, roster, judge_of(spec))
     _refuse(result.faults, spec)
     out.mkdir(parents=True, exist_ok=True)
-    files = tuple(freeze(spec, one, out, force) for one in result.drawn)
+    files = tuple(_student_file(spec, drawn, out, force) for drawn in result.drawn)
     for file in files:
         if file.state in ("new", "changed"):
             api.replace(file.path, file.text.encode())
-    remarks, efforts = _efforts(files, result.drawn, spec.language)
-    spreads = compare([one for one in efforts if one is not None])
+    efforts = [_effort(file) for file in files]
     api.replace(out / TABLE, _csv(files, result.drawn, efforts))
-    remarks = [*remarks, *_sharing(result, spec)]
-    known = [one for one, figures in zip(result.drawn, efforts, strict=True) if figures is not None]
-    return Variants(files, tuple(remarks), tuple(_summary(spreads, known, efforts, spec.language)))
+    remarks = (*_remarks(files, result.drawn, efforts, spec.language), *_sharing(result, spec))
+    known = {drawn.student.id: one for drawn, one in zip(result.drawn, efforts, strict=True) if one is not None}
+    return Variants(files, remarks, tuple(_summary(list(known), list(known.values()), spec.language)))
 
 
 def _refuse(faults: Sequence[Fault], spec: Spec) -> None:
     if faults:
-        raise AssignmentError([as_problem(fault, spec.language) for fault in faults])
+        raise as_error(faults, spec.language)
 
 
-def _efforts(
-    files: Iterable[Frozen], drawn: Iterable[Drawn], language: Language
-) -> tuple[list[str], list[Effort | None]]:
-    """The figures of the files as they now stand, and what is to be said of those that were kept."""
-    remarks: list[str] = []
-    efforts: list[Effort | None] = []
-    for file, one in zip(files, drawn, strict=True):
+# --- a student's file -------------------------------------------------------------------------------
+
+
+def _student_file(spec: Spec, drawn: Drawn, folder: Path, force: bool) -> StudentFile:
+    """The assignment file of a student in `folder`; one there that was edited is kept unless `force`."""
+    body = _body(spec, drawn)
+    path = folder / f"{drawn.student.folder}.yaml"
+    return StudentFile(path, _head(spec, drawn, body) + body, _state(path, body, force))
+
+
+def _state(path: Path, body: str, force: bool) -> State:
+    try:
+        old = path.read_bytes().decode("utf-8", "replace").replace("\r\n", "\n")
+    except FileNotFoundError:
+        return "new"
+    *head, present = old.split("\n", HEAD_LINES)
+    stated = _HASH.fullmatch(head[-1]) if len(head) == HEAD_LINES else None
+    untouched = stated is not None and stated[1] == _digest(present)
+    if untouched and present == body:
+        return "same"
+    return "changed" if untouched or force else "kept"
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _head(spec: Spec, drawn: Drawn, body: str) -> str:
+    """Comments; what a user wrote is quoted, so that no line can end in it."""
+    origin = {"version": version(), "spec": quoted(spec.path.name), "digest": spec.digest, "salt": quoted(spec.salt)}
+    lines = (
+        word("variants_for", spec.language, id=quoted(drawn.student.id)),
+        word("variants_made", spec.language, **origin),
+        word("variants_body", spec.language, digest=_digest(body)),
+    )
+    return "".join(f"# {line}\n" for line in lines)
+
+
+def _body(spec: Spec, drawn: Drawn) -> str:
+    student = drawn.student
+    personal = {
+        "name": student.name,
+        "id": student.id,
+        "class": student.class_,
+        "section": student.section,
+        "email": student.email,
+    }
+    card = Table(tuple((_scalar(key), _scalar(text)) for key, text in personal.items() if text), _HERE)
+    top: Node = put(assembled(spec.top, drawn.settings), ("report", "student"), card)
+    if at(top, ("report", "language")) is None:
+        top = put(top, ("report", "language"), _scalar(spec.language))
+    if spec.axes:
+        top = put(top, ("variant",), _scalar(spec.label(drawn.combination)))
+    assert isinstance(top, Table), "keys are put into a table"
+    # The kind and the variant stand before all else.
+    first = {"kind": 0, "variant": 1}
+    entries = sorted(top.entries, key=lambda entry: first.get(entry[0].text, 2))
+    return text_of(Table(tuple(entries), top.mark), spec.text, spec.whole)
+
+
+def _scalar(text: str) -> Scalar:
+    return Scalar(text, _HERE)
+
+
+# --- how equal the variants are ---------------------------------------------------------------------
+
+
+def effort(assignment: Assignment) -> Effort:
+    """The figures of an assignment, from its ledger."""
+    case = Case(assignment)
+    analysis, families = case.analysis, case.ledger.families.values()
+    derived = [one for one in families if one.definition is not None and not one.hidden and not one.is_plane]
+    zeros = sum(
+        one.at(position) == 0 for one in derived if one.scale for position in range(1, len(one.values) + 1)
+    )
+    balance = np.real(analysis.torque) if analysis.loads else None
+    return Effort(
+        worked=sum(len(one.values) for one in derived),
+        largest=None if balance is None else float(np.max(np.abs(balance))),
+        speed=analysis.machine.speed,
+        positive=None if balance is None else float(np.mean(balance > 0)),
+        zeros=int(zeros),
+    )
+
+
+def compare(efforts: Sequence[Effort]) -> list[Spread]:
+    """Each figure's spread over the class; figures that no variant has are left out."""
+    spreads = []
+    for name, values in zip(Effort._fields, zip(*efforts, strict=True), strict=False):
+        known = [value for value in values if value is not None]
+        if known:
+            middle = median(known)
+            outliers = _outliers(name, values, middle)
+            spreads.append(Spread(name, min(known), middle, max(known), outliers))
+    return spreads
+
+
+def _outliers(name: str, values: Sequence[float | None], middle: float) -> tuple[int, ...]:
+    """Indices of what is out of proportion: counts by a factor, sizes by median absolute deviations."""
+    known = {k: value for k, value in enumerate(values) if value is not None}
+    if name == "worked":
+        least, most = middle / MOST_TIMES, middle * MOST_TIMES
+        return tuple(k for k, value in known.items() if value and not least <= value <= most)
+    deviation = median(abs(value - middle) for value in known.values())
+    limit = max(MOST_DEVIATIONS * deviation, LEAST_SHARE * abs(middle))
+    return tuple(k for k, value in known.items() if abs(value - middle) > limit)
+
+
+def _table(spreads: Sequence[Spread], language: Language) -> list[str]:
+    """The spreads as lines of text: a figure, its least, median and greatest value."""
+    rows = [["", *(word(name, language) for name in ("least", "median", "greatest"))]]
+    rows += [[word(one.name, language), *map(_shown, (one.least, one.median, one.greatest))] for one in spreads]
+    first, *others = (max(map(len, cells)) for cells in zip(*rows, strict=True))
+    return [
+        "  ".join([name.ljust(first), *(cell.rjust(width) for cell, width in zip(cells, others, strict=True))])
+        for name, *cells in rows
+    ]
+
+
+def _shown(value: float) -> str:
+    """A figure with four digits, a count with all."""
+    return f"{value:.0f}" if float(value).is_integer() and abs(value) < 1e9 else f"{value:.4g}"
+
+
+# --- what the instructor sees -----------------------------------------------------------------------
+
+
+def _effort(file: StudentFile) -> Effort | None:
+    """The figures of a file as it now stands; None for a file edited by hand that is at fault."""
+    try:
+        return effort(api.load(file.path))
+    except AssignmentError:
+        return None
+
+
+def _remarks(
+    files: Sequence[StudentFile], drawn: Sequence[Drawn], efforts: Sequence[Effort | None], language: Language
+) -> Iterator[str]:
+    """What to say of the files that were kept."""
+    for file, one, figures in zip(files, drawn, efforts, strict=True):
         if file.state == "kept":
-            remarks.append(word("variants_kept", language).format(path=file.path))
-        try:
-            efforts.append(effort(api.load(file.path)))
-        except AssignmentError:
-            remarks.append(word("variants_unchecked", language).format(id=one.student.id))
-            efforts.append(None)
-    return remarks, efforts
+            yield word("variants_kept", language, path=file.path)
+        if figures is None:
+            yield word("variants_unchecked", language, id=one.student.id)
 
 
-def _sharing(result: Draw, spec: Spec) -> list[str]:
+def _sharing(result: Draw, spec: Spec) -> Iterator[str]:
     """Who has the same variant, if anybody has."""
     groups = shared(result.drawn)
-    if not groups:
-        return []
-    head = word("variants_shared", spec.language).format(size=result.usable, students=len(result.drawn))
-    lines = [
-        word("variants_same", spec.language).format(
-            variant=spec.label(group[0].combination), ids=", ".join(one.student.id for one in group)
-        )
-        for group in groups
-    ]
-    return [head, *lines]
+    if groups:
+        yield word("variants_shared", spec.language, size=result.usable, students=len(result.drawn))
+    for group in groups:
+        ids = ", ".join(one.student.id for one in group)
+        yield word("variants_same", spec.language, variant=spec.label(group[0].combination), ids=ids)
 
 
-def _summary(
-    spreads: Sequence[Spread], drawn: Sequence[Drawn], efforts: Sequence[Effort | None], language: Language
-) -> list[str]:
-    known = [one for one in efforts if one is not None]
-    lines = [word("variants_table", language).format(count=len(known)), *table(spreads, language)]
+def _summary(ids: Sequence[str], efforts: Sequence[Effort], language: Language) -> Iterator[str]:
+    spreads = compare(efforts)
+    yield word("variants_table", language, count=len(efforts))
+    yield from _table(spreads, language)
     for spread in spreads:
-        values = {drawn[k].student.id: known[k].figure(spread.name) or 0.0 for k in spread.apart}
+        values = [f"{ids[k]} ({_shown(getattr(efforts[k], spread.name))})" for k in spread.outliers]
         if values:
-            told = ", ".join(f"{id} ({shown(value)})" for id, value in values.items())
-            about = {"name": word(spread.name, language), "median": shown(spread.median)}
-            lines.append(word("variants_apart", language).format(ids=told, **about))
-    return lines
+            about = {"name": word(spread.name, language), "median": _shown(spread.median)}
+            yield word("variants_apart", language, ids=", ".join(values), **about)
 
 
-def _csv(files: Sequence[Frozen], drawn: Sequence[Drawn], efforts: Sequence[Effort | None]) -> bytes:
+def _csv(files: Sequence[StudentFile], drawn: Sequence[Drawn], efforts: Sequence[Effort | None]) -> bytes:
     """One row a student: id, file, variant, values drawn or set, as the file now has them, and its figures."""
     places: list[Where] = list(dict.fromkeys(where for one in drawn for where in one.settings))
-    rows: list[list[str | float | None]] = [["id", "file", "variant", *map(path_text, places), *FIGURES]]
+    rows: list[list[str | float | None]] = [["id", "file", "variant", *map(path_text, places), *Effort._fields]]
     for file, one, figures in zip(files, drawn, efforts, strict=True):
         top = read_source(file.path).top
         found = (at(top, where) for where in (("variant",), *places))
         values = [node.text if isinstance(node, Scalar) else None for node in found]
-        tail = [_rounded(None if figures is None else figures.figure(name)) for name in FIGURES]
-        rows.append([one.student.id, file.path.name, *values, *tail])
+        tail = figures or (None,) * len(Effort._fields)
+        rounded = [None if value is None else float(f"{value:.6g}") for value in tail]
+        rows.append([one.student.id, file.path.name, *values, *rounded])
     return write_csv(rows)
-
-
-def _rounded(value: float | None) -> float | None:
-    return None if value is None else float(f"{value:.6g}")

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from reportgen import folders
+from reportgen import installation
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
 from reportgen.errors import Problem
@@ -28,7 +28,7 @@ def kinds() -> Mapping[str, str]:
     """The module of every kind, by the name that stands in a file, in alphabetical order."""
     modules = (path.stem for path in sorted(Path(__file__).parent.glob("*.py")))
     named = {module.replace("_", "-"): module for module in modules}
-    words = folders.templates() / "vi"
+    words = installation.templates() / "vi"
     return {kind: module for kind, module in named.items() if (words / kind / FILE).is_file()}
 
 
@@ -59,7 +59,7 @@ def known() -> reading.Kinds:
 
 def title(name: str, language: Language) -> str:
     """The line of description of a kind, from its words."""
-    return str(load_words((folders.templates() / language / name,))["title"])
+    return str(load_words((installation.templates() / language / name,))["title"])
 
 
 def titles(language: Language) -> dict[str, str]:
@@ -82,7 +82,7 @@ def sample(name: str, language: Language) -> str:
     if name not in kinds():
         raise KeyError(name)
     file = f"{name}.yaml"
-    return (folders.templates() / language / "new" / file).read_text(encoding="utf-8")
+    return (installation.templates() / language / "new" / file).read_text(encoding="utf-8")
 
 
 def schema() -> dict[str, Any]:

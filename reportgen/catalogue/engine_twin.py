@@ -30,7 +30,7 @@ from reportgen.catalogue.driven import (
 from reportgen.catalogue.loads import Piston, gas_forces
 from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.sliders import centred_slider, compared
-from reportgen.cycle.indicator import STROKES, Stroke, stroke_at
+from reportgen.cycle.applied import STROKES, Stroke, stroke_at
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.notation.expressions import PI
 from reportgen.notation.sheet import Sheet

@@ -24,7 +24,7 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.catalogue.loads import Constant, Floats, Law, Torque, by_angle, by_stroke, opposing
-from reportgen.cycle.indicator import STROKES, AngleIndicator, Indicator, StrokeIndicator
+from reportgen.cycle.applied import STROKES, AngleIndicator, Indicator, StrokeIndicator
 from reportgen.mechanism.motion import solve_motion
 from reportgen.mechanism.structure import Linkage
 from reportgen.units import Given

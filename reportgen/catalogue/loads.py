@@ -16,8 +16,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from reportgen.cycle.cutting import Cutting
-from reportgen.cycle.indicator import AngleIndicator, Indicator, StrokeIndicator
+from reportgen.cycle.applied import AngleIndicator, Cutting, Indicator, StrokeIndicator
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
 

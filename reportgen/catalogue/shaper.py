@@ -29,7 +29,7 @@ from reportgen.catalogue.loads import Applied, CuttingLaw
 from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.slotted import HIGHEST, Ram, SlottedCrank
-from reportgen.cycle.cutting import Cutting
+from reportgen.cycle.applied import Cutting
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import nice_up
 from reportgen.notation.sheet import Sheet

@@ -10,7 +10,7 @@ import io
 import sys
 
 from reportgen.cli import instructor, student
-from reportgen.cli.common import SYSTEM, app, unexpected
+from reportgen.cli.common import SYSTEM, app, complain_of_program
 
 __all__ = ["app", "instructor", "main", "student"]
 
@@ -27,10 +27,9 @@ def main() -> None:
     gc.set_threshold(COLLECTED)
     try:
         app()
-    except Exception as fault:
-        unexpected(fault)
+    except Exception as error:
+        complain_of_program(error)
         sys.exit(SYSTEM)
     finally:
         # All memory goes with the process: no need to look through it once more on the way out.
         gc.freeze()
-

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
@@ -40,6 +40,7 @@ Files = Annotated[list[Path], typer.Argument(metavar="FILE", help="Assignment fi
 LangOption = Annotated[
     Lang | None, typer.Option("--lang", help="Language, instead of the file's own.", show_default=False)
 ]
+EngineOption = Annotated[Engine, typer.Option("--engine", help="Typesetter.")]
 
 
 class Outcome:
@@ -54,32 +55,40 @@ def ending(lang: Lang | None) -> Iterator[Outcome]:
     outcome = Outcome()
     try:
         yield outcome
-    except AssignmentError as fault:
-        print(*fault.problems, sep="\n", file=sys.stderr)
-        outcome.code = fault.exit_code
-    except ReportgenError as fault:
-        print(f"reportgen: {fault}", file=sys.stderr)
-        outcome.code = fault.exit_code
+    except AssignmentError as error:
+        print(*error.problems, sep="\n", file=sys.stderr)
+        outcome.code = error.exit_code
+    except ReportgenError as error:
+        complain(str(error))
+        outcome.code = error.exit_code
     except BrokenPipeError:
         raise
-    except OSError as fault:
-        complain("system", lang, text=str(fault))
+    except OSError as error:
+        complain(say("system", lang, text=error))
         outcome.code = SYSTEM
     except (typer.Exit, typer.BadParameter):
         raise
-    except Exception as fault:
-        unexpected(fault, lang)
+    except Exception as error:
+        complain_of_program(error, lang)
         outcome.code = SYSTEM
 
 
-def unexpected(fault: BaseException, lang: Lang | None = None) -> None:
-    complain("unexpected", lang, name=type(fault).__name__, text=" ".join(str(fault).split()))
+def complain(text: str) -> None:
+    print(f"reportgen: {text}", file=sys.stderr)
 
 
-def complain(name: str, lang: Lang | None, /, **arguments: str) -> None:
-    from reportgen.assignment.messages import word
+def complain_of_program(error: BaseException, lang: Lang | None = None) -> None:
+    """Says that an exception nobody expected is a fault of the program."""
+    from reportgen.assignment.faults import unexpected
 
-    print(f"reportgen: {word(name, language(lang) or 'vi').format(**arguments)}", file=sys.stderr)
+    complain(unexpected(error, language(lang)))
+
+
+def say(key: str, lang: Lang | None, /, **arguments: object) -> str:
+    """A text of the message table in the language of the command line."""
+    from reportgen.assignment.faults import word
+
+    return word(key, language(lang), **arguments)
 
 
 def language(lang: Lang | None) -> Language | None:
@@ -90,16 +99,23 @@ def typesetter(engine: Engine) -> Literal["typst", "latex"]:
     return "latex" if engine is Engine.latex else "typst"
 
 
-def refuse_same_names(files: list[Path], language: Language | None) -> None:
+def refuse_same_names(files: list[Path], lang: Lang | None) -> None:
     """Two files of one name would write to one folder."""
-    from reportgen.assignment.messages import word
-
     seen: dict[str, Path] = {}
     for file in files:
         if file.stem in seen:
-            text = word("same_name", language or "vi")
-            raise typer.BadParameter(text.format(first=seen[file.stem], second=file))
+            raise typer.BadParameter(say("same_name", lang, first=seen[file.stem], second=file))
         seen[file.stem] = file
+
+
+def listed(text: str, known: Collection[str], option: str, complaint: str, lang: Lang | None) -> tuple[str, ...]:
+    """The names in a list separated by commas, each once; a name that is not `known` is wrong usage."""
+    names = tuple(dict.fromkeys(name.strip() for name in text.split(",")))
+    for name in names:
+        if name not in known:
+            text = say(complaint, lang, text=name, known=", ".join(known))
+            raise typer.BadParameter(text, param_hint=option)
+    return names
 
 
 def write(path: Path, text: str) -> None:

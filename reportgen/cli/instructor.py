@@ -12,21 +12,26 @@ from reportgen.cli.common import (
     AT_FAULT,
     INTERRUPTED,
     Engine,
+    EngineOption,
     Files,
     LangOption,
     app,
     complain,
     ending,
     language,
+    listed,
     refuse_same_names,
+    say,
     typesetter,
 )
+
+Roster = Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)]
 
 
 @app.command()
 def variants(
     spec: Annotated[Path, typer.Argument(metavar="SPEC", help="Assignment file with choices.", show_default=False)],
-    roster: Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)],
+    roster: Roster,
     out: Annotated[
         Path, typer.Option("-o", "--out", metavar="DIR", help="Folder of the assignment files.")
     ] = Path("out/variants"),
@@ -45,9 +50,7 @@ def variants(
 
 @app.command()
 def batch(
-    roster: Annotated[
-        Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)
-    ],
+    roster: Roster,
     spec: Annotated[
         Path | None,
         typer.Option("--spec", metavar="SPEC.yaml", help="Draw the variants of this.", show_default=False),
@@ -60,7 +63,7 @@ def batch(
     jobs: Annotated[
         int | None, typer.Option("--jobs", metavar="N", min=1, help="Processes.", show_default="one a core")
     ] = None,
-    engine: Annotated[Engine, typer.Option("--engine", help="Typesetter.")] = Engine.typst,
+    engine: EngineOption = Engine.typst,
     lang: LangOption = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out"),
     cluster: Annotated[
@@ -69,31 +72,22 @@ def batch(
     ] = None,
 ) -> None:
     """Make task, report or key of everybody on ROSTER; go on where an earlier run was stopped."""
-    from reportgen.assignment.messages import word
-    from reportgen.batch.start import Order, start, told
+    from reportgen.batch.run import Order, run_batch
     from reportgen.products import MAKERS
 
-    spoken = language(lang) or "vi"
-    products = tuple(dict.fromkeys(name.strip() for name in make.split(",")))
     if (spec is None) == (assignments is None):
-        raise typer.BadParameter(word("one_of_spec", spoken))
-    for name in products:
-        if name not in MAKERS:
-            raise typer.BadParameter(
-                word("no_product", spoken).format(text=name, known=", ".join(MAKERS)), param_hint="--make"
-            )
-    order = Order(
-        roster, spec, assignments, out, products, typesetter(engine), language(lang), jobs or 0, cluster
-    )
+        raise typer.BadParameter(say("one_of_spec", lang))
+    products = listed(make, MAKERS, "--make", "no_product", lang)
+    order = Order(roster, spec, assignments, out, products, typesetter(engine), language(lang), jobs or 0, cluster)
     with ending(lang) as outcome:
         try:
-            done = start(order, sys.stderr)
+            result = run_batch(order, sys.stderr)
         except KeyboardInterrupt:
-            complain("batch_stopped", lang)
+            complain(say("batch_stopped", lang))
             raise typer.Exit(INTERRUPTED) from None
-        print(*told(done, spoken), sep="\n", file=sys.stderr)
-        print(done.result.manifest, flush=True)
-        outcome.code = done.result.exit_code
+        print(*result.summary(language(lang)), sep="\n", file=sys.stderr)
+        print(result.manifest, flush=True)
+        outcome.code = result.exit_code
     raise typer.Exit(outcome.code)
 
 
@@ -104,20 +98,14 @@ def key(
         str, typer.Option("--format", metavar="LIST", help="Of pdf, xlsx, csv, json; parted by commas.")
     ] = "pdf,xlsx",
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the keys.")] = Path("out"),
-    engine: Annotated[Engine, typer.Option("--engine", help="Typesetter.")] = Engine.typst,
+    engine: EngineOption = Engine.typst,
     lang: LangOption = None,
 ) -> None:
     """Write the answer key of each FILE to DIR/<id>/: every value with the bands within which it is right."""
     from reportgen import products
-    from reportgen.assignment.messages import word
 
-    refuse_same_names(files, language(lang))
-    formats = tuple(dict.fromkeys(name.strip() for name in format.split(",")))
-    for name in formats:
-        if name not in products.KEY_FORMATS:
-            known = ", ".join(products.KEY_FORMATS)
-            text = word("no_format", language(lang) or "vi").format(text=name, known=known)
-            raise typer.BadParameter(text, param_hint="--format")
+    refuse_same_names(files, lang)
+    formats = listed(format, products.KEY_FORMATS, "--format", "no_format", lang)
     code = 0
     for file in files:
         with ending(lang) as outcome:
@@ -140,7 +128,7 @@ def grade(
         Path | None, typer.Option("--policy", metavar="FILE", help="How to mark.", show_default=False)
     ] = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out/marked"),
-    engine: Annotated[Engine, typer.Option("--engine", help="Typesetter.")] = Engine.typst,
+    engine: EngineOption = Engine.typst,
     lang: LangOption = None,
 ) -> None:
     """Mark filled answer sheets from each student's own values; write feedback, grades.csv and the class page."""
@@ -152,7 +140,7 @@ def grade(
         graded = assess.grade(submissions, assignments, rules, language(lang))
         for path in assess.put(graded, rules, out, typesetter(engine), language(lang)):
             print(path, flush=True)
-        print(*assess.told(graded, language(lang) or "vi"), sep="\n")
+        print(*assess.summary(graded, language(lang)), sep="\n")
         print(*graded.problems, sep="\n", end="\n" * bool(graded.problems), file=sys.stderr)
         outcome.code = AT_FAULT if graded.problems else 0
     raise typer.Exit(outcome.code)

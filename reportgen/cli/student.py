@@ -12,6 +12,7 @@ import typer
 from reportgen.cli.common import (
     AT_FAULT,
     Engine,
+    EngineOption,
     File,
     Files,
     LangOption,
@@ -19,6 +20,7 @@ from reportgen.cli.common import (
     ending,
     language,
     refuse_same_names,
+    say,
     typesetter,
     write,
 )
@@ -28,15 +30,16 @@ from reportgen.cli.common import (
 def build(
     files: Files,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the reports.")] = Path("out"),
-    engine: Annotated[Engine, typer.Option("--engine", help="Typesetter.")] = Engine.typst,
+    engine: EngineOption = Engine.typst,
     lang: LangOption = None,
     keep_source: Annotated[
         bool, typer.Option("--keep-source", help="Also leave the source with its figures.")
     ] = False,
 ) -> None:
     """Write the complete report of each FILE to DIR/<id>/report.pdf."""
-    refuse_same_names(files, language(lang))
     from reportgen import api
+
+    refuse_same_names(files, lang)
 
     code = 0
     for file in files:
@@ -51,9 +54,7 @@ def solve(
     file: File,
     positions: Annotated[
         int | None,
-        typer.Option(
-            "--positions", metavar="N", min=4, max=360, help="Positions a turn.", show_default=False
-        ),
+        typer.Option("--positions", metavar="N", min=4, max=360, help="Positions a turn.", show_default=False),
     ] = None,
     json_file: Annotated[
         Path | None,
@@ -97,14 +98,11 @@ def new(
 ) -> None:
     """Print a commented assignment file to fill in."""
     from reportgen import catalogue
-    from reportgen.assignment.messages import word
 
-    spoken = language(lang) or "vi"
     if kind not in catalogue.kinds():
-        known = ", ".join(catalogue.kinds())
-        raise typer.BadParameter(word("no_kind", spoken).format(kind=kind, known=known))
+        raise typer.BadParameter(say("no_kind", lang, kind=kind, known=", ".join(catalogue.kinds())))
     with ending(lang) as outcome:
-        write(output or Path("-"), catalogue.sample(kind, spoken))
+        write(output or Path("-"), catalogue.sample(kind, language(lang) or "vi"))
     raise typer.Exit(outcome.code)
 
 

@@ -71,17 +71,5 @@ def regulate(
     energy = fastest**2 * moment / 2 - upper
     squared = 2 * (energy + excess) / (moment + inertia) if moment > 0 else np.full(angle.shape, np.nan)
     return Flywheel(
-        angle,
-        torque,
-        -mean,
-        inertia,
-        excess,
-        upper,
-        lower,
-        moment,
-        np.sqrt(squared),
-        fastest,
-        slowest,
-        high,
-        low,
+        angle, torque, -mean, inertia, excess, upper, lower, moment, np.sqrt(squared), fastest, slowest, high, low
     )

@@ -9,7 +9,7 @@ from typing import Any
 
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.catalogue.loads import AngleLaw, Applied, TableLaw, Torque, WayLaw
-from reportgen.cycle.indicator import StrokeIndicator
+from reportgen.cycle.applied import StrokeIndicator
 from reportgen.document.tabled import Tabled, lowered
 from reportgen.document.tree import Cell, Column, Table, Text, Value
 from reportgen.document.voice import FIRST_COLUMN, TEXT_WIDTH

@@ -13,7 +13,7 @@ import numpy as np
 from reportgen.analysis import FULL_TURN, motion_at
 from reportgen.catalogue.loads import Piston
 from reportgen.catalogue.machine import Machine
-from reportgen.cycle.indicator import StrokeIndicator
+from reportgen.cycle.applied import StrokeIndicator
 from reportgen.document.pictured import (
     DENSE,
     SAME,

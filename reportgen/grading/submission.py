@@ -15,8 +15,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from reportgen.answers.key import Key, Row
-from reportgen.assignment.faults import Fault
-from reportgen.assignment.messages import as_problem
+from reportgen.assignment.faults import Fault, as_problem
 from reportgen.errors import AssignmentError, Mark, Problem
 from reportgen.grading.marks import Given, Place, Submission
 from reportgen.grading.written import DecimalMark, decimal_mark, is_blank, read_written

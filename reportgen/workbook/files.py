@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from reportgen.assignment.messages import as_problem
+from reportgen.assignment.faults import as_problem
 from reportgen.errors import AssignmentError, Mark
 from reportgen.notation.numbers import Language
 from reportgen.workbook.cells import Page, RefusedError

@@ -13,7 +13,7 @@ from functools import cache
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from reportgen import folders
+from reportgen import installation
 from reportgen.document.tree import (
     BlankLine,
     Block,
@@ -88,7 +88,7 @@ def _frame() -> Template:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(
-        loader=FileSystemLoader(folders.templates() / "frames" / "latex"),
+        loader=FileSystemLoader(installation.templates() / "frames" / "latex"),
         block_start_string="<%",
         block_end_string="%>",
         variable_start_string="<(",

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-from reportgen import folders
+from reportgen import installation
 from reportgen.document.tree import (
     BlankLine,
     Block,
@@ -94,7 +94,7 @@ def write(document: Document) -> str:
 
 def _frame() -> str:
     """The frame's source: from the installed package, or beside it in a checkout."""
-    path = folders.templates() / "frames" / "typst" / "report.typ"
+    path = installation.templates() / "frames" / "typst" / "report.typ"
     try:
         return path.read_text(encoding="utf-8")
     except OSError as error:

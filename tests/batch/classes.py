@@ -8,7 +8,7 @@ from pathlib import Path
 
 from reportgen.batch.jobs import Job, run_job
 from reportgen.batch.pool import Pool, Results, Retried
-from reportgen.batch.start import Done, Order, start
+from reportgen.batch.run import Order, Result, run_batch
 from tests.batch.little import little
 
 MAKERS = {"little": little, "other": little}
@@ -40,16 +40,16 @@ class Batch:
         self.out = folder / out
         self.events: list[tuple[str, ...]] = []
 
-    def run(self, *products: str, pool: Pool = here) -> Done:
+    def run(self, *products: str, pool: Pool = here) -> Result:
         stream = io.StringIO()
         order = Order(self.roster, None, self.given, self.out, products or ("little",), language="en")
         try:
-            return start(order, stream, MAKERS, pool)
+            return run_batch(order, stream, MAKERS, pool)
         finally:
             self.events = [tuple(line.split("\t")) for line in stream.getvalue().splitlines()]
 
-    def told(self, event: str) -> list[str]:
-        """The students of one kind of event, in the order told."""
+    def students(self, event: str) -> list[str]:
+        """The students of one kind of event, in order."""
         return [student for student, _, what in self.events if what == event]
 
 

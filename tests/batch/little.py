@@ -14,7 +14,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from reportgen.api import Engine
-from reportgen.batch.start import Order, start, told
+from reportgen.batch.run import Order, run_batch
 from reportgen.errors import AssignmentError, Mark, Problem
 from reportgen.notation.numbers import Language
 
@@ -45,9 +45,9 @@ def little(path: Path, engine: Engine, language: Language | None) -> Mapping[str
 def main() -> int:
     roster, assignments, out = map(Path, sys.argv[1:4])
     order = Order(roster, None, assignments, out, ("little",), language="en", jobs=2)
-    done = start(order, sys.stderr, {"little": little})
-    print(*told(done, "en"), sep="\n")
-    return done.result.exit_code
+    done = run_batch(order, sys.stderr, {"little": little})
+    print(*done.summary("en"), sep="\n")
+    return done.exit_code
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ import pytest
 
 from reportgen.batch.cluster import ClusterError, cluster
 from reportgen.batch.pool import Results
-from reportgen.batch.start import Order, start
+from reportgen.batch.run import Order, run_batch
 from tests.batch.classes import Batch, tree, write_class
 
 ROOT = Path(__file__).parents[2]
@@ -42,7 +42,7 @@ def test_a_killed_worker_takes_nothing_along(scheduler: Any, tmp_path: Path) -> 
         yield from results
 
     done = batch.run(pool=with_a_death)
-    assert (done.result.made, done.result.failures) == (8, ())
+    assert (done.made, done.failures) == (8, ())
     plain = Batch(tmp_path, {f"K{k}": f"seconds: 0.{k}" for k in range(8)}, "plain")
     plain.run()
     assert tree(batch.out) == tree(plain.out)
@@ -51,9 +51,9 @@ def test_a_killed_worker_takes_nothing_along(scheduler: Any, tmp_path: Path) -> 
 def test_a_job_that_kills_every_worker_fails_alone(scheduler: Any, tmp_path: Path) -> None:
     batch = Batch(tmp_path, {"K1": "dies: always", "K2": "wrong: not so", "K3": "seconds: 0"})
     done = batch.run(pool=cluster(scheduler.scheduler_address, "en"))
-    assert {failure.student for failure in done.result.failures} == {"K1", "K2"}
-    assert batch.told("done") == ["K3"]
-    assert done.result.exit_code == 3
+    assert {failure.student for failure in done.failures} == {"K1", "K2"}
+    assert batch.students("done") == ["K3"]
+    assert done.exit_code == 3
 
 
 def test_papers_of_the_cluster_are_those_made_here(scheduler: Any, tmp_path: Path) -> None:
@@ -61,7 +61,7 @@ def test_papers_of_the_cluster_are_those_made_here(scheduler: Any, tmp_path: Pat
     roster, given = write_class(tmp_path, {"K1": text})
     for out, address in (("here", None), ("there", scheduler.scheduler_address)):
         order = Order(roster, None, given, tmp_path / out, ("task", "key"), jobs=1, cluster=address)
-        assert start(order, io.StringIO()).result.exit_code == 0
+        assert run_batch(order, io.StringIO()).exit_code == 0
     assert tree(tmp_path / "here") == tree(tmp_path / "there")
 
 
@@ -81,10 +81,10 @@ def test_a_scheduler_that_goes_keeps_what_is_done(tmp_path: Path) -> None:
 
         with pytest.raises(ClusterError, match="gone"):
             batch.run(pool=with_an_end)
-    before = batch.told("done")
+    before = batch.students("done")
     assert before
     batch.run()
-    assert batch.told("kept") == before
+    assert batch.students("kept") == before
 
 
 def test_nobody_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

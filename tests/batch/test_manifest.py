@@ -9,11 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from reportgen import folders
+from reportgen import installation
 from reportgen.batch import manifest
-from reportgen.batch.jobs import Job, Outcome, making, templates_hash
-from reportgen.batch.manifest import Entry, Journal
+from reportgen.batch.jobs import Job, Outcome, making
+from reportgen.batch.manifest import Entry, journal
 from reportgen.errors import Mark, Problem
+from reportgen.installation import templates_hash
 from tests.batch.classes import Batch
 from tests.batch.little import little
 
@@ -73,7 +74,7 @@ def test_it_is_read_as_it_was_written(tmp_path: Path) -> None:
 def test_the_journal_comes_after_the_manifest_and_goes_with_the_next(tmp_path: Path) -> None:
     older = replace(DONE, files={"a.pdf": "0"})
     manifest.write(tmp_path, [older])
-    with Journal(tmp_path) as record:
+    with journal(tmp_path) as record:
         record(DONE)
         record(FAILED)
     assert manifest.read(tmp_path) == {("Số 7", "little"): DONE, ("8", "little"): FAILED}
@@ -83,7 +84,7 @@ def test_the_journal_comes_after_the_manifest_and_goes_with_the_next(tmp_path: P
 
 def test_a_torn_line_costs_no_other(tmp_path: Path) -> None:
     """Cut at any byte, the journal gives the lines before the cut, and never a half of one."""
-    with Journal(tmp_path) as record:
+    with journal(tmp_path) as record:
         record(DONE)
         record(FAILED)
     path = tmp_path / manifest.JOURNAL
@@ -118,7 +119,7 @@ def test_a_manifest_that_is_none_makes_all_anew(tmp_path: Path, text: str) -> No
     whole = (batch.out / manifest.NAME).read_bytes()
     (batch.out / manifest.NAME).write_bytes(text.encode("utf-8", "surrogatepass"))
     done = batch.run()
-    assert (done.result.made, done.result.exit_code) == (1, 0)
+    assert (done.made, done.exit_code) == (1, 0)
     assert (batch.out / manifest.NAME).read_bytes() == whole
 
 
@@ -132,7 +133,7 @@ def test_a_forged_manifest_vouches_for_nothing(tmp_path: Path, name: str) -> Non
     (batch.out / "secret.pdf").write_bytes(b"A")
     content["students"]["K1"]["products"]["little"]["files"] = {name: sha256(b"A").hexdigest()}
     path.write_text(json.dumps(content), encoding="utf-8")
-    assert batch.run().result.made == 1
+    assert batch.run().made == 1
 
 
 def test_neither_times_nor_places_are_told(tmp_path: Path) -> None:
@@ -141,10 +142,10 @@ def test_neither_times_nor_places_are_told(tmp_path: Path) -> None:
         (tmp_path / name).mkdir()
         batch = Batch(tmp_path / name, {"K1": "wrong: not so", "K2": "crash: yes", "K3": "seconds: 0", "K4": ""})
         (batch.given / "K4.yaml").unlink()
-        texts.append(batch.run().result.manifest.read_text(encoding="utf-8"))
+        texts.append(batch.run().manifest.read_text(encoding="utf-8"))
     assert texts[0] == texts[1]
     assert str(tmp_path) not in texts[0]
-    assert not any(folder in texts[0] for folder in ("/tmp", str(folders.templates())))
+    assert not any(folder in texts[0] for folder in ("/tmp", str(installation.templates())))
 
 
 def test_an_entry_without_files_holds_nothing(tmp_path: Path) -> None:
@@ -159,7 +160,7 @@ def test_the_hash_of_templates_is_of_names_and_words(
     (tmp_path / "school" / "vi").mkdir(parents=True)
     file = tmp_path / "school" / "vi" / "given.md"
     file.write_text("# Đề bài", encoding="utf-8")
-    monkeypatch.setattr(folders, "templates", lambda: tmp_path)
+    monkeypatch.setattr(installation, "templates", lambda: tmp_path)
     before = templates_hash()
     assert templates_hash() == before
     if change == "added":

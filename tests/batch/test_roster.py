@@ -13,9 +13,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from reportgen.assignment.messages import messages
-from reportgen.batch.names import folder_name
-from reportgen.batch.roster import NAME_PARTS, PERSONAL, read_roster
+from reportgen.assignment.faults import messages
+from reportgen.batch.roster import NAME_PARTS, PERSONAL, folder_name, read_roster
 from reportgen.batch.table import folded
 from reportgen.errors import AssignmentError
 from reportgen.workbook import Book, Sheet, write_xlsx
@@ -33,7 +32,7 @@ def put(tmp_path: Path) -> Put:
     return write
 
 
-def told(path: Path) -> list[str]:
+def faults_of(path: Path) -> list[str]:
     """Each fault as place and code."""
     with pytest.raises(AssignmentError) as caught:
         read_roster(path, "en")
@@ -152,7 +151,7 @@ def test_all_faults_are_told_at_once_with_their_cells(put: Put) -> None:
         "Ế,composed\n"
         f"{unicodedata.normalize('NFD', 'ế')},decomposed\n"
     )
-    assert told(path) == [
+    assert faults_of(path) == [
         "FILE:1:9 unknown-column",
         "FILE:1:21 column-twice",
         "FILE:3:1 duplicate-id",
@@ -178,7 +177,7 @@ def test_a_duplicate_names_the_first(put: Put) -> None:
     ],
 )
 def test_a_table_without_ids_or_students(put: Put, content: str, fault: str) -> None:
-    assert told(put(content)) == [fault]
+    assert faults_of(put(content)) == [fault]
 
 
 def test_cells_without_a_value_are_faults(put: Put) -> None:
@@ -189,7 +188,7 @@ def test_cells_without_a_value_are_faults(put: Put) -> None:
     page.append(["#N/A", "x"])
     stream = io.BytesIO()
     book.save(stream)
-    assert told(put(stream.getvalue(), "r.xlsx")) == [
+    assert faults_of(put(stream.getvalue(), "r.xlsx")) == [
         "FILE:Sheet!B2 no-cell-value",
         "FILE:Sheet!A3 no-cell-value",
     ]

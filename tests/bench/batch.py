@@ -18,7 +18,7 @@ from pathlib import Path
 from statistics import median
 from time import perf_counter
 
-from reportgen.batch.start import Order, start
+from reportgen.batch.run import Order, run_batch
 from reportgen.batch.variants import make_variants
 
 from .measure import Cost, in_turns, middle, run
@@ -54,10 +54,10 @@ class Class:
                 self.folder / "roster.csv", None, self.folder / "given", Path(out), ("report",), jobs=workers
             )
             begun = perf_counter()
-            done = start(order, io.StringIO())
+            done = run_batch(order, io.StringIO())
             seconds = perf_counter() - begun
-        if done.result.made != self.students:
-            raise RuntimeError(f"{len(done.result.failures)} reports failed: {done.result.failures[:1]}")
+        if done.made != self.students:
+            raise RuntimeError(f"{len(done.failures)} reports failed: {done.failures[:1]}")
         return Cost(seconds, max(peaks.values(), default=0.0))
 
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from reportgen import folders
+from reportgen import installation
 from reportgen.document.prose import Prose
 from reportgen.document.tree import (
     BlankLine,
@@ -270,7 +270,7 @@ def test_the_nearest_words_win(tmp_path: Path) -> None:
 
 
 def test_the_templates_are_found() -> None:
-    assert (folders.templates() / "vi").is_dir()
+    assert (installation.templates() / "vi").is_dir()
 
 
 def test_a_template_changed_between_reports_is_read_again(tmp_path: Path) -> None:

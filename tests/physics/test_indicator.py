@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reportgen.cycle.indicator import AngleIndicator, StrokeIndicator, indicated_work, stroke_at
+from reportgen.cycle.applied import AngleIndicator, StrokeIndicator, indicated_work, stroke_at
 from reportgen.mechanism.power import mean_over
 
 ROUNDING = 1e-12

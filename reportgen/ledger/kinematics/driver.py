@@ -90,8 +90,8 @@ def slide(
 
 def fitting_scale(k: Kinematics, what: What) -> float:
     """The smallest scale of the series with which the trial's plans, drawn at 10³ a metre, fit their box."""
-    plans = [k.q.value(vertex) for vertex in k.vertices[what]]
-    points = np.array([np.broadcast_to(plan, (k.q.positions,)) for plan in (*plans, 0.0)])
+    plans = [np.zeros(1), *(k.q.value(vertex) for vertex in k.vertices[what])]
+    points = np.array([np.broadcast_to(plan, (k.q.positions,)) for plan in plans])
     points = points[:, np.isfinite(points).all(axis=0)]
     if not points.size:
         return 1e3

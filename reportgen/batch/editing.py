@@ -1,14 +1,16 @@
-"""Nodes → the text of an assignment file.
+"""Assignment files with values put into them: first as nodes, then as text.
 
-What was not changed stays as it stands in the source, comments and all, wherever a key has lines of its own;
+What was not changed stays as it stands in the source, comments included, wherever a key has lines of its own;
 the rest is written anew.  `text_of` reads its own text again: a form it could not keep is written anew as a whole.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from dataclasses import replace
 
+from reportgen.assignment.faults import Where
 from reportgen.assignment.source import List, Node, Scalar, Table, plain, read_text
 
 WIDTH = 100
@@ -17,10 +19,50 @@ _RESERVED = re.compile(r"(~|null|true|false|yes|no|on|off|)", re.IGNORECASE)
 _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 
 
+def at(node: Node | None, where: Where) -> Node | None:
+    """The node at a place; None if there is none."""
+    for step in where:
+        if isinstance(node, Table):
+            entry = node.find(step)
+            node = entry[1] if entry else None
+        elif isinstance(node, List) and isinstance(step, int) and step < len(node.items):
+            node = node.items[step]
+        else:
+            return None
+    return node
+
+
+def put(node: Node, where: Where, value: Node) -> Node:
+    """The node with `value` at a place; missing tables on the way are made, lists are not made longer."""
+    if not where:
+        return value
+    step, rest = where[0], where[1:]
+    if isinstance(node, List):
+        items = tuple(put(item, rest, value) if k == step else item for k, item in enumerate(node.items))
+        return replace(node, items=items)
+    entries = node.entries if isinstance(node, Table) else ()
+    if step not in [key.text for key, _ in entries]:
+        entries = (*entries, (Scalar(str(step), value.mark), Table((), value.mark)))
+    changed = tuple((key, put(old, rest, value) if key.text == step else old) for key, old in entries)
+    return Table(changed, node.mark)
+
+
+def without(table: Table, keys: Collection[str]) -> Table:
+    """The table without some of its keys."""
+    return replace(table, entries=tuple(entry for entry in table.entries if entry[0].text not in keys))
+
+
+def path_text(where: Where) -> str:
+    """A place as users write it: parameters.H, parameters.groups.0.length."""
+    return ".".join(map(str, where))
+
+
 def text_of(table: Table, source: str, original: Table) -> str:
     """The file of a table whose unchanged parts are those of `original`, which was read from `source`."""
     kept = _block(table, original, source.splitlines(), 0)
-    return kept if _says(kept, table) else _lines(table, 0)
+    read = read_text(kept)
+    agrees = not read.faults and read.top is not None and plain(read.top) == plain(table)
+    return kept if agrees else _lines(table, 0)
 
 
 def quoted(text: str) -> str:
@@ -38,40 +80,30 @@ def _escaped(letter: str) -> str:
     return f"\\u{ord(letter):04x}" if ord(letter) < 0x10000 else f"\\U{ord(letter):08x}"
 
 
-def _says(text: str, table: Table) -> bool:
-    read = read_text(text)
-    return not read.faults and read.top is not None and plain(read.top) == plain(table)
-
-
 def _block(table: Table, original: Table, lines: Sequence[str], depth: int) -> str:
     """A table in block form: entries that are the very ones of the source by their lines, others anew."""
     spans = _spans(original, lines)
-    parts: list[str] = []
+    text = ""
     for key, value in table.entries:
         entry = original.find(key.text)
         span = spans.get(key.text)
         if entry is None or span is None:
-            # Before the blank lines that part this table from what follows it.
-            blank = _blank_end(parts)
-            parts += [_entry(key, value, depth), blank]
+            # Before the blank lines that separate this table from what follows it.
+            full = text.rstrip("\n") + "\n" if text.strip() else text
+            text = full + _entry(key, value, depth) + text[len(full) :]
         elif value is entry[1]:
-            parts.append("".join(f"{line}\n" for line in span))
+            text += _joined(span)
         elif isinstance(value, Table) and isinstance(entry[1], Table) and _is_block(entry[0], entry[1]):
-            head = lines[entry[0].mark.line - 1 : entry[1].mark.line - 1]
-            parts.append("".join(f"{line}\n" for line in head))
-            indent = entry[1].mark.column - 1
-            parts.append(_block(value, entry[1], lines[: entry[0].mark.line - 1 + len(span)], indent))
+            start = entry[0].mark.line - 1
+            text += _joined(lines[start : entry[1].mark.line - 1])
+            text += _block(value, entry[1], lines[: start + len(span)], entry[1].mark.column - 1)
         else:
-            parts.append(_with_comment(_entry(key, value, depth), span, value))
-    return "".join(parts)
+            text += _with_comment(_entry(key, value, depth), span, value)
+    return text
 
 
-def _blank_end(parts: list[str]) -> str:
-    """Takes the blank lines off the end of what is written so far."""
-    text = "".join(parts)
-    full = text.rstrip("\n") + "\n" if text.strip() else text
-    parts[:] = [full]
-    return text[len(full) :]
+def _joined(lines: Sequence[str]) -> str:
+    return "".join(f"{line}\n" for line in lines)
 
 
 def _is_block(key: Scalar, table: Table) -> bool:
@@ -80,15 +112,13 @@ def _is_block(key: Scalar, table: Table) -> bool:
 
 def _spans(table: Table, lines: Sequence[str]) -> dict[str, Sequence[str]]:
     """The lines of each entry, up to the next; none for entries that share lines."""
-    starts = [key.mark.line for key, _ in table.entries]
-    if not starts or len(set(starts)) < len(starts) or any(
-        lines[line - 1][: key.mark.column - 1].strip() for line, (key, _) in zip(starts, table.entries, strict=True)
-    ):
+    keys = [key for key, _ in table.entries]
+    starts = [key.mark.line for key in keys]
+    shared = any(lines[key.mark.line - 1][: key.mark.column - 1].strip() for key in keys)
+    if not keys or shared or len(set(starts)) < len(starts):
         return {}
     ends = [*(line - 1 for line in starts[1:]), len(lines)]
-    return {
-        key.text: lines[line - 1 : end] for line, end, (key, _) in zip(starts, ends, table.entries, strict=True)
-    }
+    return {key.text: lines[start - 1 : end] for key, start, end in zip(keys, starts, ends, strict=True)}
 
 
 def _with_comment(entry: str, span: Sequence[str], value: Node) -> str:
@@ -99,8 +129,7 @@ def _with_comment(entry: str, span: Sequence[str], value: Node) -> str:
             break
         after.append(line)
     comment = re.search(r"\s+#[^'\"]*$", span[0]) if isinstance(value, Scalar) else None
-    first = entry.rstrip("\n") + (comment[0] if comment else "")
-    return "".join(f"{line}\n" for line in (first, *reversed(after)))
+    return _joined([entry.rstrip("\n") + (comment[0] if comment else ""), *reversed(after)])
 
 
 def _entry(key: Scalar, value: Node, depth: int) -> str:
@@ -111,8 +140,7 @@ def _entry(key: Scalar, value: Node, depth: int) -> str:
         return f"{space}{name}: {flow}".rstrip() + "\n"
     if isinstance(value, Table):
         return f"{space}{name}:\n{_lines(value, depth + 2)}"
-    items = "".join(f"{space}  - {_flow(item)}\n" for item in value.items)
-    return f"{space}{name}:\n{items}"
+    return _joined([f"{space}{name}:", *(f"{space}  - {_flow(item)}" for item in value.items)])
 
 
 def _lines(table: Table, depth: int) -> str:

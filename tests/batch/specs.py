@@ -1,0 +1,42 @@
+"""Specs of classes, rosters of students, and the places of faults in both."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+from reportgen.batch.roster import Roster, Student
+from reportgen.errors import AssignmentError, Mark
+
+ROOT = Path(__file__).parents[2]
+DEMO = ROOT / "assignments" / "class-demo"
+BARS = """\
+kind: four-bar
+salt: "2011"
+report: {language: en}
+parameters:
+  AB: {from: 100 mm, to: 130 mm, step: 5 mm}   # the crank
+  BC: [340 mm, 350 mm]
+  CD: 280 mm
+  AD: 400 mm
+  omega1: 20 rad/s
+  E:
+    along: {from: 0.1 mm, to: 0.4 mm, step: 0.1 mm}
+    across: 110 mm
+  torque: {M: 40 N m, sense: [opposing, clockwise]}
+"""
+Put = Callable[..., Path]
+
+
+def classes(*ids: str) -> Roster:
+    return Roster(tuple(Student(id, "", "", "", "", {}, Mark("r", k)) for k, id in enumerate(ids, start=2)))
+
+
+def ids(count: int) -> tuple[str, ...]:
+    return tuple(f"K{number:03}" for number in range(count))
+
+
+def located(error: AssignmentError, path: Path) -> list[str]:
+    lines = [str(problem).splitlines()[0].replace(str(path), "FILE") for problem in error.problems]
+    return [re.sub(r": error\[(.*?)\].*", r" \1", line) for line in lines]
