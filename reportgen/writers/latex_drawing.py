@@ -23,9 +23,17 @@ from reportgen.figures.scene import (
     Stroke,
 )
 from reportgen.notation.numbers import Language
-from reportgen.paint.geometry import Bezier, Triangle, arc_to_beziers, arc_with_head, arrow_head, clip_hatch
 from reportgen.writers.latex_math import mathematics
 from reportgen.writers.latex_text import escape
+from reportgen.writers.strokes import (
+    Bezier,
+    Triangle,
+    arc_to_beziers,
+    arc_with_head,
+    arrow_head,
+    clip_hatch,
+    decimal,
+)
 
 LABEL_SIZE = 9.0
 """The size of labels, in points, that `\\scene` sets; any other is written at the label."""
@@ -45,7 +53,7 @@ def paint(scene: Scene, language: Language) -> str:
         else:
             runs.append("\\strokes{" + "\n".join(_operators(items)) + "}%")
     body = "\n".join(runs)
-    return f"\\scene{{{_number(scene.width)}}}{{{_number(scene.height)}}}{{%\n{body}\n}}"
+    return f"\\scene{{{decimal(scene.width)}}}{{{decimal(scene.height)}}}{{%\n{body}\n}}"
 
 
 # --- labels ---------------------------------------------------------------------------------------
@@ -55,13 +63,13 @@ def _label(label: Label, language: Language) -> str:
     words = label.content
     content = escape(words) if isinstance(words, str) else f"${mathematics(words, language)}$"
     if label.size != LABEL_SIZE:
-        content = rf"\fontsize{{{_number(label.size)}}}{{{_number(1.2 * label.size)}}}\selectfont {content}"
+        content = rf"\fontsize{{{decimal(label.size)}}}{{{decimal(1.2 * label.size)}}}\selectfont {content}"
     if label.turn % 360 == 90:
         content = rf"\lbturned{{{content}}}"
     if label.background:
         content = rf"\lbpaper{{{content}}}"
     along, up = _share(label.anchor)
-    return rf"\lb{{{_number(label.at.real)}}}{{{_number(label.at.imag)}}}{{{along}}}{{{up}}}{{{content}}}%"
+    return rf"\lb{{{decimal(label.at.real)}}}{{{decimal(label.at.imag)}}}{{{along}}}{{{up}}}{{{content}}}%"
 
 
 def _share(anchor: Anchor) -> tuple[str, str]:
@@ -133,19 +141,13 @@ def _paint(pen: Stroke | None, fill: str | None) -> str:
 
 
 def _pen(stroke: Stroke) -> str:
-    dash = " ".join(map(_number, stroke.dash))
-    return f"{_number(stroke.width)} w {_colour(stroke.colour)} RG [{dash}] 0 d"
+    dash = " ".join(map(decimal, stroke.dash))
+    return f"{decimal(stroke.width)} w {_colour(stroke.colour)} RG [{dash}] 0 d"
 
 
 def _colour(colour: str) -> str:
-    return " ".join(_number(int(colour[at : at + 2], 16) / 255) for at in (1, 3, 5))
+    return " ".join(decimal(int(colour[at : at + 2], 16) / 255) for at in (1, 3, 5))
 
 
 def _point(point: complex) -> str:
-    return f"{_number(point.real)} {_number(point.imag)}"
-
-
-def _number(value: float) -> str:
-    """Three decimals, without trailing zeros and without a negative zero."""
-    text = f"{value:.3f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    return f"{decimal(point.real)} {decimal(point.imag)}"
