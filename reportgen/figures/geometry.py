@@ -29,7 +29,7 @@ def ends(item: Item) -> Complexes:
             size = abs(end - start)
             if size == 0:
                 return np.array([[start, end]])
-            # The two flanks of the head, a third as wide as it is long, are strokes to keep clear of.
+            # Labels keep clear of the head, which is a third as wide as it is long.
             u = (end - start) / size
             head = min(head, size)
             left, right = end - head * u * (1 + 0.18j), end - head * u * (1 - 0.18j)
@@ -88,9 +88,12 @@ def corners(item: Item) -> Complexes:
 def bounds(items: Iterable[Item]) -> tuple[complex, complex]:
     """Lower left and upper right corner of the box around all items; (0, 0) for none."""
     points = [corners(item) for item in items]
-    if not points:
-        return 0j, 0j
-    p = np.concatenate(points)
+    return corners_of(np.concatenate(points)) if points else (0j, 0j)
+
+
+def corners_of(points: Sequence[complex] | Complexes) -> tuple[complex, complex]:
+    """Lower left and upper right corner of the box around points."""
+    p = np.asarray(points, dtype=np.complex128)
     return complex(p.real.min(), p.imag.min()), complex(p.real.max(), p.imag.max())
 
 
@@ -136,7 +139,7 @@ def clusters(points: Sequence[complex], reach: float) -> list[list[int]]:
 
 
 def unit(vector: complex) -> complex:
-    """The direction of a vector; 1 for nothing."""
+    """The direction of a vector; 1 for a vector of no length."""
     size = abs(vector)
     return vector / size if size > 0 else 1 + 0j
 

@@ -29,9 +29,10 @@ class Slide:
 
 @dataclass(frozen=True, slots=True)
 class Skeleton:
-    """Points in mm by name, joints of each moving link, slides, ground pivots; `reached` false where nan.
+    """Points in mm by name, joints of each moving link, slides, ground pivots.
 
-    `owners` tells the link of the further points (mass centres, coupler points).
+    `owners` gives the link of each further point (mass centres, coupler points); `reached` is false where the
+    mechanism cannot take the position.
     """
 
     points: Mapping[str, complex]

@@ -9,8 +9,8 @@ import pytest
 
 from reportgen.figures.draft import finish
 from reportgen.figures.indicator import Branch, Frame, Reading, beside, indicator
-from reportgen.figures.labels import overlaps
 from reportgen.notation.expressions import Symbol
+from tests.figures.overlaps import overlaps
 
 
 @pytest.mark.parametrize("degrees", range(0, 360, 15))
