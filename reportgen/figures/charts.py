@@ -124,12 +124,11 @@ def polar(series: Series, unit: str, *, title: str = "") -> Scene:
     per = POLAR_SIZE / max(x1 - x0, y1 - y0)
     window = _Window((x0, x1), (y0, y1), (x1 - x0) * per, (y1 - y0) * per)
     items = _frame(window, _steps(x0, x1, step), _steps(y0, y1, step), "")
-    pole = window.at(0.0, 0.0)
     items += [Line(window.at(x0, 0), window.at(x1, 0), EDGE), Line(window.at(0, y0), window.at(0, y1), EDGE)]
     vertices = window.vertices(x, y)
     items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
     requests = _marked(series, vertices, PENS[0], items)
-    items.append(Circle(pole, MARK, EDGE, style.PAPER))
+    items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
     items += _titles(window, unit, "", items)
     return finish(Draft(tuple(items), tuple(requests)), title=title, margin=2.0)
 
@@ -226,10 +225,13 @@ def _frame(window: _Window, x_ticks: Sequence[float], y_ticks: Sequence[float], 
         zero = abs(tick) < 1e-12 * max(map(abs, window.y))
         items.append(Line(left, window.at(window.x[1], tick), EDGE if zero else GRID))
         items.append(Label(left - 1.5, _figure(tick, y_ticks, ""), "right", style.SMALL))
-    low, high = window.at(window.x[0], window.y[0]), window.at(window.x[1], window.y[1])
-    corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
-    items.append(Polyline(corners, EDGE, closed=True))
+    items.append(_box(window.at(window.x[0], window.y[0]), window.at(window.x[1], window.y[1]), EDGE))
     return items
+
+
+def _box(low: complex, high: complex, pen: Stroke, fill: str | None = None) -> Polyline:
+    corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
+    return Polyline(corners, pen, closed=True, fill=fill)
 
 
 def _figure(tick: float, ticks: Sequence[float], unit: str) -> Number:
@@ -302,5 +304,4 @@ def _whole_steps(largest: int) -> tuple[int, int]:
 
 
 def _bar(low: complex, high: complex) -> Polyline:
-    corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
-    return Polyline(corners, OUTLINE, closed=True, fill=style.TINT)
+    return _box(low, high, OUTLINE, style.TINT)

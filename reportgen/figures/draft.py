@@ -6,14 +6,17 @@ places the labels, crops to the content and gives the `Scene`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from reportgen.figures import style
 from reportgen.figures.geometry import bounds, corners_of, moved
 from reportgen.figures.labels import Request, place
 from reportgen.figures.metrics import box
 from reportgen.figures.scene import Content, Item, Label, Scene
+
+Part = TypeVar("Part")
 
 MARGIN = 6.0
 TITLE_HEIGHT = 4.5
@@ -92,61 +95,42 @@ def sheets(
     common scale) below all.  Of each scene's margin `trim` mm are given up.  A scene larger than the sheet
     gets one of its own size.
     """
-    room = height - (NOTE_HEIGHT if note is not None else 0.0)
-    pages: list[list[_Row]] = []
-    for row in _rows(scenes, width, trim):
-        if not pages or sum(other.height for other in pages[-1]) + row.height > room:
-            pages.append([])
-        pages[-1].append(row)
-    return tuple(_sheet(page, width, note) for page in pages)
-
-
-@dataclass(frozen=True, slots=True)
-class _Row:
-    """Scenes side by side, each without `trim` mm of its margin."""
-
-    scenes: tuple[Scene, ...]
-    trim: float
-
-    @property
-    def width(self) -> float:
-        return sum(map(self.wide, self.scenes))
-
-    @property
-    def height(self) -> float:
-        return max(scene.height for scene in self.scenes) - 2 * self.trim + TITLE_HEIGHT
-
-    def wide(self, scene: Scene) -> float:
-        return scene.width - 2 * self.trim
-
-
-def _rows(scenes: Sequence[Scene], width: float, trim: float) -> list[_Row]:
-    rows: list[_Row] = []
-    for scene in scenes:
-        if rows and rows[-1].width + rows[-1].wide(scene) <= width:
-            rows[-1] = _Row((*rows[-1].scenes, scene), trim)
-        else:
-            rows.append(_Row((scene,), trim))
-    return rows
-
-
-def _sheet(rows: Sequence[_Row], width: float, note: Content | None) -> Scene:
-    """One sheet, as high as its rows; scenes of a row stand on a common base line."""
-    wide = max(width, *(row.width for row in rows))
     foot = NOTE_HEIGHT if note is not None else 0.0
-    top = height = foot + sum(row.height for row in rows)
-    items: list[Item] = []
-    for row in rows:
-        top -= row.height
-        space = (wide - row.width) / (len(row.scenes) + 1)
-        x = space
-        for scene in row.scenes:
-            corner = complex(x - row.trim, top + TITLE_HEIGHT - row.trim)
-            items += [moved(item, corner) for item in scene.items]
-            if scene.title:
-                middle = complex(x + row.wide(scene) / 2, top + TITLE_HEIGHT / 2)
-                items.append(Label(middle, scene.title, size=style.LABEL))
-            x += row.wide(scene) + space
-    if note is not None:
-        items.append(Label(complex(wide / 2, NOTE_HEIGHT / 3), note, size=style.LABEL))
-    return Scene(wide, height, tuple(items))
+
+    def wide(scene: Scene) -> float:
+        return scene.width - 2 * trim
+
+    def high(row: Sequence[Scene]) -> float:
+        return max(scene.height for scene in row) - 2 * trim + TITLE_HEIGHT
+
+    def sheet(rows: Sequence[Sequence[Scene]]) -> Scene:
+        """As high as its rows; the scenes of a row stand on a common base line."""
+        across = max(width, *(sum(map(wide, row)) for row in rows))
+        top = full = foot + sum(map(high, rows))
+        items: list[Item] = []
+        for row in rows:
+            top -= high(row)
+            x = space = (across - sum(map(wide, row))) / (len(row) + 1)
+            for scene in row:
+                corner = complex(x - trim, top + TITLE_HEIGHT - trim)
+                items += [moved(item, corner) for item in scene.items]
+                if scene.title:
+                    items.append(Label(complex(x + wide(scene) / 2, top + TITLE_HEIGHT / 2), scene.title))
+                x += wide(scene) + space
+        if note is not None:
+            items.append(Label(complex(across / 2, NOTE_HEIGHT / 3), note))
+        return Scene(across, full, tuple(items))
+
+    rows = _filled(scenes, wide, width)
+    return tuple(map(sheet, _filled(rows, high, height - foot)))
+
+
+def _filled(parts: Iterable[Part], size: Callable[[Part], float], room: float) -> list[list[Part]]:
+    """The parts in groups, in order, each group as large as the room allows."""
+    groups: list[list[Part]] = []
+    for part in parts:
+        if groups and sum(map(size, groups[-1])) + size(part) <= room:
+            groups[-1].append(part)
+        else:
+            groups.append([part])
+    return groups

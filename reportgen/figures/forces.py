@@ -108,11 +108,6 @@ def bodies(
     return finish(draft + extra if extra else draft, notes=looks.notes, title=title)
 
 
-def turned(plan: Plan, sense: int = 1) -> Plan:
-    """The plan turned by 90° about its pole; anticlockwise for `sense` = +1."""
-    return plan.scaled(1j * sense)
-
-
 def lever(
     plan: Plan,
     forces: Sequence[Force],
@@ -123,10 +118,10 @@ def lever(
 ) -> Scene:
     """Zhukovsky's lever: the velocity plan turned 90° as a rigid lever about its pole, loaded by all forces.
 
-    The forces act at the images of their points, in the *turned* plan's coordinates.  Σ F h = 0 with the
-    balancing force at the crank pin's image gives the torque on the driver.
+    It is turned anticlockwise for `sense` = +1.  The forces act at the images of their points, in the *turned*
+    plan's coordinates.  Σ F h = 0 with the balancing force at the crank pin's image gives the driver's torque.
     """
-    rigid = turned(plan, sense)
+    rigid = plan.scaled(1j * sense)
     items: list[Item] = [Line(vector.start, vector.end, style.VISIBLE) for vector in rigid.drawn()]
     # The pole is the fixed pivot.
     items += [Circle(point.at, 0.7, style.VISIBLE, style.PAPER) for point in rigid.points[1:]]

@@ -22,6 +22,7 @@ from reportgen.figures.metrics import Box, box
 from reportgen.figures.scene import Circle, Content, Item, Label, Line
 
 Indices = NDArray[np.intp]
+Segment = tuple[complex, complex]
 
 DIRECTIONS = np.exp(2j * np.pi * np.arange(24) / 24)
 CORNERS = np.clip(DIRECTIONS.real * math.sqrt(2), -1, 1) + 1j * np.clip(DIRECTIONS.imag * math.sqrt(2), -1, 1)
@@ -120,13 +121,13 @@ class _Taken:
     def __init__(self, frames: Sequence[tuple[complex, float, float]]) -> None:
         self.centres = [centre for centre, _, _ in frames]
         self.halves = [complex(width, height) / 2 for _, width, height in frames]
-        self.ties: list[tuple[complex, complex]] = []
+        self.leaders: list[Segment] = []
 
-    def add(self, centre: complex, half: complex, tie: tuple[complex, complex] | None) -> None:
+    def add(self, centre: complex, half: complex, leader: Segment | None) -> None:
         self.centres.append(centre)
         self.halves.append(half)
-        if tie:
-            self.ties.append(tie)
+        if leader:
+            self.leaders.append(leader)
 
     def clear(self, centres: Complexes, half: complex) -> Flags:
         """Which of the boxes keep apart from every label and leader."""
@@ -135,8 +136,8 @@ class _Taken:
             apart = centres[:, None] - np.asarray(self.centres)
             room = np.asarray(self.halves) + (half + APART * (1 + 1j))
             free = ((np.abs(apart.real) >= room.real) | (np.abs(apart.imag) >= room.imag)).all(axis=1)
-        if self.ties:
-            free &= ~_touched(centres, half, np.array(self.ties))
+        if self.leaders:
+            free &= ~_touched(centres, half, np.array(self.leaders))
         return free
 
     def crossed(self, leaders: Complexes) -> Flags:
@@ -207,17 +208,17 @@ def _place_in(
     crowded: list[int] = []
     for i in order:
         request, spot = requests[i], spots[i]
-        centre, tie = spot.best(taken), None
+        centre, leader = spot.best(taken), None
         if centre is None:
-            centre, tie, free = _away(request, spot, taken)
+            centre, leader, free = _away(request, spot, taken)
             if not free:
                 crowded.append(i)
         labels: tuple[Item, ...] = _row(centre, request.parts, request.size)
         if request.ring:
             labels = (Circle(centre, spot.half.real, style.THIN), *labels)
-        if tie:
-            labels = (Line(*tie, style.LEADER), *labels)
-        taken.add(centre, spot.half, tie)
+        if leader:
+            labels = (Line(*leader, style.LEADER), *labels)
+        taken.add(centre, spot.half, leader)
         placed[i] = labels
     return placed, crowded
 
@@ -261,9 +262,7 @@ def _touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
     return np.asarray(overlap(centres, np.array([half]), strokes, CLEAR).any(axis=1), dtype=np.bool_)
 
 
-def _away(
-    request: Request, spot: _Spots, taken: _Taken
-) -> tuple[complex, tuple[complex, complex], bool]:
+def _away(request: Request, spot: _Spots, taken: _Taken) -> tuple[complex, Segment, bool]:
     """The nearest free spot farther out, the leader to it, which crosses no label, and whether it is free.
 
     The leader starts at the label's first point, or at another one if no spot around the first is free.
@@ -275,9 +274,7 @@ def _away(
     return next((other for other in others if other[2]), first)
 
 
-def _off(
-    request: Request, at: complex, spot: _Spots, taken: _Taken
-) -> tuple[complex, tuple[complex, complex], bool]:
+def _off(request: Request, at: complex, spot: _Spots, taken: _Taken) -> tuple[complex, Segment, bool]:
     """As `_away`, around one point of the label."""
     half = spot.half
     centres = (at + _ring(half, np.asarray(FAR) + request.gap)).ravel()

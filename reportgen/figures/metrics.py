@@ -53,20 +53,12 @@ class Box:
         """Both boxes on one baseline."""
         return Box(self.width + other.width, max(self.height, other.height), max(self.depth, other.depth))
 
-    def wider(self, factor: float) -> Box:
-        return Box(self.width * factor, self.height, self.depth)
-
-    def raised(self, by: float) -> Box:
-        return Box(self.width, self.height + by, self.depth - by)
-
 
 @lru_cache(maxsize=4096)
 def box(content: Content, size: float = 9.0) -> Box:
     """The box of a label's content at a font size in points; unknown letters count as one em."""
     em = size * POINT
-    if isinstance(content, str):
-        return _text(content, em)
-    return _expression(content, em)
+    return _text(content, em) if isinstance(content, str) else _expression(content, em)
 
 
 def _text(text: str, em: float, italic: bool = False) -> Box:
@@ -74,11 +66,8 @@ def _text(text: str, em: float, italic: bool = False) -> Box:
     if not glyphs:
         return Box(0.0, 0.0, 0.0)
     k = em / 1000
-    return Box(
-        k * sum(glyph[0] for glyph in glyphs),
-        k * max(glyph[1] for glyph in glyphs),
-        k * max(glyph[2] for glyph in glyphs),
-    )
+    advances, heights, depths = zip(*glyphs, strict=True)
+    return Box(k * sum(advances), k * max(heights), k * max(depths))
 
 
 def _joined(parts: list[Box], em: float, gap: float) -> Box:
@@ -88,22 +77,21 @@ def _joined(parts: list[Box], em: float, gap: float) -> Box:
     return result
 
 
-def _scripts(base: Box, sub: Box, sup: Box, em: float) -> Box:
+def _scripts(base: Box, sub: Box, sup: Box, em: float, cut: float = 1.0) -> Box:
     height, depth = base.height, base.depth
     if sup.width:
         height = max(height, sup.height + SUPER_SHIFT * em)
     if sub.width:
         depth = max(depth, sub.depth + SUB_SHIFT * em)
-    return Box(base.width + max(sub.width, sup.width), height, depth)
+    return Box(base.width + cut * max(sub.width, sup.width), height, depth)
 
 
 def _symbol(symbol: Symbol, em: float) -> Box:
-    small = SCRIPT * em
     base = _text(symbol.base, em, italic=True)
     if symbol.over:
         base = Box(max(base.width, 0.5 * em), base.height + OVER * em, base.depth)
-    sub, sup = (_text(script, small).wider(SMALL_CUT) for script in (symbol.sub, symbol.sup))
-    return _scripts(base, sub, sup, em)
+    sub, sup = (_text(script, SCRIPT * em) for script in (symbol.sub, symbol.sup))
+    return _scripts(base, sub, sup, em, SMALL_CUT)
 
 
 def _expression(node: Expression, em: float) -> Box:
@@ -133,7 +121,8 @@ def _expression(node: Expression, em: float) -> Box:
         case Power(base, exponent):
             return _scripts(_factor(base, em), Box(0, 0, 0), _expression(exponent, SCRIPT * em), em)
         case Root(of):
-            return Box(0.85 * em, 0.2 * em, 0.0).beside(_expression(of, em)).raised(0.1 * em)
+            inner = Box(0.85 * em, 0.2 * em, 0.0).beside(_expression(of, em))
+            return Box(inner.width, inner.height + 0.1 * em, inner.depth - 0.1 * em)
         case Call(name, arguments):
             inner = _joined([_expression(argument, em) for argument in arguments], em, 0.5)
             return _text(name + "()", em).beside(inner)

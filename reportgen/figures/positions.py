@@ -63,38 +63,34 @@ def position_plan(
     beside: Draft | None = None,
 ) -> Scene:
     """The scene, `scale` mm of paper per m, with a drawing `beside` it about the same origin (an indicator diagram)."""
-    draft = _positions(linkage, motion, dense, scale, shows)
-    return finish(draft + beside if beside else draft, notes=looks.notes if looks else ())
-
-
-def _positions(linkage: Linkage, motion: Motion, dense: Motion, scale: float, shows: PositionPlan) -> Draft:
     count = len(motion.driver)
     every = [skeleton(linkage, motion, k, scale) for k in range(count)]
     reached = [bones for bones in every if bones.reached]
     items: list[Item] = []
-    driver = linkage.driver
-    if isinstance(driver, Crank):
-        centre = every[0].points[driver.centre]
-        for radius in _radii(dense, driver.centre, shows.numbered, scale):
-            items.append(style.path_circle(centre, radius))
+    requests: list[Request] = []
+    if isinstance(linkage.driver, Crank):
+        centre = linkage.driver.centre
+        radii = _radii(dense, centre, shows.numbered, scale)
+        items += [Circle(every[0].points[centre], radius, style.THIN) for radius in radii]
     items += [line for bones in reached[:1] for line in _axes(bones)]
     for bones in reached:
         items += _links(bones, style.THIN)
     for name in shows.paths:
         curve = dense.points[name].p[dense.reachable] * scale
         items.append(Polyline(tuple(complex(p) for p in curve), PATH))
-    requests = [_path_name(name, dense, scale) for name in shows.paths]
+        # The name of a path stands anywhere along it.
+        places = [complex(p) for p in curve[:: max(1, len(curve) // 10)]]
+        requests.append(label(places, symbols.point(name)))
     if shows.emphasised is not None and every[shows.emphasised].reached:
         bones = every[shows.emphasised]
         items += _links(bones, style.HEAVY, shows.paths)
         items += [style.point(bones.points[name]) for name in shows.paths]
-    pivots = reached[0].pivots if reached else ()
-    for name in pivots:
+    for name in reached[0].pivots if reached else ():
         items += style.pivot(reached[0].points[name])
         requests.append(label(reached[0].points[name], symbols.point(name), gap=style.JOINT + 0.4))
     numbers = range(count) if count <= CROWDED else [k for k in (shows.emphasised,) if k is not None]
-    marks, names = _numbers(every, numbers, shows)
-    return Draft((*items, *marks), (*requests, *names))
+    draft = Draft(tuple(items), tuple(requests)) + _numbers(every, numbers, shows)
+    return finish(draft + beside if beside else draft, notes=looks.notes if looks else ())
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +113,7 @@ def centre_plan(
 ) -> Scene:
     """The mechanism at position `index` of `motion` with its links' instant centres and the normals to them."""
     bones = skeleton(linkage, motion, index, scale)
-    draft = mechanism(bones, links, looks) + driver_marks(linkage, motion, bones, looks)
+    draft = mechanism(bones, links, looks) + driver_marks(linkage, motion, bones)
     normals: list[Item] = []
     marks: list[Item] = []
     names: list[Request] = []
@@ -167,16 +163,7 @@ def _links(bones: Skeleton, pen: Stroke, further: Sequence[str] = ()) -> list[It
     return result
 
 
-def _path_name(name: str, dense: Motion, scale: float) -> Request:
-    """The name of a path, anywhere along it."""
-    curve = dense.points[name].p[dense.reachable] * scale
-    places = [complex(p) for p in curve[:: max(1, len(curve) // 10)]]
-    return label(places, symbols.point(name))
-
-
-def _numbers(
-    every: Sequence[Skeleton], numbers: Sequence[int] | range, shows: PositionPlan
-) -> tuple[list[Item], list[Request]]:
+def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionPlan) -> Draft:
     """Dots at the numbered positions and their names, one label for points that coincide."""
     shown = [(name, k) for name in shows.numbered for k in numbers if every[k].reached]
     where = [every[k].points[name] for name, k in shown]
@@ -190,4 +177,4 @@ def _numbers(
         out = (float(np.angle(at - middle)),) if abs(at - middle) > 1 else ()
         size = style.LABEL if len(group) < 3 else style.SMALL
         requests.append(label(at, *joined(names[i] for i in group), prefer=out, gap=DOT + 0.5, size=size))
-    return items, requests
+    return Draft(tuple(items), tuple(requests))

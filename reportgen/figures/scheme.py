@@ -1,17 +1,17 @@
-"""The kinematic scheme of any linkage, its driver and Assur groups taken apart, and the signs they are drawn with."""
+"""The kinematic scheme of any linkage, and its driver and Assur groups taken apart."""
 
 from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
 from reportgen.figures.geometry import clusters, polar
 from reportgen.figures.labels import Request, joined, label
-from reportgen.figures.scene import Arc, Content, Item, Line, Scene, Stroke
+from reportgen.figures.scene import Arc, Circle, Content, Item, Line, Scene, Stroke
 from reportgen.figures.skeleton import Skeleton, Slide, skeleton
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Linkage
@@ -40,18 +40,11 @@ class Looks:
         return self.blocks.get(link, style.BLOCK)
 
 
-def scheme(
-    linkage: Linkage,
-    motion: Motion,
-    index: int,
-    scale: float,
-    looks: Looks | None = None,
-) -> Scene:
+def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks | None = None) -> Scene:
     """The kinematic scheme at position `index`, `scale` mm of paper per m."""
     looks = looks or Looks()
     bones = skeleton(linkage, motion, index, scale)
-    links = (GROUND, *linkage.links)
-    draft = mechanism(bones, links, looks) + driver_marks(linkage, motion, bones, looks)
+    draft = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
     return finish(draft, notes=looks.notes)
 
 
@@ -66,15 +59,13 @@ def groups(
     """The driver with the ground, then each Assur group alone, a scene each."""
     looks = looks or Looks()
     bones = skeleton(linkage, motion, index, scale)
-    parts = [mechanism(bones, (GROUND, DRIVER), looks) + driver_marks(linkage, motion, bones, looks)]
+    parts = [mechanism(bones, (GROUND, DRIVER), looks) + driver_marks(linkage, motion, bones)]
     parts += [mechanism(bones, dyad.links, looks) for dyad in linkage.dyads]
-    named = [titles[n] if n < len(titles) else "" for n in range(len(parts))]
-    return tuple(finish(part, title=title) for part, title in zip(parts, named, strict=True))
+    return tuple(finish(part, title=title) for part, title in zip(parts, titles or [""] * len(parts), strict=True))
 
 
-def mechanism(bones: Skeleton, links: Iterable[int], looks: Looks) -> Draft:
-    """The chosen links with their joints, names and numbers; with link 0 its pivots and guides."""
-    shown = tuple(links)
+def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Draft:
+    """The shown links with their joints, names and numbers; with link 0 its pivots and guides."""
     rails: list[Item] = []
     bars: list[Item] = []
     blocks: list[Item] = []
@@ -100,11 +91,8 @@ def mechanism(bones: Skeleton, links: Iterable[int], looks: Looks) -> Draft:
         if link != GROUND:
             requests += _number(bones, link, looks)
     names += [name for name in bones.joints if name not in names and _on_block(bones, name, shown)]
-    if GROUND in shown:
-        standing = [name for name in bones.pivots if len(shown) > 2 or name in names]
-        names += [name for name in standing if name not in names]
-    else:
-        standing = []
+    standing = [name for name in bones.pivots if GROUND in shown and (len(shown) > 2 or name in names)]
+    names += [name for name in standing if name not in names]
     pins: list[Item] = []
     for name in names:
         at = bones.points[name]
@@ -116,7 +104,7 @@ def mechanism(bones: Skeleton, links: Iterable[int], looks: Looks) -> Draft:
     return Draft((*rails, *bars, *blocks, *pins, *marks), tuple(requests))
 
 
-def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton, looks: Looks) -> Draft:
+def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton) -> Draft:
     """The circle of a crank's pin and the arrow of ω1; an empty draft for a sliding driver."""
     driver = linkage.driver
     if not isinstance(driver, Crank):
@@ -130,21 +118,18 @@ def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton, looks: Looks
     arrow = Arc(centre, reach, start, stop, Stroke(0.25), style.HEAD)
     places = [centre + reach * polar(start + share * (stop - start)) for share in (0.6, 0.3, 0.9)]
     omega = label(places, Symbol("ω", "1"), prefer=(angle + sense * 0.7,))
-    return Draft((style.path_circle(centre, radius), arrow), (omega,))
+    return Draft((Circle(centre, radius, style.THIN), arrow), (omega,))
 
 
 def _rail(slide: Slide, size: tuple[float, float]) -> tuple[Item, ...]:
-    if slide.on == GROUND:
-        return style.guide(*_long(slide), size)
-    on = polar(slide.angle) * (size[0] / 2 + 3.0)
-    return (Line(slide.low - on, slide.high + on, style.HEAVY),)
-
-
-def _long(slide: Slide) -> tuple[complex, complex]:
-    """The way of a block; if it has no length, a short piece along the block."""
+    """The guide of a block along its way; if the way has no length, along a short piece of its axis."""
+    along = polar(slide.angle)
+    if slide.on != GROUND:
+        on = along * (size[0] / 2 + 3.0)
+        return (Line(slide.low - on, slide.high + on, style.HEAVY),)
     if abs(slide.high - slide.low) > 1e-6:
-        return slide.low, slide.high
-    return slide.at - 0.5 * polar(slide.angle), slide.at + 0.5 * polar(slide.angle)
+        return style.guide(slide.low, slide.high, size)
+    return style.guide(slide.at - 0.5 * along, slide.at + 0.5 * along, size)
 
 
 def _body_points(bones: Skeleton, link: int) -> list[complex]:

@@ -131,7 +131,3 @@ def mass_centre(at: complex) -> tuple[Item, ...]:
         rim = (at + CENTRE * polar(start + k * math.pi / 8) for k in range(5))
         quarters.append(Polyline((at, *rim), None, closed=True, fill=BLACK))
     return (Circle(at, CENTRE, Stroke(0.2), PAPER), *quarters)
-
-
-def path_circle(at: complex, radius: float) -> Item:
-    return Circle(at, radius, THIN)

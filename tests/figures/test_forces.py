@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from reportgen.figures.forces import ArmOf, Couple, Force, Sliding, bodies, coriolis, foot, lever, turned
+from reportgen.figures.forces import ArmOf, Couple, Force, Sliding, bodies, coriolis, foot, lever
 from reportgen.figures.scene import Arc, Arrow, Scene
 from reportgen.figures.scheme import Looks
 from reportgen.notation.expressions import Symbol
@@ -81,7 +81,7 @@ def test_the_lever_is_the_plan_turned_by_a_right_angle(k: int) -> None:
     arms = [ArmOf(Symbol("h", force.id), 0j, force.id) for force in acting]
     scene = lever(drawing, acting, arms)
     assert overlaps(scene) == []
-    ends = {point.label: point.at for point in turned(drawing).points}
+    ends = {point.label: point.at for point in drawing.scaled(1j).points}
     # The pin's image turned by +90° lies along A–O1: opposite to the crank for a positive ω1.
     crank = complex(motion.points["A"].p[k]) / R
     assert ends[Symbol("a")] == pytest.approx(-50 * crank, abs=1e-9)
