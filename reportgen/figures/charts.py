@@ -32,7 +32,7 @@ PENS = (
     Stroke(0.4, style.BLACK, (3.2, 0.8, 0.6, 0.8)),
     Stroke(0.4, style.GRAY, (0.9, 0.7)),
 )
-"""One curve after the other, told apart by dashes as well as by colour."""
+"""One curve after the other, distinguished by dashes as well as by colour."""
 GRID = Stroke(0.1, style.PALE)
 EDGE = Stroke(0.25)
 MEAN = Stroke(0.25, style.BLACK, (4.0, 1.0, 0.8, 1.0))

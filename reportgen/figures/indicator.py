@@ -27,7 +27,7 @@ STROKES = (
     Stroke(0.35, style.RED),
     Stroke(0.35, style.BLACK, (2.0, 0.8)),
 )
-"""Pens of the branches in their order; the last dashed, to be told apart without colour."""
+"""Pens of the branches in their order; the last dashed, to be distinguished without colour."""
 WIDTH = 80.0
 """Of the diagram at most, mm."""
 AXIS_PEN = Stroke(0.2)

@@ -30,7 +30,7 @@ LEADER = Stroke(0.1, GRAY)
 KNOWN = Stroke(0.3)
 RELATIVE = Stroke(0.3, BLUE)
 FOUND = Stroke(0.3, RED, (2.4, 0.9))
-"""A vector that a plan gives by closing; dashed, to be told apart without colour."""
+"""A vector that a plan gives by closing; dashed, to be distinguished without colour."""
 ACTIVE = Stroke(0.3, BLUE)
 REACTION = Stroke(0.3, RED)
 NEW = Stroke(0.45, BLUE)

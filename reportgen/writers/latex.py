@@ -37,7 +37,7 @@ def write(document: tree.Document) -> str:
 
     Raises `TypesetterError` for a character the fonts do not have.
     """
-    body = _Writer(document).body()
+    body = _Writer(document).blocks(document.blocks)
     return _frame().render(
         title=hexadecimal(document.title),
         author=hexadecimal(document.author),
@@ -87,9 +87,6 @@ class _Writer:
             **{key: f"k{index}" for index, key in enumerate(_keys(document.blocks))},
             **{entry.section.key: entry.place for entry in self.entries.values() if entry.section.key},
         }
-
-    def body(self) -> str:
-        return self.blocks(self.document.blocks)
 
     def blocks(self, blocks: Sequence[tree.Block]) -> str:
         return "\n".join(

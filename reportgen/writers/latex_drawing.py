@@ -6,6 +6,7 @@ the scene to 0.001 mm.  The macros \scene, \strokes, \lb, \lbpaper and \lbturned
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
@@ -37,8 +38,6 @@ from reportgen.writers.strokes import (
 
 LABEL_SIZE = 9.0
 """The size of labels, in points, that `\\scene` sets; any other is written at the label."""
-
-_FULL_TURN = 6.283185307179586
 
 
 def paint(scene: Scene, language: Language) -> str:
@@ -106,7 +105,7 @@ def _shape(item: Item) -> tuple[Stroke | None, str | None, str]:
             shaft, triangle = arrow_head(start, end, head)
             return stroke, stroke.colour, _path((start, shaft), "S") + _head(triangle)
         case Circle(centre, radius, pen, fill):
-            pieces = arc_to_beziers(centre, radius, 0.0, _FULL_TURN)
+            pieces = arc_to_beziers(centre, radius, 0.0, math.tau)
             return pen, fill, _curve(pieces) + " h" + _paint(pen, fill)
         case Arc(stroke=stroke):
             pieces, triangle = arc_with_head(item)

@@ -1,4 +1,4 @@
-"""What all writers decide alike: parentheses, signs, and what a page or line break must not part."""
+"""Decisions that all writers share: parentheses, signs, and what a page or line break must not separate."""
 
 from __future__ import annotations
 

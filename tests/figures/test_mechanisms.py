@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
+from reportgen.figures.draft import finish
 from reportgen.figures.geometry import Complexes
 from reportgen.figures.indicator import Branch, Frame, Reading, beside, indicator
 from reportgen.figures.positions import PositionPlan, position_plan
@@ -141,3 +143,19 @@ def test_the_indicator_diagram_stands_in_line_with_the_piston(side: complex) -> 
     _, looks, shows = MACHINES[twin_engine]
     scene = position_plan(linkage, at_positions(linkage), dense(linkage), scale, shows, looks, beside=draft)
     assert overlaps(scene) == []
+
+
+@pytest.mark.parametrize("degrees", range(0, 360, 15))
+def test_the_indicator_diagram_is_clear_on_both_sides_of_a_cylinder_in_any_direction(degrees: int) -> None:
+    up = cmath.exp(1j * math.radians(degrees))
+    top, bottom = 150 * up, 80 * up
+    for side in (1j * up, -1j * up):
+        start, end, mu = beside(top, bottom, side, 75.0, 640.0)
+        assert abs(end - start) == pytest.approx(70)
+        branches = (
+            Branch("Expansion", (0, 0.1, 0.4, 1), (640, 400, 120, 30)),
+            Branch("Exhaust", (0, 1), (2, 30)),
+        )
+        readings = [Reading(Symbol(str(n), "(3)"), n / 8, 640 * (1 - n / 8) ** 2) for n in range(9)]
+        frame = Frame(start, end, side, mu, "p, N/cm²")
+        assert overlaps(finish(indicator(frame, branches, readings))) == []
