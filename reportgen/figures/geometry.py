@@ -61,23 +61,22 @@ def segments(items: Iterable[Item]) -> Complexes:
     return np.concatenate(parts) if parts else np.empty((0, 2), dtype=np.complex128)
 
 
-def frame(label: Label) -> tuple[complex, float, float]:
-    """Centre, width and height (mm) of a label's box on the sheet."""
+def frame(label: Label) -> tuple[complex, complex]:
+    """Centre and half size (width + i height, mm) of a label's box on the sheet."""
     extent = box(label.content, label.size)
     width, height = extent.width, extent.height + extent.depth
     if label.turn == 90:
         width, height = height, width
     right = ("left" in label.anchor) - ("right" in label.anchor)
     up = ("bottom" in label.anchor) - ("top" in label.anchor)
-    return label.at + complex(right * width, up * height) / 2, width, height
+    return label.at + complex(right * width, up * height) / 2, complex(width, height) / 2
 
 
 def corners(item: Item) -> Complexes:
     """Points whose bounding box is the item's."""
     match item:
         case Label():
-            centre, width, height = frame(item)
-            half = complex(width, height) / 2
+            centre, half = frame(item)
             return np.array([centre - half, centre + half])
         case Circle(centre, radius):
             return np.array([centre - radius * (1 + 1j), centre + radius * (1 + 1j)])

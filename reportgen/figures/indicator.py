@@ -86,28 +86,24 @@ def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Readi
     """The diagram with its branches named, its readings numbered and projected from the slider."""
     pressures = [p for branch in branches for p in branch.pressure]
     lowest, highest = min([0.0, *pressures]), max([0.0, *pressures])
-    items: list[Item] = _axes(frame, lowest, highest)
+    items = [*_axes(frame, lowest, highest), *_projections(frame, readings)]
     requests = []
-    items += _projections(frame, readings)
     for n, branch in enumerate(branches):
         points = tuple(frame.at(x, p) for x, p in zip(branch.fraction, branch.pressure, strict=True))
         items.append(Polyline(points, STROKES[n % len(STROKES)]))
-        places = _along(points)
-        requests.append(label(places, branch.label, size=style.SMALL))
+        requests.append(label(_along(points), branch.label, size=style.SMALL))
     points_read = [frame.at(reading.fraction, reading.pressure) for reading in readings]
     items += [Circle(at, 0.5, Stroke(0.2), style.PAPER) for at in points_read]
     for group in clusters(points_read, 0.3):
         numbers = joined(readings[i].label for i in group)
         outward = (cmath.phase(unit(frame.side)),)
         requests.append(label(points_read[group[0]], *numbers, prefer=outward, gap=0.9, size=style.SMALL))
-    tip = frame.at(0.0, highest) + 12 * unit(frame.side)
-    across = cmath.phase(frame.top - frame.bottom)
     if frame.axis:
-        requests.append(label(tip, frame.axis, prefer=(across,), gap=1.0))
+        tip = frame.at(0.0, highest) + 12 * unit(frame.side)
+        requests.append(label(tip, frame.axis, prefer=(cmath.phase(frame.top - frame.bottom),), gap=1.0))
     if frame.note:
-        requests.append(
-            label(frame.at(1.0, (highest + lowest) / 2), frame.note, prefer=(-math.pi / 2,), gap=8)
-        )
+        middle = frame.at(1.0, (highest + lowest) / 2)
+        requests.append(label(middle, frame.note, prefer=(-math.pi / 2,), gap=8))
     return Draft(tuple(items), tuple(requests))
 
 

@@ -118,9 +118,9 @@ class _Ink:
 class _Taken:
     """The labels already placed, as boxes, and the leaders of some of them."""
 
-    def __init__(self, frames: Sequence[tuple[complex, float, float]]) -> None:
-        self.centres = [centre for centre, _, _ in frames]
-        self.halves = [complex(width, height) / 2 for _, width, height in frames]
+    def __init__(self, frames: Sequence[tuple[complex, complex]]) -> None:
+        self.centres = [centre for centre, _ in frames]
+        self.halves = [half for _, half in frames]
         self.leaders: list[Segment] = []
 
     def add(self, centre: complex, half: complex, leader: Segment | None) -> None:
@@ -200,7 +200,7 @@ def _place_in(
     order: Sequence[int],
     requests: Sequence[Request],
     spots: Sequence[_Spots],
-    frames: Sequence[tuple[complex, float, float]],
+    frames: Sequence[tuple[complex, complex]],
 ) -> tuple[dict[int, tuple[Item, ...]], list[int]]:
     """The labels placed one after the other, and those for which no place is free."""
     taken = _Taken(frames)

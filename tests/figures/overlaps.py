@@ -17,16 +17,15 @@ def overlaps(scene: Scene) -> list[str]:
     labels = [item for item in scene.items if isinstance(item, Label)]
     strokes = segments(scene.items)
     frames = [frame(item) for item in labels]
-    for n, (item, (centre, width, height)) in enumerate(zip(labels, frames, strict=True)):
-        half = complex(width, height) / 2
+    for n, (item, (centre, half)) in enumerate(zip(labels, frames, strict=True)):
         if not item.background and len(strokes):
             hits = overlap(np.array([centre]), np.array([half]), strokes, CLEARANCE)[0]
             if hits.any():
                 where = strokes[int(np.argmax(hits))]
                 faults.append(f"{item.content} stands on the stroke {where[0]:.1f} – {where[1]:.1f}")
-        for other, (middle, w, h) in zip(labels[:n], frames[:n], strict=True):
-            gap = centre - middle
-            if abs(gap.real) < (width + w) / 2 - 1e-6 and abs(gap.imag) < (height + h) / 2 - 1e-6:
+        for other, (middle, its_half) in zip(labels[:n], frames[:n], strict=True):
+            gap, room = centre - middle, half + its_half
+            if abs(gap.real) < room.real - 1e-6 and abs(gap.imag) < room.imag - 1e-6:
                 faults.append(f"{item.content} stands on {other.content}")
         low, high = corners(item)
         if low.real < 0 or low.imag < 0 or high.real > scene.width or high.imag > scene.height:
