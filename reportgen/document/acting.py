@@ -17,11 +17,9 @@ from reportgen.document.pictured import (
     on_paper,
 )
 from reportgen.document.views import GroupView
-from reportgen.figures.actions import ArmOf, Couple, Force
-from reportgen.figures.bodies import bodies
 from reportgen.figures.draft import Draft
+from reportgen.figures.forces import ArmOf, Couple, Force, bodies, lever
 from reportgen.figures.labels import label
-from reportgen.figures.lever import lever
 from reportgen.figures.scene import Circle, Item, Line, Scene
 from reportgen.figures.scheme import Looks
 from reportgen.figures.style import CONSTRUCTION, PAPER, VISIBLE

@@ -19,8 +19,8 @@ from reportgen.document.flywheel import FlywheelFigures
 from reportgen.document.pictured import TEXT_BLOCK, Drawn, beside_one_another, on_paper
 from reportgen.document.pictures import MachinePictures
 from reportgen.document.views import GroupView, known_part, sought_part
+from reportgen.figures.draft import sheets
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
-from reportgen.figures.sheet import sheets
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics.sides import Side, Turn

@@ -8,10 +8,10 @@ from typing import Any
 
 from reportgen.analysis import Analysis
 from reportgen.document.facts import Facts
+from reportgen.figures.draft import sheets
 from reportgen.figures.plan import Plan
 from reportgen.figures.scene import Scene
 from reportgen.figures.scheme import Looks
-from reportgen.figures.sheet import sheets
 from reportgen.ledger.core import Ledger
 from reportgen.mechanism.structure import DRIVER
 from reportgen.notation.expressions import Chain, Number

@@ -25,8 +25,8 @@ from reportgen.document.pictured import (
     short,
 )
 from reportgen.figures import indicator
-from reportgen.figures.coriolis import Sliding, coriolis
 from reportgen.figures.draft import Draft
+from reportgen.figures.forces import Sliding, coriolis
 from reportgen.figures.positions import PositionPlan, position_plan
 from reportgen.figures.scene import Scene
 from reportgen.figures.scheme import groups, scheme

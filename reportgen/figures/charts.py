@@ -1,39 +1,54 @@
-"""Curves: quantities over the driver's angle, and the polar diagram of a load.
+"""Charts: curves over the driver's angle, the polar diagram of a load, bars and histograms of counts.
 
-matplotlib chooses the ticks and simplifies the paths; the typesetter draws and sets all text.  This is
-the only module that imports it, and only where a chart is drawn.
+matplotlib chooses the ticks of curves and simplifies their paths; the typesetter draws and sets all text.
+This is the only module that imports matplotlib, and only when a curve is drawn.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
 from reportgen.figures.geometry import clusters
-from reportgen.figures.labels import Content, Request, label
+from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.metrics import box
-from reportgen.figures.scale import nice
-from reportgen.figures.scene import Circle, Item, Label, Line, Polyline, Scene, Stroke
-from reportgen.figures.style import BLACK, BLUE, GRAY, PALE, PAPER, RED, SMALL
+from reportgen.figures.scene import Circle, Content, Item, Label, Line, Polyline, Scene, Stroke
 from reportgen.notation.expressions import Number
+from reportgen.notation.numbers import nice_up
 
 WIDTH, HEIGHT = 128.0, 62.0
-"""The area inside the axes, mm; with its text a chart is about 150 × 85 mm."""
+"""The area inside the axes of curves, mm; with its text a chart is about 150 × 85 mm."""
+POLAR_SIZE = 110.0
+"""Of a polar diagram at most, either way, mm."""
 PENS = (
-    Stroke(0.4, BLUE),
-    Stroke(0.4, RED, (2.4, 0.9)),
-    Stroke(0.4, BLACK, (3.2, 0.8, 0.6, 0.8)),
-    Stroke(0.4, GRAY, (0.9, 0.7)),
+    Stroke(0.4, style.BLUE),
+    Stroke(0.4, style.RED, (2.4, 0.9)),
+    Stroke(0.4, style.BLACK, (3.2, 0.8, 0.6, 0.8)),
+    Stroke(0.4, style.GRAY, (0.9, 0.7)),
 )
-"""One curve after the other, told apart by dashes as well as by colour."""
-GRID = Stroke(0.1, PALE)
+"""One curve after the other, distinguished by dashes as well as by colour."""
+GRID = Stroke(0.1, style.PALE)
 EDGE = Stroke(0.25)
+MEAN = Stroke(0.25, style.BLACK, (4.0, 1.0, 0.8, 1.0))
 MARK = 0.75
+"""Radius of the circle at a marked point, mm."""
+
+COUNT_WIDTH = 148.0
+"""Of a figure of bars or a histogram with its text, mm."""
+LENGTH = 100.0
+"""Of the axis of bars at least, mm."""
+ROW, BAR = 6.0, 4.0
+"""From one horizontal bar to the next, and their thickness, mm."""
+COLUMN_HEIGHT = 55.0
+"""Of a histogram, mm."""
+OUTLINE = Stroke(0.3, style.BLUE)
+TICKS = 6
 
 Vertices = NDArray[np.float64]
 
@@ -46,7 +61,7 @@ class Series:
     x: ArrayLike
     y: ArrayLike
     marks: tuple[int, ...] = ()
-    names: tuple[Content, ...] = field(default=())
+    names: tuple[Content, ...] = ()
     """Labels of the marks, if they have any."""
 
 
@@ -77,55 +92,91 @@ def chart(
     *,
     turn: bool = True,
     levels: Sequence[tuple[float, Content]] = (),
-    notes: Sequence[Content] = (),
-    title: str = "",
 ) -> Scene:
     """Curves in one frame.  With `turn` x is an angle in degrees with ticks at multiples of 45 or 90.
 
-    `levels` are horizontal lines with a name, e.g. a mean.  Raises `ValueError` when nothing is finite.
+    `levels` are horizontal lines with a name, e.g. a mean.  Raises `ValueError` if no value is finite.
     """
     window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn)
     items = _frame(window, x_ticks, y_ticks, "°" if turn else "")
     requests: list[Request] = []
     for level, name in levels:
         start, end = window.at(window.x[0], level), window.at(window.x[1], level)
-        items.append(Line(start, end, Stroke(0.25, BLACK, (4.0, 1.0, 0.8, 1.0))))
+        items.append(Line(start, end, MEAN))
         places = [start + (end - start) * share for share in (0.97, 0.9, 0.06, 0.5, 0.25, 0.75)]
-        requests.append(label(places[0], name, prefer=(math.pi / 2, -math.pi / 2), also=places[1:]))
+        requests.append(label(places, name, prefer=(math.pi / 2, -math.pi / 2)))
     for n, one in enumerate(series):
         vertices = window.vertices(one.x, one.y)
         pen = PENS[n % len(PENS)]
         items += [Polyline(points, pen) for points in _paths(vertices)]
         requests += _marked(one, vertices, pen, items)
         if one.label and len(series) > 1:
-            places = _places(vertices)
-            requests.append(label(places[0], one.label, also=places[1:]))
+            requests.append(label(_places(vertices), one.label))
     items += _titles(window, x_label, y_label, items)
-    return finish(Draft(tuple(items), tuple(requests)), notes=notes, title=title, margin=1.5)
+    return finish(Draft(tuple(items), tuple(requests)), margin=1.5)
 
 
-def polar(
-    series: Series, unit: str, *, size: float = 110.0, notes: Sequence[Content] = (), title: str = ""
-) -> Scene:
-    """The hodograph of a vector (x, y) about the pole with equal scales, its marks numbered.
-
-    `unit` is printed at the ends of the axes' figures; `size` mm is the most the diagram takes either way.
-    """
+def polar(series: Series, unit: str, *, title: str = "") -> Scene:
+    """The hodograph of a vector (x, y) about the pole with equal scales, its marks named; `unit` is the axes'."""
     x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
-    step = nice(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / 6, (1, 2, 5))
+    step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / 6, (1, 2, 5))
     (x0, x1), (y0, y1) = _rounded(x, step), _rounded(y, step)
-    per = size / max(x1 - x0, y1 - y0)
+    per = POLAR_SIZE / max(x1 - x0, y1 - y0)
     window = _Window((x0, x1), (y0, y1), (x1 - x0) * per, (y1 - y0) * per)
-    items: list[Item] = []
-    items += _frame(window, _steps(x0, x1, step), _steps(y0, y1, step), "")
-    pole = window.at(0.0, 0.0)
+    items = _frame(window, _steps(x0, x1, step), _steps(y0, y1, step), "")
     items += [Line(window.at(x0, 0), window.at(x1, 0), EDGE), Line(window.at(0, y0), window.at(0, y1), EDGE)]
     vertices = window.vertices(x, y)
     items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
     requests = _marked(series, vertices, PENS[0], items)
-    items.append(Circle(pole, MARK, EDGE, PAPER))
+    items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
     items += _titles(window, unit, "", items)
-    return finish(Draft(tuple(items), tuple(requests)), notes=notes, title=title, margin=2.0)
+    return finish(Draft(tuple(items), tuple(requests)), title=title, margin=2.0)
+
+
+def bars(names: Sequence[Content], counts: Sequence[int], x_label: Content) -> Scene:
+    """One bar below the other, its name on the left and its count at its end; raises `ValueError` for none."""
+    if not counts:
+        raise ValueError("bars need something to count")
+    widest = max(box(name, style.SMALL).width for name in names)
+    length = max(COUNT_WIDTH - widest - 10.0, LENGTH)
+    step, most = _whole_steps(max(counts))
+    height = ROW * len(counts)
+    items: list[Item] = []
+    for tick in range(0, most + 1, step):
+        x = length * tick / most
+        items.append(Line(complex(x, 0), complex(x, height), GRID))
+        items.append(Label(complex(x, -3.0), Number(tick), size=style.SMALL))
+    for number, (name, count) in enumerate(zip(names, counts, strict=True)):
+        y = height - ROW * (number + 0.5)
+        items.append(_bar(complex(0, y - BAR / 2), complex(length * count / most, y + BAR / 2)))
+        items.append(Label(complex(-1.5, y), name, "right", style.SMALL))
+    items.append(Line(0j, complex(0, height), EDGE))
+    items.append(Label(complex(length / 2, -8.5), x_label))
+    return finish(Draft(tuple(items)), margin=1.5)
+
+
+def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y_label: Content) -> Scene:
+    """How many values lie between each two of the `edges` [K+1], which are evenly spaced; `counts` [K]."""
+    if len(edges) != len(counts) + 1 or not counts:
+        raise ValueError("a histogram has one more edge than counts")
+    step, most = _whole_steps(max(counts))
+    width = (COUNT_WIDTH - 20.0) / len(counts)
+    items: list[Item] = []
+    for tick in range(0, most + 1, step):
+        y = COLUMN_HEIGHT * tick / most
+        items.append(Line(complex(0, y), complex(width * len(counts), y), GRID))
+        items.append(Label(complex(-1.5, y), Number(tick), "right", style.SMALL))
+    for number, count in enumerate(counts):
+        if count:
+            items.append(_bar(complex(width * number, 0), complex(width * (number + 1), COLUMN_HEIGHT * count / most)))
+    items += [Label(complex(width * n, -3.0), Number(edge), size=style.SMALL) for n, edge in enumerate(edges)]
+    items.append(Line(0j, complex(width * len(counts), 0), EDGE))
+    items.append(Label(complex(width * len(counts) / 2, -8.5), x_label))
+    items.append(Label(complex(-9.0, COLUMN_HEIGHT / 2), y_label, turn=90))
+    return finish(Draft(tuple(items)), margin=1.5)
+
+
+# --- curves ---------------------------------------------------------------------------------------
 
 
 def _window(
@@ -168,16 +219,19 @@ def _frame(window: _Window, x_ticks: Sequence[float], y_ticks: Sequence[float], 
     for tick in x_ticks:
         foot = window.at(tick, window.y[0])
         items.append(Line(foot, window.at(tick, window.y[1]), GRID))
-        items.append(Label(foot - 3.0j, _figure(tick, x_ticks, unit), "center", SMALL))
+        items.append(Label(foot - 3.0j, _figure(tick, x_ticks, unit), "center", style.SMALL))
     for tick in y_ticks:
         left = window.at(window.x[0], tick)
         zero = abs(tick) < 1e-12 * max(map(abs, window.y))
         items.append(Line(left, window.at(window.x[1], tick), EDGE if zero else GRID))
-        items.append(Label(left - 1.5, _figure(tick, y_ticks, ""), "right", SMALL))
-    low, high = window.at(window.x[0], window.y[0]), window.at(window.x[1], window.y[1])
-    corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
-    items.append(Polyline(corners, EDGE, closed=True))
+        items.append(Label(left - 1.5, _figure(tick, y_ticks, ""), "right", style.SMALL))
+    items.append(_box(window.at(window.x[0], window.y[0]), window.at(window.x[1], window.y[1]), EDGE))
     return items
+
+
+def _box(low: complex, high: complex, pen: Stroke, fill: str | None = None) -> Polyline:
+    corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
+    return Polyline(corners, pen, closed=True, fill=fill)
 
 
 def _figure(tick: float, ticks: Sequence[float], unit: str) -> Number:
@@ -223,14 +277,12 @@ def _marked(series: Series, vertices: Vertices, pen: Stroke, items: list[Item]) 
     """Circles at the marked points (added to the items) and requests for their names."""
     where = [complex(*vertices[i]) for i in series.marks]
     solid = Stroke(0.25, pen.colour)
-    items += [Circle(at, MARK, solid, PAPER) for at in where if np.isfinite(at)]
+    items += [Circle(at, MARK, solid, style.PAPER) for at in where if np.isfinite(at)]
     requests = []
     named = [i for i in range(len(series.names)) if np.isfinite(where[i])]
     for group in clusters([where[i] for i in named], 0.6):
-        parts: list[Content] = []
-        for i in group:
-            parts += [", ", series.names[named[i]]] if parts else [series.names[named[i]]]
-        requests.append(label(where[named[group[0]]], *parts, gap=MARK + 0.4, size=SMALL))
+        names = joined(series.names[named[i]] for i in group)
+        requests.append(label(where[named[group[0]]], *names, gap=MARK + 0.4, size=style.SMALL))
     return requests
 
 
@@ -240,3 +292,16 @@ def _places(vertices: Vertices) -> list[complex]:
     spread = finite[np.linspace(0, len(finite) - 1, 17).astype(int)]
     ends = finite[[int(finite[:, 1].argmax()), int(finite[:, 1].argmin())]]
     return [complex(*p) for p in np.concatenate((ends, spread[1:-1]))]
+
+
+# --- counts ---------------------------------------------------------------------------------------
+
+
+def _whole_steps(largest: int) -> tuple[int, int]:
+    """A whole step between ticks, and the last tick, at or above the largest count."""
+    step = max(round(nice_up(max(largest, 1) / TICKS, (1, 2, 5))), 1)
+    return step, step * max(math.ceil(largest / step), 1)
+
+
+def _bar(low: complex, high: complex) -> Polyline:
+    return _box(low, high, OUTLINE, style.TINT)

@@ -29,7 +29,7 @@ def ends(item: Item) -> Complexes:
             size = abs(end - start)
             if size == 0:
                 return np.array([[start, end]])
-            # The two flanks of the head, a third as wide as it is long, are strokes to keep clear of.
+            # Labels keep clear of the head, which is a third as wide as it is long.
             u = (end - start) / size
             head = min(head, size)
             left, right = end - head * u * (1 + 0.18j), end - head * u * (1 - 0.18j)
@@ -61,23 +61,22 @@ def segments(items: Iterable[Item]) -> Complexes:
     return np.concatenate(parts) if parts else np.empty((0, 2), dtype=np.complex128)
 
 
-def frame(label: Label) -> tuple[complex, float, float]:
-    """Centre, width and height (mm) of a label's box on the sheet."""
+def frame(label: Label) -> tuple[complex, complex]:
+    """Centre and half size (width + i height, mm) of a label's box on the sheet."""
     extent = box(label.content, label.size)
     width, height = extent.width, extent.height + extent.depth
     if label.turn == 90:
         width, height = height, width
     right = ("left" in label.anchor) - ("right" in label.anchor)
     up = ("bottom" in label.anchor) - ("top" in label.anchor)
-    return label.at + complex(right * width, up * height) / 2, width, height
+    return label.at + complex(right * width, up * height) / 2, complex(width, height) / 2
 
 
 def corners(item: Item) -> Complexes:
     """Points whose bounding box is the item's."""
     match item:
         case Label():
-            centre, width, height = frame(item)
-            half = complex(width, height) / 2
+            centre, half = frame(item)
             return np.array([centre - half, centre + half])
         case Circle(centre, radius):
             return np.array([centre - radius * (1 + 1j), centre + radius * (1 + 1j)])
@@ -88,9 +87,12 @@ def corners(item: Item) -> Complexes:
 def bounds(items: Iterable[Item]) -> tuple[complex, complex]:
     """Lower left and upper right corner of the box around all items; (0, 0) for none."""
     points = [corners(item) for item in items]
-    if not points:
-        return 0j, 0j
-    p = np.concatenate(points)
+    return corners_of(np.concatenate(points)) if points else (0j, 0j)
+
+
+def corners_of(points: Sequence[complex] | Complexes) -> tuple[complex, complex]:
+    """Lower left and upper right corner of the box around points."""
+    p = np.asarray(points, dtype=np.complex128)
     return complex(p.real.min(), p.imag.min()), complex(p.real.max(), p.imag.max())
 
 
@@ -136,7 +138,7 @@ def clusters(points: Sequence[complex], reach: float) -> list[list[int]]:
 
 
 def unit(vector: complex) -> complex:
-    """The direction of a vector; 1 for nothing."""
+    """The direction of a vector; 1 for a vector of no length."""
     size = abs(vector)
     return vector / size if size > 0 else 1 + 0j
 

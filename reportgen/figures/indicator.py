@@ -13,21 +13,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.figures import style
 from reportgen.figures.draft import Draft
 from reportgen.figures.geometry import clusters, unit
-from reportgen.figures.labels import CLEAR, Content, label
+from reportgen.figures.labels import CLEAR, joined, label
 from reportgen.figures.metrics import box
-from reportgen.figures.scale import nice
-from reportgen.figures.scene import Arrow, Circle, Item, Label, Line, Polyline, Stroke
-from reportgen.figures.style import AXIS, BLACK, BLUE, CONSTRUCTION, PAPER, RED, SMALL
+from reportgen.figures.scene import Arrow, Circle, Content, Item, Label, Line, Polyline, Stroke
+from reportgen.notation.numbers import nice_up
 
 STROKES = (
-    Stroke(0.35, BLUE),
-    Stroke(0.35, BLACK),
-    Stroke(0.35, RED),
-    Stroke(0.35, BLACK, (2.0, 0.8)),
+    Stroke(0.35, style.BLUE),
+    Stroke(0.35, style.BLACK),
+    Stroke(0.35, style.RED),
+    Stroke(0.35, style.BLACK, (2.0, 0.8)),
 )
-"""Pens of the branches in their order; the last dashed, to be told apart without colour."""
+"""Pens of the branches in their order; the last dashed, to be distinguished without colour."""
+WIDTH = 80.0
+"""Of the diagram at most, mm."""
 AXIS_PEN = Stroke(0.2)
 TICK = 1.0
 
@@ -73,41 +75,35 @@ class Frame:
 
 
 def beside(
-    top: complex, bottom: complex, side: complex, distance: float, highest: float, width: float = 80.0
+    top: complex, bottom: complex, side: complex, distance: float, highest: float
 ) -> tuple[complex, complex, float]:
-    """The diagram's axis `distance` mm beside the cylinder, and the μ_p that makes it `width` mm wide."""
+    """The ends of the diagram's axis, `distance` mm beside the cylinder, and the μ_p that makes it fit."""
     away = unit(side) * distance
-    return top + away, bottom + away, nice(highest / width)
+    return top + away, bottom + away, nice_up(highest / WIDTH)
 
 
 def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Reading] = ()) -> Draft:
     """The diagram with its branches named, its readings numbered and projected from the slider."""
     pressures = [p for branch in branches for p in branch.pressure]
     lowest, highest = min([0.0, *pressures]), max([0.0, *pressures])
-    items: list[Item] = _axes(frame, lowest, highest)
+    items = [*_axes(frame, lowest, highest), *_projections(frame, readings)]
     requests = []
-    items += _projections(frame, readings)
     for n, branch in enumerate(branches):
         points = tuple(frame.at(x, p) for x, p in zip(branch.fraction, branch.pressure, strict=True))
         items.append(Polyline(points, STROKES[n % len(STROKES)]))
-        places = _along(points)
-        requests.append(label(places[0], branch.label, also=places[1:], size=SMALL))
-    places_read = [frame.at(reading.fraction, reading.pressure) for reading in readings]
-    items += [Circle(at, 0.5, Stroke(0.2), PAPER) for at in places_read]
-    for group in clusters(places_read, 0.3):
-        parts: list[Content] = []
-        for i in group:
-            parts += [", ", readings[i].label] if parts else [readings[i].label]
+        requests.append(label(_along(points), branch.label, size=style.SMALL))
+    points_read = [frame.at(reading.fraction, reading.pressure) for reading in readings]
+    items += [Circle(at, 0.5, Stroke(0.2), style.PAPER) for at in points_read]
+    for group in clusters(points_read, 0.3):
+        numbers = joined(readings[i].label for i in group)
         outward = (cmath.phase(unit(frame.side)),)
-        requests.append(label(places_read[group[0]], *parts, prefer=outward, gap=0.9, size=SMALL))
-    tip = frame.at(0.0, highest) + 12 * unit(frame.side)
-    across = cmath.phase(frame.top - frame.bottom)
+        requests.append(label(points_read[group[0]], *numbers, prefer=outward, gap=0.9, size=style.SMALL))
     if frame.axis:
-        requests.append(label(tip, frame.axis, prefer=(across,), gap=1.0))
+        tip = frame.at(0.0, highest) + 12 * unit(frame.side)
+        requests.append(label(tip, frame.axis, prefer=(cmath.phase(frame.top - frame.bottom),), gap=1.0))
     if frame.note:
-        requests.append(
-            label(frame.at(1.0, (highest + lowest) / 2), frame.note, prefer=(-math.pi / 2,), gap=8)
-        )
+        middle = frame.at(1.0, (highest + lowest) / 2)
+        requests.append(label(middle, frame.note, prefer=(-math.pi / 2,), gap=8))
     return Draft(tuple(items), tuple(requests))
 
 
@@ -116,20 +112,20 @@ def _axes(frame: Frame, lowest: float, highest: float) -> list[Item]:
     u = unit(frame.side)
     across = unit(frame.top - frame.bottom)
     over = 10 * u
-    step = nice((highest - lowest) / 6)
+    step = nice_up((highest - lowest) / 6)
     items: list[Item] = [
         Line(frame.top, frame.bottom, AXIS_PEN),
         Arrow(frame.at(0, min(lowest, 0)), frame.at(0, highest) + over, AXIS_PEN, 2.2),
-        Line(frame.at(1, min(lowest, 0)), frame.at(1, highest) + 0.5 * over, AXIS),
+        Line(frame.at(1, min(lowest, 0)), frame.at(1, highest) + 0.5 * over, style.AXIS),
     ]
     for k in range(1, int(highest / step + 1e-9) + 1):
         at = frame.at(0, k * step)
         items.append(Line(at, at + across * TICK, AXIS_PEN))
         number = f"{k * step:g}"
-        extent = box(number, SMALL)
+        extent = box(number, style.SMALL)
         # The box's half size across the axis: a wide number beside an upright axis stands farther off.
         half = (abs(across.real) * extent.width + abs(across.imag) * (extent.height + extent.depth)) / 2
-        items.append(Label(at + across * (TICK + CLEAR + half), number, "center", SMALL))
+        items.append(Label(at + across * (TICK + CLEAR + half), number, "center", style.SMALL))
     return items
 
 
@@ -143,7 +139,7 @@ def _projections(frame: Frame, readings: Sequence[Reading]) -> list[Item]:
         key = next((p for p in farthest if abs(p - reading.from_point) < 0.05), reading.from_point)
         if key not in farthest or abs(to - key) > abs(farthest[key] - key):
             farthest[key] = to
-    return [Line(start, end, CONSTRUCTION) for start, end in farthest.items()]
+    return [Line(start, end, style.CONSTRUCTION) for start, end in farthest.items()]
 
 
 def _along(points: Sequence[complex]) -> list[complex]:

@@ -1,29 +1,28 @@
 """Where labels stand: near their point, clear of every stroke and of each other.
 
 Each label tries spots around its point, the preferred directions first, nearest first.  The label with
-the fewest free spots chooses first.  Where nothing near is free the label moves out and a thin
-leader ties it to its point; where that fails too, the labels without room choose first in a new
-attempt.  Everything is deterministic.
+the fewest free spots chooses first.  If no spot nearby is free, the label moves out and a thin leader
+ties it to its point; if that fails too, the labels without room choose first in a new attempt.
+The same figure always gets the same labels.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from reportgen.figures.geometry import Complexes, Flags, Floats, corners, frame, overlap, segments
+from reportgen.figures import style
+from reportgen.figures.geometry import Complexes, Flags, Floats, frame, overlap, segments
 from reportgen.figures.metrics import Box, box
-from reportgen.figures.scene import Circle, Item, Label, Line, Scene
-from reportgen.figures.style import LABEL, LEADER, THIN
-from reportgen.notation.expressions import Expression
+from reportgen.figures.scene import Circle, Content, Item, Label, Line
 
-Content = Expression | str
 Indices = NDArray[np.intp]
+Segment = tuple[complex, complex]
 
 DIRECTIONS = np.exp(2j * np.pi * np.arange(24) / 24)
 CORNERS = np.clip(DIRECTIONS.real * math.sqrt(2), -1, 1) + 1j * np.clip(DIRECTIONS.imag * math.sqrt(2), -1, 1)
@@ -34,49 +33,54 @@ FAR = (3.5, 6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0)
 CLEAR = 0.55
 """White kept between a label's ink and strokes; it also takes up what two typesetters differ by."""
 FIRST = 72
-"""Candidates weighed at once; the others only where none of these is free."""
+"""This many spots are tested at once; the others only if none of these is free."""
 CHEAPEST = 12
-"""Of the spots farther out, how many are weighed in full before the dearer ones are left out."""
+"""Of the spots farther out, this many are rated in full before the worse ones are left out."""
 ATTEMPTS = 4
-"""How often the labels that found no room are let choose first."""
+"""How often the labels that found no room may choose first."""
 KEPT = 1024
-"""Sizes of labels and sets of preferred directions whose spots are kept."""
+"""For so many sizes of labels and sets of preferred directions the spots are cached."""
 APART = 0.7
 """White kept between two labels."""
 
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """A label to be placed: `parts` stand in a row on one baseline.
+    """A label to be placed, made by `label`."""
 
-    `at` is the point it belongs to, `also` further points it may stand at as well (places along an
-    arrow); `prefer` are directions in radians, any where empty; `gap` is the distance in mm kept from
-    the point itself (the radius of the circle drawn there).  A `ring` goes round a link's number.
-    """
-
-    at: complex
+    points: tuple[complex, ...]
     parts: tuple[Content, ...]
-    prefer: tuple[float, ...] = ()
-    gap: float = 0.6
-    size: float = LABEL
-    also: tuple[complex, ...] = ()
-    ring: bool = False
+    prefer: tuple[float, ...]
+    gap: float
+    size: float
+    ring: bool
 
 
 def label(
-    at: complex,
+    at: complex | Sequence[complex],
     *parts: Content,
     prefer: Sequence[float] = (),
     gap: float = 0.6,
-    size: float = LABEL,
-    also: Sequence[complex] = (),
+    size: float = style.LABEL,
     ring: bool = False,
 ) -> Request:
-    """A request, written short."""
-    return Request(at, parts, tuple(prefer), gap, size, tuple(also), ring)
+    """A label whose `parts` stand in a row on one baseline, near the point `at`.
+
+    Of several points (places along an arrow, say) it belongs to the first, but may stand at any.  `prefer`
+    are directions in radians, any where empty; `gap` is the distance in mm kept from the point itself (the
+    radius of the circle drawn there).  A `ring` goes round a link's number.
+    """
+    points = tuple(at) if isinstance(at, Sequence) else (at,)
+    return Request(points, parts, tuple(prefer), gap, size, ring)
 
 
-def row(at: complex, parts: Sequence[Content], size: float) -> tuple[Label, ...]:
+def joined(contents: Iterable[Content], by: str = ", ") -> list[Content]:
+    """Parts of one label: the contents with a separator between each two."""
+    parts = [part for content in contents for part in (by, content)]
+    return parts[1:]
+
+
+def _row(at: complex, parts: Sequence[Content], size: float) -> tuple[Label, ...]:
     """Labels side by side on one baseline, their common box centred on `at`."""
     boxes = [box(part, size) for part in parts]
     total = _around(boxes)
@@ -95,7 +99,7 @@ def _around(boxes: Sequence[Box]) -> Box:
 
 
 class _Ink:
-    """The strokes of a figure with the corners of their boxes, kept so that those near a place are found fast."""
+    """The strokes of a figure with their bounding boxes, to find those near a place fast."""
 
     def __init__(self, strokes: Complexes) -> None:
         first, last = strokes[:, 0], strokes[:, 1]
@@ -114,16 +118,16 @@ class _Ink:
 class _Taken:
     """The labels already placed, as boxes, and the leaders of some of them."""
 
-    def __init__(self, frames: Sequence[tuple[complex, float, float]]) -> None:
-        self.centres = [centre for centre, _, _ in frames]
-        self.halves = [complex(width, height) / 2 for _, width, height in frames]
-        self.ties: list[tuple[complex, complex]] = []
+    def __init__(self, frames: Sequence[tuple[complex, complex]]) -> None:
+        self.centres = [centre for centre, _ in frames]
+        self.halves = [half for _, half in frames]
+        self.leaders: list[Segment] = []
 
-    def add(self, centre: complex, half: complex, tie: tuple[complex, complex] | None) -> None:
+    def add(self, centre: complex, half: complex, leader: Segment | None) -> None:
         self.centres.append(centre)
         self.halves.append(half)
-        if tie:
-            self.ties.append(tie)
+        if leader:
+            self.leaders.append(leader)
 
     def clear(self, centres: Complexes, half: complex) -> Flags:
         """Which of the boxes keep apart from every label and leader."""
@@ -132,8 +136,8 @@ class _Taken:
             apart = centres[:, None] - np.asarray(self.centres)
             room = np.asarray(self.halves) + (half + APART * (1 + 1j))
             free = ((np.abs(apart.real) >= room.real) | (np.abs(apart.imag) >= room.imag)).all(axis=1)
-        if self.ties:
-            free &= ~_touched(centres, half, np.array(self.ties))
+        if self.leaders:
+            free &= ~_touched(centres, half, np.array(self.leaders))
         return free
 
     def crossed(self, leaders: Complexes) -> Flags:
@@ -144,11 +148,11 @@ class _Taken:
 
 
 class _Spots:
-    """A label's candidates in the order of preference, the first of them weighed against the strokes at once."""
+    """The spots a label may stand at, in the order of preference."""
 
     def __init__(self, request: Request, ink: _Ink) -> None:
         self.half = _half(request)
-        anchors = np.array([request.at, *request.also])
+        anchors = np.array(request.points)
         offsets = _nearby(self.half, request.gap)
         self.centres = (anchors[:, None] + offsets).ravel()[_ranking(request.prefer, len(anchors))]
         self.ink = ink
@@ -156,11 +160,11 @@ class _Spots:
 
     @property
     def room(self) -> int:
-        """How many of the first candidates are free of strokes."""
+        """How many of the first spots are free of strokes."""
         return int(np.count_nonzero(self.first))
 
     def best(self, taken: _Taken) -> complex | None:
-        """The first candidate free of strokes, labels and leaders; None where there is none."""
+        """The first spot free of strokes, labels and leaders; None where there is none."""
         for start in range(0, len(self.centres), FIRST):
             free = self.first if start == 0 else self._clear_of_ink(start)
             found = np.flatnonzero(free) + start
@@ -196,7 +200,7 @@ def _place_in(
     order: Sequence[int],
     requests: Sequence[Request],
     spots: Sequence[_Spots],
-    frames: Sequence[tuple[complex, float, float]],
+    frames: Sequence[tuple[complex, complex]],
 ) -> tuple[dict[int, tuple[Item, ...]], list[int]]:
     """The labels placed one after the other, and those for which no place is free."""
     taken = _Taken(frames)
@@ -204,17 +208,17 @@ def _place_in(
     crowded: list[int] = []
     for i in order:
         request, spot = requests[i], spots[i]
-        centre, tie = spot.best(taken), None
+        centre, leader = spot.best(taken), None
         if centre is None:
-            centre, tie, free = _away(request, spot, taken)
+            centre, leader, free = _away(request, spot, taken)
             if not free:
                 crowded.append(i)
-        labels: tuple[Item, ...] = row(centre, request.parts, request.size)
+        labels: tuple[Item, ...] = _row(centre, request.parts, request.size)
         if request.ring:
-            labels = (Circle(centre, spot.half.real, THIN), *labels)
-        if tie:
-            labels = (Line(*tie, LEADER), *labels)
-        taken.add(centre, spot.half, tie)
+            labels = (Circle(centre, spot.half.real, style.THIN), *labels)
+        if leader:
+            labels = (Line(*leader, style.LEADER), *labels)
+        taken.add(centre, spot.half, leader)
         placed[i] = labels
     return placed, crowded
 
@@ -232,13 +236,13 @@ def _ring(half: complex, distances: Floats) -> Complexes:
 
 @lru_cache(maxsize=KEPT)
 def _nearby(half: complex, gap: float) -> Complexes:
-    """Offsets [72] at the near distances, kept for the next label of that size: names recur from plan to plan."""
+    """Offsets [72] at the near distances; cached, since names recur from plan to plan."""
     return _ring(half, np.asarray(NEAR) + gap).ravel()
 
 
 @lru_cache(maxsize=KEPT)
 def _ranking(prefer: tuple[float, ...], anchors: int) -> Indices:
-    """The order [72 a anchor] in which nearby spots are tried: the first point and the preferred directions first."""
+    """The order [72 × anchors] of nearby spots: the first point and the preferred directions first."""
     cost = (np.asarray(NEAR)[:, None] * 0.45 + _turned(prefer)).ravel()
     total = (0.25 * np.arange(anchors)[:, None] + cost).ravel()
     return np.argsort(total, kind="stable")
@@ -258,24 +262,20 @@ def _touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
     return np.asarray(overlap(centres, np.array([half]), strokes, CLEAR).any(axis=1), dtype=np.bool_)
 
 
-def _away(
-    request: Request, spot: _Spots, taken: _Taken
-) -> tuple[complex, tuple[complex, complex], bool]:
+def _away(request: Request, spot: _Spots, taken: _Taken) -> tuple[complex, Segment, bool]:
     """The nearest free spot farther out, the leader to it, which crosses no label, and whether it is free.
 
-    The leader starts at the label's point, or at a further point of it where no spot about that is free.
+    The leader starts at the label's first point, or at another one if no spot around the first is free.
     """
-    first = _off(request, request.at, spot, taken)
+    first = _off(request, request.points[0], spot, taken)
     if first[2]:
         return first
-    others = (_off(request, at, spot, taken) for at in request.also)
+    others = (_off(request, at, spot, taken) for at in request.points[1:])
     return next((other for other in others if other[2]), first)
 
 
-def _off(
-    request: Request, at: complex, spot: _Spots, taken: _Taken
-) -> tuple[complex, tuple[complex, complex], bool]:
-    """The best spot some way off one point of a label."""
+def _off(request: Request, at: complex, spot: _Spots, taken: _Taken) -> tuple[complex, Segment, bool]:
+    """As `_away`, around one point of the label."""
     half = spot.half
     centres = (at + _ring(half, np.asarray(FAR) + request.gap)).ravel()
     cost = (np.asarray(FAR)[:, None] * 0.2 + _turned(request.prefer)).ravel()
@@ -283,22 +283,22 @@ def _off(
     near = spot.ink.near(centres, half)
     free = taken.clear(centres, half) & ~taken.crossed(leaders)
     free[free] = ~_touched(centres[free], half, near)
-    # Where any spot is free only those are weighed: the rest would stand far behind them.
-    weighed = np.flatnonzero(free) if free.any() else np.arange(len(centres))
+    # If any spot is free, only free spots are rated.
+    rated = np.flatnonzero(free) if free.any() else np.arange(len(centres))
 
-    def whole(spots: Indices) -> Floats:
+    def full_cost(spots: Indices) -> Floats:
         tried = leaders[spots]
         return np.asarray(cost[spots] + 0.3 * _crossings(tried, near) + 0.8 * _grazes(tried, near))
 
-    # What a leader crosses only adds to the cost: whoever is dearer without it than another with it is out.
-    cheapest = weighed[np.argsort(cost[weighed], kind="stable")[:CHEAPEST]]
-    weighed = weighed[cost[weighed] <= whole(cheapest).min()]
-    best = int(weighed[np.argmin(whole(weighed))])
+    # Crossings only add to the cost: a spot that costs more without them than another with them cannot be best.
+    cheapest = rated[np.argsort(cost[rated], kind="stable")[:CHEAPEST]]
+    rated = rated[cost[rated] <= full_cost(cheapest).min()]
+    best = int(rated[np.argmin(full_cost(rated))])
     return complex(centres[best]), (complex(leaders[best, 0]), complex(leaders[best, 1])), bool(free[best])
 
 
 def _leaders(at: complex, gap: float, centres: Complexes, half: complex) -> Complexes:
-    """From the point's edge to the nearest place on each box, just short of it: segments [K, 2]."""
+    """From the point's edge to just before the nearest place on each box: segments [K, 2]."""
     away = centres - at
     foot = (away.real - np.clip(away.real, -half.real, half.real)) + 1j * (
         away.imag - np.clip(away.imag, -half.imag, half.imag)
@@ -320,31 +320,8 @@ def _crossings(leaders: Complexes, strokes: Complexes) -> Floats:
 
 
 def _grazes(leaders: Complexes, strokes: Complexes) -> Floats:
-    """At how many of four places each leader lies on a stroke, where it would be taken for part of it."""
+    """At how many of four places each leader lies on a stroke and would be taken for part of it."""
     shares = np.array([0.35, 0.55, 0.75, 0.95])
     places = leaders[:, :1] + (leaders[:, 1:] - leaders[:, :1]) * shares
     on = overlap(places.ravel(), np.array([0.25 + 0.25j]), strokes, 0.0).any(axis=1)
     return np.asarray(on.reshape(places.shape).sum(axis=1), dtype=np.float64)
-
-
-def overlaps(scene: Scene, clearance: float = 0.1) -> list[str]:
-    """Faults of a finished scene: labels on strokes, on one another, or off the sheet."""
-    faults: list[str] = []
-    labels = [item for item in scene.items if isinstance(item, Label)]
-    strokes = segments(scene.items)
-    frames = [frame(item) for item in labels]
-    for n, (item, (centre, width, height)) in enumerate(zip(labels, frames, strict=True)):
-        half = complex(width, height) / 2
-        if not item.background and len(strokes):
-            hits = overlap(np.array([centre]), np.array([half]), strokes, clearance)[0]
-            if hits.any():
-                where = strokes[int(np.argmax(hits))]
-                faults.append(f"{item.content} stands on the stroke {where[0]:.1f} – {where[1]:.1f}")
-        for other, (middle, w, h) in zip(labels[:n], frames[:n], strict=True):
-            gap = centre - middle
-            if abs(gap.real) < (width + w) / 2 - 1e-6 and abs(gap.imag) < (height + h) / 2 - 1e-6:
-                faults.append(f"{item.content} stands on {other.content}")
-        low, high = corners(item)
-        if low.real < 0 or low.imag < 0 or high.real > scene.width or high.imag > scene.height:
-            faults.append(f"{item.content} is off the sheet")
-    return faults

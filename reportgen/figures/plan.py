@@ -1,6 +1,6 @@
-"""Velocity and acceleration plans: vectors from a pole, in mm, true to scale; also their stages.
+"""Velocity, acceleration and force plans: vectors in mm, true to scale, and the stages of their construction.
 
-A plan is plain data; whoever makes it has already divided by μ.  The same drawing serves force polygons.
+A plan is plain data whose lengths are already divided by the scale μ.
 """
 
 from __future__ import annotations
@@ -12,29 +12,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
 from reportgen.figures.geometry import bounds, clusters, unit
-from reportgen.figures.inset import Tiny, insets
-from reportgen.figures.labels import Content, Request, label
-from reportgen.figures.scale import INVISIBLE, NOTHING, TINY
-from reportgen.figures.scene import Arrow, Circle, Item, Line, Scene, Stroke
-from reportgen.figures.style import (
-    CONSTRUCTION,
-    FOUND,
-    HEAD,
-    KNOWN,
-    LABEL,
-    NEW,
-    OLD,
-    RELATIVE,
-    SMALL,
-)
+from reportgen.figures.inset import INVISIBLE, TINY, Tiny, insets
+from reportgen.figures.labels import Request, label
+from reportgen.figures.scene import Arrow, Circle, Content, Item, Line, Scene, Stroke
 
 Style = Literal["known", "relative", "found"]
-PENS: dict[Style, Stroke] = {"known": KNOWN, "relative": RELATIVE, "found": FOUND}
+PENS: dict[Style, Stroke] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
 
+NOTHING = 1e-9
+"""A vector below this share of the longest one counts as zero and is not drawn."""
 SAME = 0.05
-"""Points nearer than this (mm) are one point for the eye and share a label joined by ≡."""
+"""Points nearer than this (mm) look like one point and share a label joined by ≡."""
 CROWDED = 1.2
 """Points nearer than this share a label joined by commas; an inset tells them apart."""
 BEYOND = 6.0
@@ -43,7 +34,7 @@ BEYOND = 6.0
 
 @dataclass(frozen=True, slots=True)
 class PlanVector:
-    """An arrow of a plan, in mm; `name` names it for whoever measures, `label` prints beside it."""
+    """An arrow of a plan, in mm; `label` is printed beside it, `name` identifies it to whoever measures."""
 
     name: str
     start: complex
@@ -95,11 +86,11 @@ class Plan:
         return max(numbers + [k.stage for k in self.lines], default=0)
 
     def drawn(self) -> tuple[PlanVector, ...]:
-        """The vectors that are something: not below 1e-9 of the longest."""
+        """The vectors that are not zero."""
         return tuple(v for v in self.vectors if abs(v.end - v.start) > NOTHING * self.size)
 
     def scaled(self, factor: complex) -> Plan:
-        """The plan enlarged or reduced, for panels that are not to scale; turned by a complex factor."""
+        """The plan enlarged or reduced; a complex factor also turns it."""
         return replace(
             self,
             vectors=tuple(replace(v, start=v.start * factor, end=v.end * factor) for v in self.vectors),
@@ -117,20 +108,18 @@ class Plan:
         )
 
 
-def plan(drawing: Plan, *, title: str = "", notes: Sequence[Content] = (), enlarge: bool = True) -> Scene:
+def plan(drawing: Plan, *, title: str = "") -> Scene:
     """The scene of a plan in true size, vectors under 3 mm repeated in enlarged insets."""
     vectors = drawing.drawn()
-    draft = Draft((*_lines(drawing), *_arrows(vectors), *_marks(drawing)), _labels(drawing, vectors, LABEL))
-    if enlarge:
-        draft += insets(_tiny(drawing, vectors), [(v.start, v.end) for v in vectors], draft)
-    written = (*notes, *((drawing.scale,) if drawing.scale is not None else ()))
-    return finish(draft, notes=written, title=title)
+    draft = Draft((*_lines(drawing), *_arrows(vectors), *_marks(drawing)), _labels(drawing, vectors, style.LABEL))
+    draft += insets(_tiny(drawing, vectors), [(v.start, v.end) for v in vectors], draft)
+    return finish(draft, notes=() if drawing.scale is None else (drawing.scale,), title=title)
 
 
-def stages(drawing: Plan, factor: float = 1.0, titles: Sequence[str] = ()) -> tuple[Scene, ...]:
-    """Panels of the construction: stage after stage, what is new in blue, on paper of one size.
+def stages(drawing: Plan, factor: float = 1.0) -> tuple[Scene, ...]:
+    """The construction step by step, `factor` times as large: a panel a stage, what is new in blue.
 
-    A stage that would draw nothing new goes with the next one.
+    All panels have one size.  A stage that would draw nothing new is drawn together with the next one.
     """
     whole = merged(drawing.scaled(factor))
     corner = bounds((*_lines(whole), *_arrows(whole.drawn())))
@@ -141,13 +130,15 @@ def stages(drawing: Plan, factor: float = 1.0, titles: Sequence[str] = ()) -> tu
         vectors = tuple(v for v in whole.drawn() if v.stage <= stage)
         items = (
             *_lines(part, stage),
-            *(Arrow(v.start, v.end, NEW if v.stage == stage else OLD, HEAD, v.name) for v in vectors),
+            *(Arrow(v.start, v.end, style.NEW if v.stage == stage else style.OLD, style.HEAD, v.name) for v in vectors),
             *_marks(part),
         )
-        title = titles[stage] if stage < len(titles) else f"{chr(ord('a') + stage)})"
-        draft = Draft(items, _labels(part, vectors, SMALL))
+        title = f"{chr(ord('a') + stage)})"
+        draft = Draft(items, _labels(part, vectors, style.SMALL))
         panels.append(finish(draft, title=title, margin=2.0, frame=(corner[0] - pad, corner[1] + pad)))
-    return _alike(panels)
+    width = max(panel.width for panel in panels)
+    height = max(panel.height for panel in panels)
+    return tuple(replace(panel, width=width, height=height) for panel in panels)
 
 
 def merged(drawing: Plan) -> Plan:
@@ -172,20 +163,13 @@ def merged(drawing: Plan) -> Plan:
     )
 
 
-def _alike(panels: Sequence[Scene]) -> tuple[Scene, ...]:
-    """All panels on paper as large as the largest."""
-    width = max(panel.width for panel in panels)
-    height = max(panel.height for panel in panels)
-    return tuple(replace(panel, width=width, height=height) for panel in panels)
-
-
 def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
     result: list[Item] = []
     for line in drawing.lines:
         new = stage is not None and line.stage == stage
-        pen = replace(CONSTRUCTION, width=0.18, colour=NEW.colour) if new else CONSTRUCTION
+        pen = replace(style.CONSTRUCTION, width=0.18, colour=style.NEW.colour) if new else style.CONSTRUCTION
         on = unit(line.end - line.start)
-        # Under an arrow that covers it only the piece beyond the tip shows.
+        # Of a line that an arrow covers only the piece beyond the tip is drawn.
         covered = any(abs(v.start - line.start) + abs(v.end - line.end) < SAME for v in drawing.drawn())
         start = line.end if covered else line.start
         result.append(Line(start, line.end + BEYOND * on, pen))
@@ -193,40 +177,35 @@ def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
 
 
 def _arrows(vectors: Sequence[PlanVector]) -> list[Item]:
-    return [Arrow(v.start, v.end, PENS[v.style], HEAD, v.name) for v in vectors]
+    return [Arrow(v.start, v.end, PENS[v.style], style.HEAD, v.name) for v in vectors]
 
 
 def _marks(drawing: Plan) -> list[Item]:
     if not (drawing.pole and drawing.points):
         return []
-    return [Circle(drawing.points[0].at, 0.7, Stroke(0.25), "#ffffff")]
+    return [Circle(drawing.points[0].at, 0.7, Stroke(0.25), style.PAPER)]
 
 
 def _labels(drawing: Plan, vectors: Sequence[PlanVector], size: float) -> tuple[Request, ...]:
-    """One label per point of the eye, and those of the vectors beside their middles."""
+    """One label for points that nearly coincide, and those of the vectors beside their middles."""
     requests = []
     for group in clusters([p.at for p in drawing.points], CROWDED):
         members = [drawing.points[i] for i in group]
         at = members[0].at
         gap = 1.1 if drawing.pole and 0 in group else 0.7
-        requests.append(label(at, *joined(members), prefer=_outward(at, vectors), gap=gap, size=size))
+        requests.append(label(at, *point_names(members), prefer=_outward(at, vectors), gap=gap, size=size))
     for vector in vectors:
-        if vector.label is None or abs(vector.end - vector.start) < TINY:
+        way = vector.end - vector.start
+        if vector.label is None or abs(way) < TINY:
             continue
-        requests.append(beside(vector.start, vector.end, vector.label, size))
+        across = cmath.phase(way) + math.pi / 2
+        places = [vector.start + way * share for share in (0.5, 0.64, 0.36, 0.76, 0.24, 0.88, 0.12)]
+        requests.append(label(places, vector.label, prefer=(across, across - math.pi), size=size))
     return tuple(requests)
 
 
-def beside(start: complex, end: complex, content: Content, size: float = LABEL) -> Request:
-    """A label for an arrow: beside its middle, else beside its thirds."""
-    way = end - start
-    across = cmath.phase(way) + math.pi / 2
-    places = [start + way * share for share in (0.5, 0.64, 0.36, 0.76, 0.24, 0.88, 0.12)]
-    return label(places[0], content, prefer=(across, across - math.pi), also=places[1:], size=size)
-
-
-def joined(points: Sequence[PlanPoint]) -> list[Content]:
-    """The names of points that one label stands for: a ≡ b where they coincide, else a, b."""
+def point_names(points: Sequence[PlanPoint]) -> list[Content]:
+    """The parts of one label for several points: a ≡ b where they coincide, else a, b."""
     parts: list[Content] = []
     for n, point in enumerate(points):
         if any(point.label == earlier.label for earlier in points[:n]):
@@ -251,7 +230,7 @@ def _tiny(drawing: Plan, vectors: Sequence[PlanVector]) -> list[Tiny]:
     """The vectors under 3 mm that are worth enlarging, with the names of their ends."""
 
     def names(at: complex) -> tuple[Content, ...]:
-        return tuple(joined([p for p in drawing.points if abs(p.at - at) < SAME]))
+        return tuple(point_names([p for p in drawing.points if abs(p.at - at) < SAME]))
 
     return [
         Tiny(v.start, v.end, PENS[v.style], v.name, v.label, names(v.start), names(v.end))

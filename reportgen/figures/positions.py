@@ -1,34 +1,34 @@
-"""The position plan: all positions of a mechanism on one another, true to scale, with paths of points.
+"""The position plan: all positions of a mechanism in one drawing, true to scale, with paths of points.
 
 Also the mechanism at one position with the instant centres of its links.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.figures import symbols
+from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
 from reportgen.figures.geometry import clusters
-from reportgen.figures.labels import Content, Request, label
-from reportgen.figures.scene import Circle, Item, Line, Polyline, Scene, Stroke
+from reportgen.figures.labels import Request, joined, label
+from reportgen.figures.scene import Circle, Content, Item, Line, Polyline, Scene, Stroke
 from reportgen.figures.scheme import Looks, driver_marks, mechanism
 from reportgen.figures.skeleton import Skeleton, skeleton
-from reportgen.figures.style import AXIS, BLUE, HEAVY, LABEL, PAPER, RED, SMALL, THIN
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import GROUND, Crank, Linkage
+from reportgen.notation import symbols
 from reportgen.notation.expressions import Symbol
 
 TOGETHER = 0.3
 """Points nearer than this (mm) share one label."""
 CROWDED = 24
-"""Above this number of positions only the emphasised one is numbered."""
+"""With more positions than this only the emphasised one is numbered."""
 DOT = 0.55
-PATH = Stroke(0.25, BLUE)
-NORMAL = Stroke(0.18, RED, (1.8, 1.0))
+PATH = Stroke(0.25, style.BLUE)
+NORMAL = Stroke(0.18, style.RED, (1.8, 1.0))
 BEYOND = 3.0
 """How far (mm) a normal goes on beyond the centre."""
 
@@ -39,13 +39,12 @@ class PositionPlan:
 
     `numbered` are points labelled with each position's number (A₁ … A₈), `paths` points whose curves are
     drawn from a dense motion, `emphasised` the index (from 0) of the position drawn heavy, if any;
-    `letters` replaces the letter that numbers a point (e.g. for a point O2), `labels` the positions' numbers.
+    `labels` replaces the positions' numbers.
     """
 
     numbered: tuple[str, ...]
     paths: tuple[str, ...] = ()
     emphasised: int | None = None
-    letters: Mapping[str, str] = field(default_factory=dict)
     labels: tuple[str, ...] = ()
 
     def label(self, k: int) -> str:
@@ -62,47 +61,36 @@ def position_plan(
     looks: Looks | None = None,
     *,
     beside: Draft | None = None,
-    title: str = "",
 ) -> Scene:
-    """The scene, `scale` mm of paper per m; `beside` (an indicator diagram in the same mm) joins it."""
-    looks = looks or Looks()
-    draft = positions(linkage, motion, dense, scale, shows, looks)
-    return finish(
-        draft + beside if beside else draft, notes=() if looks.scale is None else (looks.scale,), title=title
-    )
-
-
-def positions(
-    linkage: Linkage, motion: Motion, dense: Motion, scale: float, shows: PositionPlan, looks: Looks
-) -> Draft:
-    """The plan as a draft about the mechanism's own origin, so that other drawings can stand in line."""
+    """The scene, `scale` mm of paper per m, with a drawing `beside` it about the same origin (an indicator diagram)."""
     count = len(motion.driver)
     every = [skeleton(linkage, motion, k, scale) for k in range(count)]
     reached = [bones for bones in every if bones.reached]
     items: list[Item] = []
-    driver = linkage.driver
-    if isinstance(driver, Crank):
-        centre = every[0].points[driver.centre]
-        for radius in _radii(dense, driver.centre, shows.numbered, scale):
-            items += symbols.path_circle(centre, radius)
+    requests: list[Request] = []
+    if isinstance(linkage.driver, Crank):
+        centre = linkage.driver.centre
+        radii = _radii(dense, centre, shows.numbered, scale)
+        items += [Circle(every[0].points[centre], radius, style.THIN) for radius in radii]
     items += [line for bones in reached[:1] for line in _axes(bones)]
     for bones in reached:
-        items += _links(bones, THIN)
+        items += _links(bones, style.THIN)
     for name in shows.paths:
         curve = dense.points[name].p[dense.reachable] * scale
         items.append(Polyline(tuple(complex(p) for p in curve), PATH))
-    requests = [_path_name(name, dense, scale, looks) for name in shows.paths]
+        # The name of a path stands anywhere along it.
+        places = [complex(p) for p in curve[:: max(1, len(curve) // 10)]]
+        requests.append(label(places, symbols.point(name)))
     if shows.emphasised is not None and every[shows.emphasised].reached:
         bones = every[shows.emphasised]
-        items += _links(bones, HEAVY, shows.paths)
-        items += [item for name in shows.paths for item in symbols.point(bones.points[name])]
-    pivots = reached[0].pivots if reached else ()
-    for name in pivots:
-        items += symbols.pivot(reached[0].points[name])
-        requests.append(label(reached[0].points[name], looks.name(name), gap=symbols.JOINT + 0.4))
+        items += _links(bones, style.HEAVY, shows.paths)
+        items += [style.point(bones.points[name]) for name in shows.paths]
+    for name in reached[0].pivots if reached else ():
+        items += style.pivot(reached[0].points[name])
+        requests.append(label(reached[0].points[name], symbols.point(name), gap=style.JOINT + 0.4))
     numbers = range(count) if count <= CROWDED else [k for k in (shows.emphasised,) if k is not None]
-    marks, names = _numbers(every, numbers, shows)
-    return Draft((*items, *marks), (*requests, *names))
+    draft = Draft(tuple(items), tuple(requests)) + _numbers(every, numbers, shows)
+    return finish(draft + beside if beside else draft, notes=looks.notes if looks else ())
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,19 +113,19 @@ def centre_plan(
 ) -> Scene:
     """The mechanism at position `index` of `motion` with its links' instant centres and the normals to them."""
     bones = skeleton(linkage, motion, index, scale)
-    draft = mechanism(bones, links, looks) + driver_marks(linkage, motion, bones, looks)
+    draft = mechanism(bones, links, looks) + driver_marks(linkage, motion, bones)
     normals: list[Item] = []
     marks: list[Item] = []
     names: list[Request] = []
     for centre in centres:
         for start in (bones.points[name] for name in centre.points):
             way = centre.at - start
-            if abs(way) > symbols.JOINT:
+            if abs(way) > style.JOINT:
                 normals.append(Line(start, centre.at + way / abs(way) * BEYOND, NORMAL))
-        marks.append(Circle(centre.at, DOT, Stroke(0.2, RED), PAPER))
+        marks.append(Circle(centre.at, DOT, Stroke(0.2, style.RED), style.PAPER))
         names.append(label(centre.at, centre.name, gap=DOT + 0.5))
     whole = Draft((*normals, *draft.items, *marks), (*draft.requests, *names))
-    return finish(whole, notes=() if looks.scale is None else (looks.scale,))
+    return finish(whole, notes=looks.notes)
 
 
 def _radii(dense: Motion, centre: str, numbered: Sequence[str], scale: float) -> list[float]:
@@ -152,12 +140,12 @@ def _radii(dense: Motion, centre: str, numbered: Sequence[str], scale: float) ->
 
 
 def _axes(bones: Skeleton) -> list[Item]:
-    """The axes of the ground guides, a little longer than the ways on them; one for ways in line."""
+    """The axes of the ground guides, a little longer than the ways on them; equal ones are drawn once."""
     lines: list[Item] = []
     for slide in bones.slides:
         if slide.on == GROUND and abs(slide.high - slide.low) > 0:
             on = (slide.high - slide.low) / abs(slide.high - slide.low) * 8
-            line = Line(slide.low - on, slide.high + on, AXIS)
+            line = Line(slide.low - on, slide.high + on, style.AXIS)
             if line not in lines:
                 lines.append(line)
     return lines
@@ -168,42 +156,25 @@ def _links(bones: Skeleton, pen: Stroke, further: Sequence[str] = ()) -> list[It
     result: list[Item] = []
     for link, names in bones.bars.items():
         own = [*names, *(name for name in further if bones.owners.get(name) == link and name not in names)]
-        result += symbols.body([bones.points[name] for name in own], pen, None)
+        result += style.body([bones.points[name] for name in own], pen, fill=None)
     for slide in bones.slides:
         if slide.on != GROUND:
             result.append(Line(slide.low, slide.high, pen))
     return result
 
 
-def _path_name(name: str, dense: Motion, scale: float, looks: Looks) -> Request:
-    """The name of a path, anywhere along it."""
-    curve = dense.points[name].p[dense.reachable] * scale
-    places = [complex(p) for p in curve[:: max(1, len(curve) // 10)]]
-    return label(places[0], looks.name(name), also=places[1:])
-
-
-def _numbers(
-    every: Sequence[Skeleton], numbers: Sequence[int] | range, shows: PositionPlan
-) -> tuple[list[Item], list[Request]]:
+def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionPlan) -> Draft:
     """Dots at the numbered positions and their names, one label for points that coincide."""
-    where: list[complex] = []
-    what: list[Content] = []
-    for name in shows.numbered:
-        letter = shows.letters.get(name, name.rstrip("0123456789"))
-        for k in numbers:
-            if every[k].reached:
-                where.append(every[k].points[name])
-                what.append(Symbol(letter, shows.label(k)))
+    shown = [(name, k) for name in shows.numbered for k in numbers if every[k].reached]
+    where = [every[k].points[name] for name, k in shown]
+    names = [Symbol(symbols.point(name).base, shows.label(k)) for name, k in shown]
     middle = sum(where) / len(where) if where else 0j
     items: list[Item] = []
     requests: list[Request] = []
     for group in clusters(where, TOGETHER):
         at = where[group[0]]
-        parts: list[Content] = []
-        for i in group:
-            parts += [", ", what[i]] if parts else [what[i]]
-        items.append(Circle(at, DOT, Stroke(0.2), PAPER))
+        items.append(Circle(at, DOT, Stroke(0.2), style.PAPER))
         out = (float(np.angle(at - middle)),) if abs(at - middle) > 1 else ()
-        size = LABEL if len(group) < 3 else SMALL
-        requests.append(label(at, *parts, prefer=out, gap=DOT + 0.5, size=size))
-    return items, requests
+        size = style.LABEL if len(group) < 3 else style.SMALL
+        requests.append(label(at, *joined(names[i] for i in group), prefer=out, gap=DOT + 0.5, size=size))
+    return Draft(tuple(items), tuple(requests))

@@ -1,7 +1,7 @@
 """A drawing as data: a sheet of paper in millimetres and the items on it.
 
 Points are complex numbers in mm, x to the right and y up, with the origin at the sheet's lower left
-corner.  Items are painted in order.  A scene knows no machine; a painter knows no figure.
+corner.  Items are painted in order.  A scene knows no machine; a writer knows no figure.
 """
 
 from __future__ import annotations
@@ -11,6 +11,8 @@ from typing import Literal
 
 from reportgen.notation.expressions import Expression
 
+Content = Expression | str
+"""What a label prints: an expression, or plain text."""
 Anchor = Literal[
     "center", "left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right"
 ]
@@ -36,7 +38,7 @@ class Line:
 class Arrow:
     """A straight arrow whose tip lies exactly on `end`; `head` is the head's length in mm.
 
-    `name` is kept for whoever measures the drawing, e.g. "pb"; it is not printed.
+    `name` (e.g. "pb") identifies the arrow to whoever measures the drawing; it is not printed.
     """
 
     start: complex
@@ -88,10 +90,10 @@ class Hatch:
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """Text at a point: `anchor` says which point of its box lies on `at`; a string prints as plain text."""
+    """Text at a point: `anchor` says which point of its box lies on `at`."""
 
     at: complex
-    content: Expression | str
+    content: Content
     anchor: Anchor = "center"
     size: float = 9.0
     """Font size in points."""

@@ -4,59 +4,48 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from reportgen.figures import symbols
+from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
 from reportgen.figures.geometry import clusters, polar
-from reportgen.figures.labels import Content, Request, label
-from reportgen.figures.scene import Arc, Item, Line, Scene, Stroke
+from reportgen.figures.labels import Request, joined, label
+from reportgen.figures.scene import Arc, Circle, Content, Item, Line, Scene, Stroke
 from reportgen.figures.skeleton import Skeleton, Slide, skeleton
-from reportgen.figures.style import AXIS, HEAD, HEAVY
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Linkage
+from reportgen.notation import symbols
 from reportgen.notation.expressions import Symbol
-from reportgen.notation.symbols import point as point_symbol
 
 
 @dataclass(frozen=True, slots=True)
 class Looks:
-    """What a kind of machine wants its drawings to show, as plain data.
+    """How a machine is drawn.
 
-    `names` replaces printed names of points, `hidden` leaves points unnamed; `blocks` gives the length
-    (along the guide) and width of a slider's block in mm of paper (a piston's bore, say); `centres` are
-    points drawn as mass centres; `scale` is the figure's own μ_l, printed below.
+    `blocks` gives the length (along the guide) and width of a slider's block in mm of paper (a piston's
+    bore, say); `centres` are points drawn as mass centres; `scale` is the figure's own μ_l, printed below.
     """
 
-    names: Mapping[str, Content] = field(default_factory=dict)
-    hidden: frozenset[str] = frozenset()
     blocks: Mapping[int, tuple[float, float]] = field(default_factory=dict)
     centres: tuple[str, ...] = ()
     scale: Content | None = None
 
-    def name(self, point: str) -> Content:
-        return self.names.get(point, point_symbol(point))
+    @property
+    def notes(self) -> tuple[Content, ...]:
+        """What is printed below the figure."""
+        return () if self.scale is None else (self.scale,)
 
     def block(self, link: int) -> tuple[float, float]:
-        return self.blocks.get(link, symbols.BLOCK)
+        return self.blocks.get(link, style.BLOCK)
 
 
-def scheme(
-    linkage: Linkage,
-    motion: Motion,
-    index: int,
-    scale: float,
-    looks: Looks | None = None,
-    *,
-    title: str = "",
-) -> Scene:
+def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks | None = None) -> Scene:
     """The kinematic scheme at position `index`, `scale` mm of paper per m."""
     looks = looks or Looks()
     bones = skeleton(linkage, motion, index, scale)
-    links = (GROUND, *linkage.links)
-    draft = mechanism(bones, links, looks) + driver_marks(linkage, motion, bones, looks)
-    return finish(draft, notes=() if looks.scale is None else (looks.scale,), title=title)
+    draft = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
+    return finish(draft, notes=looks.notes)
 
 
 def groups(
@@ -70,17 +59,13 @@ def groups(
     """The driver with the ground, then each Assur group alone, a scene each."""
     looks = looks or Looks()
     bones = skeleton(linkage, motion, index, scale)
-    parts = [mechanism(bones, (GROUND, DRIVER), looks) + driver_marks(linkage, motion, bones, looks)]
+    parts = [mechanism(bones, (GROUND, DRIVER), looks) + driver_marks(linkage, motion, bones)]
     parts += [mechanism(bones, dyad.links, looks) for dyad in linkage.dyads]
-    named = [titles[n] if n < len(titles) else "" for n in range(len(parts))]
-    return tuple(finish(part, title=title) for part, title in zip(parts, named, strict=True))
+    return tuple(finish(part, title=title) for part, title in zip(parts, titles or [""] * len(parts), strict=True))
 
 
-def mechanism(
-    bones: Skeleton, links: Iterable[int], looks: Looks, *, pen: Stroke = HEAVY, numbered: bool = True
-) -> Draft:
-    """The chosen links with their joints, names and numbers; with link 0 its pivots and guides."""
-    shown = tuple(links)
+def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Draft:
+    """The shown links with their joints, names and numbers; with link 0 its pivots and guides."""
     rails: list[Item] = []
     bars: list[Item] = []
     blocks: list[Item] = []
@@ -90,37 +75,37 @@ def mechanism(
         if slide.on in shown and (slide.on != GROUND or slide.link in shown):
             rails += _rail(slide, size)
         if slide.link in shown:
-            # Of the group alone, the guide shows as a short piece of its axis.
+            # Where a group is drawn alone, a short piece of its axis stands for the guide.
             if slide.on not in shown:
                 on = polar(slide.angle) * (size[0] / 2 + 5)
-                rails.append(Line(slide.at - on, slide.at + on, AXIS))
-            blocks += symbols.block(slide.at, slide.angle, size)
+                rails.append(Line(slide.at - on, slide.at + on, style.AXIS))
+            blocks.append(style.block(slide.at, slide.angle, size))
     names: list[str] = []
     marked: list[str] = []
     for link in shown:
         joints = bones.bars.get(link, ())
         own = _marked(bones, link, looks)
         marked += own
-        bars += symbols.body([*_body_points(bones, link), *(bones.points[name] for name in own)], pen)
+        bars += style.body([*_body_points(bones, link), *(bones.points[name] for name in own)])
         names += [name for name in joints if name not in names]
-        if numbered and link != GROUND:
+        if link != GROUND:
             requests += _number(bones, link, looks)
     names += [name for name in bones.joints if name not in names and _on_block(bones, name, shown)]
-    if GROUND in shown:
-        standing = [name for name in bones.pivots if len(shown) > 2 or name in names]
-        names += [name for name in standing if name not in names]
-    else:
-        standing = []
-    pins = [item for name in names for item in _pin(bones, name, name in standing)]
+    standing = [name for name in bones.pivots if GROUND in shown and (len(shown) > 2 or name in names)]
+    names += [name for name in standing if name not in names]
+    pins: list[Item] = []
+    for name in names:
+        at = bones.points[name]
+        pins += style.pivot(at) if name in standing else (style.joint(at),)
     centres = [name for name in looks.centres if bones.owners.get(name) in shown]
-    marks = [item for name in centres for item in symbols.mass_centre(bones.points[name])]
-    marks += [item for name in marked for item in symbols.point(bones.points[name])]
-    requests += _names([*names, *centres, *marked], bones, looks)
+    marks = [item for name in centres for item in style.mass_centre(bones.points[name])]
+    marks += [style.point(bones.points[name]) for name in marked]
+    requests += _names([*names, *centres, *marked], bones)
     return Draft((*rails, *bars, *blocks, *pins, *marks), tuple(requests))
 
 
-def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton, looks: Looks) -> Draft:
-    """The circle of a crank's pin and the arc arrow of ω1; nothing for a sliding driver."""
+def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton) -> Draft:
+    """The circle of a crank's pin and the arrow of ω1; an empty draft for a sliding driver."""
     driver = linkage.driver
     if not isinstance(driver, Crank):
         return Draft()
@@ -130,25 +115,21 @@ def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton, looks: Looks
     angle = cmath.phase(pin - centre)
     reach = max(5.0, min(0.45 * radius, 12.0))
     start, stop = angle + sense * 0.25, angle + sense * 1.15
-    arrow = Arc(centre, reach, start, stop, Stroke(0.25), HEAD)
+    arrow = Arc(centre, reach, start, stop, Stroke(0.25), style.HEAD)
     places = [centre + reach * polar(start + share * (stop - start)) for share in (0.6, 0.3, 0.9)]
-    omega = label(places[0], Symbol("ω", "1"), prefer=(angle + sense * 0.7,), also=places[1:])
-    return Draft((*symbols.path_circle(centre, radius), arrow), (omega,))
+    omega = label(places, Symbol("ω", "1"), prefer=(angle + sense * 0.7,))
+    return Draft((Circle(centre, radius, style.THIN), arrow), (omega,))
 
 
 def _rail(slide: Slide, size: tuple[float, float]) -> tuple[Item, ...]:
-    if slide.on == GROUND:
-        return symbols.guide(*_long(slide), size)
-    on = polar(slide.angle) * (size[0] / 2 + 3.0)
-    low, high = slide.low - on, slide.high + on
-    return (Line(low, high, HEAVY),)
-
-
-def _long(slide: Slide) -> tuple[complex, complex]:
-    """The way of a block; where it has no length, along the block."""
+    """The guide of a block along its way; if the way has no length, along a short piece of its axis."""
+    along = polar(slide.angle)
+    if slide.on != GROUND:
+        on = along * (size[0] / 2 + 3.0)
+        return (Line(slide.low - on, slide.high + on, style.HEAVY),)
     if abs(slide.high - slide.low) > 1e-6:
-        return slide.low, slide.high
-    return slide.at - 0.5 * polar(slide.angle), slide.at + 0.5 * polar(slide.angle)
+        return style.guide(slide.low, slide.high, size)
+    return style.guide(slide.at - 0.5 * along, slide.at + 0.5 * along, size)
 
 
 def _body_points(bones: Skeleton, link: int) -> list[complex]:
@@ -167,7 +148,7 @@ def _body_points(bones: Skeleton, link: int) -> list[complex]:
 def _marked(bones: Skeleton, link: int, looks: Looks) -> list[str]:
     """The named points of a link that are neither joints nor mass centres: coupler points, ends of levers."""
     owned = [name for name, owner in bones.owners.items() if owner == link != GROUND]
-    return [name for name in owned if name not in {*bones.joints, *looks.centres, *looks.hidden}]
+    return [name for name in owned if name not in {*bones.joints, *looks.centres}]
 
 
 def _on_block(bones: Skeleton, name: str, shown: Sequence[int]) -> bool:
@@ -175,38 +156,28 @@ def _on_block(bones: Skeleton, name: str, shown: Sequence[int]) -> bool:
     return any(slide.name == name and slide.link in shown and slide.turns for slide in bones.slides)
 
 
-def _pin(bones: Skeleton, name: str, standing: bool) -> tuple[Item, ...]:
-    at = bones.points[name]
-    return symbols.pivot(at) if standing else symbols.joint(at)
-
-
 def _number(bones: Skeleton, link: int, looks: Looks) -> list[Request]:
     """The link's number in a ring beside its longest bar, or beside its block."""
     joints = [bones.points[name] for name in bones.bars.get(link, ())]
     slide = bones.slide_of(link)
-    if slide and len(joints) < 2:
-        across = slide.angle + math.pi / 2
-        gap = looks.block(link)[1] / 2 + 1.0
+    if len(joints) > 1:
+        start, end = max(((a, b) for a in joints for b in joints), key=lambda pair: abs(pair[1] - pair[0]))
+        across, gap = cmath.phase(end - start) + math.pi / 2, 0.9
+        places = [start + (end - start) * share for share in (0.6, 0.45, 0.75, 0.3)]
+    elif slide:
+        across, gap = slide.angle + math.pi / 2, looks.block(link)[1] / 2 + 1.0
         along = polar(slide.angle) * looks.block(link)[0] / 4
-        ends = (slide.at + along, slide.at - along)
-        sides = (across, across + math.pi)
-        return [label(slide.at, str(link), prefer=sides, gap=gap, also=ends, size=8.0, ring=True)]
-    if len(joints) < 2:
+        places = [slide.at, slide.at + along, slide.at - along]
+    else:
         return []
-    start, end = max(((a, b) for a in joints for b in joints), key=lambda pair: abs(pair[1] - pair[0]))
-    across = cmath.phase(end - start) + math.pi / 2
-    places = tuple(start + (end - start) * share for share in (0.6, 0.45, 0.75, 0.3))
-    sides = (across, across + math.pi)
-    return [label(places[0], str(link), prefer=sides, gap=0.9, also=places[1:], size=8.0, ring=True)]
+    return [label(places, str(link), prefer=(across, across + math.pi), gap=gap, size=style.SMALL, ring=True)]
 
 
-def _names(names: Sequence[str], bones: Skeleton, looks: Looks) -> list[Request]:
-    shown = [name for name in dict.fromkeys(names) if name not in looks.hidden]
+def _names(names: Sequence[str], bones: Skeleton) -> list[Request]:
+    """One label for points that coincide."""
+    shown = list(dict.fromkeys(names))
     requests = []
     for group in clusters([bones.points[name] for name in shown], 0.3):
-        members = [shown[i] for i in group]
-        parts: list[Content] = []
-        for name in members:
-            parts += [" ≡ ", looks.name(name)] if parts else [looks.name(name)]
-        requests.append(label(bones.points[members[0]], *parts, gap=symbols.JOINT + 0.5))
+        parts = joined((symbols.point(shown[i]) for i in group), " ≡ ")
+        requests.append(label(bones.points[shown[group[0]]], *parts, gap=style.JOINT + 0.5))
     return requests

@@ -7,9 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.figures.geometry import Complexes, polar
+from reportgen.figures.geometry import Complexes, Floats
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, Guide, Linkage, SlidingDriver
+
+Line = tuple[Floats, Complexes]
+"""A line at all positions: its direction (radians) and a point of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,9 +32,10 @@ class Slide:
 
 @dataclass(frozen=True, slots=True)
 class Skeleton:
-    """Points in mm by name, joints of each moving link, slides, ground pivots; `reached` false where nan.
+    """Points in mm by name, joints of each moving link, slides, ground pivots.
 
-    `owners` tells the link of the further points (mass centres, coupler points).
+    `owners` gives the link of each further point (mass centres, coupler points); `reached` is false where the
+    mechanism cannot take the position.
     """
 
     points: Mapping[str, complex]
@@ -67,7 +71,12 @@ def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skel
             joints.append(name)
 
     def slide(link: int, name: str, guide: Guide, turns: bool) -> None:
-        slides.append(_on_guide(motion, index, scale, link, name, guide, turns))
+        line = _of_guide(motion, guide)
+        slides.append(_slide(motion, index, scale, link, name, guide.link, turns, line))
+
+    def slide_on_link(dyad: Dyad, name: str) -> None:
+        line = _of_link(motion, dyad)
+        slides.append(_slide(motion, index, scale, dyad.links[0], name, dyad.links[1], True, line))
 
     driver = linkage.driver
     if isinstance(driver, Crank):
@@ -90,13 +99,13 @@ def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skel
             case "RRP", _, Guide() as guide:
                 slide(j, dyad.middle, guide, True)
             case "RPR", str(start), _:
-                slides.append(_on_link(motion, index, scale, dyad, start))
+                slide_on_link(dyad, start)
             case "PRP", Guide() as first, Guide() as second:
                 slide(i, dyad.middle, first, True)
                 slide(j, dyad.middle, second, True)
                 joints.append(dyad.middle)
             case "RPP", str(start), Guide() as guide:
-                slides.append(_on_link(motion, index, scale, dyad, start))
+                slide_on_link(dyad, start)
                 slide(j, dyad.middle, guide, False)
     return Skeleton(
         points,
@@ -109,40 +118,30 @@ def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skel
     )
 
 
-def _span(along: np.ndarray, scale: float) -> tuple[float, float]:
-    finite = along[np.isfinite(along)]
-    return (float(finite.min()) * scale, float(finite.max()) * scale) if finite.size else (0.0, 0.0)
-
-
-def _stretch(
-    index: int, scale: float, p: Complexes, base: Complexes, direction: Complexes
-) -> tuple[complex, complex]:
-    """The ends (mm, at this position) of the part of a line that a point travels on."""
-    low, high = _span(((p - base) * direction.conj()).real, scale)
-    foot, u = complex(base[index]) * scale, complex(direction[index])
-    return foot + low * u, foot + high * u
-
-
-def _on_guide(
-    motion: Motion, index: int, scale: float, link: int, name: str, guide: Guide, turns: bool
+def _slide(
+    motion: Motion, index: int, scale: float, link: int, name: str, on: int, turns: bool, line: Line
 ) -> Slide:
-    carrier = motion.links[guide.link].angle if guide.link != GROUND else np.zeros_like(motion.driver)
-    origin = motion.origins[guide.link].p if guide.link != GROUND else np.zeros(len(carrier), complex)
-    turned = np.exp(1j * carrier)
-    direction = turned * polar(guide.angle)
-    p = motion.points[name].p
-    low, high = _stretch(index, scale, p, origin + guide.at * turned, direction)
-    angle = float(carrier[index]) + guide.angle
-    return Slide(link, name, guide.link, complex(p[index]) * scale, angle, low, high, turns)
+    """The block of a link at a point on a line of link `on`, between the ends of the point's way on it."""
+    angle, base = line
+    p, direction = motion.points[name].p, np.exp(1j * angle)
+    along = ((p - base) * direction.conj()).real
+    along = along[np.isfinite(along)] * scale
+    low, high = (float(along.min()), float(along.max())) if along.size else (0.0, 0.0)
+    foot, u = complex(base[index]) * scale, complex(direction[index])
+    return Slide(link, name, on, complex(p[index]) * scale, float(angle[index]), foot + low * u, foot + high * u, turns)
 
 
-def _on_link(motion: Motion, index: int, scale: float, dyad: Dyad, start: str) -> Slide:
-    """The block i at its pin P on the line of link j (RPR through the side of T, RPP through Q)."""
-    i, j = dyad.links
-    angle = motion.links[j].angle + (dyad.slide_angle if dyad.kind == "RPP" else 0.0)
-    direction = np.exp(1j * angle)
-    p, base = motion.points[start].p, motion.origins[j].p
-    if dyad.kind == "RPR":
-        base = base + 1j * dyad.lengths[1] * direction
-    low, high = _stretch(index, scale, p, base, direction)
-    return Slide(i, start, j, complex(p[index]) * scale, float(angle[index]), low, high, True)
+def _of_guide(motion: Motion, guide: Guide) -> Line:
+    if guide.link == GROUND:
+        return np.full(motion.driver.shape, guide.angle), np.full(motion.driver.shape, guide.at)
+    carrier = motion.links[guide.link].angle
+    return carrier + guide.angle, motion.origins[guide.link].p + guide.at * np.exp(1j * carrier)
+
+
+def _of_link(motion: Motion, dyad: Dyad) -> Line:
+    """The line of link j on which the block i slides at its pin P (RPR through the side of T, RPP through Q)."""
+    link = dyad.links[1]
+    if dyad.kind == "RPP":
+        return motion.links[link].angle + dyad.slide_angle, motion.origins[link].p
+    angle = motion.links[link].angle
+    return angle, motion.origins[link].p + 1j * dyad.lengths[1] * np.exp(1j * angle)

@@ -20,8 +20,8 @@ from reportgen.document.tree import (
     Table,
     Text,
 )
-from reportgen.figures.labels import Content
-from reportgen.figures.tallies import bars, histogram
+from reportgen.figures.charts import bars, histogram
+from reportgen.figures.scene import Content
 from reportgen.grading.grades import who
 from reportgen.grading.marks import Marking
 from reportgen.grading.sentences import points_text

@@ -9,60 +9,35 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from reportgen import installation
-from reportgen.document.tree import (
-    BlankLine,
-    Block,
-    Contents,
-    Cover,
-    Document,
-    Emph,
-    Equation,
-    Figure,
-    Inline,
-    InlineMath,
-    Inlines,
-    LineBreak,
-    List,
-    PageBreak,
-    Paragraph,
-    Plate,
-    Reference,
-    Section,
-    Strong,
-    Table,
-    Text,
-    Value,
-)
+from reportgen.document import tree
 from reportgen.figures.scene import Scene
-from reportgen.paint.tex import paint
-from reportgen.writers.flow import leads
+from reportgen.notation.expressions import Symbol
+from reportgen.writers import layout
+from reportgen.writers.latex_drawing import paint
 from reportgen.writers.latex_math import aligned, mathematics
-from reportgen.writers.latex_outline import entries_of, hexadecimal, keys_of, plain
-from reportgen.writers.latex_table import height, table
-from reportgen.writers.latex_text import declarations, escape
-from reportgen.writers.pdflatex import Compiled, compile, overfull
+from reportgen.writers.latex_text import declarations, escape, hexadecimal
 
 if TYPE_CHECKING:
     from jinja2 import Template
 
-__all__ = ["Compiled", "compile", "overfull", "render", "write"]
+CONTENTS_LEVEL = 3
+"""The deepest level of heading that the contents and the outline list."""
+OPENING, ROW = 30, 7
+"""Approximate heights in mm: of the words before a table with its caption, and of a row."""
 
-TEXT_WIDTH = 160
-SCENE_GAP = 4
-"""Millimetres: the width of the text block, and between scenes of a row."""
 
-
-def write(document: Document) -> str:
+def write(document: tree.Document) -> str:
     """The complete LaTeX source, which compiles as it stands.
 
     Raises `TypesetterError` for a character the fonts do not have.
     """
-    body = _Writer(document).body()
+    body = _Writer(document).blocks(document.blocks)
     return _frame().render(
         title=hexadecimal(document.title),
         author=hexadecimal(document.author),
@@ -73,14 +48,6 @@ def write(document: Document) -> str:
         characters=declarations(),
         body=body,
     )
-
-
-def render(document: Document) -> bytes:
-    """The finished PDF; the same document gives the same bytes.
-
-    Raises `TypesetterError` as `write` and `compile` do.
-    """
-    return compile(write(document)).pdf
 
 
 @cache
@@ -110,82 +77,79 @@ def _command(name: str, *arguments: str) -> str:
 
 
 class _Writer:
-    """The blocks of one document as LaTeX; holds what a block must know of the others."""
+    """The blocks of one document as LaTeX, with the places that links and contents lead to."""
 
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: tree.Document) -> None:
         self.document = document
         self.language = document.language
-        self.entries = {id(entry.section): entry for entry in entries_of(document.blocks)}
+        self.entries = {id(entry.section): entry for entry in _entries(document.blocks)}
         self.places: Mapping[str, str] = {
-            **{key: f"k{index}" for index, key in enumerate(keys_of(document.blocks))},
+            **{key: f"k{index}" for index, key in enumerate(_keys(document.blocks))},
             **{entry.section.key: entry.place for entry in self.entries.values() if entry.section.key},
         }
 
-    def body(self) -> str:
-        return self.blocks(self.document.blocks)
-
-    def blocks(self, blocks: Sequence[Block]) -> str:
+    def blocks(self, blocks: Sequence[tree.Block]) -> str:
         return "\n".join(
-            self.led(block, following) if leads(block, following, self.language) else self.block(block)
+            self.led(block, following) if layout.leads(block, following, self.language) else self.block(block)
             for block, following in pairwise((*blocks, None))
             if block is not None
         )
 
-    def led(self, block: Block, following: Block | None) -> str:
-        """Words and what they lead to, on one page: lists and equations see to it, tables begin with a break."""
-        if isinstance(block, List):
+    def led(self, block: tree.Block, following: tree.Block | None) -> str:
+        """A block that stays on one page with the block that follows it."""
+        if isinstance(block, tree.List):
             return self.list(block, r"\keeplist")
-        needed = _command("needed", f"{height(following)}mm") if isinstance(following, Table) else ""
+        needed = _command("needed", f"{_height(following)}mm") if isinstance(following, tree.Table) else ""
         return f"{needed}{self.block(block)}\\par\\nobreak"
 
-    def block(self, block: Block) -> str:
+    def block(self, block: tree.Block) -> str:
         match block:
-            case Section():
+            case tree.Section():
                 return self.section(block)
-            case Paragraph(inlines, align):
+            case tree.Paragraph(inlines, align):
                 return self.paragraph(self.inlines(inlines), align)
-            case List():
+            case tree.List():
                 return self.list(block)
-            case Equation():
+            case tree.Equation():
                 return self.equation(block)
-            case Table():
+            case tree.Table():
                 return self.table(block)
-            case Figure():
+            case tree.Figure():
                 return self.figure(block)
-            case Plate(scene, (width, height)):
+            case tree.Plate(scene, (width, height)):
                 caption = self.caption(self.document.words.figure, block)
                 painted = paint(scene, self.language)
                 return _command("plate", f"{width:g}mm", f"{height:g}mm", painted, caption)
-            case Cover():
+            case tree.Cover():
                 return self.cover(block)
-            case Contents(title):
+            case tree.Contents(title):
                 return self.contents(title)
-            case BlankLine(label):
+            case tree.BlankLine(label):
                 return _command("blankline", escape(label) + r"\ " if label else "")
-            case PageBreak():
+            case tree.PageBreak():
                 return r"\clearpage"
 
     # --- inlines ----------------------------------------------------------------------------------
 
-    def inlines(self, inlines: Inlines) -> str:
+    def inlines(self, inlines: tree.Inlines) -> str:
         return "".join(map(self.inline, inlines))
 
-    def inline(self, inline: Inline) -> str:
+    def inline(self, inline: tree.Inline) -> str:
         match inline:
-            case Text(text):
+            case tree.Text(text):
                 return escape(text)
-            case Emph(of):
+            case tree.Emph(of):
                 return rf"\emph{{{self.inlines(of)}}}"
-            case Strong(of):
+            case tree.Strong(of):
                 return rf"\textbf{{{self.inlines(of)}}}"
-            case InlineMath(expression):
+            case tree.InlineMath(expression):
                 return f"${mathematics(expression, self.language)}$"
-            case Value(number):
+            case tree.Value(number):
                 return f"${mathematics(number, self.language)}$"
-            case Reference(key, text):
+            case tree.Reference(key, text):
                 place = self.places.get(key)
                 return rf"\link{{{place}}}{{{escape(text)}}}" if place else escape(text)
-            case LineBreak():
+            case tree.LineBreak():
                 return r"\newline "
 
     def paragraph(self, source: str, align: str) -> str:
@@ -198,17 +162,17 @@ class _Writer:
 
     # --- structure --------------------------------------------------------------------------------
 
-    def section(self, section: Section) -> str:
+    def section(self, section: tree.Section) -> str:
         entry = self.entries.get(id(section))
         place = entry.place if entry else self.places.get(section.key, "")
         title = self.title(section)
         marks = rf"\place{{{place}}}" if place else ""
         if entry:
-            words = f"{section.number} {plain(section.title)}".strip()
+            words = f"{section.number} {_plain(section.title)}".strip()
             marks += _command("outlineentry", place, str(-entry.below), hexadecimal(words))
         return _command("heading", str(section.level), marks, title)
 
-    def title(self, section: Section) -> str:
+    def title(self, section: tree.Section) -> str:
         number = rf"{escape(section.number)}\quad " if section.number else ""
         return number + self.inlines(section.title)
 
@@ -220,7 +184,7 @@ class _Writer:
         )
         return "\n".join([*lines, r"\clearpage"])
 
-    def list(self, block: List, end: str = "") -> str:
+    def list(self, block: tree.List, end: str = "") -> str:
         from pylatex import Command, Itemize, NoEscape
 
         environment = Itemize()
@@ -232,7 +196,7 @@ class _Writer:
             environment.append(NoEscape(end))
         return str(environment.dumps())
 
-    def cover(self, cover: Cover) -> str:
+    def cover(self, cover: tree.Cover) -> str:
         institution = [escape(line) for line in cover.institution]
         lines = [
             _command("coverinstitution", line if index else rf"\textbf{{{line}}}")
@@ -255,7 +219,7 @@ class _Writer:
 
     # --- equations --------------------------------------------------------------------------------
 
-    def equation(self, equation: Equation) -> str:
+    def equation(self, equation: tree.Equation) -> str:
         place = rf"\place{{{self.places[equation.key]}}}" if equation.key else ""
         number = place + (f"({escape(equation.number)})" if equation.number else "")
         rows = []
@@ -265,22 +229,19 @@ class _Writer:
             rows.append(rf"\{macro}{{{left}}}{{{rest}}}")
         return f"\\EQ{{{number}}}{{%\n" + "%\n".join(rows) + "}"
 
-    # --- tables and figures -----------------------------------------------------------------------
+    # --- figures and tables -----------------------------------------------------------------------
 
-    def caption(self, word: str, block: Table | Figure | Plate) -> str:
+    def caption(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         place = rf"\place{{{self.places[block.key]}}}" if block.key else ""
         if not (block.caption or block.number):
             return place
         label = f"{word} {block.number}".strip() + ("." if block.caption else "")
         return _command("captiontext", place, escape(label), self.inlines(block.caption))
 
-    def table(self, block: Table) -> str:
-        return table(block, self.caption(self.document.words.table, block), self.inlines)
-
-    def figure(self, figure: Figure) -> str:
+    def figure(self, figure: tree.Figure) -> str:
         rows = "\n\\scenebreak\n".join(
-            _command("scenerow", rf"\hskip{SCENE_GAP}mm ".join(map(self.scene, row)))
-            for row in _scene_rows(figure.scenes)
+            _command("scenerow", rf"\hskip{layout.SCENE_GAP:g}mm ".join(map(self.scene, row)))
+            for row in layout.in_rows(figure.scenes)
         )
         caption = _command("figurecaption", self.caption(self.document.words.figure, figure))
         return "\n".join([r"\begin{scenes}", rows, caption, r"\end{scenes}"])
@@ -289,14 +250,123 @@ class _Writer:
         painted = paint(scene, self.language)
         return _command("titledscene", painted, escape(scene.title)) if scene.title else painted
 
+    def table(self, block: tree.Table) -> str:
+        """A long table under its caption; its head is repeated on every page."""
+        from pylatex import LongTable, NoEscape
 
-def _scene_rows(scenes: Sequence[Scene]) -> Iterator[list[Scene]]:
-    """The scenes in rows, each as full as the text block allows."""
-    row: list[Scene] = []
-    for scene in scenes:
-        if row and sum(other.width + SCENE_GAP for other in row) + scene.width > TEXT_WIDTH:
-            yield row
-            row = []
-        row.append(scene)
-    if row:
-        yield row
+        columns = "".join(_column(column.width, column.align) for column in block.columns)
+        environment = LongTable(NoEscape(columns), width=len(block.columns))
+        head = self.head(block)
+        if caption := self.caption(self.document.words.table, block):
+            title = rf"\multicolumn{{{len(block.columns)}}}{{c}}{{\tablecaption{{{caption}}}}}\\*[0pt]"
+            environment.append(NoEscape(title))
+        environment.append(NoEscape(head + r"\endfirsthead"))
+        environment.append(NoEscape(head + r"\endhead"))
+        environment.append(NoEscape(r"\bottomrule\endfoot"))
+        unbroken = len(block.rows) <= layout.WHOLE_TABLE
+        for index, row in enumerate(block.rows):
+            end = r"\\*[0pt]"
+            if index < len(block.rows) - 1:
+                # The first and the last rows never stand alone on a page.
+                together = unbroken or not layout.TOGETHER - 1 <= index < len(block.rows) - layout.TOGETHER
+                end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if together else 0}}}"
+            environment.append(NoEscape(self.row(row, block.columns) + end))
+        return f"{{\\tablesize\n{environment.dumps()}\n}}"
+
+    def head(self, block: tree.Table) -> str:
+        # Every option is written out: a cell's text may begin with a bracket.
+        lines = [r"\toprule[\heavyrulewidth]"]
+        for index, row in enumerate(block.head):
+            lines.append(self.row(row, block.columns, head=True) + r"\\*[0pt]")
+            if index < len(block.head) - 1:
+                lines.append(_rules_below(row))
+        lines.append(r"\midrule" if block.head else "")
+        return "\n".join(lines) + "\n"
+
+    def row(self, row: Sequence[tree.Cell], columns: Sequence[tree.Column], head: bool = False) -> str:
+        from pylatex import MultiColumn, NoEscape
+
+        printed, at = [], 0
+        for cell in row:
+            source = self.inlines(cell.inlines)
+            covered = columns[at : at + cell.span]
+            if cell.span > 1 or (head and covered and covered[0].align != "center"):
+                align = "center" if head else covered[0].align
+                width = sum(column.width for column in covered)
+                spec = NoEscape(_column(width, align))
+                source = MultiColumn(cell.span, align=spec, data=NoEscape(source)).dumps()
+            printed.append(source)
+            at += cell.span
+        return " & ".join(printed)
+
+
+def _height(block: tree.Table) -> int:
+    """About how much paper (mm) a table needs with the lines before it, up to its first possible break."""
+    rows = len(block.rows) if len(block.rows) <= layout.WHOLE_TABLE else layout.TOGETHER
+    return OPENING + ROW * (len(block.head) + rows)
+
+
+def _column(width: float, align: str) -> str:
+    return f"{align[0].upper()}{{{width:g}mm}}"
+
+
+def _rules_below(row: Sequence[tree.Cell]) -> str:
+    """A thin rule under every cell of a head row that stands over several columns."""
+    rules, at = [], 1
+    for cell in row:
+        if cell.span > 1:
+            rules.append(rf"\cmidrule(lr){{{at}-{at + cell.span - 1}}}")
+        at += cell.span
+    return "".join(rules)
+
+
+# --- contents and outline -------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    """A heading of the contents and the outline; `below` counts the headings directly under it."""
+
+    section: tree.Section
+    place: str
+    below: int
+
+
+def _entries(blocks: Sequence[tree.Block]) -> Iterator[_Entry]:
+    """The headings that contents and outline list, in order."""
+    sections = [block for block in blocks if isinstance(block, tree.Section) and block.level <= CONTENTS_LEVEL]
+    for index, section in enumerate(sections):
+        below = 0
+        for later in sections[index + 1 :]:
+            if later.level <= section.level:
+                break
+            below += later.level == section.level + 1
+        yield _Entry(section, f"s{index}", below)
+
+
+def _keys(blocks: Sequence[tree.Block]) -> Iterator[str]:
+    """The keys of all blocks that references may name, those inside lists too."""
+    for block in blocks:
+        if isinstance(block, tree.List):
+            for item in block.items:
+                yield from _keys(item)
+        elif key := getattr(block, "key", ""):
+            yield key
+
+
+def _plain(inlines: tree.Inlines) -> str:
+    """The words of a title for the outline, which knows no formulas."""
+    words = []
+    for inline in inlines:
+        match inline:
+            case tree.Text(text) | tree.Reference(text=text):
+                words.append(text)
+            case tree.Emph(of) | tree.Strong(of):
+                words.append(_plain(of))
+            case tree.InlineMath(Symbol(base, sub)):
+                words.append(base + sub)
+            case tree.InlineMath():
+                pass
+            case _:
+                words.append(" ")
+    return "".join(words)

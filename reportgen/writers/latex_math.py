@@ -25,25 +25,11 @@ from reportgen.notation.expressions import (
     walk,
 )
 from reportgen.notation.numbers import MINUS, Language, write
-from reportgen.writers.brackets import ATOM, MARKED, PRIMES, PRODUCT, QUOTIENT, level
-from reportgen.writers.flow import short_end
+from reportgen.writers import layout
 from reportgen.writers.latex_text import MATHEMATICAL, escape
 
-NAMED = {
-    "sin": r"\sin",
-    "cos": r"\cos",
-    "tan": r"\tan",
-    "arcsin": r"\arcsin",
-    "arccos": r"\arccos",
-    "arctan": r"\arctan",
-    "min": r"\min",
-    "max": r"\max",
-    "arg": r"\arg",
-}
-"""Functions that TeX knows by name; any other prints its own name upright."""
-
 SignedTerm = tuple[str, Term]
-"""A term of a vector equation behind what is printed before it."""
+"""A term of a vector equation with the sign or relation printed before it."""
 
 NARROW_TERMS = 5
 """A vector equation of at most so many terms fits any line."""
@@ -64,9 +50,9 @@ def mathematics(node: Expression, language: Language) -> str:
         case Sum(terms):
             return _sum(terms, language)
         case Product(factors):
-            return r" \dotbreak\cdot ".join(_tight(factor, PRODUCT, language) for factor in factors)
+            return r" \dotbreak\cdot ".join(_tight(factor, layout.PRODUCT, language) for factor in factors)
         case Negative(of):
-            return f"-{_tight(of, PRODUCT, language)}"
+            return f"-{_tight(of, layout.PRODUCT, language)}"
         case Fraction(top, bottom):
             return rf"\frac{{{mathematics(top, language)}}}{{{mathematics(bottom, language)}}}"
         case Power(base, exponent):
@@ -81,11 +67,11 @@ def mathematics(node: Expression, language: Language) -> str:
         case Chain(parts, note):
             printed = mathematics(parts[0], language)
             for index, part in enumerate(parts[1:], 2):
-                unparted = index == len(parts) and short_end(node)
+                unparted = index == len(parts) and layout.short_end(node)
                 printed += (" = " if unparted else r" \relbreak= ") + mathematics(part, language)
             return printed + (rf" \relbreak\quad\text{{({escape(note)})}}" if note else "")
         case VectorEquation():
-            return " ".join(f"{sign} {_symbol(term.symbol)}" for sign, term in _signed(node))
+            return " ".join(f"{_sign(sign)} {_symbol(term.symbol)}" for sign, term in layout.signed(node))
 
 
 def _bracketed(inner: str) -> str:
@@ -102,9 +88,9 @@ def aligned(node: Expression, language: Language) -> tuple[str, str]:
     A vector equation is a grid and not cut.  Raises `TypesetterError` as `mathematics` does.
     """
     if isinstance(node, VectorEquation):
-        return "", _vector_equation(_signed(node), node.rows, language)
+        return "", _vector_equation(list(layout.signed(node)), node.rows, language)
     if isinstance(node, Chain) and len(node.parts) > 1:
-        relation = " = " if len(node.parts) == 2 and short_end(node) else r" \relbreak= "
+        relation = " = " if len(node.parts) == 2 and layout.short_end(node) else r" \relbreak= "
         return (
             mathematics(node.parts[0], language),
             relation + mathematics(Chain(node.parts[1:], node.note), language),
@@ -116,7 +102,7 @@ def aligned(node: Expression, language: Language) -> tuple[str, str]:
 
 
 def _symbol(symbol: Symbol) -> str:
-    letters = symbol.base.rstrip("".join(PRIMES))
+    letters = symbol.base.rstrip("".join(layout.PRIMES))
     primes = symbol.base[len(letters) :]
     base = letters if len(letters) == 1 and _is_mathematical(letters) else _word(letters, "it")
     if symbol.over == "vector":
@@ -152,7 +138,7 @@ def _digits(text: str) -> str:
 
 
 def _unit(unit: str) -> str:
-    gap = "" if unit in ("", "°", "%") else r"\,"
+    gap = "" if unit in layout.UNSPACED else r"\,"
     return rf"{gap}\text{{{escape(unit)}}}" if unit else ""
 
 
@@ -160,8 +146,8 @@ def _unit(unit: str) -> str:
 
 
 def _tight(node: Expression, least: int, language: Language) -> str:
-    """The node, in parentheses if it is looser than `least`."""
-    return mathematics(node, language) if level(node) >= least else _parentheses(node, language)
+    """The node, in parentheses if it binds less tightly than `least`."""
+    return mathematics(node, language) if layout.level(node) >= least else _parentheses(node, language)
 
 
 def _parentheses(node: Expression, language: Language) -> str:
@@ -175,28 +161,27 @@ def _sum(terms: tuple[Expression, ...], language: Language) -> str:
     printed = [mathematics(terms[0], language)] if terms else []
     for term in terms[1:]:
         if isinstance(term, Negative):
-            printed.append(r"\binbreak- " + _tight(term.of, PRODUCT, language))
+            printed.append(r"\binbreak- " + _tight(term.of, layout.PRODUCT, language))
         else:
-            printed.append(r"\binbreak+ " + _tight(term, PRODUCT, language))
+            printed.append(r"\binbreak+ " + _tight(term, layout.PRODUCT, language))
     return " ".join(printed)
 
 
 def _power(base: Expression, exponent: str, language: Language) -> str:
-    if isinstance(base, Call) and base.name in NAMED:
+    if isinstance(base, Call) and base.name in layout.NAMED:
         return _call(base, f"^{{{exponent}}}", language)
-    return f"{_tight(base, ATOM, language)}^{{{exponent}}}"
+    return f"{_tight(base, layout.ATOM, language)}^{{{exponent}}}"
 
 
 def _call(node: Call, exponent: str, language: Language) -> str:
     match node.name, node.arguments:
         case "abs", (argument,):
             return rf"\left|{mathematics(argument, language)}\right|"
-        case "cross", (left, right):
-            return rf"{_tight(left, QUOTIENT, language)} \times {_tight(right, QUOTIENT, language)}"
-        case "dot", (left, right):
-            return rf"{_tight(left, QUOTIENT, language)} \cdot {_tight(right, QUOTIENT, language)}"
-        case name, (argument,) if name in NAMED and level(argument) >= MARKED:
-            return f"{NAMED[name]}{exponent} {mathematics(argument, language)}"
+        case ("cross" | "dot") as product, (left, right):
+            sign = r"\times" if product == "cross" else r"\cdot"
+            return f"{_tight(left, layout.QUOTIENT, language)} {sign} {_tight(right, layout.QUOTIENT, language)}"
+        case name, (argument,) if name in layout.NAMED and layout.level(argument) >= layout.MARKED:
+            return f"{_function(name)}{exponent} {mathematics(argument, language)}"
         case name, (argument,):
             return f"{_function(name)}{exponent}{_parentheses(argument, language)}"
         case name, arguments:
@@ -206,14 +191,14 @@ def _call(node: Call, exponent: str, language: Language) -> str:
 
 
 def _function(name: str) -> str:
-    return NAMED.get(name) or rf"\operatorname{{{escape(name)}}}"
+    return rf"\{name}" if name in layout.NAMED else rf"\operatorname{{{escape(name)}}}"
 
 
 # --- vector equations -----------------------------------------------------------------------------
 
 
 def _vector_equation(terms: Sequence[SignedTerm], rows: Sequence[str], language: Language) -> str:
-    """A grid, and, should that be too wide for the line, two storeys of half the terms each."""
+    """A grid; if it is too wide for the line, two grids of half the terms, one below the other."""
     whole = _grid(terms, rows, language)
     if len(terms) <= NARROW_TERMS:
         return whole
@@ -223,8 +208,8 @@ def _vector_equation(terms: Sequence[SignedTerm], rows: Sequence[str], language:
 
 
 def _grid(terms: Sequence[SignedTerm], rows: Sequence[str], language: Language) -> str:
-    """Terms on top, under each a row of what is known of it, "?" where nothing is."""
-    lines = ["&" + "&".join(f"{sign}&{_symbol(term.symbol)}" for sign, term in terms)]
+    """Terms on top, below each what is known of it; "?" marks an unknown."""
+    lines = ["&" + "&".join(f"{_sign(sign)}&{_symbol(term.symbol)}" for sign, term in terms)]
     for row, name in enumerate(rows):
         entries = (term.known[row] if row < len(term.known) else "" for _, term in terms)
         known = "&".join(f"&{_known(entry, language)}" for entry in entries)
@@ -235,14 +220,8 @@ def _grid(terms: Sequence[SignedTerm], rows: Sequence[str], language: Language) 
     return rf"\begin{{vectorgrid}}{{{len(terms)}}}{body}\end{{vectorgrid}}"
 
 
-def _signed(equation: VectorEquation) -> list[SignedTerm]:
-    """Every term behind what stands before it: the relation at the head of a later side, else its sign."""
-    signed = []
-    for side, terms in enumerate(equation.sides):
-        for index, term in enumerate(terms):
-            sign = "-" if term.sign < 0 else "+" if index else ""
-            signed.append(("=" + sign if side and not index else sign, term))
-    return signed
+def _sign(sign: str) -> str:
+    return sign.replace(MINUS, "-")
 
 
 def _known(entry: Expression | str | None, language: Language) -> str:

@@ -106,3 +106,8 @@ def _character(char: str) -> str:
         f"the LaTeX engine has no character {char!r} (U+{ord(char):04X}, "
         f"{unicodedata.name(char, 'without a name')}); use the engine typst, or write it otherwise"
     )
+
+
+def hexadecimal(text: str) -> str:
+    """A text as a PDF string's content in UTF-16, in hexadecimal digits."""
+    return "FEFF" + unicodedata.normalize("NFC", text).encode("utf-16-be").hex().upper()

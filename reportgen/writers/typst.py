@@ -10,52 +10,19 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 from reportgen import installation
-from reportgen.document.tree import (
-    BlankLine,
-    Block,
-    Cell,
-    Contents,
-    Cover,
-    Document,
-    Emph,
-    Equation,
-    Figure,
-    Inline,
-    InlineMath,
-    LineBreak,
-    List,
-    PageBreak,
-    Paragraph,
-    Plate,
-    Reference,
-    Section,
-    Strong,
-    Table,
-    Text,
-    Value,
-    Words,
-)
+from reportgen.document import tree
 from reportgen.errors import TypesetterError
 from reportgen.figures.scene import Scene
 from reportgen.notation.expressions import Chain, Expression, Product, Sum, VectorEquation, walk
 from reportgen.notation.numbers import Language
-from reportgen.paint.typst import paint
-from reportgen.writers.flow import TOGETHER, UNIT, WHOLE_TABLE, leads, parted, short_end
-from reportgen.writers.typst_math import literal, math, note, pieces, quantity, signed, symbol
+from reportgen.writers import layout
+from reportgen.writers.typst_drawing import paint
+from reportgen.writers.typst_math import literal, math, note, pieces, quantity, symbol
 
-TEXT_WIDTH = 160.0
-"""Of the A4 text block, mm."""
-SCENE_GAP = 4.0
-"""Between scenes side by side, mm."""
 LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
 FLOATING = 80.0
 """A figure taller than this lets the text run on before it where the page is nearly full, mm."""
-
-
-def render(document: Document) -> bytes:
-    """The PDF of a document; raises `TypesetterError`."""
-    return compile(write(document))
 
 
 def compile(source: str) -> bytes:
@@ -74,7 +41,7 @@ def compile(source: str) -> bytes:
         raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
 
 
-def write(document: Document) -> str:
+def write(document: tree.Document) -> str:
     """The complete Typst source of a document; it needs no other file.
 
     Raises `TypesetterError` if the frame is missing.
@@ -109,27 +76,27 @@ def _array(items: Iterable[str]) -> str:
 class _Blocks:
     """Writes blocks in one language; `room` is the width that lists leave for equations, in mm."""
 
-    def __init__(self, language: Language, words: Words, room: float = TEXT_WIDTH) -> None:
+    def __init__(self, language: Language, words: tree.Words, room: float = layout.TEXT_WIDTH) -> None:
         self.language = language
         self.words = words
         self.room = room
 
-    def write(self, blocks: Sequence[Block]) -> str:
+    def write(self, blocks: Sequence[tree.Block]) -> str:
         lines = []
         run_in = ""
         for block, following in pairwise((*blocks, None)):
             if block is None:
                 continue
-            if isinstance(block, Section) and block.level > 3:
+            if isinstance(block, tree.Section) and block.level > 3:
                 run_in = self.run_in(block)
-                if not isinstance(following, Paragraph):
+                if not isinstance(following, tree.Paragraph):
                     lines.append(f"#K[{run_in}]")
                     run_in = ""
                 continue
-            if not leads(block, following, self.language):
+            if not layout.leads(block, following, self.language):
                 lines.append(run_in + self.block(block))
-            elif isinstance(block, List):
-                *others, last = parted(block)
+            elif isinstance(block, tree.List):
+                *others, last = layout.parted(block)
                 lines += [self.block(part) for part in others]
                 lines.append(f"#K(above:{'0.72em' if others else 'auto'})[{self.block(last)}]")
             else:
@@ -137,65 +104,65 @@ class _Blocks:
             run_in = ""
         return "\n\n".join(lines)
 
-    def block(self, block: Block) -> str:
+    def block(self, block: tree.Block) -> str:
         match block:
-            case Section(level, title, key, _, number):
+            case tree.Section(level, title, key, _, number):
                 return f"#N({level},{literal(number)},{self.content(title)})" + _label(key)
-            case Paragraph(inlines, align):
+            case tree.Paragraph(inlines, align):
                 body = self.inlines(inlines)
                 return f"#align({align})[{body}]" if align else body
-            case List():
+            case tree.List():
                 return self.items(block)
-            case Equation():
+            case tree.Equation():
                 return self.equation(block)
-            case Table():
+            case tree.Table():
                 return self.table(block)
-            case Figure(scenes, _, key):
-                rows = in_rows(scenes)
+            case tree.Figure(scenes, _, key):
+                rows = layout.in_rows(scenes)
                 drawings = ",".join(_array(map(self.scene, row)) for row in rows)
                 tall = len(rows) == 1 and max(scene.height for scene in rows[0]) > FLOATING
-                floating = str(tall and self.room == TEXT_WIDTH).lower()
+                floating = str(tall and self.room == layout.TEXT_WIDTH).lower()
                 label = self.caption(self.words.figure, block)
                 return f"#place.flush()#F({literal(key)},{label},{floating},\n{drawings})"
-            case Plate(scene, (width, height), _, key):
+            case tree.Plate(scene, (width, height), _, key):
                 label = self.caption(self.words.figure, block)
                 drawing = paint(scene, self.language)
                 return f"#plate({width:g},{height:g},{scene.height:g},{label},\n{drawing})" + _label(key)
-            case Cover(institution, title, subtitle, fields, foot):
+            case tree.Cover(institution, title, subtitle, fields, foot):
                 lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
                 pairs = _array(f"({literal(label)},{literal(value)})" for label, value in fields)
                 return f"#cover({','.join(lines)},{pairs},{literal(foot)})"
-            case Contents(title):
+            case tree.Contents(title):
                 return f"#contents({literal(title)})"
-            case BlankLine(label):
+            case tree.BlankLine(label):
                 return f"#blank({literal(label)})"
-            case PageBreak():
+            case tree.PageBreak():
                 return "#pagebreak(weak: true)"
 
     # --- inlines ----------------------------------------------------------------------------------
 
-    def inlines(self, inlines: Sequence[Inline]) -> str:
+    def inlines(self, inlines: Sequence[tree.Inline]) -> str:
         return "".join(map(self.inline, inlines))
 
-    def content(self, inlines: Sequence[Inline]) -> str:
+    def content(self, inlines: Sequence[tree.Inline]) -> str:
         return f"[{self.inlines(inlines)}]"
 
-    def inline(self, inline: Inline) -> str:
+    def inline(self, inline: tree.Inline) -> str:
         match inline:
-            case Text(text):
+            case tree.Text(text):
                 return _text(text)
-            case Emph(of):
+            case tree.Emph(of):
                 return f"#emph{self.content(of)}"
-            case Strong(of):
+            case tree.Strong(of):
                 return f"#strong{self.content(of)}"
-            case InlineMath(expression):
+            case tree.InlineMath(expression):
                 return self.formula(expression)
-            case Value(number):
+            case tree.Value(number):
                 shown = literal(quantity(number, self.language))
                 return f"#box({shown})" if "/" in number.unit else f"#{shown}"
-            case Reference(key, text):
+            case tree.Reference(key, text):
                 return f"#link(label({literal(key)}),{literal(text)})"
-            case LineBreak():
+            case tree.LineBreak():
                 return "#linebreak()"
 
     def formula(self, expression: Expression) -> str:
@@ -208,18 +175,18 @@ class _Blocks:
             printed[-1] += note(expression)
         return " ".join(f"#box(${'= ' if index else ''}{part}$)" for index, part in enumerate(printed))
 
-    def run_in(self, section: Section) -> str:
+    def run_in(self, section: tree.Section) -> str:
         number = f"#{literal(section.number)}#h(0.5em)" if section.number else ""
         return f"#strong[{number}{self.inlines(section.title)}]{_label(section.key)}#h(0.6em)"
 
     # --- blocks -----------------------------------------------------------------------------------
 
-    def items(self, block: List) -> str:
+    def items(self, block: tree.List) -> str:
         inner = _Blocks(self.language, self.words, self.room - LIST_INDENT)
         name = f"enum(start:{block.start}," if block.ordered else "list("
         return f"#{name}{','.join(f'[{inner.write(item)}]' for item in block.items)})"
 
-    def equation(self, equation: Equation) -> str:
+    def equation(self, equation: tree.Equation) -> str:
         """Rows in one block each, but a vector equation as a grid of its own; the number on the last."""
         groups: list[list[Expression]] = []
         for row in equation.rows:
@@ -244,7 +211,7 @@ class _Blocks:
         parts = row.parts if isinstance(row, Chain) else (row,)
         printed = [pieces(part, self.language) for part in parts]
         if isinstance(row, Chain):
-            if short_end(row) and len(printed) > 1:
+            if layout.short_end(row) and len(printed) > 1:
                 end = printed.pop()
                 printed[-1][-1] += f" = {' '.join(end)}"
             printed[-1][-1] += note(row)
@@ -252,11 +219,10 @@ class _Blocks:
 
     def vector_equation(self, equation: VectorEquation) -> str:
         terms = []
-        for side, of_side in enumerate(equation.sides):
-            for sign, term in signed(side, of_side):
-                known = (*term.known, *("",) * (len(equation.rows) - len(term.known)))
-                entries = map(self.known, known[: len(equation.rows)])
-                terms.append(_array((f"${sign}$", f"${symbol(term.symbol)}$", *entries)))
+        for sign, term in layout.signed(equation):
+            known = (*term.known, *("",) * (len(equation.rows) - len(term.known)))
+            entries = map(self.known, known[: len(equation.rows)])
+            terms.append(_array((f"${sign}$", f"${symbol(term.symbol)}$", *entries)))
         return ",".join((_array(map(literal, equation.rows)), *terms))
 
     def known(self, entry: Expression | str | None) -> str:
@@ -264,49 +230,35 @@ class _Blocks:
             return literal("?")
         return literal(entry) if isinstance(entry, str) else f"${math(entry, self.language)}$"
 
-    def table(self, table: Table) -> str:
+    def table(self, table: tree.Table) -> str:
         label = self.caption(self.words.table, table) if table.caption or table.number else "none,none"
         columns = _array(f"{column.width:g}" for column in table.columns)
         aligns = _array(column.align for column in table.columns)
         head = _array(_array(self.cell(cell, "U") for cell in row) for row in table.head)
         rows = ",\n".join(_array(self.cell(cell, "X") for cell in row) for row in table.rows)
-        whole = "0" if len(table.rows) <= WHOLE_TABLE else str(TOGETHER)
+        whole = "0" if len(table.rows) <= layout.WHOLE_TABLE else str(layout.TOGETHER)
         return f"#R({label},{columns},{aligns},{head},{whole},\n{rows})" + _label(table.key)
 
-    def cell(self, cell: Cell, spanned: str) -> str:
+    def cell(self, cell: tree.Cell, spanned: str) -> str:
         body = self.content(cell.inlines)
         return f"{spanned}({cell.span},{body})" if cell.span > 1 else body
 
     def scene(self, scene: Scene) -> str:
         return f"({paint(scene, self.language)},{literal(scene.title)})"
 
-    def caption(self, word: str, block: Table | Figure | Plate) -> str:
+    def caption(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         """The two arguments of a caption: its label, and what it says."""
         return f"{literal(f'{word} {block.number}'.strip())},{self.content(block.caption)}"
 
 
 def _text(text: str) -> str:
     """A text as a string, but its units in boxes: lines would break behind a slash."""
-    parts = UNIT.split(text)
+    parts = layout.UNIT.split(text)
     return "".join(
         f"#box({literal(part)})" if index % 2 else f"#{literal(part)}"
         for index, part in enumerate(parts)
         if part or len(parts) == 1
     )
-
-
-def in_rows(scenes: Sequence[Scene], room: float = TEXT_WIDTH) -> list[list[Scene]]:
-    """Scenes in rows as they fit side by side into `room` mm, in order."""
-    rows: list[list[Scene]] = []
-    used = 0.0
-    for scene in scenes:
-        if rows and used + SCENE_GAP + scene.width <= room:
-            rows[-1].append(scene)
-            used += SCENE_GAP + scene.width
-        else:
-            rows.append([scene])
-            used = scene.width
-    return rows
 
 
 def _label(key: str) -> str:

@@ -21,14 +21,10 @@ from reportgen.notation.expressions import (
     Root,
     Sum,
     Symbol,
-    Term,
     VectorEquation,
 )
 from reportgen.notation.numbers import Language, write
-from reportgen.writers.brackets import ATOM, MARKED, PRIMES, PRODUCT, QUOTIENT, level
-
-NAMED = frozenset({"sin", "cos", "tan", "arcsin", "arccos", "arctan", "min", "max", "arg"})
-"""Functions that Typst knows by name; any other prints its own name upright."""
+from reportgen.writers import layout
 
 
 def literal(text: str) -> str:
@@ -39,12 +35,8 @@ def literal(text: str) -> str:
 
 def quantity(number: Number, language: Language) -> str:
     """The plain text of a number and its unit, with a narrow unbreakable space between."""
-    gap = "\N{NARROW NO-BREAK SPACE}" if _spaced(number.unit) else ""
+    gap = "" if number.unit in layout.UNSPACED else "\N{NARROW NO-BREAK SPACE}"
     return write(number.value, number.decimals, language) + gap + number.unit
-
-
-def _spaced(unit: str) -> bool:
-    return unit not in ("", "°", "%")
 
 
 def math(node: Expression, language: Language) -> str:
@@ -57,13 +49,13 @@ def math(node: Expression, language: Language) -> str:
             return symbol(node)
         case Number(value, decimals, unit):
             digits = write(value, decimals, language)
-            return f"{literal(digits)} thin {literal(unit)}" if _spaced(unit) else literal(digits + unit)
+            return literal(digits + unit) if unit in layout.UNSPACED else f"{literal(digits)} thin {literal(unit)}"
         case Ref(id):
             raise TypesetterError(f"quantity {id!r} came to the page without its symbol or value")
         case Sum() | Product():
             return " ".join(pieces(node, language))
         case Negative(of):
-            return f"−{_tight(of, PRODUCT, language)}"
+            return f"−{_tight(of, layout.PRODUCT, language)}"
         case Fraction(top, bottom):
             return f"frac({math(top, language)}, {math(bottom, language)})"
         case Power(base, exponent):
@@ -77,12 +69,8 @@ def math(node: Expression, language: Language) -> str:
             return f'mat(delim: "[", {"; ".join(printed)})'
         case Chain(parts):
             return " = ".join(math(part, language) for part in parts) + note(node)
-        case VectorEquation(sides):
-            return " ".join(
-                f"{sign} {symbol(term.symbol)}"
-                for side, terms in enumerate(sides)
-                for sign, term in signed(side, terms)
-            )
+        case VectorEquation():
+            return " ".join(f"{sign} {symbol(term.symbol)}" for sign, term in layout.signed(node))
 
 
 def pieces(node: Expression, language: Language) -> list[str]:
@@ -91,7 +79,7 @@ def pieces(node: Expression, language: Language) -> list[str]:
         case Sum(terms):
             return [_term(term, index == 0, language) for index, term in enumerate(terms)]
         case Product(factors):
-            printed = [_tight(factor, PRODUCT, language) for factor in factors]
+            printed = [_tight(factor, layout.PRODUCT, language) for factor in factors]
             return [*printed[:1], *(f"dot.c {factor}" for factor in printed[1:])]
         case Negative(Product() as of):
             first, *others = pieces(of, language)
@@ -101,26 +89,8 @@ def pieces(node: Expression, language: Language) -> list[str]:
 
 
 def note(chain: Chain) -> str:
-    """The word of reason behind a chain's result."""
+    """The reason printed in parentheses after a chain's result."""
     return f" quad {literal(f'({chain.note})')}" if chain.note else ""
-
-
-def signed(side: int, terms: tuple[Term, ...]) -> list[tuple[str, Term]]:
-    """What stands before each term of a side of a vector equation: relation, sign or nothing."""
-    relation = "= " if side else ""
-    return [
-        (
-            "−"
-            if term.sign < 0 and index
-            else "+"
-            if index
-            else f"{relation}−"
-            if term.sign < 0
-            else relation.strip(),
-            term,
-        )
-        for index, term in enumerate(terms)
-    ]
 
 
 # --- atoms ----------------------------------------------------------------------------------------
@@ -128,7 +98,7 @@ def signed(side: int, terms: tuple[Term, ...]) -> list[tuple[str, Term]]:
 
 def symbol(node: Symbol) -> str:
     """A symbol with its marks: base in italics, sub- and superscript upright."""
-    letters = node.base.rstrip("".join(PRIMES))
+    letters = node.base.rstrip("".join(layout.PRIMES))
     base = letters if len(letters) == 1 and letters.isalpha() else f"italic({literal(letters)})"
     if node.over:
         base = f"{'arrow' if node.over == 'vector' else 'overline'}({base})"
@@ -138,8 +108,8 @@ def symbol(node: Symbol) -> str:
 
 
 def _raised(text: str) -> str:
-    """A superscript: primes by Typst's own symbol, which has the right size, all else upright."""
-    letters = text.lstrip("".join(PRIMES))
+    """A superscript: primes as Typst's own symbol, which has the right size, everything else upright."""
+    letters = text.lstrip("".join(layout.PRIMES))
     primes = {"′": "prime", "″": "prime.double"}
     names = [primes[char] for char in text[: len(text) - len(letters)]]
     return " ".join([*names, literal(letters)] if letters else names)
@@ -149,34 +119,34 @@ def _raised(text: str) -> str:
 
 
 def _tight(node: Expression, least: int, language: Language) -> str:
-    """The node, in parentheses if it is looser than `least`."""
+    """The node, in parentheses if it binds less tightly than `least`."""
     inner = math(node, language)
-    return inner if level(node) >= least else f"({inner})"
+    return inner if layout.level(node) >= least else f"({inner})"
 
 
 def _term(term: Expression, first: bool, language: Language) -> str:
     if first:
         return math(term, language)
     if isinstance(term, Negative):
-        return f"− {_tight(term.of, PRODUCT, language)}"
-    return f"+ {_tight(term, PRODUCT, language)}"
+        return f"− {_tight(term.of, layout.PRODUCT, language)}"
+    return f"+ {_tight(term, layout.PRODUCT, language)}"
 
 
 def _power(base: Expression, exponent: str, language: Language) -> str:
-    if isinstance(base, Call) and base.name in NAMED:
+    if isinstance(base, Call) and base.name in layout.NAMED:
         return _call(base, f"^({exponent})", language)
-    return f"{_tight(base, ATOM, language)}^({exponent})"
+    return f"{_tight(base, layout.ATOM, language)}^({exponent})"
 
 
 def _call(node: Call, exponent: str, language: Language) -> str:
-    name = node.name if node.name in NAMED else f"op({literal(node.name)})"
+    name = node.name if node.name in layout.NAMED else f"op({literal(node.name)})"
     match node.name, node.arguments:
         case "abs", (argument,):
             return f"abs({math(argument, language)})"
         case ("cross" | "dot") as product, (left, right):
             sign = "times" if product == "cross" else "dot.c"
-            return f"{_tight(left, QUOTIENT, language)} {sign} {_tight(right, QUOTIENT, language)}"
-        case _, (argument,) if node.name in NAMED and level(argument) >= MARKED:
+            return f"{_tight(left, layout.QUOTIENT, language)} {sign} {_tight(right, layout.QUOTIENT, language)}"
+        case _, (argument,) if node.name in layout.NAMED and layout.level(argument) >= layout.MARKED:
             return f"{name}{exponent} {math(argument, language)}"
         case _, arguments:
             # A comma is the decimal mark in Vietnamese.

@@ -146,17 +146,3 @@ def acceleration_plan(motion: Motion, k: int) -> Plan:
             PlanPoint(on_plan(centre, True), s, 3 * n + 2),
         ]
     return Plan(tuple(vectors), tuple(points), (), scale_note("a", mu, "m/(s²·mm)"))
-
-
-FRACTION = (0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1)
-INTAKE = (1.0, *(-2.5,) * 11)
-COMPRESSION = (28, 23.2, 19.5, 12.6, 8.1, 5.3, 3.4, 2.0, 0.9, 0, -1.0, -2.5)
-EXPANSION = (28, 40, 36.5, 27.4, 20.8, 16.2, 13.0, 10.6, 8.8, 7.3, 5.6, 3.6)
-EXHAUST = (*(1.0,) * 10, 1.6, 3.6)
-
-
-def gas_on_piston_5(motion: Motion, k: int) -> float:
-    """Gas force (N, positive down) at position index k of 16; piston 5 begins with compression."""
-    row = (COMPRESSION, EXPANSION, EXHAUST, INTAKE)[k // 4]
-    fraction = (L + R - float(motion.points["D"].p[k].imag)) / (2 * R)
-    return float(np.interp(fraction, FRACTION, row)) * math.pi * 9.8**2 / 4

@@ -1,28 +1,25 @@
-"""Schemes, groups, position plans, separated links and levers of linkages of every kind."""
+"""Schemes, groups and position plans of linkages of every kind."""
 
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from reportgen.figures.actions import ArmOf, Couple, Force, foot
-from reportgen.figures.bodies import bodies
+from reportgen.figures.draft import finish
 from reportgen.figures.geometry import Complexes
 from reportgen.figures.indicator import Branch, Frame, Reading, beside, indicator
-from reportgen.figures.labels import overlaps
-from reportgen.figures.lever import lever, turned
 from reportgen.figures.positions import PositionPlan, position_plan
-from reportgen.figures.scene import Arrow, Circle, Hatch, Label, Line, Polyline, Scene
+from reportgen.figures.scene import Circle, Hatch, Label, Line, Polyline
 from reportgen.figures.scheme import Looks, groups, scheme
 from reportgen.figures.skeleton import skeleton
 from reportgen.mechanism.structure import Linkage
 from reportgen.notation.expressions import Symbol
 from tests.figures.machines import (
-    OMEGA,
     L,
     R,
     at_positions,
@@ -32,8 +29,8 @@ from tests.figures.machines import (
     sine_drive,
     slotted_lever,
     twin_engine,
-    velocity_plan,
 )
+from tests.figures.overlaps import overlaps
 
 Machine = Callable[[], Linkage]
 MACHINES: dict[Machine, tuple[float, Looks, PositionPlan]] = {
@@ -116,69 +113,6 @@ def test_the_skeleton_keeps_the_lengths_of_links(machine: Machine) -> None:
             assert -1e-6 <= along.real <= abs(slide.high - slide.low) + 1e-6
 
 
-def sketch(k: int) -> Scene:
-    linkage = twin_engine()
-    motion = at_positions(linkage)
-    scale = 400.0
-    point: dict[str, complex] = {name: complex(motion.points[name].p[k]) * scale for name in ("C", "D", "S4")}
-    rod = point["D"] - point["C"]
-    acceleration = complex(motion.points["S4"].a[k])
-    acting = (
-        Force(Symbol("P", "5"), point["D"], -1j, id="P5"),
-        Force(Symbol("G", "5"), point["D"], -1j, id="G5"),
-        Force(Symbol("P", "qt5"), point["D"], -complex(motion.points["D"].a[k]), id="Pqt5"),
-        Force(Symbol("R", "05"), point["D"], 1, "reaction", "R05"),
-        Force(Symbol("G", "4"), point["S4"], -1j, id="G4"),
-        Force(Symbol("P", "qt4"), point["S4"], -acceleration, id="Pqt4"),
-        Force(Symbol("R", "14", "n"), point["C"], rod, "reaction", "n"),
-        Force(Symbol("R", "14", "t"), point["C"], 1j * rod, "reaction", "t"),
-    )
-    arms = (ArmOf(Symbol("h", "1"), point["D"], "Pqt4"), ArmOf(Symbol("h", "2"), point["D"], "G4"))
-    couple = Couple(Symbol("M", "qt4"), point["S4"], -float(motion.links[4].epsilon[k]))
-    return bodies(
-        linkage, motion, k, scale, (4, 5), acting, arms=arms, turning=[couple], looks=Looks(centres=("S4",))
-    )
-
-
-@pytest.mark.parametrize("k", range(8))
-def test_separated_links_are_clear(k: int) -> None:
-    scene = sketch(k)
-    assert overlaps(scene) == []
-    forces = [item for item in scene.items if isinstance(item, Arrow) and item.name]
-    assert len(forces) == 8
-    assert all(12 <= abs(arrow.end - arrow.start) <= 30 for arrow in forces)
-
-
-def test_arms_are_the_distances_to_the_lines_of_action() -> None:
-    about, at, way = 3 + 4j, 10 - 2j, 2 + 1j
-    base = foot(about, at, way)
-    assert ((base - about) * way.conjugate()).real == pytest.approx(0, abs=1e-12)
-    assert ((base - at) * way.conjugate()).imag == pytest.approx(0, abs=1e-12)
-
-
-@pytest.mark.parametrize("k", range(8))
-def test_the_lever_is_the_plan_turned_by_a_right_angle(k: int) -> None:
-    motion = at_positions(twin_engine())
-    drawing = velocity_plan(motion, k)
-    mu = OMEGA * R / 50
-
-    def image(name: str) -> complex:
-        return 1j * complex(motion.points[name].v[k]) / mu
-
-    acting = [
-        Force(Symbol("G", str(link)), image(name), -1j, id=f"G{link}")
-        for link, name in ((2, "S2"), (3, "B"), (4, "S4"), (5, "D"))
-    ]
-    acting.append(Force(Symbol("P", "qt2"), image("S2"), -complex(motion.points["S2"].a[k]), id="Pqt2"))
-    arms = [ArmOf(Symbol("h", force.id), 0j, force.id) for force in acting]
-    scene = lever(drawing, acting, arms)
-    assert overlaps(scene) == []
-    ends = {point.label: point.at for point in turned(drawing).points}
-    # The pin's image turned by +90° lies along A–O1: opposite to the crank for a positive ω1.
-    crank = complex(motion.points["A"].p[k]) / R
-    assert ends[Symbol("a")] == pytest.approx(-50 * crank, abs=1e-9)
-
-
 def rod_heights() -> Complexes:
     return at_positions(twin_engine()).points["B"].p.astype(np.complex128)
 
@@ -209,3 +143,19 @@ def test_the_indicator_diagram_stands_in_line_with_the_piston(side: complex) -> 
     _, looks, shows = MACHINES[twin_engine]
     scene = position_plan(linkage, at_positions(linkage), dense(linkage), scale, shows, looks, beside=draft)
     assert overlaps(scene) == []
+
+
+@pytest.mark.parametrize("degrees", range(0, 360, 15))
+def test_the_indicator_diagram_is_clear_on_both_sides_of_a_cylinder_in_any_direction(degrees: int) -> None:
+    up = cmath.exp(1j * math.radians(degrees))
+    top, bottom = 150 * up, 80 * up
+    for side in (1j * up, -1j * up):
+        start, end, mu = beside(top, bottom, side, 75.0, 640.0)
+        assert abs(end - start) == pytest.approx(70)
+        branches = (
+            Branch("Expansion", (0, 0.1, 0.4, 1), (640, 400, 120, 30)),
+            Branch("Exhaust", (0, 1), (2, 30)),
+        )
+        readings = [Reading(Symbol(str(n), "(3)"), n / 8, 640 * (1 - n / 8) ** 2) for n in range(9)]
+        frame = Frame(start, end, side, mu, "p, N/cm²")
+        assert overlaps(finish(indicator(frame, branches, readings))) == []

@@ -1,4 +1,4 @@
-"""Plans and polygons: lengths exact on paper, stages, insets, labels, at every position."""
+"""Plans: lengths exact on paper, stages, insets, labels, at every position."""
 
 from __future__ import annotations
 
@@ -6,23 +6,21 @@ from functools import cache
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from reportgen.figures.labels import overlaps
+from reportgen.figures.inset import TARGET, TINY, enlargement
 from reportgen.figures.plan import Plan, PlanPoint, PlanVector, plan, stages
-from reportgen.figures.polygon import Chord, Side, force_polygon, letters, vertices
-from reportgen.figures.scale import TINY, choose_force_scale
 from reportgen.figures.scene import Arrow, Circle, Label, Line, Scene
-from reportgen.mechanism.forces import solve_forces
-from reportgen.mechanism.loads import Load, inertia_loads, weights
 from reportgen.mechanism.motion import Motion
 from reportgen.notation.expressions import Symbol
 from tests.figures.machines import (
     acceleration_plan,
     at_positions,
-    gas_on_piston_5,
     twin_engine,
     velocity_plan,
 )
+from tests.figures.overlaps import overlaps
 
 POSITIONS = range(16)
 """Two turns: kinematics repeats, the gas forces do not."""
@@ -33,36 +31,12 @@ def motion() -> Motion:
     return at_positions(twin_engine(), count=16, turns=2)
 
 
-@cache
-def sides(k: int) -> tuple[Side, ...]:
-    """The engine's group (4,5) at a position: weights and inertia known, two reactions found; in newtons."""
-    linkage = twin_engine()
-    pressed = np.array([-1j * gas_on_piston_5(motion(), i) for i in POSITIONS])
-    gas = Load("P5", 5, pressed, motion().points["D"].p, np.zeros(16))
-    loads = (gas, *weights(linkage, motion()), *inertia_loads(linkage, motion()))
-    reactions = solve_forces(linkage, motion(), loads).reactions
-    known = [load for link in (5, 4) for load in loads if load.link == link]
-    forces = [
-        Side(Symbol(load.name[0], load.name[1:]), complex(load.force[k]), name=load.name) for load in known
-    ]
-    found = [
-        Side(Symbol("R", name[1:]), complex(reactions[name].force[k]), True, name) for name in ("R14", "R05")
-    ]
-    return (*forces, *found)
-
-
-def polygon(k: int) -> Plan:
-    scale = choose_force_scale([vertices(sides(i)) for i in POSITIONS])
-    drawn = [Side(side.label, side.vector / scale, side.found, side.name) for side in sides(k)]
-    return force_polygon(drawn)
-
-
 def arrows(scene: Scene) -> dict[str, complex]:
     return {item.name: item.end - item.start for item in scene.items if isinstance(item, Arrow)}
 
 
 @pytest.mark.parametrize("k", POSITIONS)
-@pytest.mark.parametrize("make", [velocity_plan, acceleration_plan, lambda _, k: polygon(k)])
+@pytest.mark.parametrize("make", [velocity_plan, acceleration_plan])
 def test_nothing_overlaps_at_any_position(make: object, k: int) -> None:
     assert callable(make)
     drawing = make(motion(), k)
@@ -147,26 +121,6 @@ def test_no_inset_for_what_is_nothing() -> None:
     assert list(arrows(scene)) == ["long"]
 
 
-def test_polygon_closes_head_to_tail_with_letters() -> None:
-    corners = vertices(sides(3))
-    # The reactions balance the loads: closed to rounding against forces of 1e4 N.
-    assert abs(corners[-1]) < 1e-6
-    names = letters(sides(3))
-    assert names[0] == names[-1] == "e"
-    assert len(set(names)) == len(sides(3))
-
-
-def test_a_force_that_is_nothing_keeps_its_vertex() -> None:
-    assert letters((Side("P", 5j), Side("G", 0j), Side("R", 3 + 0j), Side("S", -3 - 5j))) == (*"effg", "e")
-
-
-def test_chords_run_between_vertices() -> None:
-    drawing = force_polygon(
-        (Side("P", 30j), Side("Q", 40 + 0j), Side("R", -40 - 30j, True)), chords=[Chord("S", "e", "g")]
-    )
-    assert arrows(plan(drawing))["eg"] == pytest.approx(40 + 30j)
-
-
 def test_stages_add_up_to_the_plan() -> None:
     drawing = velocity_plan(motion(), 3)
     panels = stages(drawing, 0.5)
@@ -204,3 +158,8 @@ def test_short_vectors_close_together_share_an_inset() -> None:
     scene = plan(Plan((*short, PlanVector("ef", 0j, 30j)), pole=False))
     ratios = [item.content for item in scene.items if isinstance(item, Label) and ":1" in str(item.content)]
     assert len(ratios) == 1
+
+
+@given(st.floats(1e-6, 3.0))
+def test_insets_are_never_longer_than_asked(length: float) -> None:
+    assert TARGET / 2 * (1 - 1e-9) <= length * enlargement(length) <= TARGET * (1 + 1e-9)

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from reportgen.figures.labels import overlaps
 from reportgen.figures.positions import PositionPlan, position_plan
 from reportgen.figures.scene import Circle, Label, Line, Polyline, Scene
 from reportgen.figures.scheme import Looks, groups, scheme
-from reportgen.figures.style import HEAVY
-from reportgen.figures.symbols import POINT, body
+from reportgen.figures.style import HEAVY, POINT, body
 from reportgen.mechanism.structure import Crank, Dyad, Linkage, LinkPoint
 from reportgen.notation.symbols import point
 from tests.figures.machines import at_positions, dense
+from tests.figures.overlaps import overlaps
 
 PER_METRE = 300.0
 COUPLER = 0.15 + 0.11j

@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 from reportgen.document.tree import Figure
-from reportgen.writers.typst import in_rows
+from reportgen.writers.layout import in_rows
 from tests.reports import built
 from tests.reports.built import Report
 from tests.reports.pages import MM

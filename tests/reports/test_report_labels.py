@@ -11,9 +11,9 @@ import pytest
 import yaml
 
 from reportgen import api
-from reportgen.figures.labels import overlaps
 from reportgen.figures.metrics import box
 from reportgen.figures.scene import Arrow, Label, Scene
+from tests.figures.overlaps import overlaps
 from tests.reports import built
 from tests.reports.built import Written
 

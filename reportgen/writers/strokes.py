@@ -1,6 +1,6 @@
-"""Geometry that every painter needs: arrow heads, arcs as Bézier curves, clipped hatching.
+"""Geometry that every drawing needs: arrow heads, arcs as Bézier curves, clipped hatching.
 
-Points are complex numbers in mm, x to the right and y up; no painter's syntax here.
+Points are complex numbers in mm, x to the right and y up.
 """
 
 from __future__ import annotations
@@ -98,3 +98,8 @@ def clip_hatch(points: Sequence[complex], spacing: float) -> list[Segment]:
             back = cmath.exp(0.25j * math.pi)
             strokes.append((complex(left, height) * back, complex(right, height) * back))
     return strokes
+
+
+def decimal(value: float) -> str:
+    """A length to a thousandth of a millimetre, without trailing zeros and without a negative zero."""
+    return f"{round(value, 3) + 0.0:.3f}".rstrip("0").rstrip(".")

@@ -6,6 +6,7 @@ the scene to 0.001 mm.  The macros \scene, \strokes, \lb, \lbpaper and \lbturned
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
@@ -23,14 +24,20 @@ from reportgen.figures.scene import (
     Stroke,
 )
 from reportgen.notation.numbers import Language
-from reportgen.paint.geometry import Bezier, Triangle, arc_to_beziers, arc_with_head, arrow_head, clip_hatch
 from reportgen.writers.latex_math import mathematics
 from reportgen.writers.latex_text import escape
+from reportgen.writers.strokes import (
+    Bezier,
+    Triangle,
+    arc_to_beziers,
+    arc_with_head,
+    arrow_head,
+    clip_hatch,
+    decimal,
+)
 
 LABEL_SIZE = 9.0
 """The size of labels, in points, that `\\scene` sets; any other is written at the label."""
-
-_FULL_TURN = 6.283185307179586
 
 
 def paint(scene: Scene, language: Language) -> str:
@@ -45,7 +52,7 @@ def paint(scene: Scene, language: Language) -> str:
         else:
             runs.append("\\strokes{" + "\n".join(_operators(items)) + "}%")
     body = "\n".join(runs)
-    return f"\\scene{{{_number(scene.width)}}}{{{_number(scene.height)}}}{{%\n{body}\n}}"
+    return f"\\scene{{{decimal(scene.width)}}}{{{decimal(scene.height)}}}{{%\n{body}\n}}"
 
 
 # --- labels ---------------------------------------------------------------------------------------
@@ -55,13 +62,13 @@ def _label(label: Label, language: Language) -> str:
     words = label.content
     content = escape(words) if isinstance(words, str) else f"${mathematics(words, language)}$"
     if label.size != LABEL_SIZE:
-        content = rf"\fontsize{{{_number(label.size)}}}{{{_number(1.2 * label.size)}}}\selectfont {content}"
+        content = rf"\fontsize{{{decimal(label.size)}}}{{{decimal(1.2 * label.size)}}}\selectfont {content}"
     if label.turn % 360 == 90:
         content = rf"\lbturned{{{content}}}"
     if label.background:
         content = rf"\lbpaper{{{content}}}"
     along, up = _share(label.anchor)
-    return rf"\lb{{{_number(label.at.real)}}}{{{_number(label.at.imag)}}}{{{along}}}{{{up}}}{{{content}}}%"
+    return rf"\lb{{{decimal(label.at.real)}}}{{{decimal(label.at.imag)}}}{{{along}}}{{{up}}}{{{content}}}%"
 
 
 def _share(anchor: Anchor) -> tuple[str, str]:
@@ -98,7 +105,7 @@ def _shape(item: Item) -> tuple[Stroke | None, str | None, str]:
             shaft, triangle = arrow_head(start, end, head)
             return stroke, stroke.colour, _path((start, shaft), "S") + _head(triangle)
         case Circle(centre, radius, pen, fill):
-            pieces = arc_to_beziers(centre, radius, 0.0, _FULL_TURN)
+            pieces = arc_to_beziers(centre, radius, 0.0, math.tau)
             return pen, fill, _curve(pieces) + " h" + _paint(pen, fill)
         case Arc(stroke=stroke):
             pieces, triangle = arc_with_head(item)
@@ -133,19 +140,13 @@ def _paint(pen: Stroke | None, fill: str | None) -> str:
 
 
 def _pen(stroke: Stroke) -> str:
-    dash = " ".join(map(_number, stroke.dash))
-    return f"{_number(stroke.width)} w {_colour(stroke.colour)} RG [{dash}] 0 d"
+    dash = " ".join(map(decimal, stroke.dash))
+    return f"{decimal(stroke.width)} w {_colour(stroke.colour)} RG [{dash}] 0 d"
 
 
 def _colour(colour: str) -> str:
-    return " ".join(_number(int(colour[at : at + 2], 16) / 255) for at in (1, 3, 5))
+    return " ".join(decimal(int(colour[at : at + 2], 16) / 255) for at in (1, 3, 5))
 
 
 def _point(point: complex) -> str:
-    return f"{_number(point.real)} {_number(point.imag)}"
-
-
-def _number(value: float) -> str:
-    """Three decimals, without trailing zeros and without a negative zero."""
-    text = f"{value:.3f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    return f"{decimal(point.real)} {decimal(point.imag)}"

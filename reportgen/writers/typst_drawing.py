@@ -5,6 +5,8 @@ The short names (`S`, `L`, `A`, …) are defined once, in the frame that the wri
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from reportgen.figures.scene import (
     Anchor,
     Arc,
@@ -19,7 +21,7 @@ from reportgen.figures.scene import (
     Stroke,
 )
 from reportgen.notation.numbers import Language
-from reportgen.paint.geometry import Triangle, arc_with_head, arrow_head, clip_hatch
+from reportgen.writers.strokes import Triangle, arc_with_head, arrow_head, clip_hatch, decimal
 from reportgen.writers.typst_math import literal, math
 
 ANCHORS: dict[Anchor, tuple[str, float, float]] = {
@@ -41,17 +43,18 @@ def paint(scene: Scene, language: Language) -> str:
     strokes = dict.fromkeys(
         item.stroke for item in scene.items if not isinstance(item, Label) and item.stroke is not None
     )
-    pens = {stroke: f"p{index}" for index, stroke in enumerate(strokes)}
-    lines = [f"let {name}={_pen(stroke)}" for stroke, name in pens.items()]
+    lines = [f"let p{index}={_pen(stroke)}" for index, stroke in enumerate(strokes)]
+    pens: dict[Stroke | None, str] = {stroke: f"p{index}" for index, stroke in enumerate(strokes)}
+    pens[None] = "none"
     lines += [line for item in scene.items for line in _item(item, scene, pens, language)]
-    return f"S({_mm(scene.width)},{_mm(scene.height)},{{" + "\n".join(lines) + "})"
+    return f"S({decimal(scene.width)},{decimal(scene.height)},{{" + "\n".join(lines) + "})"
 
 
-def _item(item: Item, scene: Scene, pens: dict[Stroke, str], language: Language) -> list[str]:
+def _item(item: Item, scene: Scene, pens: Mapping[Stroke | None, str], language: Language) -> list[str]:
     """The calls that draw an item; y is turned over here, once for all."""
 
     def at(*points: complex) -> str:
-        return ",".join(f"{_mm(point.real)},{_mm(scene.height - point.imag)}" for point in points)
+        return ",".join(f"{decimal(point.real)},{decimal(scene.height - point.imag)}" for point in points)
 
     def head(triangle: Triangle | None, stroke: Stroke) -> list[str]:
         return [f"G({_colour(stroke.colour)},{at(*triangle)})"] if triangle else []
@@ -64,14 +67,14 @@ def _item(item: Item, scene: Scene, pens: dict[Stroke, str], language: Language)
             return [f"L({pens[stroke]},{at(start, shaft_end)})", *head(triangle, stroke)]
         case Circle(centre, radius, outline, fill):
             corner = at(complex(centre.real - radius, centre.imag + radius))
-            return [f"O({_pen_name(outline, pens)},{_colour(fill)},{corner},{_mm(radius)})"]
+            return [f"O({pens[outline]},{_colour(fill)},{corner},{decimal(radius)})"]
         case Arc(stroke=stroke):
             curves, triangle = arc_with_head(item)
             cubics = ",".join(at(*curve[1:]) for curve in curves)
             return [f"B({pens[stroke]},{at(curves[0][0])},{cubics})", *head(triangle, stroke)]
         case Polyline(points, outline, closed, fill):
             name = "C" if closed else "Y"
-            return [f"{name}({_pen_name(outline, pens)},{_colour(fill)},{at(*points)})"] if points else []
+            return [f"{name}({pens[outline]},{_colour(fill)},{at(*points)})"] if points else []
         case Hatch(points, spacing, stroke):
             strokes = clip_hatch(points, spacing)
             ends = ",".join(at(*segment) for segment in strokes)
@@ -85,24 +88,15 @@ def _label(label: Label, scene: Scene, language: Language) -> str:
     body = literal(content) if isinstance(content, str) else f"${math(content, language)}$"
     options = (",turn:true" if label.turn else "") + (",paper:true" if label.background else "")
     anchor, across, down = ANCHORS[label.anchor]
-    x = _mm(label.at.real - across * scene.width)
-    y = _mm((1 - down) * scene.height - label.at.imag)
+    x = decimal(label.at.real - across * scene.width)
+    y = decimal((1 - down) * scene.height - label.at.imag)
     return f"T({anchor},{x},{y},{label.size:g}pt,{body}{options})"
 
 
 def _pen(stroke: Stroke) -> str:
-    dash = "".join(f"{_mm(length)}mm," for length in stroke.dash)
-    return f"P({_mm(stroke.width)},{_colour(stroke.colour)},{f'({dash})' if dash else 'none'})"
-
-
-def _pen_name(stroke: Stroke | None, pens: dict[Stroke, str]) -> str:
-    return "none" if stroke is None else pens[stroke]
+    dash = "".join(f"{decimal(length)}mm," for length in stroke.dash)
+    return f"P({decimal(stroke.width)},{_colour(stroke.colour)},{f'({dash})' if dash else 'none'})"
 
 
 def _colour(colour: str | None) -> str:
     return "none" if colour is None else f"rgb({literal(colour)})"
-
-
-def _mm(length: float) -> str:
-    """A length to a thousandth of a millimetre, in the fewest digits."""
-    return f"{round(length, 3) + 0.0:.3f}".rstrip("0").rstrip(".")

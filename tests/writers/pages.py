@@ -1,0 +1,54 @@
+"""Small documents set by either writer, and what their pages say."""
+
+from __future__ import annotations
+
+import shutil
+import unicodedata
+from dataclasses import replace
+from typing import Any
+
+import pymupdf
+import pytest
+
+from reportgen.document.tree import Block, Document
+from reportgen.writers import latex, pdflatex, typst
+from tests.writers import sample
+
+MM = 72 / 25.4
+"""PDF points in a millimetre."""
+
+needs_tex = pytest.mark.skipif(
+    shutil.which("pdflatex") is None, reason="pdflatex is not installed; install it with " + pdflatex.INSTALL
+)
+
+
+def document(*blocks: Block) -> Document:
+    return replace(sample.sample(), blocks=blocks)
+
+
+def opened(pdf: bytes) -> Any:
+    return pymupdf.open(stream=pdf, filetype="pdf")
+
+
+def by_typst(*blocks: Block) -> Any:
+    """The open PDF of a document of these blocks."""
+    return opened(typst.compile(typst.write(document(*blocks))))
+
+
+def by_latex(*blocks: Block) -> Any:
+    return opened(pdflatex.compile(latex.write(document(*blocks))).pdf)
+
+
+def plain(text: str) -> str:
+    """Text as a reader sees it: mathematical italics and presentation forms folded, spaces equal."""
+    return " ".join(unicodedata.normalize("NFKC", text).replace("\N{WORD JOINER}", "").split())
+
+
+def body_of(page: Any) -> Any:
+    """The page without its header and footer."""
+    return pymupdf.Rect(0, 24 * MM, page.rect.width, page.rect.height - 24 * MM)
+
+
+def text_of(*blocks: Block) -> str:
+    """The text of the pages that Typst makes of these blocks, without header and footer."""
+    return plain("\n".join(page.get_text(clip=body_of(page)) for page in by_typst(*blocks)))

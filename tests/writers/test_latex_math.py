@@ -1,0 +1,69 @@
+"""Formulas as LaTeX mathematics: their parentheses, marks and breaks."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from reportgen.errors import TypesetterError
+from reportgen.notation.expressions import (
+    Chain,
+    Expression,
+    Number,
+    Product,
+    Ref,
+    Sum,
+    Symbol,
+    divide,
+    multiply,
+    negative,
+    power,
+    subtract,
+)
+from reportgen.writers.latex_math import aligned, mathematics
+
+A, B, C = Symbol("a"), Symbol("b"), Symbol("c")
+
+
+def plain(source: str) -> str:
+    """A formula without the marks that only lines and gaps need."""
+    return re.sub(r"\\(relbreak|binbreak|dotbreak|mathopen\{\})|\s+", "", source)
+
+
+@pytest.mark.parametrize(
+    ("expression", "expected"),
+    [
+        (subtract(A, Sum((B, C))), "a-(b+c)"),
+        (multiply(Sum((A, B)), C), r"(a+b)\cdotc"),
+        (Product((A, Number(-1.5, 1))), r"a\cdot(-1{,}5)"),
+        (Sum((A, Number(-1.5, 1))), "a+(-1{,}5)"),
+        (negative(negative(A)), "-(-a)"),
+        (power(negative(A), 2), "(-a)^{2}"),
+        (power(power(A, 2), 3), "(a^{2})^{3}"),
+        (power(divide(A, B), 2), r"\left(\frac{a}{b}\right)^{2}"),
+        (divide(Sum((A, B)), C), r"\frac{a+b}{c}"),
+        (Symbol("a", "BA", "n", "vector"), r"\vec{a}_{\mathrm{BA}}^{\mathrm{n}}"),
+        (Symbol("pb", over="segment"), r"\overline{\mathit{pb}}"),
+        (Symbol("p", "3", "′"), r"p_{3}^{\prime}"),
+        (Number(10.943, 3, "m/s"), r"10{,}943\,\text{m/s}"),
+        (Number(60, None, "°"), r"60\text{°}"),
+        (Number(-0.0001, 2, "N"), r"0{,}00\,\text{N}"),
+    ],
+)
+def test_formulas(expression: Expression, expected: str) -> None:
+    assert plain(mathematics(expression, "vi")) == expected
+
+
+def test_english_numbers_have_a_point() -> None:
+    assert mathematics(Number(1.5, 1), "en") == "1.5"
+
+
+def test_a_chain_is_cut_at_its_first_relation() -> None:
+    left, rest = aligned(Chain((A, B, C)), "vi")
+    assert (plain(left), plain(rest)) == ("a", "=b=c")
+
+
+def test_a_reference_nobody_substituted_is_refused() -> None:
+    with pytest.raises(TypesetterError, match="v_A"):
+        mathematics(Ref("v_A"), "vi")
