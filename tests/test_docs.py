@@ -23,7 +23,10 @@ from reportgen.words import search_path
 from reportgen.writers import pdflatex
 
 ROOT = Path(__file__).parent.parent
-DOCUMENTS = ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md", "CHANGELOG.md")
+PAGES = ("README.md", *sorted(f"docs/{page.name}" for page in (ROOT / "docs").glob("*.md")))
+"""For users: each is read, and its commands are run, by itself."""
+
+DOCUMENTS = (*PAGES, "CONTRIBUTING.md", "ARCHITECTURE.md", "CHANGELOG.md")
 LARGEST_PICTURE = 150_000
 """Bytes: a page that loads at once, also over a slow line."""
 
@@ -42,7 +45,7 @@ def fences(document: str, language: str) -> list[str]:
 
 def section(text: str, heading: str) -> str:
     """What stands between a heading and the next one of any level."""
-    found = re.search(rf"^{re.escape(heading)}\n(.*?)(?=^##+ )", text, re.MULTILINE | re.DOTALL)
+    found = re.search(rf"^{re.escape(heading)}\n(.*?)(?=^##+ |\Z)", text, re.MULTILINE | re.DOTALL)
     assert found, heading
     return found[1]
 
@@ -158,8 +161,14 @@ def follow(document: str, place: Path) -> list[str]:
 # --- what is shown is so --------------------------------------------------------------------------
 
 
-def test_the_commands_of_the_readme_print_what_it_shows(tmp_path: Path) -> None:
-    assert follow("README.md", copy_of_repository(tmp_path)) == []
+@pytest.mark.parametrize("page", [page for page in PAGES if fences(page, "console")])
+def test_the_commands_of_a_page_print_what_it_shows(page: str, tmp_path: Path) -> None:
+    assert follow(page, copy_of_repository(tmp_path)) == []
+
+
+def test_no_command_is_run_on_two_pages() -> None:
+    lines = [{command.line for command in commands(page) if command.line.startswith("reportgen")} for page in PAGES]
+    assert sum(map(len, lines)) == len(set().union(*lines))
 
 
 def test_a_machine_added_as_described_has_its_report(tmp_path: Path) -> None:
@@ -195,7 +204,7 @@ def test_the_example_machine_is_clean(tmp_path: Path) -> None:
 
 
 def test_a_school_overrides_one_section(tmp_path: Path) -> None:
-    (words,) = [content for name, content in _FILE.findall(text_of("CONTRIBUTING.md")) if "my-school" in name]
+    (words,) = [content for name, content in _FILE.findall(text_of("docs/templates.md")) if "my-school" in name]
     root = tmp_path / "templates"
     shutil.copytree(ROOT / "templates" / "en", root / "en")
     school = root / "my-school" / "en"
@@ -209,13 +218,13 @@ def test_a_school_overrides_one_section(tmp_path: Path) -> None:
     assert prose.directories[1:] == search_path("en", "engine-twin", root=root)
 
 
-def test_the_scripts_of_the_readme_run(tmp_path: Path) -> None:
+def test_the_script_runs(tmp_path: Path) -> None:
     place = copy_of_repository(tmp_path)
-    for number, script in enumerate(fences("README.md", "python")):
-        (place / f"script{number}.py").write_text(script, encoding="utf-8")
-        (torque, report), _ = run([f"python script{number}.py"], place)[0]
-        assert torque.startswith("-342.07")
-        assert (place / report).read_bytes().startswith(b"%PDF")
+    (script,) = fences("docs/results.md", "python")
+    (place / "script.py").write_text(script, encoding="utf-8")
+    (torque, report), _ = run(["python script.py"], place)[0]
+    assert torque.startswith("-342.07")
+    assert (place / report).read_bytes().startswith(b"%PDF")
 
 
 # --- nothing is forgotten -------------------------------------------------------------------------
@@ -227,30 +236,41 @@ def test_the_readme_begins_with_the_two_commands_and_a_page() -> None:
     assert places == sorted(places)
 
 
-def test_the_readme_names_every_command_option_kind_and_result() -> None:
-    text = text_of("README.md")
+def test_every_command_is_explained_with_its_options() -> None:
+    rows = text_of("docs/commands.md").splitlines()
     for name, command in vars(typer.main.get_command(app))["commands"].items():
-        assert f"| `reportgen {name}" in text
-        row = next(line for line in text.splitlines() if line.startswith(f"| `reportgen {name}"))
+        (row,) = [row for row in rows if re.match(rf"\| `reportgen {name}\b", row)]
         options = [name for parameter in command.params for name in parameter.opts if name.startswith("-")]
-        assert all(option in row for option in options if option not in {"--help", "--output"})
+        assert all(option in row for option in options if option != "--help")
+
+
+def test_every_machine_is_shown_and_all_its_keys_are_explained() -> None:
+    readme, text = text_of("README.md"), text_of("docs/machines.md")
     for kind in catalogue.kinds():
-        assert re.search(rf"^\| \[`{kind}`\]\(#{kind}\) \| !\[[^\]]+\]\(docs/{kind}\.png\) \| ", text, re.MULTILINE)
-        told = section(text, "## Machines") + section(text, f"### `{kind}`")
+        row = rf"^\| \[`{kind}`\]\(docs/machines\.md#{kind}\) \| !\[[^\]]+\]\(docs/{kind}\.png\) \| "
+        assert re.search(row, readme, re.MULTILINE)
+        explained = section(text, "## Keys of several kinds") + section(text, f"## `{kind}`")
         for name, field in catalogue.kind(kind).parameters.model_fields.items():
-            assert f"`{field.alias or name}`" in told, (kind, name)
+            assert f"`{field.alias or name}`" in explained, (kind, name)
     (row,) = [line for line in text.splitlines() if line.startswith("| `flywheel` |")]
     with_flywheel = {kind for kind in catalogue.kinds() if "flywheel" in catalogue.kind(kind).parameters.model_fields}
     assert set(re.findall(r"`([a-z-]+)`", row)) - {"flywheel"} == with_flywheel
-    for example in re.findall(r"(?<![\w/])assignments/[\w-]+\.yaml", text):
-        assert (ROOT / example).is_file(), example
+
+
+def test_every_key_of_the_results_is_explained() -> None:
+    text = text_of("docs/results.md")
     results = api.solve(api.load(ROOT / "assignments" / "engine-twin-05.yaml"))
     for key in (*results, *results["positions"][0]):
-        assert f"`{key}`" in text
+        assert f"`{key}`" in text, key
 
 
-def test_the_readme_gives_the_one_command_that_installs_tex() -> None:
-    assert f"{pdflatex.INSTALL}\n" in fences("README.md", "sh")
+def test_every_page_is_linked_from_the_readme() -> None:
+    linked = set(_LINK.findall(text_of("README.md")))
+    assert {page for page in DOCUMENTS if page != "README.md"} <= linked
+
+
+def test_the_one_command_that_installs_tex_is_given() -> None:
+    assert fences("docs/commands.md", "sh") == [f"{pdflatex.INSTALL}\n"]
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)
@@ -259,7 +279,7 @@ def test_links_lead_somewhere(document: str) -> None:
         if re.match(r"https?:", link):
             continue
         name, _, anchor = link.partition("#")
-        target = ROOT / (name or document)
+        target = (ROOT / document).parent / name if name else ROOT / document
         assert target.is_file(), link
         if anchor:
             titles = re.findall(r"^#+ (.+)$", target.read_text(encoding="utf-8"), re.MULTILINE)
@@ -273,11 +293,11 @@ def test_pictures_are_small_and_used(picture: Path) -> None:
     assert f"(docs/{picture.name})" in text_of("README.md")
 
 
-@pytest.mark.parametrize("document", ["ARCHITECTURE.md", "CONTRIBUTING.md"])
-def test_modules_that_are_named_exist(document: str) -> None:
+@pytest.mark.parametrize("document", DOCUMENTS)
+def test_files_that_are_named_exist(document: str) -> None:
     text = text_of(document)
     printed = {name for name, _ in _FILE.findall(text)}
-    for name in set(re.findall(r"`((?:reportgen|templates|tests|assignments)/[\w./-]+)`", text)) - printed:
+    for name in set(re.findall(r"`((?:reportgen|templates|tests|assignments|docs)/[\w./-]+)`", text)) - printed:
         assert (ROOT / name).exists(), name
 
 
@@ -292,8 +312,8 @@ def test_types_and_template_names_that_are_named_exist() -> None:
     code = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "reportgen").rglob("*.py"))
     for name in set(re.findall(r"`([A-Z][a-z][A-Za-z]*)s?`", text_of("ARCHITECTURE.md"))):
         assert re.search(rf"^class {name}\b", code, re.MULTILINE), name
-    section = text_of("CONTRIBUTING.md").partition("## Names in templates")[2].partition("\n## ")[0]
-    rows = [line for line in section.splitlines() if line.startswith("| `")]
+    names = section(text_of("docs/templates.md"), "## Names in templates")
+    rows = [line for line in names.splitlines() if line.startswith("| `")]
     for name in re.findall(r"`(\w+)", "\n".join(row.split(" | ")[0] for row in rows)):
         assert re.search(rf'(def {name}\(|"{name}"[:\]]|\b{name}=)', code), name
 

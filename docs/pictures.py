@@ -1,0 +1,83 @@
+"""Draw the pictures of the README: a page of a report with a plan, and the scheme of each kind of machine.
+
+`make pictures` runs this in the project's folder; the pictures go to `docs/`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pymupdf
+from PIL import Image
+
+from reportgen import api, catalogue
+from reportgen.document.tree import Document, Figure
+
+ROOT = Path(__file__).resolve().parent.parent
+SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
+CAPTION = ". Velocity plan at"
+"""A part of the text of the page that the README shows, the number of the figure before it."""
+
+PAGE_DPI, SCHEME_DPI = 100, 60
+COLOURS = 96
+"""Few enough that a picture is small, and enough that thin lines stay smooth."""
+
+MARGIN = 72.0
+"""Height of the empty header and footer of a page (pt)."""
+
+AROUND = (-15.0, -12.0, 15.0, 4.0)
+"""Room for labels around the lines of a scheme: left, top, right, bottom (pt)."""
+
+
+def document(file: Path) -> Document:
+    """The report of an assignment file in English."""
+    return api.document(api.load(file, "en"))
+
+
+def typeset(report: Document) -> pymupdf.Document:
+    """The pages of a report."""
+    return pymupdf.open(stream=api.typeset(report, "typst")[1])
+
+
+def page_with(text: str, pages: pymupdf.Document) -> pymupdf.Page:
+    """The first page with `text` on it."""
+    return next(page for page in pages if page.search_for(text))
+
+
+def scheme_alone(report: Document) -> Document:
+    """A document that shows the machine's scheme and nothing else."""
+    figure = next(block for block in report.blocks if isinstance(block, Figure) and block.key == "fig.scheme")
+    alone = replace(figure, caption=(), key="", number="")
+    return replace(report, header=("", ""), footer=("", ""), blocks=(alone,))
+
+
+def drawn(page: pymupdf.Page) -> pymupdf.Rect:
+    """The smallest rectangle around all lines between header and footer, with room for labels."""
+    body = pymupdf.Rect(0, MARGIN, page.rect.width, page.rect.height - MARGIN)
+    lines = pymupdf.Rect()
+    for path in page.get_drawings():
+        if path["rect"] in body:
+            lines |= path["rect"]
+    return lines + AROUND
+
+
+def save(page: pymupdf.Page, name: str, dpi: int, clip: pymupdf.Rect | None = None) -> None:
+    """Save a page, or the part of it within `clip`, as `docs/NAME.png`."""
+    pixels = page.get_pixmap(dpi=dpi, clip=clip)
+    picture = Image.frombytes("RGB", (pixels.width, pixels.height), pixels.samples)
+    few_colours = picture.quantize(COLOURS, Image.Quantize.FASTOCTREE)
+    few_colours.save(ROOT / "docs" / f"{name}.png", optimize=True)
+
+
+def main() -> None:
+    """Draw the page of the sample, then the scheme of each kind from its first assignment file."""
+    save(page_with(CAPTION, typeset(document(SAMPLE))), "page", PAGE_DPI)
+    for kind in catalogue.kinds():
+        file = min(SAMPLE.parent.glob(f"{kind}-*.yaml"))
+        page = typeset(scheme_alone(document(file)))[0]
+        save(page, kind, SCHEME_DPI, drawn(page))
+
+
+if __name__ == "__main__":
+    main()
