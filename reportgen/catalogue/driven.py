@@ -6,7 +6,7 @@ weight `G2` or the mass `m2`, the moment of inertia `J2` and the place `s2` of t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -24,9 +24,13 @@ from reportgen.assignment.fields import (
     RotationalSpeed,
     Share,
     Weight,
+    quantity,
 )
+from reportgen.catalogue.loads import MotionAt
 from reportgen.catalogue.machine import Machine
+from reportgen.mechanism.motion import solve_motion
 from reportgen.mechanism.structure import Inertia, Linkage, LinkPoint
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import PI, Number, Operand, Ref, Symbol
 from reportgen.notation.sheet import Sheet, whole_hundredths
 from reportgen.notation.symbols import drawn_length
@@ -42,6 +46,16 @@ FULL_TURN = 2 * np.pi
 ROUND = 1e-12
 
 Unevenness = Annotated[Given, Ratio(Interval(above=0, most=0.5))]
+
+
+Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
+
+
+class FixedPoint(Part):
+    """A fixed point by its coordinates from the crank's centre, x to the right and y upwards."""
+
+    x: Coordinate
+    y: Coordinate
 
 
 class Flywheel(Part):
@@ -212,6 +226,29 @@ def give_angle(q: Sheet, id: str, angle: np.ndarray, symbol: Symbol | str = "") 
 def even_angles(positions: Positions, turns: int = 1) -> np.ndarray:
     """Cycle angles of evenly spaced positions [count·turns]."""
     return np.arange(positions.count * turns) * (FULL_TURN / positions.count)
+
+
+def crank_motion(linkage: Linkage, positions: Positions, start: float, speed: float = 1.0) -> MotionAt:
+    """The motion at cycle angles [N] of a linkage whose crank stands at the angle `start` in position 1."""
+    turn = positions.sign
+    return lambda angle: solve_motion(linkage, start + turn * angle, turn * speed)
+
+
+def natural_lines(q: Sheet, crank: str) -> Callable[..., Ref]:
+    """`q.define` with a scale by the kind of the quantity: what is natural to the crank of this id counts as one."""
+    r, ω1 = q.si(crank), q.si("omega.1")
+    sizes = {
+        "length": r,
+        "velocity": ω1 * r,
+        "acceleration": ω1**2 * r,
+        "angular velocity": ω1,
+        "angular acceleration": ω1**2,
+    }
+
+    def define(id: str, definition: Operand, symbol: Symbol | str = "", kind: str = "") -> Ref:
+        return q.define(id, definition, symbol, kind, scale=sizes.get(kind or vocabulary.row(id).kind, 0.0))
+
+    return define
 
 
 # --- the machine ------------------------------------------------------------------------------------

@@ -19,6 +19,7 @@ from reportgen.catalogue import given_loads, reach
 from reportgen.catalogue.driven import (
     Driven,
     centre_points,
+    crank_motion,
     datum,
     driven,
     enter_bar,
@@ -27,11 +28,10 @@ from reportgen.catalogue.driven import (
     enter_speed,
     inertias,
 )
-from reportgen.catalogue.loads import Applied, Constant, Floats, Piston, course, gas_forces
+from reportgen.catalogue.loads import Applied, Constant, Piston, course, gas_forces
 from reportgen.catalogue.machine import Machine, lettered
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.sliders import centred_slider, compared, second_cylinder
-from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.notation.expressions import PI, Symbol
 from reportgen.notation.sheet import Sheet
@@ -179,9 +179,7 @@ def machine(assignment: Assignment) -> Machine:
     linkage, start = _linkage(given, q), _start(positions)
     places, labels = _places(given, positions)
 
-    def motion_at(angle: Floats) -> Motion:
-        return solve_motion(linkage, start + turn * angle, turn * given.speed)
-
+    motion_at = crank_motion(linkage, positions, start, given.speed)
     second_top = given.second_top if given.turns == 2 else 1
     courses = (
         course(linkage, 3, motion_at, given.turns),

@@ -23,9 +23,9 @@ from reportgen.assignment.fields import (
     UnitOf,
     quantity,
 )
-from reportgen.catalogue.loads import Constant, Floats, Law, Torque, by_angle, by_stroke, opposing
+from reportgen.catalogue.driven import crank_motion
+from reportgen.catalogue.loads import Constant, Law, Torque, by_angle, by_stroke, opposing
 from reportgen.cycle.applied import STROKES, AngleIndicator, Indicator, StrokeIndicator
-from reportgen.mechanism.motion import solve_motion
 from reportgen.mechanism.structure import Linkage
 from reportgen.units import Given
 
@@ -177,31 +177,47 @@ class OverAngle(Part):
         return by_angle(tuple(angle.si for angle in self.angle), tuple(f * self.unit.si for f in self.F))
 
 
+class PressingForce(Part):
+    """What resists a slider on its way down, over s/H from its upper end; nothing on the way up."""
+
+    unit: ForceUnit
+    s: Fractions
+    P: Forces
+
+    @property
+    def table(self) -> Indicator:
+        """Forces (N) over the stroke."""
+        down = tuple(force * self.unit.si for force in self.P)
+        return by_stroke(self.s, down, tuple(0.0 for _ in down))
+
+
 WorkingForce = Annotated[ConstantForce | OverStroke | OverAngle, Field(discriminator="by")]
 
 
-def _inside(check: Check) -> Check:
-    """The check of a section, for the section `force` of the parameters."""
+def _inside(check: Check, section: str) -> Check:
+    """The check of a section, for a section of the parameters."""
 
     def nested(draft: Draft) -> Iterator[Finding]:
         parameters = draft.raw.get("parameters")
-        content = parameters.get("force") if isinstance(parameters, dict) else None
-        for finding in check(Draft({"force": content}, {})):
+        content = parameters.get(section) if isinstance(parameters, dict) else None
+        for finding in check(Draft({section: content}, {})):
             yield replace(finding, where=("parameters", *finding.where))
 
     return nested
 
 
 FORCE_CHECKS = tuple(
-    map(
-        _inside,
-        (
-            checks.same_length("force", "s", ("inward", "outward")),
-            checks.same_length("force", "angle", ("F",)),
-            checks.increasing("force", "s", 0, 1),
-            checks.increasing("force", "angle", 0, 360, "deg"),
-        ),
+    _inside(check, "force")
+    for check in (
+        checks.same_length("force", "s", ("inward", "outward")),
+        checks.same_length("force", "angle", ("F",)),
+        checks.increasing("force", "s", 0, 1),
+        checks.increasing("force", "angle", 0, 360, "deg"),
     )
+)
+PRESS_CHECKS = tuple(
+    _inside(check, "press")
+    for check in (checks.same_length("press", "s", ("P",)), checks.increasing("press", "s", 0, 1))
 )
 
 
@@ -223,11 +239,9 @@ def torque_on(
     """The torque on a link of a crank's linkage whose crank stands at the angle `start` in position 1."""
     if given is None:
         return ()
-    size, turn = given.M.si, positions.sign
-
-    def swing(angle: Floats) -> Floats:
-        return solve_motion(linkage, start + turn * angle, float(turn)).links[link].omega
-
-    one_sense = Constant(size if given.sense == "anticlockwise" else -size)
-    law: Law = opposing(size, swing) if given.sense == "opposing" else one_sense
+    size, motion_at = given.M.si, crank_motion(linkage, positions, start)
+    if given.sense == "opposing":
+        law: Law = opposing(size, lambda angle: motion_at(angle).links[link].omega)
+    else:
+        law = Constant(size if given.sense == "anticlockwise" else -size)
     return (Torque(f"M{link}", link, law),)

@@ -14,8 +14,11 @@ from reportgen.assignment.fields import Length, quantity
 from reportgen.catalogue import reach
 from reportgen.catalogue.driven import (
     CRANK_DRAWN,
+    Coordinate,
     Driven,
+    FixedPoint,
     centre_points,
+    crank_motion,
     datum,
     driven,
     enter_bar,
@@ -23,9 +26,8 @@ from reportgen.catalogue.driven import (
     enter_speed,
     inertias,
 )
-from reportgen.catalogue.loads import Applied, Constant, Floats, Law, opposing
+from reportgen.catalogue.loads import Applied, Constant, Law, opposing
 from reportgen.catalogue.machine import Machine
-from reportgen.mechanism.motion import solve_motion
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.sheet import Sheet
@@ -35,15 +37,7 @@ from reportgen.units import Given
 TURNS = 1
 BARS = {1: ("B", "A"), 2: ("A", "C"), 3: ("D", "C"), 4: ("E", "F")}
 """The bars by the pins at their ends."""
-Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
 Size = Annotated[Given, quantity("N", least=0, most=1e9)]
-
-
-class Place(Part):
-    """A fixed point by its coordinates from B, x to the right and y upwards."""
-
-    x: Coordinate
-    y: Coordinate
 
 
 class SliderForce(Part):
@@ -63,7 +57,7 @@ class Parameters(
     CD: Length
     CE: Length
     EF: Length
-    D: Place
+    D: FixedPoint
     guide: Coordinate
     C: Literal["left", "right"] = "left"
     F: Literal["left", "right"] = "left"
@@ -170,10 +164,10 @@ def _applied(given: Parameters, linkage: Linkage, positions: Positions, start: f
     """The force on the slider, positive to the right."""
     if given.force is None:
         return ()
-    size, sense, turn = given.force.P.si, given.force.sense, positions.sign
-
-    def rate(angle: Floats) -> Floats:
-        return solve_motion(linkage, start + turn * angle, turn * given.speed).points["F"].v.real
-
-    law: Law = opposing(size, rate) if sense == "opposing" else Constant(size if sense == "right" else -size)
+    size, sense = given.force.P.si, given.force.sense
+    motion_at = crank_motion(linkage, positions, start, given.speed)
+    if sense == "opposing":
+        law: Law = opposing(size, lambda angle: motion_at(angle).points["F"].v.real)
+    else:
+        law = Constant(size if sense == "right" else -size)
     return (Applied("P5", 5, "F", 1 + 0j, law),)

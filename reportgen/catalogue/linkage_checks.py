@@ -14,7 +14,7 @@ from reportgen.assignment.common import Draft, Positions
 from reportgen.assignment.faults import Finding, Where
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue import reach
-from reportgen.catalogue.loads import NotToAndFro, course
+from reportgen.catalogue.driven import crank_motion
 from reportgen.catalogue.reach import Member
 from reportgen.mechanism.mobility import mobility
 from reportgen.mechanism.motion import Motion, solve_motion
@@ -322,19 +322,11 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
     yield from found
     if found:
         return
-    start = 0.0 if positions.start is None else positions.start.si
-
-    def motion_at(angle: np.ndarray) -> Motion:
-        return solve_motion(made, start + positions.sign * angle, positions.sign * 1.0)
-
+    motion_at = crank_motion(made, positions, 0.0 if positions.start is None else positions.start.si)
     yield from _slots(given, made, motion_at(np.linspace(0.0, 2 * np.pi, STEPS + 1)))
     for index, load in enumerate(given.loads):
         if isinstance(load, file.OverStroke | file.Gas):
-            try:
-                course(made, load.link, motion_at)
-            except NotToAndFro as fault:
-                words = {"text": str(load.link), "count": str(fault.reversals)}
-                yield Finding("not-to-and-fro", (*TOP, "loads", index, "link"), words)
+            yield from reach.to_and_fro(made, load.link, motion_at, (*TOP, "loads", index, "link"))
 
 
 def _along_the_way(

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.assignment.faults import Finding, Where
-from reportgen.catalogue.loads import FULL_TURN
+from reportgen.catalogue.loads import FULL_TURN, MotionAt, NotToAndFro, course
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.plane import SINGULAR, Complexes, Floats, cross, unit
 from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
@@ -89,6 +89,14 @@ def findings(
             at = {"angle" if way.turning else "first": way.told(place)}
             yield Finding(f"dead-point{of_slide}", member.where, {**about, **at})
             return
+
+
+def to_and_fro(linkage: Linkage, slider: int, motion_at: MotionAt, where: Where) -> Iterator[Finding]:
+    """A slider that has dead centres goes once to and fro in a turn."""
+    try:
+        course(linkage, slider, motion_at)
+    except NotToAndFro as fault:
+        yield Finding("not-to-and-fro", where, {"text": str(slider), "count": str(fault.reversals)})
 
 
 def turns_fully(linkage: Linkage, link: int) -> bool:

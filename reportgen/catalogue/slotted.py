@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from reportgen.catalogue.driven import give_angle
+from reportgen.catalogue.driven import give_angle, natural_lines
 from reportgen.catalogue.loads import FULL_TURN, Course, Floats
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import (
@@ -145,33 +145,19 @@ class Ram:
 # --- closed formulas --------------------------------------------------------------------------------
 
 
-def natural_scales(q: Sheet, crank: str) -> Callable[[str], float]:
-    """What is natural to the crank of id `crank`, by the kind of a quantity: a billionth of it prints as 0."""
-    r, ω1 = q.si(crank), q.si("omega.1")
-    natural = {
-        "length": r,
-        "velocity": ω1 * r,
-        "acceleration": ω1**2 * r,
-        "angular velocity": ω1,
-        "angular acceleration": ω1**2,
-    }
-    return lambda kind: natural.get(kind, 0.0)
-
-
 def lever_formulas(q: Sheet, angle: Floats, crank: str, centres: str) -> None:
     """`phi.A`, `f.S`, `f.omega.3`, `f.v.r`, `f.eps.3` at φ₁ = `angle` [N] by the lengths r, d of these ids:
 
     S² = d² + r² + 2dr sin φ;  ω₃ = ω₁r(r + d sin φ)/S²;  v_r = ω₁dr cos φ/S;  ε₃ = ω₁²dr(d² − r²) cos φ/S⁴.
     """
-    scale = natural_scales(q, crank)
+    line = natural_lines(q, crank)
     φ = give_angle(q, "phi.A", angle, Symbol("φ", "1"))
     r, d, ω1 = q[crank], q[centres], q["omega.1"]
     square = d**2 + r**2 + 2 * d * r * sin(φ)
-    S = q.define("f.S", sqrt(square), "S", "length", scale=scale("length"))
-    q.define("f.omega.3", ω1 * r * (r + d * sin(φ)) / square, scale=scale("angular velocity"))
-    q.define("f.v.r", ω1 * d * r * cos(φ) / S, scale=scale("velocity"))
-    swing = ω1**2 * d * r * (d**2 - r**2) * cos(φ) / square**2
-    q.define("f.eps.3", swing, scale=scale("angular acceleration"))
+    S = line("f.S", sqrt(square), "S", "length")
+    line("f.omega.3", ω1 * r * (r + d * sin(φ)) / square)
+    line("f.v.r", ω1 * d * r * cos(φ) / S)
+    line("f.eps.3", ω1**2 * d * r * (d**2 - r**2) * cos(φ) / square**2)
 
 
 def lever_end(q: Sheet, angle: Floats) -> None:
@@ -181,15 +167,15 @@ def lever_end(q: Sheet, angle: Floats) -> None:
     `f.a.D.n`, `f.a.D.t`, `f.a.D`.
     """
     lever_formulas(q, angle, "l.AB", "l.AC")
-    scale = natural_scales(q, "l.AB")
+    line = natural_lines(q, "l.AB")
     r, d, l, ω1, φ = q["l.AB"], q["l.AC"], q["l.CD"], q["omega.1"], q["phi.A"]  # noqa: E741
-    ω3, S, v, a = q["f.omega.3"], q["f.S"], scale("velocity"), scale("acceleration")
-    q.define("f.v.D", ω3 * l, scale=v)
-    q.define("f.a.k", 2 * ω3 * q["f.v.r"], Symbol("a", "k"), scale=a)
-    q.define("f.a.r", ω3**2 * S - ω1**2 * (r * (r + d * sin(φ))) / S, Symbol("a", "r"), scale=a)
-    normal = q.define("f.a.D.n", ω3**2 * l, scale=a)
-    tangential = q.define("f.a.D.t", q["f.eps.3"] * l, scale=a)
-    q.define("f.a.D", sqrt(normal**2 + tangential**2), scale=a)
+    ω3, S = q["f.omega.3"], q["f.S"]
+    line("f.v.D", ω3 * l)
+    line("f.a.k", 2 * ω3 * q["f.v.r"], Symbol("a", "k"))
+    line("f.a.r", ω3**2 * S - ω1**2 * (r * (r + d * sin(φ))) / S, Symbol("a", "r"))
+    normal = line("f.a.D.n", ω3**2 * l)
+    tangential = line("f.a.D.t", q["f.eps.3"] * l)
+    line("f.a.D", sqrt(normal**2 + tangential**2))
 
 
 def ram_formulas(q: Sheet, angle: Floats) -> None:
@@ -199,17 +185,16 @@ def ram_formulas(q: Sheet, angle: Floats) -> None:
     `f.omega.4`, `f.v.E`, `f.eps.4`, `f.a.Dx`, `f.a.E`.
     """
     lever_formulas(q, angle, "l.AB", "a")
-    scale = natural_scales(q, "l.AB")
+    line = natural_lines(q, "l.AB")
     l1, l3, l4, φ1, ω3, ε3 = (q[id] for id in ("l.AB", "l.CD", "l.DE", "phi.A", "f.omega.3", "f.eps.3"))
     φ3 = q.define("phi.3", acos(l1 * cos(φ1) / q["f.S"]))
     φ4 = q.define("phi.4", STRAIGHT - asin((q["b"] - l3 * sin(φ3)) / l4))
-    q.define("f.x.E", l3 * cos(φ3) + l4 * cos(φ4), scale=scale("length"))
-    ω4 = q.define("f.omega.4", -ω3 * l3 * cos(φ3) / (l4 * cos(φ4)), scale=scale("angular velocity"))
-    q.define("f.v.E", -(ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)), scale=scale("velocity"))
-    swing = l3 * (ω3**2 * sin(φ3) - ε3 * cos(φ3)) / (l4 * cos(φ4)) + ω4**2 * tan(φ4)
-    ε4 = q.define("f.eps.4", swing, scale=scale("angular acceleration"))
-    a_D = q.define("f.a.Dx", -l3 * (ε3 * sin(φ3) + ω3**2 * cos(φ3)), scale=scale("acceleration"))
-    q.define("f.a.E", a_D - l4 * (ε4 * sin(φ4) + ω4**2 * cos(φ4)), scale=scale("acceleration"))
+    line("f.x.E", l3 * cos(φ3) + l4 * cos(φ4))
+    ω4 = line("f.omega.4", -ω3 * l3 * cos(φ3) / (l4 * cos(φ4)))
+    line("f.v.E", -(ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))
+    ε4 = line("f.eps.4", l3 * (ω3**2 * sin(φ3) - ε3 * cos(φ3)) / (l4 * cos(φ4)) + ω4**2 * tan(φ4))
+    a_D = line("f.a.Dx", -l3 * (ε3 * sin(φ3) + ω3**2 * cos(φ3)))
+    line("f.a.E", a_D - l4 * (ε4 * sin(φ4) + ω4**2 * cos(φ4)))
 
 
 def swing(q: Sheet, sine: Expression) -> None:

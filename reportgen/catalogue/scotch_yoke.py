@@ -1,0 +1,116 @@
+"""The Scotch yoke, or sine mechanism: the crank's pin carries a block that slides in the slot of a yoke.
+
+Ground 0, crank 1 (OA), block 2 (at A), yoke 3, which slides along a straight guide through O; B is the yoke's point
+on the guide, and the slot is square to it.  φ is the crank's angle from the guide in the direction of rotation.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+from reportgen.assignment.common import Assignment
+from reportgen.assignment.fields import Angle, Length
+from reportgen.catalogue import given_loads
+from reportgen.catalogue.driven import (
+    Driven,
+    datum,
+    driven,
+    enter_drawn,
+    enter_mass,
+    enter_speed,
+    even_angles,
+    give_angle,
+    inertias,
+    natural_lines,
+)
+from reportgen.catalogue.loads import FULL_TURN, Applied, Course, TableLaw
+from reportgen.catalogue.machine import Machine
+from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage
+from reportgen.notation.expressions import Chain, Symbol, cos, sin
+from reportgen.notation.sheet import Sheet
+from reportgen.units import Given
+
+TURNS = 1
+CHECKS = given_loads.FORCE_CHECKS
+ROUND = 1e-12
+
+
+class Parameters(Driven, masses=(2, 3), loads=("force",)):
+    """The crank, the direction of the guide, the speed; block and yoke have mass only if they are given one."""
+
+    r: Length
+    guide: Angle = Given(0.0, 0.0, "deg", "0 deg")
+    force: given_loads.WorkingForce | None = None
+
+
+def machine(assignment: Assignment) -> Machine:
+    """The Scotch yoke of an assignment: linkage, force on the yoke, closed formulas."""
+    given: Parameters = assignment.parameters
+    positions, turn = assignment.positions, assignment.positions.sign
+    q = Sheet()
+    r = datum(q, "l.OA", given.r)
+    if given.guide.si:
+        datum(q, "guide.angle", given.guide, "α", "angle")
+    ω1 = enter_speed(q, given.n, given.omega1, given.flywheel)
+    enter_drawn(q, "O", "A", assignment.drawing.crank)
+    if isinstance(given.force, given_loads.ConstantForce):
+        datum(q, "P.given", given.force.F, "P", "force")
+    if any(given.typed(letter, link) for letter in "Gm" for link in (2, 3)):
+        datum(q, "g", given.g)
+    for link in (2, 3):
+        enter_mass(q, link, given.typed("G", link), given.typed("m", link))
+
+    axis, radius = given.guide.si, q.si(r)
+    along = cmath.rect(1.0, axis)
+    start = 0.0 if positions.start is None else turn * (positions.start.si - axis)
+    linkage = Linkage(
+        ground={"O": 0j},
+        driver=Crank("O", "A", radius),
+        dyads=(Dyad("RPP", (2, 3), "A", "B", Guide(0j, axis), slide_angle=math.pi / 2),),
+        inertias=inertias(q, {2: "A", 3: "B"}),
+        gravity=-1j * given.g.si,
+    )
+    phase = (start + ROUND) % FULL_TURN - ROUND
+    course = Course(3, 2, "B", "A", radius * along, -radius * along, 0.0, math.pi, phase)
+    force = given.force
+
+    def formulas(q: Sheet) -> None:
+        line = natural_lines(q, "l.OA")
+        φ = give_angle(q, "phi.3", start + even_angles(positions), "φ")
+        line("f.x.B", r * cos(φ))
+        line("f.v.B", -ω1 * r * sin(φ))
+        line("f.v.r", ω1 * r * cos(φ))
+        line("f.a.B", -(ω1**2) * r * cos(φ))
+        line("f.a.r", -(ω1**2) * r * sin(φ), Symbol("a", "r"))
+
+    return driven(
+        assignment,
+        q,
+        linkage,
+        axis + turn * start,
+        formulas=formulas,
+        applied=() if force is None else (Applied("P3", 3, "B", along, TableLaw(course, force.table, turns=TURNS)),),
+        sliders=(course,),
+        compared=(("v.B", "f.v.B"), ("v.A3A", "f.v.r"), ("a.B", "f.a.B"), ("a.A3A.r", "f.a.r")),
+        equations=equations(),
+    )
+
+
+def equations() -> dict[str, tuple[Chain, ...]]:
+    """The place of the yoke and of the block in its slot, and their rates."""
+    r, φ, ω1 = Symbol("l", "OA"), Symbol("φ"), Symbol("ω", "1")
+    return {
+        "closure": (
+            Chain((Symbol("x", "B"), r * cos(φ))),
+            Chain((Symbol("y", "A"), r * sin(φ))),
+        ),
+        "velocity": (
+            Chain((Symbol("v", "B"), -ω1 * r * sin(φ))),
+            Chain((Symbol("v", "r"), ω1 * r * cos(φ))),
+        ),
+        "acceleration": (
+            Chain((Symbol("a", "B"), -(ω1**2) * r * cos(φ))),
+            Chain((Symbol("a", "r"), -(ω1**2) * r * sin(φ))),
+        ),
+    }

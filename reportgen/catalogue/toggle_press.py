@@ -1,0 +1,136 @@
+"""The toggle press: a crank and a rod bend and stretch two links of one length, whose lower end presses.
+
+Ground 0, crank 1 (OA), rod 2 (AB), links 3 (DB) and 4 (BC), slider 5 (at C) on the vertical through D, below it.  Axes
+from O: x to the right, y turned from x by 90° in the direction of rotation; φ are angles from x, s = DA, δ the angle at
+D between DA and DB.  As BD = BC = l, B stands half way along DC: y_C = y_D + 2l sin φ₃, ω₄ = −ω₃, ε₄ = −ε₃.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Literal
+
+from reportgen.assignment.common import Assignment, Draft, Positions
+from reportgen.assignment.faults import Finding
+from reportgen.assignment.fields import Length
+from reportgen.catalogue import driven as shared
+from reportgen.catalogue import given_loads, reach
+from reportgen.catalogue.driven import Driven, FixedPoint, datum, driven, enter_bar, natural_lines
+from reportgen.catalogue.loads import Applied, TableLaw, course
+from reportgen.catalogue.machine import Machine
+from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage
+from reportgen.notation.expressions import Symbol, acos, atan2, cos, sin, sqrt
+from reportgen.notation.sheet import Sheet
+from reportgen.units import Given
+
+TURNS = 1
+BARS = {2: ("A", "B"), 3: ("D", "B"), 4: ("B", "C")}
+
+
+class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 3, 4), shares=(2, 3, 4), loads=("press",)):
+    """Lengths, the fixed pivot D, the side of AD on which B lies, the speed; masses and the force if given."""
+
+    OA: Length
+    AB: Length
+    BD: Length
+    D: FixedPoint
+    B: Literal["left", "right"] = "left"
+    press: given_loads.PressingForce | None = None
+
+    @property
+    def side(self) -> int:
+        """+1 where B lies to the left of the way from A to D."""
+        return 1 if self.B == "left" else -1
+
+
+def _sheet(given: Parameters, crank: Given | None = None) -> Sheet:
+    """Given data, mass centres, masses and moments of inertia."""
+    q = Sheet()
+    for id, length in {"OA": given.OA, "AB": given.AB, "DB": given.BD, "BC": given.BD}.items():
+        datum(q, f"l.{id}", length, Symbol("l", "BD" if id == "DB" else id))
+    datum(q, "D.x", given.D.x, Symbol("x", "D"), "length")
+    datum(q, "D.y", given.D.y, Symbol("y", "D"), "length")
+    shared.enter_speed(q, given.n, given.omega1, given.flywheel)
+    shared.enter_drawn(q, "O", "A", crank)
+    if any(given.typed(letter, link) for letter in "GmJ" for link in (*BARS, 5)):
+        datum(q, "g", given.g)
+    for link, pins in BARS.items():
+        enter_bar(q, given, link, *pins)
+    shared.enter_mass(q, 5, given.typed("G", 5), given.typed("m", 5))
+    return q
+
+
+def _linkage(given: Parameters, q: Sheet) -> Linkage:
+    pivot, link = complex(q.si("D.x"), q.si("D.y")), q.si("l.BC")
+    return Linkage(
+        ground={"O": 0j, "D": pivot},
+        driver=Crank("O", "A", q.si("l.OA")),
+        dyads=(
+            Dyad("RRR", (2, 3), "A", "B", "D", (q.si("l.AB"), link), given.side),
+            Dyad("RRP", (4, 5), "B", "C", Guide(pivot, math.pi / 2), (link, 0.0), -1),
+        ),
+        points=shared.centre_points(q, {link: start for link, (start, _) in BARS.items()}),
+        inertias=shared.inertias(q, {2: "S2", 3: "S3", 4: "S4", 5: "C"}),
+        gravity=-1j * given.g.si,
+    )
+
+
+def _check_turning(draft: Draft) -> Iterator[Finding]:
+    """The crank turns fully, without dead points, and the slider goes once down and up."""
+    given: Parameters | None = draft.sections.get("parameters")
+    if given is None:
+        return
+    linkage = _linkage(given, _sheet(given))
+    members = {
+        (2, 3): reach.Member("AB, BD", ("parameters", "AB")),
+        (4, 5): reach.Member("BC", ("parameters", "BD")),
+    }
+    found = list(reach.findings(linkage, members))
+    yield from found
+    if not found and given.press is not None:
+        yield from reach.to_and_fro(linkage, 5, shared.crank_motion(linkage, Positions(), 0.0), ("parameters", "press"))
+
+
+CHECKS = (*given_loads.PRESS_CHECKS, _check_turning)
+
+
+def machine(assignment: Assignment) -> Machine:
+    """The toggle press of an assignment: linkage, pressing force, closed formulas."""
+    given: Parameters = assignment.parameters
+    positions, turn, press = assignment.positions, assignment.positions.sign, given.press
+    q = _sheet(given, assignment.drawing.crank)
+    linkage, start = _linkage(given, q), 0.0 if positions.start is None else positions.start.si
+    motion_at = shared.crank_motion(linkage, positions, start, given.speed)
+    sliders = () if press is None else (course(linkage, 5, motion_at),)
+
+    def formulas(q: Sheet) -> None:
+        line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
+        r, b, l, x_D = q["l.OA"], q["l.AB"], q["l.DB"], q["D.x"]  # noqa: E741 - the length's own letter
+        y_D = q["D.y"] if turn > 0 else -q["D.y"]
+        φ1 = shared.give_angle(q, "f.phi.1", turn * start + shared.even_angles(positions))
+        x = line("f.x.DA", r * cos(φ1) - x_D, Symbol("x", "DA"))
+        y = line("f.y.DA", r * sin(φ1) - y_D, Symbol("y", "DA"))
+        s = line("f.s", sqrt(x**2 + y**2), "s", "length")
+        δ = line("f.delta", acos((s**2 + l**2 - b**2) / (2 * s * l)), "δ", "angle")
+        φ3 = line("f.phi.3", atan2(y, x) - δ if turn * given.side > 0 else atan2(y, x) + δ)
+        φ2 = line("f.phi.2", atan2(l * sin(φ3) - y, l * cos(φ3) - x))
+        line("f.y.C", y_D + 2 * l * sin(φ3))
+        ω2 = line("f.omega.2", ω1 * r * sin(φ1 - φ3) / (b * sin(φ3 - φ2)))
+        ω3 = line("f.omega.3", ω1 * r * sin(φ1 - φ2) / (l * sin(φ3 - φ2)))
+        line("f.v.C", 2 * l * ω3 * cos(φ3))
+        top = ω1**2 * r * cos(φ1 - φ2) + ω2**2 * b - ω3**2 * l * cos(φ3 - φ2)
+        ε3 = line("f.eps.3", top / (l * sin(φ3 - φ2)))
+        line("f.a.C", 2 * l * (ε3 * cos(φ3) - ω3**2 * sin(φ3)))
+
+    return driven(
+        assignment,
+        q,
+        linkage,
+        start,
+        formulas=formulas,
+        applied=tuple(Applied("P5", 5, "C", 1j, TableLaw(way, press.table, turns=1)) for way in sliders if press),
+        sliders=sliders,
+        paths=("B",),
+        compared=tuple((plan, f"f.{plan}") for plan in ("omega.2", "omega.3", "v.C", "eps.3", "a.C")),
+    )
