@@ -29,7 +29,7 @@ from reportgen.grading.policy import Policy
 from reportgen.grading.submission import read_submission
 from reportgen.notation.numbers import Language
 from reportgen.workbook import write_csv, write_xlsx
-from reportgen.workbook.files import BOOKS
+from reportgen.workbook.reading import BOOKS
 
 SUBMISSIONS = BOOKS | {".csv"}
 """Endings of what somebody may have handed in as a sheet; those that are not read are told of."""

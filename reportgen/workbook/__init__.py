@@ -4,7 +4,7 @@
 """
 
 from reportgen.workbook.cells import Cell, Page
-from reportgen.workbook.files import read
+from reportgen.workbook.reading import read
 from reportgen.workbook.writing import Book, Entry, Sheet, write_csv, write_xlsx
 
 __all__ = ["Book", "Cell", "Entry", "Page", "Sheet", "read", "write_csv", "write_xlsx"]
