@@ -11,17 +11,22 @@ from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property, partial
 from itertools import dropwhile
+from typing import Any
 
 import numpy as np
 
 from reportgen.analysis import Analysis
 from reportgen.answers import bands
 from reportgen.assignment import Assignment
+from reportgen.document.plain import formula
 from reportgen.document.prose import search_path
 from reportgen.document.words import load_words
 from reportgen.ledger.core import Family, Ledger
-from reportgen.notation.expressions import Symbol, refs
+from reportgen.notation.expressions import Number, Symbol, refs
 from reportgen.notation.numbers import Language
+
+SIGNED = "turn."
+"""Ids of signed rotations begin so; the size stands before them under the rest of the id."""
 
 
 class Part(StrEnum):
@@ -74,6 +79,10 @@ class Row:
     def single(self) -> bool:
         return len(self.values) == 1
 
+    def has(self, position: int) -> bool:
+        """Whether the quantity has a value at a position: from 1, or 0 for a single value."""
+        return self.single == (position == 0)
+
     def at(self, position: int) -> int:
         """The index of a position (from 1, 0 for a single value) in `values`."""
         return 0 if self.single else position - 1
@@ -109,6 +118,21 @@ class Key:
         return tuple(row for row in self.rows if row.positions)
 
 
+def words_of(key: Key) -> Mapping[str, Any]:
+    """The words of a key's language and machine."""
+    return load_words(search_path(key.language, key.kind))
+
+
+def symbol_text(row: Row, key: Key) -> str:
+    """A quantity's symbol in one line of plain text, e.g. v_BA."""
+    return formula(row.symbol, key.language)
+
+
+def shown_number(row: Row, value: float) -> Number:
+    """A number of a row as the report prints it: to its decimals, or without the dust of floats."""
+    return Number(value if row.decimals is not None else float(f"{value:.12g}"), row.decimals)
+
+
 def make_key(assignment: Assignment, analysis: Analysis, ledger: Ledger) -> Key:
     """The key of an assignment from its ledger, which is the one its report prints."""
     machine = analysis.machine
@@ -123,12 +147,12 @@ def make_key(assignment: Assignment, analysis: Analysis, ledger: Ledger) -> Key:
         family = ledger[id]
         scale = family.how.scale
         values = np.array([ledger[id].at(k + 1).real for k in range(len(family.values))])
-        if id.startswith("dir."):
+        if bands.is_direction(id):
             values = np.where(_exists(ledger, id), np.abs(values), np.nan)
         if family.arm:
             values = np.abs(values)
         role, part = _role(ledger, family), _part(id, ledger, formulas, balanced)
-        workable = _is_workable(id, family) and (part is not Part.cycle or complete)
+        workable = _is_workable(family) and (part is not Part.cycle or complete)
         asked = (role is Role.scale and not bands.is_round_scale(family)) or (role is Role.asked and workable)
         return Row(
             id,
@@ -163,7 +187,7 @@ def make_key(assignment: Assignment, analysis: Analysis, ledger: Ledger) -> Key:
 def _is_shown(ledger: Ledger, id: str) -> bool:
     """Whether a key has a row for it: not for points, for what mostly is not there, for the size of a signed twin."""
     family = ledger[id]
-    return not (family.hidden or family.is_plane or family.optional or f"turn.{id}" in ledger)
+    return not (family.hidden or family.is_plane or family.optional or f"{SIGNED}{id}" in ledger)
 
 
 def _role(ledger: Ledger, family: Family) -> Role:
@@ -173,11 +197,9 @@ def _role(ledger: Ledger, family: Family) -> Role:
     return Role.given if typed else Role.asked
 
 
-def _is_workable(id: str, family: Family) -> bool:
+def _is_workable(family: Family) -> bool:
     """Whether it can be worked out on paper: what is read from a diagram can, an integral over the cycle cannot."""
-    if id == "M.difference":
-        return False
-    return family.definition is not None or len(family.values) > 1
+    return family.id != "M.difference" and (family.definition is not None or len(family.values) > 1)
 
 
 def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int) -> tuple[int, ...]:
@@ -199,7 +221,7 @@ def _exists(ledger: Ledger, id: str) -> np.ndarray:
 
 def _sense(id: str, value: float, words: Mapping[str, str]) -> str:
     """The sense of a rotation in words; nothing for what has none."""
-    if not id.startswith("turn."):
+    if not id.startswith(SIGNED):
         return ""
     return words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"]
 

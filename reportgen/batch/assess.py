@@ -18,15 +18,12 @@ from reportgen.assignment.messages import as_problem, word
 from reportgen.batch.matching import assignment_files, spelt
 from reportgen.batch.names import folder_name
 from reportgen.errors import AssignmentError, Mark, Problem, ReportgenError
-from reportgen.grading.class_page import class_document
-from reportgen.grading.feedback import feedback_book
-from reportgen.grading.feedback_document import feedback_document
-from reportgen.grading.grades import grade_rows
-from reportgen.grading.guide import Guide, open_guide
+from reportgen.grading.feedback import feedback_book, feedback_document
+from reportgen.grading.grades import class_document, grade_rows
 from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking
-from reportgen.grading.policy import Policy
+from reportgen.grading.marks import Marking, Policy
 from reportgen.grading.submission import read_submission
+from reportgen.grading.working import Guide, open_guide
 from reportgen.notation.numbers import Language
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.reading import BOOKS
@@ -151,7 +148,10 @@ def told(graded: Graded, language: Language) -> Iterator[str]:
     """A line for each student marked, and how many handed nothing in."""
     for marking in graded.markings:
         yield word("graded", language).format(
-            id=marking.key.id, points=f"{marking.points:g}", out_of=f"{marking.out_of:g}", firsts=len(marking.firsts)
+            id=marking.key.id,
+            points=f"{marking.points:g}",
+            out_of=f"{marking.out_of:g}",
+            firsts=len(marking.first_errors),
         )
     if graded.missing:
         yield word("graded_missing", language).format(count=len(graded.missing))
