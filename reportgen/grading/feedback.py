@@ -8,7 +8,7 @@ from itertools import groupby
 from string import Formatter
 from typing import Any
 
-from reportgen.answers.key import Key, Row, shown_number, words_of
+from reportgen.answers.key import SIGNED, Key, Row, shown_number, words_of
 from reportgen.answers.key_files import band, band_decimals
 from reportgen.answers.paper import fields, paper, student_rows, text_cells
 from reportgen.answers.sheet import NAMES, asked_positions, given_entry, grid, info_page, page, rows_shown
@@ -29,9 +29,9 @@ from reportgen.document.tree import (
     Value,
 )
 from reportgen.document.voice import TEXT_WIDTH
-from reportgen.errors import Mark, Problem
+from reportgen.errors import Problem
 from reportgen.grading.marks import Marked, Marking, Verdict
-from reportgen.notation.expressions import Number, Symbol
+from reportgen.notation.expressions import Number
 from reportgen.notation.numbers import MINUS, Language, printed, write
 from reportgen.workbook import Book, Entry, Sheet
 from reportgen.workbook.writing import Style
@@ -65,10 +65,14 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
     positions = asked_positions(key)
 
     def filling(row: Row, position: int) -> Entry | None:
-        cell = cells.get((row.id, position))
-        if cell is not None:
-            return _marked(marking, words, cell, show_answers)
-        return _unmarked(marking, row, position) if position in row.positions else given_entry(row, position)
+        place = (row.id, position)
+        if place in cells:
+            return _marked(marking, words, cells[place], show_answers)
+        if position not in row.positions:
+            return given_entry(row, position)
+        # A value that is not marked stands as it was typed.
+        answer = marking.submission.values.get(place)
+        return Entry(answer.value if answer else None)
 
     def tail(row: Row) -> Sequence[Entry]:
         own = [cells[row.id, k] for k in row.positions if (row.id, k) in cells]
@@ -84,25 +88,15 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
 
 def _marked(marking: Marking, words: Mapping[str, Any], cell: Marked, show_answers: bool) -> Entry:
     """A judged cell: the student's value on the colour of its verdict."""
-    key, problem = marking.key, marking.submission.problems.get((cell.id, cell.position))
-    comment = note(cell, key, words, problem.message if problem else "", show_answers)
-    first = cell.first and cell.verdict is Verdict.wrong
-    return Entry(cell.given, FIRST if first else STYLES[cell.verdict], comment)
+    problem = marking.submission.problems.get((cell.id, cell.position))
+    comment = _comment(cell, marking.key, words, problem.message if problem else "", show_answers)
+    return Entry(cell.given, FIRST if cell.first else STYLES[cell.verdict], comment)
 
 
-def _unmarked(marking: Marking, row: Row, position: int) -> Entry:
-    """A value that is worth nothing."""
-    given = marking.submission.values.get((row.id, position))
-    return Entry(None if given is None else given.value)
-
-
-def _points(cells: Iterable[Marked], style: Style = "") -> tuple[Entry, Entry]:
+def _points(cells: Sequence[Marked], style: Style = "") -> tuple[Entry, Entry]:
     """Points earned and points to be earned."""
-    counted = list(cells)
-    return (
-        Entry(round(sum(cell.points for cell in counted), 2), style),
-        Entry(round(sum(cell.worth for cell in counted), 2), style),
-    )
+    sums = (sum(cell.points for cell in cells), sum(cell.worth for cell in cells))
+    return (Entry(round(sums[0], 2), style), Entry(round(sums[1], 2), style))
 
 
 def _legend(words: Mapping[str, Any]) -> Sheet:
@@ -167,13 +161,14 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
     """One error: what, where, the value given, perhaps the one expected; then the mistake in words."""
     feedback, row = words["feedback"], key.row(cell.id)
     assert cell.given is not None
+    number = shown_number(row, cell.expected)
+    expected = Value(Number(number.value, number.decimals, row.unit))
     label = key.labels[cell.position - 1] if cell.position else ""
-    expected = sentence(feedback["expected"], value=expected_value(row, cell)) if show_answers else ()
     return (
         InlineMath(row.symbol),
         *(sentence(feedback["at"], label=label) if label else ()),
-        *sentence(feedback["yours"], value=given_value(row, cell.given)),
-        *expected,
+        *sentence(feedback["yours"], value=_given_value(row, cell.given)),
+        *(sentence(feedback["expected"], value=expected) if show_answers else ()),
         Text(". "),
         *mistake_inlines(cell, key, words),
     )
@@ -198,7 +193,7 @@ def _listed(problems: Iterable[Problem]) -> Iterator[Block]:
     """Faults of single cells, each with its place in the student's own file."""
     found = sorted(problems, key=lambda problem: problem.mark)
     if found:
-        texts = (f"{place_text(problem.mark)}: {problem.message}." for problem in found)
+        texts = (f"{str(one.mark).removeprefix(f'{one.mark.file}:')}: {one.message}." for one in found)
         yield List(tuple((Paragraph((Text(text),)),) for text in texts))
 
 
@@ -241,62 +236,43 @@ def sentence(words: str, /, **parts: Inline | str) -> Inlines:
 
 def points_text(points: float, language: Language) -> str:
     """Points to at most two decimals."""
-    value = printed(points, 2)
-    return write(value, None, language)
+    return write(printed(points, 2), None, language)
 
 
-def given_value(row: Row, value: float) -> Inline:
+def _given_value(row: Row, value: float) -> Inline:
     """A student's value with its unit, to six figures; one of any size takes little room."""
     if value and not LEAST < abs(value) < MOST:
         return Text(f"{value:.4g} {row.unit}".replace("-", MINUS).strip())
     return Value(Number(float(f"{value:.6g}"), None, row.unit))
 
 
-def expected_value(row: Row, cell: Marked) -> Value:
-    """The key's value with its unit."""
-    number = shown_number(row, cell.expected)
-    return Value(Number(number.value, number.decimals, row.unit))
-
-
 def mistake_inlines(cell: Marked, key: Key, words: Mapping[str, Any]) -> Inlines:
     """What went wrong, in a sentence; a general one where no mistake was recognised."""
     if not cell.mistake:
         return (Text(words["feedback"]["unnamed"]),)
-    return sentence(words["mistakes"][cell.mistake], symbol=InlineMath(symbol_of(cell, key)))
+    # The key may have no row of the quantity in which it was made.
+    row = key.find(cell.where) or key.find(f"{SIGNED}{cell.where}") or key.row(cell.id)
+    return sentence(words["mistakes"][cell.mistake], symbol=InlineMath(row.symbol))
 
 
-def symbol_of(cell: Marked, key: Key) -> Symbol:
-    """The symbol of the quantity in which the mistake was made; of the cell's own where the key has no row of it."""
-    row = key.find(cell.where) or key.find(f"turn.{cell.where}") or key.row(cell.id)
-    return row.symbol
-
-
-def note(cell: Marked, key: Key, words: Mapping[str, Any], message: str, show_answers: bool) -> str:
+def _comment(cell: Marked, key: Key, words: Mapping[str, Any], message: str, show_answers: bool) -> str:
     """The comment on a cell that is not right; `message` says why it could not be read."""
     notes = words["verdict_notes"]
     if cell.verdict is Verdict.right:
         return ""
     if cell.verdict is Verdict.unreadable:
         return str(notes["unreadable"]).format(message=message)
-    lines = [str(notes["first" if cell.first and cell.verdict is Verdict.wrong else cell.verdict])]
+    lines = [str(notes["first" if cell.first else cell.verdict])]
     if cell.first and cell.mistake:
         lines.append(plain(mistake_inlines(cell, key, words), key.language))
     if show_answers:
-        lines.append(_expected(cell, key, words))
+        row = key.row(cell.id)
+        number, width = shown_number(row, cell.expected), band(row, cell.band) or 0.0
+        expected = str(words["feedback"]["expected_note"]).format(
+            value=write(number.value, number.decimals, key.language),
+            band=write(width, band_decimals(width), key.language),
+            unit=row.unit,
+        )
+        # Without a unit a space is left before the full stop.
+        lines.append(expected.replace(" .", "."))
     return "\n".join(lines)
-
-
-def _expected(cell: Marked, key: Key, words: Mapping[str, Any]) -> str:
-    row = key.row(cell.id)
-    number = shown_number(row, cell.expected)
-    width = band(row, cell.band) or 0.0
-    return str(words["feedback"]["expected_note"]).format(
-        value=write(number.value, number.decimals, key.language),
-        band=write(width, band_decimals(width), key.language),
-        unit=row.unit,
-    ).replace(" .", ".")
-
-
-def place_text(mark: Mark) -> str:
-    """A place within a file, without the file: SHEET!CELL or LINE:COLUMN."""
-    return str(mark).removeprefix(f"{mark.file}:")

@@ -179,11 +179,10 @@ def _whole_rod(guide: Guide, id: str) -> str | None:
     if match is None or match[2] not in {body.centre for body in linkage.inertias}:
         return None
     for dyad in linkage.dyads:
-        for end in (dyad.start, dyad.end):
-            if end == match[1]:
-                names = {f"l.{end}{dyad.middle}", f"l.{dyad.middle}{end}"}
-                earlier = takewhile(lambda name: name != id, guide.ledger.families)
-                return next((name for name in earlier if name in names), None)
+        if (end := match[1]) in (dyad.start, dyad.end):
+            names = {f"l.{end}{dyad.middle}", f"l.{dyad.middle}{end}"}
+            earlier = takewhile(lambda name: name != id, guide.ledger.families)
+            return next((name for name in earlier if name in names), None)
     return None
 
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import Literal, get_args
 
 from reportgen import units
 from reportgen.answers.key import Key
@@ -63,7 +63,7 @@ def read_submission(path: Path, key_of: Callable[[str], Key] | Key, language: La
     if kind and kind[0] != key.kind:
         about = {"text": f"{name} ({kind[0]})", "wanted": f"{key.id} ({key.kind})"}
         raise _refused(Fault("sheet-of-another", kind[1], about), language)
-    reading = _Reading(key, language, str(path))
+    reading = _Reading(key, language)
     reading.sheet(*found)
     return Submission(key.id, str(path), reading.values, reading.problems, tuple(reading.notes))
 
@@ -78,14 +78,8 @@ def _refused(fault: Fault, language: Language) -> AssignmentError:
 @cache
 def _words(name: str) -> frozenset[str]:
     """A word of the answer sheet in every language."""
-    languages: tuple[Language, ...] = get_args(Language)
-    return frozenset(str(_sheet_words(language)[name]).casefold() for language in languages)
-
-
-@cache
-def _sheet_words(language: Language) -> Mapping[str, Any]:
-    words: Mapping[str, Any] = load_words(search_path(language))["answer_sheet"]
-    return words
+    sheets = (load_words(search_path(language))["answer_sheet"] for language in get_args(Language))
+    return frozenset(str(words[name]).casefold() for words in sheets)
 
 
 def _says(cell: Cell, name: str) -> bool:
@@ -131,7 +125,6 @@ class _Reading:
 
     key: Key
     language: Language
-    file: str
     values: dict[Place, Answer] = field(default_factory=dict)
     problems: dict[Place, Problem] = field(default_factory=dict)
     notes: list[Problem] = field(default_factory=list)
@@ -145,7 +138,7 @@ class _Reading:
             if place not in found:
                 found[place] = cell
             elif found[place].text.strip() != cell.text.strip():
-                first = str(found[place].mark).removeprefix(f"{self.file}:")
+                first = str(found[place].mark).removeprefix(f"{cell.mark.file}:")
                 self.problem(place, Fault("cell-repeated", cell.mark, {"first": first}))
         texts = (cell.text for cell in found.values() if isinstance(cell.value, str))
         mark, agreed = decimal_mark(texts, self.key.language)
@@ -244,17 +237,9 @@ _NUMBER = re.compile(
 _JOINED = re.compile(r"(?<![A-Za-z])(k?N|kg)(?=[mc]?m)")
 SPELLED = {
     "độ": "deg",
-    "º": "deg",
-    "vg/ph": "rpm",
-    "v/ph": "rpm",
-    "vg/phút": "rpm",
-    "vòng/phút": "rpm",
-    "r/min": "rpm",
-    "rev/min": "rpm",
+    **dict.fromkeys(("vg/ph", "v/ph", "vg/phút", "vòng/phút", "r/min", "rev/min"), "rpm"),
     "1/s": "s-1",
-    "1/s2": "s-2",
-    "1/s²": "s-2",
-    "1/s^2": "s-2",
+    **dict.fromkeys(("1/s2", "1/s²", "1/s^2"), "s-2"),
 }
 """Units that students write and `units` does not know."""
 
