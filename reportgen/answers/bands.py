@@ -1,7 +1,7 @@
 """Within what a value is right: errors of drawing and of rounding, carried through the ledger.
 
 Each error is a small change of one quantity; the ledger evaluates all of them at once, [errors,
-positions], and tells how far every later quantity moves.  An error that may lie anywhere within ±e
+positions], and gives how far every later quantity moves.  An error that may lie anywhere within ±e
 has the standard deviation e/√3; independent ones add by their squares, and the band reaches to three
 of their sum's deviations.  A quantity's own error, which nothing evens out, is added whole:
 
@@ -129,9 +129,9 @@ def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[s
         if id in rows:
             change[rows[id]] = 0.0
         inherited = REACH * np.sqrt((np.nan_to_num(change) ** 2).sum(axis=0)) / SHARE
-        # What stands for all positions depends on each of them alike.
+        # A single value depends on the errors at all positions.
         band = own + (inherited.max(keepdims=True) if len(own) == 1 else inherited)
-        # Near a dead centre the direction of next to nothing may be any.
+        # Near a dead centre a very short vector may have any direction.
         bands[id] = np.minimum(band, np.pi) if family.how.unit == "°" else band
     return bands
 

@@ -56,7 +56,7 @@ class Row:
     """One quantity over the positions, in its printed unit.
 
     `values` [N] have the sign that is printed; NaN where the quantity does not exist (the direction of a
-    vector that is nothing).  A `single` quantity has one value for all positions (N = 1).  `drawn` and
+    vector of no length).  A `single` quantity has one value for all positions (N = 1).  `drawn` and
     `computed` [N] are the half widths of the two bands.  `positions` are the numbers (from 1) at which
     the answer sheet asks for it, empty if it does not; (0,) for a single quantity.  `sense` [N] says the
     direction in words where the value has one, else "".
@@ -185,7 +185,7 @@ def make_key(assignment: Assignment, analysis: Analysis, ledger: Ledger) -> Key:
 
 
 def _is_shown(ledger: Ledger, id: str) -> bool:
-    """Whether a key has a row for it: not for points, for what mostly is not there, for the size of a signed twin."""
+    """Whether a key has a row for it: not for points, optional quantities and the sizes of signed rotations."""
     family = ledger[id]
     return not (family.hidden or family.is_plane or family.optional or f"{SIGNED}{id}" in ledger)
 
@@ -213,14 +213,14 @@ def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int) -> tuple[
 
 
 def _exists(ledger: Ledger, id: str) -> np.ndarray:
-    """Where a direction `dir.v.B`, `dir.R05` is that of a vector which is something."""
+    """At which positions the vector of a direction `dir.v.B`, `dir.R05` has a length."""
     name = id.removeprefix("dir.")
     size = name if name in ledger else f"R.{name.removeprefix('R')}"
     return np.array([ledger[size].at(k + 1) != 0 for k in range(len(ledger[id].values))])
 
 
 def _sense(id: str, value: float, words: Mapping[str, str]) -> str:
-    """The sense of a rotation in words; nothing for what has none."""
+    """The sense of a rotation in words; "" for any other quantity."""
     if not id.startswith(SIGNED):
         return ""
     return words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"]

@@ -43,7 +43,7 @@ from reportgen.workbook import Book, Entry
 FORMAT = "reportgen-key/1"
 """Of the JSON."""
 BAND_DIGITS = 2
-"""Significant figures of a band; it is rounded up or down alike."""
+"""Significant figures of a band."""
 VALUE, BAND, SENSE = 15.6, 16.2, 23.0
 """Widths (mm) of the columns of a quantity at each position."""
 SYMBOL, UNIT = 24.0, 24.0
@@ -54,7 +54,7 @@ FINER, FINEST = 3, 7
 
 
 def band(row: Row, width: float) -> float | None:
-    """A band's half width to two significant figures; what is nothing beside the row is 0."""
+    """A band's half width to two significant figures; one that is negligible beside the row is 0."""
     if width != width:
         return None
     return 0.0 if width < ZERO * np.nanmax(np.abs(row.values), initial=0.0) else float(f"{width:.{BAND_DIGITS}g}")

@@ -81,7 +81,7 @@ def student_rows(key: Key) -> tuple[tuple[str, str], ...]:
 
 
 def plain_inlines(text: str) -> Inlines:
-    """A text as it stands, nothing for none."""
+    """A text as it stands; an empty one gives no inline."""
     return (Text(text),) if text else ()
 
 

@@ -43,7 +43,7 @@ def open_cells(key: Key) -> Mapping[str, frozenset[int]]:
     """The positions at which each row has a cell to fill in, by id.
 
     A cell is open also where the quantity does not exist (the direction of a velocity that is zero) but
-    others of its part are asked for, so that the sheet does not tell.
+    others of its part are asked for, so that the sheet does not give it away.
     """
     of_part: dict[Part, set[int]] = {}
     for row in key.asked:

@@ -45,7 +45,7 @@ STYLES: Mapping[Verdict, Style] = {
     Verdict.implausible: "doubt",
 }
 FIRST: Style = "bad"
-"""How a wrong value looks before which nothing is wrong."""
+"""The look of the first wrong value of a chain."""
 
 POINTS, COUNT = 15.0, 16.5
 """Widths (mm) of columns of points and of counts."""
@@ -141,7 +141,7 @@ def feedback_document(marking: Marking, title: str, show_answers: bool = True) -
 
 
 def _section(title: str, blocks: Iterable[Block]) -> tuple[Block, ...]:
-    """A headed section, nothing if it is empty."""
+    """A section with its heading; no heading without a block."""
     inner = tuple(blocks)
     return (Section(2, (Text(title),), numbered=False), *inner) if inner else ()
 
@@ -175,7 +175,7 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
 
 
 def _followed(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
-    """What differs from the key and earned its points, quantity by quantity."""
+    """The values that differ from the key but earned their points, quantity by quantity."""
     key = marking.key
     cells = [cell for cell in marking.cells if cell.verdict is Verdict.follows]
     if not cells:

@@ -24,13 +24,13 @@ SAME = 0.8
 """The share of a sheet's values that one number fills in a stock answer."""
 
 FEWEST = 4
-"""Fewer values show no pattern."""
+"""Fewer values may agree by chance."""
 
 APART = 3.0
 """Two keys differ where they lie this many tolerances apart."""
 
 OUT_OF_PROPORTION = 20.0
-"""A first wrong value without a name that is this many times too large or too small is no working."""
+"""A first wrong value without a name that is this many times too large or too small was made up."""
 
 MISREAD = 2
 """So many given data taken wrongly, all else following from them, make another variant."""
@@ -46,30 +46,30 @@ def guard(guide: Guide, cells: Cells, classmates: Sequence[Key]) -> tuple[dict[P
     filled = [place for place, cell in cells.items() if cell.given is not None]
     commonest = Counter(cells[place].given for place in filled).most_common(1)
     if len(filled) >= FEWEST and commonest and commonest[0][1] >= SAME * len(filled):
-        return _emptied(result, filled), ("stock",)
+        return _without_points(result, filled), ("stock",)
     constant = _constant_rows(cells)
     if constant:
         warnings.append("constant")
-        result = _emptied(result, [place for place in filled if place[0] in constant])
+        result = _without_points(result, [place for place in filled if place[0] in constant])
     equal, copied = _copied_from(guide, result, classmates)
     result |= {place: replace(result[place], classmates=tuple(names)) for place, names in equal.items()}
     if copied:
-        return _emptied(result, filled), (*warnings, "classmate")
+        return _without_points(result, filled), (*warnings, "classmate")
     causes = {place for place in filled if place[0] in constant} | equal.keys()
     misread = {cell.where for cell in result.values() if cell.mistake == WRONG_DATUM}
     if len(misread) >= MISREAD and _follows_throughout(result):
-        return _emptied(result, filled), (*warnings, "other-variant")
+        return _without_points(result, filled), (*warnings, "other-variant")
     wild = {place for place, cell in result.items() if cell.first and not cell.mistake and _is_wild(guide, cell)}
     if wild:
         warnings.append("proportion")
     causes |= wild
     follows = [place for place in filled if result[place].verdict is Verdict.follows]
     spoiled = [place for place in follows if place in causes or guide.stands_on(place, causes)]
-    return _emptied(result, spoiled), tuple(warnings)
+    return _without_points(result, spoiled), tuple(warnings)
 
 
-def _emptied(cells: dict[Place, Marked], places: Sequence[Place]) -> dict[Place, Marked]:
-    """The cells with nothing earned at `places`; a wrong value stays wrong."""
+def _without_points(cells: dict[Place, Marked], places: Sequence[Place]) -> dict[Place, Marked]:
+    """The cells with no points at `places`; a wrong value stays wrong."""
     earned = (Verdict.right, Verdict.follows)
     spoiled = {
         place: replace(cells[place], verdict=Verdict.implausible, points=0.0)
@@ -140,7 +140,7 @@ def _is_wild(guide: Guide, cell: Marked) -> bool:
         return False
     size = guide.size(cell.id) / guide.ledger[cell.id].how.scale
     largest, least = max(abs(cell.own), size), abs(cell.own)
-    nothing = cell.given == 0 and least > APART * cell.band
-    return nothing or abs(cell.given) > OUT_OF_PROPORTION * largest or (
+    zero = cell.given == 0 and least > APART * cell.band
+    return zero or abs(cell.given) > OUT_OF_PROPORTION * largest or (
         abs(cell.given) * OUT_OF_PROPORTION < least and least > APART * cell.band
     )

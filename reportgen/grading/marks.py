@@ -54,7 +54,7 @@ class Verdict(StrEnum):
     blank = "blank"
     unreadable = "unreadable"
     implausible = "implausible"
-    """It follows, or is right by chance, in a sheet that is no work of the student's own."""
+    """It follows, or is right by chance, in a sheet that is not the student's own work."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ class Marked:
     """The verdict on one cell, in printed units.
 
     `expected` is the key's value, `own` what the student's earlier values give, `band` the tolerance.
-    `first` says that nothing wrong stands before it.  `mistake` names what went wrong (a key of
+    `first` says that it is wrong and stands on no wrong value.  `mistake` names what went wrong (a key of
     `mistakes` in `words.yaml`), `where` the id of the quantity in which it was made.  `points` of `worth`
     are earned.  `classmates` are ids of assignments whose key this value equals.
     """

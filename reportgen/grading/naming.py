@@ -19,7 +19,7 @@ from reportgen.grading.working import Change, Guide, Values, Working
 from reportgen.ledger.following import follow
 
 FEW_FIGURES = 2
-"""Significant figures that are too few, but still tell the value; one figure tells next to nothing."""
+"""Significant figures that are too few, but still show the value; one figure shows too little."""
 
 FEWEST_ANGLES = 4
 """Fewer angles show no convention."""
@@ -302,14 +302,14 @@ def _explains(working: Working, cell: Marked, datum: _Datum) -> bool:
 def _is_contradicted(guide: Guide, cells: Cells, datum: _Datum) -> bool:
     """Whether a value that is right, and stands on nothing wrong, would lie far off with this value of the datum.
 
-    Lengths on paper tell nothing: they are read at the student's own scale.
+    Lengths on paper prove nothing: they are read at the student's own scale.
     """
     values = follow(guide.ledger, {datum.id: np.array([datum.value])})
     wrong = {place[0] for place, cell in cells.items() if cell.verdict is Verdict.wrong}
     for (id, position), cell in cells.items():
         before = set(guide.before[id])
-        telling = cell.verdict is Verdict.right and not _is_on_paper(guide, id)
-        if telling and datum.id in before and not wrong & before:
+        proves = cell.verdict is Verdict.right and not _is_on_paper(guide, id)
+        if proves and datum.id in before and not wrong & before:
             column = np.broadcast_to(values[id].real, len(guide.ledger[id].values))
             moved = float(column[guide.rows[id].at(position)]) / guide.ledger[id].how.scale - cell.expected
             if abs(moved) > APART * cell.band:

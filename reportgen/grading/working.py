@@ -104,7 +104,7 @@ class Guide:
         return self.analysis.machine.count
 
     def repeats(self, row: Row) -> bool:
-        """Whether a quantity is asked for in the first turn only, because all turns are alike."""
+        """Whether a quantity is asked for in the first turn only, because all turns are the same."""
         return not row.single and max(row.positions, default=0) <= self.count < len(row.values)
 
     def place(self, row: Row, position: int) -> int:
@@ -223,7 +223,7 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
 
 
 def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:
-    """A row's values in SI; those of the first turn hold for every turn where all turns are alike."""
+    """A row's values in SI; those of the first turn hold for every turn where all turns are the same."""
     column = np.full(len(row.values), np.nan)
     scale = guide.ledger[row.id].how.scale
     for position in row.positions:

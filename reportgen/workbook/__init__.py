@@ -1,4 +1,4 @@
-"""Tables in and out: CSV and XLSX become located cells, and are written so that no text comes alive.
+"""Tables in and out: CSV and XLSX become located cells, and are written so that no text becomes a formula.
 
 `read` takes either; `write_csv` and `write_xlsx` give bytes that depend on their content alone.
 """

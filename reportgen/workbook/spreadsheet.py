@@ -99,7 +99,7 @@ def _copy(package: Package, names: Iterable[str], strings: str) -> bytes:
         for name in names:
             content = package.content(name)
             if name == strings:
-                # openpyxl drops these letters, which tell seven characters written _x005F_x000D_ from the
+                # openpyxl drops these letters, which distinguish the seven characters written _x005F_x000D_ from the
                 # carriage return written _x000D_: so they are given in a way that leaves them there.
                 content = content.replace(b"x005F_", b"x005Fx005F__")
             made.writestr(name, content)
@@ -120,12 +120,12 @@ def _pages(values: Workbook, formulas: Workbook | None, counts: Sequence[int], f
     for number, (sheet, count) in enumerate(zip(values.worksheets, counts, strict=True), start=1):
         sheet.reset_dimensions()
         if formulas is None:
-            written, shown = tee(sheet.rows)
+            typed, stored = tee(sheet.rows)
         else:
             same = formulas.worksheets[number - 1]
             same.reset_dimensions()
-            written, shown = same.rows, sheet.rows
-        rows = _Sheet(file, sheet.title, number).rows(zip(written, shown, strict=True), count)
+            typed, stored = same.rows, sheet.rows
+        rows = _Sheet(file, sheet.title, number).rows(zip(typed, stored, strict=True), count)
         pages.append(Page(sheet.title, rows, sheet.sheet_state != "visible"))
     return tuple(pages)
 
@@ -141,7 +141,7 @@ class _Sheet:
     def rows(self, read: Iterator[tuple[Row, Row]], count: int) -> tuple[tuple[Cell, ...], ...]:
         """All rows from the first on, as long as their last cell that holds something.
 
-        `read` gives each row with its formulas and with its values; `count` cells must be among them.
+        `read` gives each row twice, with formulas as typed and with stored values; `count` cells must be among them.
         """
         cells, found = self._collected(read)
         if found != count:
@@ -168,12 +168,12 @@ class _Sheet:
         for number, pair in enumerate(self._whole(read), start=1):
             if number > MOST_GROUPS:
                 raise RefusedError("sheet-damaged", self._mark(number, 1))
-            for written, shown in zip(*pair, strict=True):
-                if not isinstance(written, ReadOnlyCell):
+            for typed, stored in zip(*pair, strict=True):
+                if not isinstance(typed, ReadOnlyCell):
                     continue
                 found += 1
-                row, column = written.row, written.column
-                cell = _cell(written, shown, self._mark(row, column))
+                row, column = typed.row, typed.column
+                cell = _cell(typed, stored, self._mark(row, column))
                 if cell.blank:
                     continue
                 if row > MOST_ROWS or column > MOST_COLUMNS:
@@ -197,12 +197,12 @@ class _Sheet:
         return CellMark(self.file, row, column, self.name, self.number)
 
 
-def _cell(written: Any, shown: Any, mark: CellMark) -> Cell:
-    value, kind = _value(shown.value, shown.data_type, mark)
-    if written.data_type != "f":
+def _cell(typed: Any, stored: Any, mark: CellMark) -> Cell:
+    value, kind = _value(stored.value, stored.data_type, mark)
+    if typed.data_type != "f":
         return Cell(value, mark, kind)
     # The formula of an array is an object with its text, that of a table of data one without.
-    text = written.value if isinstance(written.value, str) else getattr(written.value, "text", "=")
+    text = typed.value if isinstance(typed.value, str) else getattr(typed.value, "text", "=")
     return Cell(value, mark, "formula", text)
 
 
