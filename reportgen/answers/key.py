@@ -100,6 +100,10 @@ class Key:
     labels: tuple[str, ...]
     rows: tuple[Row, ...]
 
+    def label(self, position: int) -> str:
+        """What a position (from 1) is called; "" for 0, the one of single values."""
+        return self.labels[position - 1] if position else ""
+
     def find(self, id: str) -> Row | None:
         """The row of a quantity, None if there is none."""
         return self._by_id.get(id)

@@ -143,7 +143,7 @@ def key_data(key: Key) -> dict[str, Any]:
                 "kind": row.kind,
                 "unit": row.unit,
                 "decimals": row.decimals,
-                "asked": [key.labels[k - 1] if k else "" for k in row.positions],
+                "asked": [key.label(k) for k in row.positions],
                 "values": _numbers(row.values),
                 "drawn": _numbers(row.drawn),
                 "computed": _numbers(row.computed),

@@ -126,7 +126,7 @@ def task(assignment: Assignment, analysis: Analysis, books: Books, title: str, k
     (heading, *given) = prose.render("given.md", names)
     names |= {
         "sheet": tuple(answer_tables(key)),
-        "asked": tuple(key.labels[k - 1] for k in asked),
+        "asked": tuple(map(key.label, asked)),
         "known_tables": tuple(_known_tables(key, every if machine.count <= PLATES_UP_TO else asked)),
     }
     report = assignment.report
@@ -163,7 +163,7 @@ def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
     caption = (Text(str(words["answer_sheet"]["known"])),)
     rows = [row for row in key.rows if row.role is Role.given and not row.single and row.part is not Part.formulas]
     for some in _split(positions) if rows else ():
-        head = (words["table"]["symbol"], words["table"]["unit"], *(key.labels[k - 1] for k in some))
+        head = (words["table"]["symbol"], words["table"]["unit"], *map(key.label, some))
         body = tuple(
             (
                 Cell(symbol_inlines(row, with_id=False)),
@@ -191,7 +191,7 @@ def _split(positions: Sequence[int]) -> Iterator[Sequence[int]]:
 def _heads(key: Key, words: Mapping[str, Any], positions: Sequence[int]) -> tuple[str, ...]:
     """The words over the columns of a table."""
     table, sheet = words["table"], words["answer_sheet"]
-    labels = [key.labels[k - 1] for k in positions if k]
+    labels = [key.label(k) for k in positions if k]
     if len(labels) == 1:
         labels = [sheet["at"].format(label=labels[0])]
     return (table["symbol"], table["unit"], *(labels or [table["value"]]))

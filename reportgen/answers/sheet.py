@@ -78,7 +78,7 @@ def grid(
     sheet, parts = words["answer_sheet"], words["parts"]
     heads = (
         *(sheet[name] for name in ("id", "symbol", "unit", "value")),
-        *(sheet["position"].format(label=key.labels[k - 1]) for k in positions),
+        *(sheet["position"].format(label=key.label(k)) for k in positions),
         *tail_head,
     )
     lines: list[tuple[Entry, ...]] = [

@@ -75,4 +75,4 @@ def _named(marking: Marking, cell: Marked) -> str:
     symbol = symbol_text(row, marking.key)
     if cell.position == 0:
         return symbol
-    return str(words["at"].format(symbol=symbol, label=marking.key.labels[cell.position - 1]))
+    return str(words["at"].format(symbol=symbol, label=marking.key.label(cell.position)))

@@ -163,7 +163,7 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
     assert cell.given is not None
     number = shown_number(row, cell.expected)
     expected = Value(Number(number.value, number.decimals, row.unit))
-    label = key.labels[cell.position - 1] if cell.position else ""
+    label = key.label(cell.position)
     return (
         InlineMath(row.symbol),
         *(sentence(feedback["at"], label=label) if label else ()),
@@ -183,7 +183,7 @@ def _followed(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
     line: list[Any] = []
     for id, of_row in groupby(cells, lambda cell: cell.id):
         symbol = InlineMath(key.row(id).symbol)
-        labels = ", ".join(key.labels[cell.position - 1] for cell in of_row if cell.position)
+        labels = ", ".join(key.label(cell.position) for cell in of_row if cell.position)
         line += [Text("; ")] if line else []
         line += sentence(words["feedback"]["with_labels"], symbol=symbol, labels=labels) if labels else (symbol,)
     yield Paragraph((Text(f"{words['feedback']['followed_lead']} "), *line, Text(".")))

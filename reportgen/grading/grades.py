@@ -76,7 +76,7 @@ def _points_of(marking: Marking, part: Part) -> float:
 def _cell_text(key: Key, cell: Marked) -> str:
     """A quantity and its position in one line: v_BA (3)."""
     symbol = symbol_text(key.row(cell.id), key)
-    return f"{symbol} ({key.labels[cell.position - 1]})" if cell.position else symbol
+    return f"{symbol} ({key.label(cell.position)})" if cell.position else symbol
 
 
 def _flags(marking: Marking) -> str:
