@@ -88,7 +88,7 @@ def _own(values: Values, id: str, index: int) -> float:
 def _follows(guide: Guide, id: str, value: float, own: float, band: float) -> bool:
     """Whether a student's value (SI) is what the earlier ones give.
 
-    The band is wider in proportion where that is larger than anything right.
+    The band grows in proportion where that is larger than any right value.
     """
     size = guide.size(id)
     if size and np.isfinite(own):
