@@ -28,8 +28,8 @@ def report_files(path: Path, engine: Engine, language: Language | None) -> Mappi
 
 def task_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
     """The student's handout, and the answer sheet to fill in; no answer is in them."""
+    from reportgen.answers.paper import task
     from reportgen.answers.sheet import answer_book
-    from reportgen.answers.task import task
     from reportgen.workbook import write_xlsx
 
     case = open_case(path, language)
@@ -41,9 +41,7 @@ def key_files(
     path: Path, engine: Engine, language: Language | None, formats: Sequence[str] = ("pdf", "xlsx")
 ) -> Mapping[str, bytes]:
     """The answer key in some of `KEY_FORMATS`."""
-    from reportgen.answers.key_document import key_document
-    from reportgen.answers.key_json import key_data
-    from reportgen.answers.key_tables import key_book, key_rows
+    from reportgen.answers.key_files import key_book, key_data, key_document, key_rows
     from reportgen.workbook import write_csv, write_xlsx
 
     case = open_case(path, language)

@@ -1,7 +1,7 @@
 """Within what a value is right: errors of drawing and of rounding, carried through the ledger.
 
 Each error is a small change of one quantity; the ledger evaluates all of them at once, [errors,
-positions], and tells how far every later quantity moves.  An error that may lie anywhere within ±e
+positions], and gives how far every later quantity moves.  An error that may lie anywhere within ±e
 has the standard deviation e/√3; independent ones add by their squares, and the band reaches to three
 of their sum's deviations.  A quantity's own error, which nothing evens out, is added whole:
 
@@ -15,6 +15,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from reportgen.ledger.core import Ledger
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Call, Ref, refs
 from reportgen.notation.sheet import Family
 
@@ -38,19 +39,22 @@ def drawn(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndarray]:
 
     What is read or worked out from the drawing is also written down with so many figures only.
     """
-    bands = carried_through(ledger, measuring_errors(ledger, error))
-    return {id: band + np.where(band > 0, _written(ledger, id), 0.0) for id, band in bands.items()}
-
-
-def _written(ledger: Ledger, id: str) -> np.ndarray:
-    """Half a unit of the last figure written down: of `DIGITS` figures, of a whole degree for a direction."""
-    values = ledger[id].values
-    return np.full(len(values), WHOLE_DEGREE / 2) if id.startswith("dir.") else half_unit(values, DIGITS)
+    bands = _carried_through(ledger, measuring_errors(ledger, error))
+    for id, band in bands.items():
+        # A direction is written down in whole degrees.
+        last = WHOLE_DEGREE / 2 if is_direction(id) else half_unit(ledger[id].values, DIGITS)
+        bands[id] = band + np.where(band > 0, last, 0.0)
+    return bands
 
 
 def computed(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
-    """Half widths (SI) [N] when every printed value on the way is rounded to `digits` figures."""
-    return carried_through(ledger, rounding_errors(ledger, digits))
+    """Half widths (SI) [N] when every value that is not given is rounded to `digits` significant figures."""
+    errors = {
+        id: half_unit(family.values, digits)
+        for id, family in ledger.families.items()
+        if not (family.hidden or family.is_plane or family.exact or family.definition is None)
+    }
+    return _carried_through(ledger, errors)
 
 
 def measuring_errors(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndarray]:
@@ -66,13 +70,18 @@ def measuring_errors(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np
             continue
         if family.kind == "segment":
             errors[id] = np.full(len(family.values), 2 * error)
-        elif id.startswith("dir."):
+        elif is_direction(id):
             length = np.abs(_on_paper(ledger, id))
             with np.errstate(all="ignore"):
                 errors[id] = np.minimum(np.where(length > 0, 2 * error / length, np.pi), np.pi)
         elif family.kind == "angle":
             errors[id] = np.full(len(family.values), 2 * error / crank)
     return errors
+
+
+def is_direction(id: str) -> bool:
+    """Whether a quantity is the direction of a vector."""
+    return vocabulary.row(id).around
 
 
 def is_chosen_length(ledger: Ledger, family: Family) -> bool:
@@ -87,15 +96,6 @@ def is_round_scale(family: Family) -> bool:
     return family.kind == "length scale" and family.id != "mu.l"
 
 
-def rounding_errors(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
-    """Half a unit of the last of so many figures (SI), for all that is not given."""
-    return {
-        id: half_unit(family.values, digits)
-        for id, family in ledger.families.items()
-        if not (family.hidden or family.is_plane or family.exact or family.definition is None)
-    }
-
-
 def half_unit(values: np.ndarray, digits: int) -> np.ndarray:
     """Half a unit of the last of `digits` significant figures; 0 for 0."""
     sizes = np.abs(values)
@@ -104,7 +104,7 @@ def half_unit(values: np.ndarray, digits: int) -> np.ndarray:
     return np.where(np.isfinite(unit) & (sizes > 0), unit / 2, 0.0)
 
 
-def carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Half widths (SI) [N] of every printed quantity from own errors of some."""
     rows = {id: row for row, id in enumerate(errors)}
     shown = [id for id, family in ledger.families.items() if not (family.hidden or family.is_plane)]
@@ -112,11 +112,9 @@ def carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[st
         return {id: np.zeros(len(ledger[id].values)) for id in shown}
 
     def moved(id: str) -> object:
-        error = np.nan_to_num(errors[id])
-
         def move(value: np.ndarray, _: Mapping[str, np.ndarray]) -> np.ndarray:
-            step = np.zeros((len(rows), error.shape[-1]))
-            step[rows[id]] = SHARE * error
+            step = np.zeros((len(rows), errors[id].shape[-1]))
+            step[rows[id]] = SHARE * np.nan_to_num(errors[id])
             return value + step
 
         return move
@@ -132,9 +130,9 @@ def carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[st
         if id in rows:
             change[rows[id]] = 0.0
         inherited = REACH * np.sqrt((np.nan_to_num(change) ** 2).sum(axis=0)) / SHARE
-        # What stands for all positions depends on each of them alike.
+        # A single value depends on the errors at all positions.
         band = own + (inherited.max(keepdims=True) if len(own) == 1 else inherited)
-        # Near a dead centre the direction of next to nothing may be any.
+        # Near a dead centre a very short vector may have any direction.
         bands[id] = np.minimum(band, np.pi) if family.how.unit == "°" else band
     return bands
 
@@ -145,14 +143,6 @@ def _on_paper(ledger: Ledger, id: str) -> np.ndarray:
     assert isinstance(definition, Call), f"{id} is no direction of a vector"
     (vector,) = definition.arguments
     assert isinstance(vector, Ref), f"{id} is no direction of a vector"
-    name = vector.id.removeprefix("F.")
-    if name == vector.id:
-        return ledger[vector.id].values
-    drawn = next(family for other, family in ledger.families.items() if _is_side(other, name))
-    return drawn.values
-
-
-def _is_side(id: str, name: str) -> bool:
-    """Whether a family is the side of a force plan that is drawn for a force: seg.45.R05 for R05."""
-    first, _, rest = id.partition(".")
-    return first == "seg" and rest.partition(".")[2] == name
+    # The side of a force plan that is drawn for a force; on other plans the vector itself lies on paper.
+    sides = (one.values for one in ledger.families.values() if one.of == vector.id and one.kind == "segment")
+    return next(sides, ledger[vector.id].values)

@@ -9,16 +9,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property, partial
+from typing import Any
 
 import numpy as np
 
 from reportgen.answers import bands
 from reportgen.case import Case
+from reportgen.document.plain import formula
 from reportgen.ledger.core import Ledger
-from reportgen.notation.expressions import Symbol, refs
+from reportgen.notation.expressions import Number, Symbol, refs
 from reportgen.notation.numbers import Language
 from reportgen.notation.sheet import Family
 from reportgen.notation.vocabulary import Chapter
+from reportgen.words import load_words, search_path
 
 
 class Role(StrEnum):
@@ -34,7 +37,7 @@ class Row:
     """One quantity over the positions, in its printed unit.
 
     `values` [N] have the sign that is printed; NaN where the quantity does not exist (the direction of a
-    vector that is nothing).  A `single` quantity has one value for all positions (N = 1).  `drawn` and
+    vector of no length).  A `single` quantity has one value for all positions (N = 1).  `drawn` and
     `computed` [N] are the half widths of the two bands.  `positions` are the numbers (from 1) at which
     the answer sheet asks for it, empty if it does not; (0,) for a single quantity.  `sense` [N] says the
     direction in words where the value has one, else "".
@@ -52,10 +55,16 @@ class Row:
     computed: np.ndarray
     positions: tuple[int, ...]
     sense: tuple[str, ...]
+    size: str = ""
+    """The id of the size of a signed rotation."""
 
     @property
     def single(self) -> bool:
         return len(self.values) == 1
+
+    def has(self, position: int) -> bool:
+        """Whether the quantity has a value at a position: from 1, or 0 for a single value."""
+        return self.single == (position == 0)
 
     def at(self, position: int) -> int:
         """The index of a position (from 1, 0 for a single value) in `values`."""
@@ -74,8 +83,12 @@ class Key:
     labels: tuple[str, ...]
     rows: tuple[Row, ...]
 
+    def label(self, position: int) -> str:
+        """What a position (from 1) is called; "" for 0, the one of single values."""
+        return self.labels[position - 1] if position else ""
+
     def find(self, id: str) -> Row | None:
-        """The row of a quantity, None if there is none."""
+        """The row of a quantity, or of the signed rotation whose size it is; None if there is none."""
         return self._by_id.get(id)
 
     def row(self, id: str) -> Row:
@@ -84,12 +97,27 @@ class Key:
 
     @cached_property
     def _by_id(self) -> Mapping[str, Row]:
-        return {row.id: row for row in self.rows}
+        return {row.size: row for row in self.rows} | {row.id: row for row in self.rows}
 
     @property
     def asked(self) -> tuple[Row, ...]:
         """The rows of the answer sheet, in order."""
         return tuple(row for row in self.rows if row.positions)
+
+
+def words_of(key: Key) -> Mapping[str, Any]:
+    """The words of a key's language and machine."""
+    return load_words(search_path(key.language, key.kind))
+
+
+def symbol_text(row: Row, key: Key) -> str:
+    """A quantity's symbol in one line of plain text, e.g. v_BA."""
+    return formula(row.symbol, key.language)
+
+
+def shown_number(row: Row, value: float) -> Number:
+    """A number of a row as the report prints it: to its decimals, or without the dust of floats."""
+    return Number(value if row.decimals is not None else float(f"{value:.12g}"), row.decimals)
 
 
 def make_key(case: Case) -> Key:
@@ -108,7 +136,7 @@ def make_key(case: Case) -> Key:
         if family.arm:
             values = np.abs(values)
         role, part = _role(ledger, family), _chapter(ledger, family)
-        workable = _is_workable(id, family) and (part is not Chapter.cycle or complete)
+        workable = _is_workable(family) and (part is not Chapter.cycle or complete)
         asked = (role is Role.scale and not bands.is_round_scale(family)) or (role is Role.asked and workable)
         return Row(
             id,
@@ -123,6 +151,7 @@ def make_key(case: Case) -> Key:
             by_rounding[id] / scale,
             _asked_at(values, worked, machine.count) if asked else (),
             tuple(_sense(family, value, words["sense"]) for value in values),
+            family.of if family.is_signed_rotation else "",
         )
 
     parts = list(Chapter)
@@ -141,7 +170,7 @@ def make_key(case: Case) -> Key:
 
 
 def _is_shown(ledger: Ledger, id: str) -> bool:
-    """Whether a key has a row for it: not for points, for what mostly is not there, for the size of a signed twin."""
+    """Whether a key has a row for it: not for points, optional quantities and the sizes of signed rotations."""
     family = ledger[id]
     return not (family.hidden or family.is_plane or family.optional or id in ledger.signed)
 
@@ -153,11 +182,9 @@ def _role(ledger: Ledger, family: Family) -> Role:
     return Role.given if typed else Role.asked
 
 
-def _is_workable(id: str, family: Family) -> bool:
+def _is_workable(family: Family) -> bool:
     """Whether it can be worked out on paper: what is read from a diagram can, an integral over the cycle cannot."""
-    if id == "M.difference":
-        return False
-    return family.definition is not None or len(family.values) > 1
+    return family.id != "M.difference" and (family.definition is not None or len(family.values) > 1)
 
 
 def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int) -> tuple[int, ...]:
@@ -171,12 +198,12 @@ def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int) -> tuple[
 
 
 def _exists(ledger: Ledger, direction: Family) -> np.ndarray:
-    """Where a direction is that of a vector which is something."""
+    """At which positions the vector of a direction has a length."""
     return np.array([ledger[direction.of].at(k + 1) != 0 for k in range(len(direction.values))])
 
 
 def _sense(family: Family, value: float, words: Mapping[str, str]) -> str:
-    """The sense of a rotation in words; nothing for what has none."""
+    """The sense of a rotation in words; "" for any other quantity."""
     if not family.is_signed_rotation:
         return ""
     return words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"]

@@ -63,10 +63,11 @@ def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
         entry["pressures"] = {
             name.replace("P", "p"): float(gas.pressure[k]) for name, gas in analysis.gas.items()
         }
-    entry["reactions"] = {name: _reaction(analysis, name, k) for name in analysis.forces.reactions}
+    reactions = analysis.forces.reactions.items()
+    entry["reactions"] = {name: _pair(reaction.force[k]) for name, reaction in reactions}
     entry["reactions_in_guides"] = {
         name: {"moment": float(reaction.moment[k]), "point": _pair(reaction.point[k])}
-        for name, reaction in analysis.forces.reactions.items()
+        for name, reaction in reactions
         if _slides(analysis, name)
     }
     entry["balancing_torque" if crank else "balancing_force"] = {
@@ -92,10 +93,6 @@ def _loads(loads: tuple[Load, ...], k: int) -> Mapping[str, Any]:
         }
         for load in loads
     }
-
-
-def _reaction(analysis: Analysis, name: str, k: int) -> list[float] | None:
-    return _pair(analysis.forces.reactions[name].force[k])
 
 
 def _slides(analysis: Analysis, name: str) -> bool:

@@ -16,18 +16,15 @@ from reportgen.api import Engine
 from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_problem, word
 from reportgen.batch.roster import assignment_files, comparable, folder_name
 from reportgen.errors import AssignmentError, Mark, Problem, ReportgenError
-from reportgen.grading.class_page import class_document
-from reportgen.grading.feedback import feedback_book
-from reportgen.grading.feedback_document import feedback_document
-from reportgen.grading.grades import grade_rows
-from reportgen.grading.guide import Guide, open_guide
+from reportgen.grading.feedback import feedback_book, feedback_document
+from reportgen.grading.grades import class_document, grade_rows
 from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking
-from reportgen.grading.policy import Policy
+from reportgen.grading.marks import Marking, Policy
 from reportgen.grading.submission import read_submission
+from reportgen.grading.working import Guide, open_guide
 from reportgen.notation.numbers import Language
 from reportgen.workbook import write_csv, write_xlsx
-from reportgen.workbook.files import BOOKS
+from reportgen.workbook.reading import BOOKS
 
 SUBMISSIONS = BOOKS | {".csv"}
 """Endings of files that may be meant as sheets; a fault is reported for those that cannot be read."""
@@ -147,7 +144,11 @@ def put(
 def summary(graded: Graded, language: Language | None) -> Iterator[str]:
     """A line for each student marked, and how many handed nothing in."""
     for marking in graded.markings:
-        points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
-        yield word("graded", language, id=marking.key.id, points=points, out_of=out_of, firsts=len(marking.firsts))
+        yield word("graded", language).format(
+            id=marking.key.id,
+            points=f"{marking.points:g}",
+            out_of=f"{marking.out_of:g}",
+            firsts=len(marking.first_errors),
+        )
     if graded.missing:
         yield word("graded_missing", language, count=len(graded.missing))

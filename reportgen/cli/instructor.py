@@ -133,7 +133,7 @@ def grade(
 ) -> None:
     """Mark filled answer sheets from each student's own values; write feedback, grades.csv and the class page."""
     from reportgen.batch import assess
-    from reportgen.grading.policy import Policy, read_policy
+    from reportgen.grading.marks import Policy, read_policy
 
     with ending(lang) as outcome:
         rules = Policy() if policy is None else read_policy(policy, language(lang))

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from reportgen.answers.sheet import symbol_text, words_of
+from reportgen.answers.key import symbol_text, words_of
 from reportgen.catalogue import load
-from reportgen.grading.guide import Guide, open_guide
 from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marked, Marking, Verdict
-from reportgen.grading.policy import Policy
+from reportgen.grading.marks import Marked, Marking, Policy, Verdict
 from reportgen.grading.submission import read_submission
+from reportgen.grading.working import Guide, open_guide
 from reportgen.notation.numbers import Language
 
 NEAREST = 4
@@ -21,41 +21,38 @@ NEAREST = 4
 def compare(
     file: Path, sheet: Path, hint: bool = False, language: Language | None = None
 ) -> tuple[tuple[str, ...], bool]:
-    """What a sheet has to be told of its assignment, line by line, and whether it agrees as far as it is filled in.
+    """Lines that say where a sheet leaves its assignment, and whether it agrees as far as it is filled in.
 
     Raises `AssignmentError` if the assignment or the sheet cannot be read.
     """
     assignment = load(file, language)
     guide = open_guide(assignment if language is None else assignment.with_language(language), Policy(guard=False))
     marking = mark(guide, read_submission(sheet, guide.key, guide.key.language))
-    return tuple(told(guide, marking, hint)), not diverges(marking)
+    # A blank value does not disagree, nor does one that follows from a right one.
+    agrees = not (marking.submission.problems or any(cell.verdict is Verdict.wrong for cell in marking.cells))
+    return tuple(_lines(guide, marking, hint, agrees)), agrees
 
 
-def told(guide: Guide, marking: Marking, hint: bool = False) -> Iterator[str]:
+def _lines(guide: Guide, marking: Marking, hint: bool, agrees: bool) -> Iterator[str]:
     """A line for each first divergence, with the cell it stands in; `hint` adds where to look, never the answer."""
     words = words_of(marking.key)["compare"]
     for problem in marking.submission.problems.values():
         yield str(problem)
-    counted = {verdict: sum(cell.verdict is verdict for cell in marking.cells) for verdict in Verdict}
-    for cell in marking.firsts:
+    counted = Counter(cell.verdict for cell in marking.cells)
+    for cell in marking.first_errors:
         given = marking.submission.values[(cell.id, cell.position)]
         yield words["first"].format(mark=given.mark, symbol=_named(marking, cell), text=given.text)
         if hint:
             yield f"    {_hint(guide, marking, cell)}"
-    later = counted[Verdict.wrong] - len(marking.firsts)
+    later = counted[Verdict.wrong] - len(marking.first_errors)
     if later:
         yield words["later"].format(count=later)
-    if counted[Verdict.follows] and marking.firsts:
+    if counted[Verdict.follows] and marking.first_errors:
         yield words["follows"].format(count=counted[Verdict.follows])
     if counted[Verdict.blank]:
         yield words["blank"].format(count=counted[Verdict.blank])
-    if not diverges(marking):
+    if agrees:
         yield words["agrees"].format(count=counted[Verdict.right] + counted[Verdict.follows])
-
-
-def diverges(marking: Marking) -> bool:
-    """Whether a value is wrong or cannot be read; a blank one is neither, nor one that follows from a right one."""
-    return bool(marking.submission.problems) or any(cell.verdict is Verdict.wrong for cell in marking.cells)
 
 
 def _hint(guide: Guide, marking: Marking, cell: Marked) -> str:
@@ -73,9 +70,9 @@ def _hint(guide: Guide, marking: Marking, cell: Marked) -> str:
 
 
 def _named(marking: Marking, cell: Marked) -> str:
-    """A quantity's symbol, with its position unless it is the same at all."""
+    """A quantity's symbol, with its position unless it is the same at all positions."""
     words, row = words_of(marking.key)["compare"], marking.key.row(cell.id)
     symbol = symbol_text(row, marking.key)
     if cell.position == 0:
         return symbol
-    return str(words["at"].format(symbol=symbol, label=marking.key.labels[cell.position - 1]))
+    return str(words["at"].format(symbol=symbol, label=marking.key.label(cell.position)))

@@ -1,18 +1,31 @@
-"""The marks of a class as rows of a table, for the instructor alone."""
+"""The marks of a class for the instructor: the rows of `grades.csv`, and the class on a page."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from statistics import fmean, median
+from typing import Any
 
 from reportgen.answers.key import Key
-from reportgen.answers.sheet import symbol_text
+from reportgen.answers.paper import paper, text_cells
+from reportgen.document.tree import Block, Column, Document, Figure, Paragraph, Section, Table, Text
+from reportgen.figures.charts import bars, histogram
+from reportgen.figures.scene import Content
+from reportgen.grading.feedback import points_text
 from reportgen.grading.marks import Marked, Marking
-from reportgen.notation.numbers import Language
-from reportgen.notation.vocabulary import Chapter
+from reportgen.notation.numbers import Language, write
+from reportgen.notation.vocabulary import Chapter, symbol_text
 from reportgen.words import load_words, search_path
 
 Value = str | float | None
+
+CLASSES = 10
+"""Columns of the histogram."""
+MOST_BARS = 24
+"""Quantities with a bar of their own; there are fewer mistakes with names."""
+WIDTHS = (34.0, 58.0, 28.0, 14.0, 14.0, 12.0)
+"""Widths (mm) of the columns of marks."""
 
 
 def grade_rows(
@@ -23,7 +36,9 @@ def grade_rows(
     `missing` are keys of those who handed nothing in; their points stay empty.
     """
     words = load_words(search_path(language))
-    names, parts = words["grades"], parts_of(markings)
+    names = words["grades"]
+    judged = {marking.key.row(cell.id).part for marking in markings for cell in marking.cells}
+    parts = [part for part in Chapter if part in judged]
     head = (
         *(names[name] for name in ("id", "name", "class", "points", "out_of")),
         *(str(words["parts"][part]) for part in parts),
@@ -31,55 +46,123 @@ def grade_rows(
     )
     rows: list[tuple[Value, ...]] = [head]
     for marking in markings:
-        first = next(iter(marking.firsts), None)
+        first = next(iter(marking.first_errors), None)
         rows.append(
             (
-                *who(marking.key),
-                _rounded(marking.points),
-                _rounded(marking.out_of),
-                *(_of_part(marking, part) for part in parts),
-                cell_text(marking.key, first) if first else "",
+                *_who(marking.key),
+                round(marking.points, 2),
+                round(marking.out_of, 2),
+                *(_points_of(marking, part) for part in parts),
+                _cell_text(marking.key, first) if first else "",
                 words["mistake_names"][first.mistake or "none"] if first else "",
                 ", ".join(words["warning_names"][warning] for warning in marking.warnings),
-                flags(marking),
+                _flags(marking),
             )
         )
-    rows += [(*who(key), None, None, *(None for _ in parts), "", "", "", "") for key in missing]
+    rows += [(*_who(key), None, None, *(None for _ in parts), "", "", "", "") for key in missing]
     return tuple(rows)
 
 
-def parts_of(markings: Iterable[Marking]) -> tuple[Chapter, ...]:
-    """The parts in which anything was judged, in their order."""
-    found = {marking.key.row(cell.id).part for marking in markings for cell in marking.cells}
-    return tuple(part for part in Chapter if part in found)
+def _who(key: Key) -> tuple[str, str, str]:
+    """Id (or else the assignment's), name and class of a student, as far as they are known."""
+    student = key.student
+    return (student.get("id", key.id), student.get("name", ""), student.get("class", ""))
 
 
-def cell_text(key: Key, cell: Marked) -> str:
+def _points_of(marking: Marking, part: Chapter) -> float:
+    return round(sum(cell.points for cell in marking.cells if marking.key.row(cell.id).part is part), 2)
+
+
+def _cell_text(key: Key, cell: Marked) -> str:
     """A quantity and its position in one line: v_BA (3)."""
     symbol = symbol_text(key.row(cell.id), key)
-    return f"{symbol} ({key.labels[cell.position - 1]})" if cell.position else symbol
+    return f"{symbol} ({key.label(cell.position)})" if cell.position else symbol
 
 
-def student_id(key: Key) -> str:
-    """The student's id, or else the assignment's."""
-    return key.student.get("id", key.id)
-
-
-def flags(marking: Marking) -> str:
+def _flags(marking: Marking) -> str:
     """The assignments whose keys some values equal, with their number, the most frequent first."""
     counts = Counter(name for cell in marking.cells for name in cell.classmates)
     found = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
     return ", ".join(f"{name} ({count})" for name, count in found)
 
 
-def who(key: Key) -> tuple[str, str, str]:
-    """Id, name and class of a student, as far as they are known."""
-    return (student_id(key), key.student.get("name", ""), key.student.get("class", ""))
+# --- the class on a page --------------------------------------------------------------------------
 
 
-def _of_part(marking: Marking, part: Chapter) -> float:
-    return _rounded(sum(cell.points for cell in marking.cells if marking.key.row(cell.id).part is part))
+def class_document(
+    markings: Sequence[Marking], title: str, language: Language, missing: Sequence[Key] = ()
+) -> Document:
+    """The page of a class; `title` names the assignment, `missing` are keys of those who handed nothing in."""
+    words = load_words(search_path(language))
+    page = words["class_page"]
+    blocks: list[Block] = [
+        Section(1, (Text(page["title"]),), numbered=False),
+        *_summary(markings, page, language, missing),
+        _marks(markings, words, language, missing),
+    ]
+    if markings:
+        blocks += [_spread(markings, page), *_errors(markings, words)]
+    return paper(language, words, f"{page['title']} – {title}", blocks)
 
 
-def _rounded(points: float) -> float:
-    return round(points, 2)
+def _summary(
+    markings: Sequence[Marking], page: Mapping[str, Any], language: Language, missing: Sequence[Key]
+) -> Iterator[Block]:
+    if markings:
+        shares = [100 * marking.share for marking in markings]
+        text = page["summary"].format(
+            count=len(markings),
+            mean=write(fmean(shares), 0, language),
+            median=write(median(shares), 0, language),
+        )
+        yield Paragraph((Text(text),))
+    if missing:
+        yield Paragraph((Text(page["missing"].format(count=len(missing))),))
+
+
+def _marks(
+    markings: Sequence[Marking], words: Mapping[str, Any], language: Language, missing: Sequence[Key]
+) -> Table:
+    """A row for each student, in the order given."""
+    names, page = words["grades"], words["class_page"]
+    heads = (*(names[name] for name in ("id", "name", "class", "points", "out_of")), page["share"])
+    rows = [
+        (
+            *_who(marking.key),
+            points_text(marking.points, language),
+            points_text(marking.out_of, language),
+            write(100 * marking.share, 0, language),
+        )
+        for marking in markings
+    ]
+    rows += [(*_who(key), "–", "–", "–") for key in missing]
+    columns = tuple(Column(width, "left" if n < 2 else "center") for n, width in enumerate(WIDTHS))
+    return Table(columns, (text_cells(heads),), tuple(map(text_cells, rows)), (Text(page["list"]),))
+
+
+def _spread(markings: Sequence[Marking], page: Mapping[str, Any]) -> Figure:
+    """How many students reached which share of the points; the highest class holds 100 %."""
+    counts = Counter(min(int(CLASSES * marking.share), CLASSES - 1) for marking in markings)
+    edges = [100 * n / CLASSES for n in range(CLASSES + 1)]
+    scene = histogram([counts[n] for n in range(CLASSES)], edges, page["x_share"], page["students"])
+    return Figure((scene,), (Text(page["histogram"]),))
+
+
+def _errors(markings: Sequence[Marking], words: Mapping[str, Any]) -> Iterator[Block]:
+    """First errors by quantity, then by the mistakes that were recognised."""
+    page = words["class_page"]
+    firsts = [(marking.key, cell) for marking in markings for cell in marking.first_errors]
+    if not firsts:
+        yield Paragraph((Text(page["nothing"]),))
+        return
+    symbols: dict[str, Content] = {cell.id: key.row(cell.id).symbol for key, cell in firsts}
+    quantities = Counter(cell.id for _, cell in firsts).most_common()
+    mistakes = Counter(cell.mistake or "none" for _, cell in firsts).most_common()
+    by_quantity = [(symbols[id], count) for id, count in quantities]
+    by_mistake: list[tuple[Content, int]] = [(str(words["mistake_names"][name]), count) for name, count in mistakes]
+    for title, counted in ((page["quantities"], by_quantity), (page["mistakes"], by_mistake)):
+        shown, others = counted[:MOST_BARS], counted[MOST_BARS:]
+        if others:
+            shown.append((page["others"].format(count=len(others)), sum(count for _, count in others)))
+        names, counts = zip(*shown, strict=True)
+        yield Figure((bars(names, counts, page["errors"]),), (Text(title),))

@@ -1,4 +1,4 @@
-"""Against sheets that are no work of their own: what follows from stock values earns nothing.
+"""Against sheets that are not the student's own work: what follows from stock values earns nothing.
 
 Marking that follows a student's own values through would reward any consistent set of numbers.  So
 nothing is earned by a sheet that holds one number throughout, by a row of one number where the key
@@ -9,28 +9,28 @@ all proportion.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from reportgen.answers.bands import is_direction
 from reportgen.answers.key import Key
-from reportgen.grading.guide import Guide
-from reportgen.grading.marks import Marked, Place, Verdict
-from reportgen.grading.misread import WRONG_DATUM
-from reportgen.grading.working import Working
+from reportgen.grading.marks import Cells, Marked, Place, Verdict
+from reportgen.grading.mistakes import WRONG_DATUM
+from reportgen.grading.working import Guide
 
 SAME = 0.8
 """The share of a sheet's values that one number fills in a stock answer."""
 
 FEWEST = 4
-"""Fewer values show no pattern."""
+"""Fewer values may agree by chance."""
 
 APART = 3.0
 """Two keys differ where they lie this many tolerances apart."""
 
 OUT_OF_PROPORTION = 20.0
-"""A first wrong value without a name that is this many times too large or too small is no working."""
+"""A first wrong value without a name that is this many times too large or too small was made up."""
 
 MISREAD = 2
 """So many given data taken wrongly, all else following from them, make another variant."""
@@ -38,38 +38,38 @@ MISREAD = 2
 CONSISTENT = 0.9
 """The share of the values not right that follow, where a sheet is another's."""
 
-Cells = Mapping[Place, Marked]
 
-
-def guard(working: Working, cells: Cells, classmates: Sequence[Key]) -> tuple[dict[Place, Marked], tuple[str, ...]]:
+def guard(guide: Guide, cells: Cells, classmates: Sequence[Key]) -> tuple[dict[Place, Marked], tuple[str, ...]]:
     """The cells without what stock answers would earn, and the warnings: ids in `words.yaml`."""
-    guide, warnings = working.guide, []
+    warnings: list[str] = []
     result = dict(cells)
     filled = [place for place, cell in cells.items() if cell.given is not None]
     commonest = Counter(cells[place].given for place in filled).most_common(1)
     if len(filled) >= FEWEST and commonest and commonest[0][1] >= SAME * len(filled):
-        return _emptied(result, filled), ("stock",)
-    constant = _constant_rows(guide, cells)
+        return _without_points(result, filled), ("stock",)
+    constant = _constant_rows(cells)
     if constant:
         warnings.append("constant")
-        result = _emptied(result, [place for place in filled if place[0] in constant])
+        result = _without_points(result, [place for place in filled if place[0] in constant])
     equal, copied = _copied_from(guide, result, classmates)
-    equal = _often(equal)
     result |= {place: replace(result[place], classmates=tuple(names)) for place, names in equal.items()}
     if copied:
-        return _emptied(result, filled), (*warnings, "classmate")
+        return _without_points(result, filled), (*warnings, "classmate")
     causes = {place for place in filled if place[0] in constant} | equal.keys()
-    if len(_misread(result)) >= MISREAD and _follows_throughout(result):
-        return _emptied(result, filled), (*warnings, "other-variant")
+    misread = {cell.where for cell in result.values() if cell.mistake == WRONG_DATUM}
+    if len(misread) >= MISREAD and _follows_throughout(result):
+        return _without_points(result, filled), (*warnings, "other-variant")
     wild = {place for place, cell in result.items() if cell.first and not cell.mistake and _is_wild(guide, cell)}
     if wild:
         warnings.append("proportion")
     causes |= wild
-    return _emptied(result, [place for place in filled if _is_spoiled(guide, result, place, causes)]), tuple(warnings)
+    follows = [place for place in filled if result[place].verdict is Verdict.follows]
+    spoiled = [place for place in follows if place in causes or guide.stands_on(place, causes)]
+    return _without_points(result, spoiled), tuple(warnings)
 
 
-def _emptied(cells: dict[Place, Marked], places: Sequence[Place]) -> dict[Place, Marked]:
-    """The cells with nothing earned at `places`; a wrong value stays wrong."""
+def _without_points(cells: dict[Place, Marked], places: Sequence[Place]) -> dict[Place, Marked]:
+    """The cells with no points at `places`; a wrong value stays wrong."""
     earned = (Verdict.right, Verdict.follows)
     spoiled = {
         place: replace(cells[place], verdict=Verdict.implausible, points=0.0)
@@ -79,7 +79,7 @@ def _emptied(cells: dict[Place, Marked], places: Sequence[Place]) -> dict[Place,
     return cells | spoiled
 
 
-def _constant_rows(guide: Guide, cells: Cells) -> set[str]:
+def _constant_rows(cells: Cells) -> set[str]:
     """Rows of one number throughout where the key varies by more than its bands."""
     rows: dict[str, list[Marked]] = {}
     for cell in cells.values():
@@ -107,32 +107,23 @@ def _theirs(guide: Guide, cell: Marked, key: Key) -> float | None:
 
 
 def _copied_from(guide: Guide, cells: Cells, classmates: Sequence[Key]) -> tuple[dict[Place, list[str]], bool]:
-    """The classmates whose key each value equals, and whether one of them is the source of the sheet."""
+    """The classmates whose key each value equals, and whether one of them is the source of the sheet.
+
+    Left out are classmates whose key only a few values equal, which may happen by chance.
+    """
     equal: dict[Place, list[str]] = {}
     source = False
     for key in classmates:
         telling = {place: theirs for place, cell in cells.items() if (theirs := _theirs(guide, cell, key)) is not None}
         met = [place for place, theirs in telling.items() if _meets(cells[place], theirs)]
-        for place in met:
+        for place in met if len(met) >= FEWEST else ():
             equal.setdefault(place, []).append(key.id)
         source = source or len(met) >= max(FEWEST, SAME * len(telling))
     return equal, source
 
 
-def _often(equal: Mapping[Place, Sequence[str]]) -> dict[Place, list[str]]:
-    """The values that equal the key of a classmate whom several of them equal; one may do so by chance."""
-    counted = Counter(name for names in equal.values() for name in names)
-    often = {place: [name for name in names if counted[name] >= FEWEST] for place, names in equal.items()}
-    return {place: names for place, names in often.items() if names}
-
-
 def _meets(cell: Marked, value: float) -> bool:
     return cell.verdict is not Verdict.right and cell.given is not None and abs(cell.given - value) <= cell.band
-
-
-def _misread(cells: Cells) -> set[str]:
-    """The given data that were taken wrongly."""
-    return {cell.where for cell in cells.values() if cell.mistake == WRONG_DATUM}
 
 
 def _follows_throughout(cells: Cells) -> bool:
@@ -145,22 +136,11 @@ def _follows_throughout(cells: Cells) -> bool:
 
 def _is_wild(guide: Guide, cell: Marked) -> bool:
     """Whether a value is out of all proportion to what it should be, and to the quantity's size."""
-    if cell.given is None or cell.id.startswith("dir."):
+    if cell.given is None or is_direction(cell.id):
         return False
     size = guide.size(cell.id) / guide.ledger[cell.id].how.scale
     largest, least = max(abs(cell.own), size), abs(cell.own)
-    nothing = cell.given == 0 and least > APART * cell.band
-    return nothing or abs(cell.given) > OUT_OF_PROPORTION * largest or (
+    zero = cell.given == 0 and least > APART * cell.band
+    return zero or abs(cell.given) > OUT_OF_PROPORTION * largest or (
         abs(cell.given) * OUT_OF_PROPORTION < least and least > APART * cell.band
-    )
-
-
-def _is_spoiled(guide: Guide, cells: Cells, place: Place, causes: set[Place]) -> bool:
-    """Whether a value that earns by following stands on one of `causes`, or is one."""
-    cell = cells[place]
-    if cell.verdict is not Verdict.follows:
-        return False
-    rows = guide.rows
-    return place in causes or any(
-        (before, guide.place(rows[before], place[1])) in causes for before in guide.before[cell.id] if before in rows
     )

@@ -15,68 +15,57 @@ import numpy as np
 from reportgen.answers.bands import half_unit
 from reportgen.answers.key import Key, Row
 from reportgen.grading.guard import guard
-from reportgen.grading.guide import Guide
-from reportgen.grading.marks import Marked, Marking, Place, Submission, Verdict
-from reportgen.grading.misread import misread_data
-from reportgen.grading.mistakes import Site
-from reportgen.grading.naming import name_mistakes
-from reportgen.grading.slips import name_slips
-from reportgen.grading.working import SIGNED, Working, lay_out
+from reportgen.grading.marks import Cells, Marked, Marking, Place, Submission, Verdict
+from reportgen.grading.mistakes import Mistake
+from reportgen.grading.naming import SEARCHES
+from reportgen.grading.working import Guide, Values, Working, lay_out
+from reportgen.ledger.core import Ledger
 
 
 def mark(guide: Guide, submission: Submission, classmates: Sequence[Key] = ()) -> Marking:
     """The verdicts on a submission; `classmates` are the keys that none of its values should come from."""
     working = lay_out(guide, submission)
-    chances = [working.own(blank_from_key=True), working.own(blank_from_key=False)]
+    possible = [working.own_values(blank_from_key=True), working.own_values(blank_from_key=False)]
     cells = {
-        (row.id, position): _judged(working, submission, row, position, chances)
+        (row.id, position): _judged(working, submission, row, position, possible)
         for row in guide.judged
         for position in row.positions
     }
-    cells |= {place: replace(cells[place], first=True) for place in _firsts(guide, cells)}
-    for named in (name_slips, name_mistakes, misread_data):
-        sites = named(working, cells)
-        cells |= {place: _named(cells[place], site) for place, site in sites.items()}
-        cells |= _charged_once(working, cells, sites)
+    wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
+    cells |= {place: replace(cells[place], first=True) for place in wrong if not guide.stands_on(place, wrong)}
+    for search in SEARCHES:
+        found = search(working, cells)
+        for place, mistake in found.items():
+            cells[place] = replace(cells[place], mistake=mistake.name, where=mistake.where)
+        cells |= _charged_once(working, cells, found)
     warnings: tuple[str, ...] = ()
     if guide.policy.guard:
-        cells, warnings = guard(working, cells, classmates)
+        cells, warnings = guard(guide, cells, classmates)
     order = {row.id: index for index, row in enumerate(guide.key.rows)}
-    judged = sorted(cells.values(), key=lambda cell: order[cell.id])
-    return Marking(guide.key, submission, tuple(judged), warnings)
+    in_order = sorted(cells.values(), key=lambda cell: order[cell.id])
+    return Marking(guide.key, submission, tuple(in_order), warnings)
 
 
 def _judged(
-    working: Working,
-    submission: Submission,
-    row: Row,
-    position: int,
-    chances: Sequence[dict[str, np.ndarray]],
+    working: Working, submission: Submission, row: Row, position: int, possible: Sequence[Values]
 ) -> Marked:
-    guide = working.guide
+    """The verdict on one cell; `possible` are values that follow from the student's own."""
+    guide, place = working.guide, (row.id, position)
     family, index = guide.ledger[row.id], row.at(position)
     unit, worth = family.how.scale, guide.policy.worth(row.id)
     band = float(np.broadcast_to(guide.bands[row.id], family.values.shape)[index])
     key = float(family.at(position).real)
-    mine = [_own(guide, chance, row.id, index) for chance in chances]
-    column = working.values.get(row.id)
-    value = float("nan") if column is None else float(column[index])
-    place = (row.id, position)
-    verdict, points, own = Verdict.wrong, 0.0, mine[0]
+    following = [_own(guide.ledger, values, row.id, index) for values in possible]
+    value = float(working.values[row.id][index]) if row.id in working.values else float("nan")
+    verdict, points, own = Verdict.wrong, 0.0, following[0]
     if place in submission.problems:
         verdict = Verdict.unreadable
     elif np.isnan(value):
         verdict = Verdict.blank
-    elif distance(row.id, family.arm, value, key) <= band:
+    elif guide.distance(row.id, value, key) <= band:
         verdict, points = Verdict.right, worth * guide.policy.right
-    else:
-        met = [
-            one
-            for one in mine
-            if distance(row.id, family.arm, value, one) <= _room(guide, row.id, band, one)
-        ]
-        if met:
-            verdict, points, own = Verdict.follows, worth * guide.policy.follows, met[0]
+    elif met := [one for one in following if _follows(guide, row.id, value, one, band)]:
+        verdict, points, own = Verdict.follows, worth * guide.policy.follows, met[0]
     return Marked(
         row.id,
         position,
@@ -90,87 +79,51 @@ def _judged(
     )
 
 
-def _named(cell: Marked, site: Site) -> Marked:
-    return replace(cell, mistake=site.mistake, where=site.where)
+def _own(ledger: Ledger, values: Values, id: str, index: int) -> float:
+    """What a quantity comes to from the student's own values; a signed one has its size from before it."""
+    own = float(values[id][index].real)
+    before = ledger.size_of(id)
+    size = values.get(before) if before != id else None
+    return own if size is None else float(np.copysign(abs(size[index].real), own))
 
 
-def _charged_once(
-    working: Working, cells: Mapping[Place, Marked], sites: Mapping[Place, Site]
-) -> dict[Place, Marked]:
+def _follows(guide: Guide, id: str, value: float, own: float, band: float) -> bool:
+    """Whether a student's value (SI) is what the earlier ones give.
+
+    The band grows in proportion where that is larger than any right value.
+    """
+    size = guide.size(id)
+    if size and np.isfinite(own):
+        band = band * max(1.0, abs(own) / size) + float(half_unit(np.array([own]), guide.policy.digits)[0])
+    return bool(guide.distance(id, value, own) <= band)
+
+
+def _charged_once(working: Working, cells: Cells, found: Mapping[Place, Mistake]) -> dict[Place, Marked]:
     """Of all wrong values that come from one mistake before the sheet, only the first costs its mark.
 
     Whoever took the stroke for the radius without writing the radius down went wrong once, though no
     value on the sheet stands on another that shows it.
     """
-    guide = working.guide
+    guide, policy = working.guide, working.guide.policy
     order = {row.id: index for index, row in enumerate(guide.judged)}
     changed: dict[Place, Marked] = {}
-    unseen = {(site.mistake, site.where): site for site in sites.values() if not working.shows(site.where)}
-    for (mistake, where), site in unseen.items():
+    unseen = {(one.name, one.where): one for one in found.values() if not working.shows(one.where)}
+    for (name, where), mistake in unseen.items():
+        own_values = working.own_values(changes=mistake.changes)
         single = len(guide.ledger[where].values) == 1
-        own = working.own(made=site.changes)
-        caused = [place for place, one in sites.items() if (one.mistake, one.where) == (mistake, where)]
-        charged = {
-            min((place for place in caused if single or place[1] == position), key=lambda place: order[place[0]])
-            for position in {place[1] for place in caused}
-        }
-        charged = {min(charged, key=lambda place: order[place[0]])} if single else charged
+        caused = [place for place, one in found.items() if (one.name, one.where) == (name, where)]
+        charged: dict[int, Place] = {}
+        for place in sorted(caused, key=lambda place: order[place[0]]):
+            # In a quantity with a value at each position, it is a mistake of its own at each of them.
+            charged.setdefault(0 if single else place[1], place)
         for place, cell in cells.items():
-            if cell.verdict is Verdict.wrong and place not in charged and place not in changed:
-                row = guide.rows[place[0]]
-                here = _own(guide, own, row.id, row.at(place[1]))
-                changed |= {place: _following(guide, cell, here)} if _meets(working, cell, here) else {}
+            if cell.verdict is not Verdict.wrong or place in charged.values() or place in changed:
+                continue
+            family, index = guide.ledger[cell.id], guide.rows[cell.id].at(cell.position)
+            own, unit = _own(guide.ledger, own_values, cell.id, index), family.how.scale
+            if _follows(guide, cell.id, float(working.values[cell.id][index]), own, cell.band * unit):
+                points = policy.worth(cell.id) * policy.follows
+                changed[place] = replace(
+                    cell, verdict=Verdict.follows, own=own / unit, points=points, first=False, mistake="", where=""
+                )
     return changed
-
-
-def _following(guide: Guide, cell: Marked, own: float) -> Marked:
-    unit = guide.ledger[cell.id].how.scale
-    points = guide.policy.worth(cell.id) * guide.policy.follows
-    return replace(
-        cell, verdict=Verdict.follows, own=own / unit, points=points, first=False, mistake="", where=""
-    )
-
-
-def _meets(working: Working, cell: Marked, own: float) -> bool:
-    """Whether a student's value is `own` (SI) within its band."""
-    guide = working.guide
-    family, row = guide.ledger[cell.id], guide.rows[cell.id]
-    value = float(working.values[cell.id][row.at(cell.position)])
-    return distance(cell.id, family.arm, value, own) <= _room(guide, cell.id, cell.band * family.how.scale, own)
-
-
-def distance(id: str, arm: bool, value: float, other: float) -> float:
-    """How far two values (SI) lie apart: directions around the circle, arms by their sizes."""
-    if id.startswith("dir."):
-        return abs((value - other + np.pi) % (2 * np.pi) - np.pi)
-    return abs(abs(value) - abs(other)) if arm else abs(value - other)
-
-
-def _own(guide: Guide, chance: dict[str, np.ndarray], id: str, index: int) -> float:
-    """What a quantity comes to from the student's own values; a signed one has its size from before it."""
-    own = float(chance[id][index].real)
-    size = chance.get(id.removeprefix(SIGNED)) if id.startswith(SIGNED) else None
-    return own if size is None else float(np.copysign(abs(size[index].real), own))
-
-
-def _room(guide: Guide, id: str, band: float, own: float) -> float:
-    """The band about a value that follows: as wide in proportion where that is larger than anything right."""
-    size = guide.size(id)
-    if not (size and np.isfinite(own)):
-        return band
-    return band * max(1.0, abs(own) / size) + float(half_unit(np.array([own]), guide.policy.digits)[0])
-
-
-def _firsts(guide: Guide, cells: dict[Place, Marked]) -> list[Place]:
-    """Wrong values that stand on nothing wrong."""
-    wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
-    rows = guide.rows
-    return [
-        (id, position)
-        for id, position in wrong
-        if not any(
-            (before, guide.place(rows[before], position)) in wrong
-            for before in guide.before[id]
-            if before in rows
-        )
-    ]

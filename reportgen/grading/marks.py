@@ -1,20 +1,29 @@
-"""What marking reads and what it finds: a submission, and a verdict on each of its cells."""
+"""What marking reads and what it finds: the policy, a submission, and a verdict on each of its cells."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Annotated
 
+from reportgen.answers.bands import DIGITS, PAPER_ERROR
 from reportgen.answers.key import Key
+from reportgen.assignment.common import Part
+from reportgen.assignment.fields import Decimal, Flag, Interval, Whole, quantity
+from reportgen.assignment.reading import read_model
 from reportgen.errors import Mark, Problem
+from reportgen.notation.numbers import Language
+from reportgen.units import Given
 
 Place = tuple[str, int]
 """A quantity's id and a position from 1; 0 for a quantity that is the same at all positions."""
 
 
 @dataclass(frozen=True, slots=True)
-class Given:
+class Answer:
     """A student's value of one cell in the row's printed unit, and where it stands."""
 
     value: float
@@ -32,7 +41,7 @@ class Submission:
 
     assignment: str
     file: str
-    values: Mapping[Place, Given]
+    values: Mapping[Place, Answer]
     problems: Mapping[Place, Problem]
     notes: tuple[Problem, ...] = ()
 
@@ -45,7 +54,7 @@ class Verdict(StrEnum):
     blank = "blank"
     unreadable = "unreadable"
     implausible = "implausible"
-    """It follows, or is right by chance, in a sheet that is no work of the student's own."""
+    """It follows, or is right by chance, in a sheet that is not the student's own work."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +62,7 @@ class Marked:
     """The verdict on one cell, in printed units.
 
     `expected` is the key's value, `own` what the student's earlier values give, `band` the tolerance.
-    `first` says that nothing wrong stands before it.  `mistake` names what went wrong (a key of
+    `first` says that it is wrong and stands on no wrong value.  `mistake` names what went wrong (a key of
     `mistakes` in `words.yaml`), `where` the id of the quantity in which it was made.  `points` of `worth`
     are earned.  `classmates` are ids of assignments whose key this value equals.
     """
@@ -71,6 +80,9 @@ class Marked:
     mistake: str = ""
     where: str = ""
     classmates: tuple[str, ...] = ()
+
+
+Cells = Mapping[Place, Marked]
 
 
 @dataclass(frozen=True)
@@ -91,6 +103,79 @@ class Marking:
         return sum(cell.worth for cell in self.cells)
 
     @property
-    def firsts(self) -> tuple[Marked, ...]:
+    def share(self) -> float:
+        """The share of the points that was earned, 0 where there are none."""
+        return self.points / self.out_of if self.out_of else 0.0
+
+    @property
+    def first_errors(self) -> tuple[Marked, ...]:
         """The first wrong value of each chain."""
         return tuple(cell for cell in self.cells if cell.first)
+
+
+# --- the policy -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Policy:
+    """Tolerances (`paper` in m) and points; `weights` by patterns of ids."""
+
+    paper: float = PAPER_ERROR
+    digits: int = DIGITS
+    share: float = 0.005
+    right: float = 1.0
+    follows: float = 1.0
+    weights: Mapping[str, float] = field(default_factory=dict)
+    guard: bool = True
+    show_answers: bool = True
+
+    def worth(self, id: str) -> float:
+        """The points that a quantity is worth at one position."""
+        return next((weight for pattern, weight in self.weights.items() if fnmatchcase(id, pattern)), 1.0)
+
+
+class _Tolerance(Part):
+    paper: Annotated[Given | None, quantity("mm", least=0, most=5)] = None
+    digits: Annotated[int, Whole(2, 6)] = DIGITS
+    share: Annotated[float, Decimal(Interval(least=0, most=0.2))] = 0.005
+
+
+class _Points(Part):
+    right: Annotated[float, Decimal(Interval(least=0, most=100))] = 1.0
+    follows: Annotated[float, Decimal(Interval(least=0, most=100))] = 1.0
+
+
+class _PolicyFile(Part):
+    tolerance: _Tolerance = _Tolerance()
+    points: _Points = _Points()
+    weights: dict[str, Annotated[float, Decimal(Interval(least=0, most=1000))]] = {}  # noqa: RUF012
+    guard: Annotated[bool, Flag()] = True
+    show_answers: Annotated[bool, Flag()] = True
+
+
+def read_policy(path: Path, language: Language | None = None) -> Policy:
+    """The policy of a YAML file; raises `AssignmentError` with all its faults, located.
+
+        tolerance:
+          paper: 0.5 mm          # how far off each end of a measured length may lie
+          digits: 3              # figures that values are computed with
+          share: 0.005           # of the quantity's maximum over the turn
+        points: {right: 1, follows: 1}
+        weights:                 # by id of the quantity, the first pattern that fits; 0: not marked
+          "seg.*": 0.5
+          "M.eq": 5
+        guard: true              # stock answers earn nothing
+        show_answers: true       # the feedback tells the right values
+    """
+    content = read_model(path, _PolicyFile, language)
+    tolerance, points = content.tolerance, content.points
+    return Policy(
+        PAPER_ERROR if tolerance.paper is None else tolerance.paper.si,
+        tolerance.digits,
+        tolerance.share,
+        points.right,
+        points.follows,
+        content.weights,
+        content.guard,
+        content.show_answers,
+    )

@@ -1,46 +1,49 @@
-"""The mistakes that are known by name: each is a change of the ledger that is run again, not a number looked up.
+"""The mistakes of working that are known by name: each is a change of the ledger, which is evaluated with it.
 
-A `Site` is one place where one mistake can be made: which families change, and how, given what they
-come to and all values before them (SI).
+A `Mistake` says in which quantity it is made, which quantities of the ledger change with it, and what they
+become, given what they come to and all values before them (SI).
 """
 
 from __future__ import annotations
 
-import re
-from collections import ChainMap
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import takewhile
 
 import numpy as np
 
-from reportgen.grading.guide import Guide
-from reportgen.grading.working import Change
+from reportgen.answers.bands import is_direction
+from reportgen.grading.working import Change, Guide, Values
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Call, Expression, Negative, Sum, rebuild, refs, walk
 from reportgen.notation.sheet import Family
 
-Values = Mapping[str, np.ndarray]
+WRONG_DATUM = "wrong-datum"
+"""The name of a given datum taken wrongly."""
+
+OF_POSITION = frozenset({"counted-backwards", "shifted-forward", "shifted-back"})
+"""Mistakes about where a position lies: one value alone may meet another position's by chance."""
+
 DECIMAL_PLACES = (1, 2, 3, 4, 5)
 """Decimals that a mark read as that of thousands takes along."""
-
-ELSEWHERE = frozenset({"counted-backwards", "shifted-forward", "shifted-back"})
-"""Mistakes about where a position lies: one value alone may meet another position's by chance."""
 
 TRIGONOMETRIC = {"sin", "cos", "tan"}
 INVERSE = {"arcsin", "arccos", "arctan", "arctan2"}
 
 
 @dataclass(frozen=True, slots=True)
-class Site:
-    """One mistake at one place: `where` is the quantity in which it is made."""
+class Mistake:
+    """One mistake that can be made in one quantity.
 
-    mistake: str
+    `name` is a key of `mistakes` in `words.yaml`, `where` the id of the quantity in which it is made.
+    """
+
+    name: str
     where: str
     changes: Mapping[str, Change]
 
 
-def sites_in(guide: Guide, id: str, scales: Mapping[str, float]) -> Iterator[Site]:
+def mistakes_in(guide: Guide, id: str, scales: Mapping[str, float]) -> Iterator[Mistake]:
     """All mistakes that can be made in working out one quantity; `scales` are the student's own, in SI.
 
     What stands printed for every position (the crank's angle) can only be taken at another one.
@@ -48,69 +51,69 @@ def sites_in(guide: Guide, id: str, scales: Mapping[str, float]) -> Iterator[Sit
     family = guide.ledger[id]
     if family.exact and len(family.values) > 1:
         return
-    for mistake, change in _own_mistakes(guide, id, scales):
-        yield Site(mistake, id, {id: change})
+    for name, change in _changes_of(guide, family, scales):
+        yield Mistake(name, id, {id: change})
 
 
-def sites_anywhere(guide: Guide) -> Iterator[Site]:
+def general_mistakes(guide: Guide) -> Iterator[Mistake]:
     """Mistakes about the positions as such, and a Coriolis acceleration that is left out."""
     ledger = guide.ledger
     read = [id for id, family in ledger.families.items() if family.definition is None and len(family.values) > 1]
-    count = len(ledger[read[0]].values) if read else 0
-    order = np.arange(count)
-    for mistake, taken in (
-        ("counted-backwards", -order % max(count, 1)),
-        ("shifted-forward", np.roll(order, -1)),
-        ("shifted-back", np.roll(order, 1)),
-    ):
-        if count:
-            yield Site(mistake, read[0], {id: _from(ledger[id].values[taken]) for id in read})
-    coriolis = [id for id in ledger.families if re.fullmatch(r"a\.\w+\.k", id)]
-    for id in coriolis:
-        yield Site("no-coriolis", id, {id: lambda value, _: value * 0})
+    if read:
+        count = len(ledger[read[0]].values)
+        order = np.arange(count)
+        for name, taken in (
+            ("counted-backwards", -order % count),
+            ("shifted-forward", np.roll(order, -1)),
+            ("shifted-back", np.roll(order, 1)),
+        ):
+            yield Mistake(name, read[0], {id: _replaced_by(ledger[id].values[taken]) for id in read})
+    for id, family in ledger.families.items():
+        if family.kind == "acceleration" and family.symbol.sup == "k":
+            yield Mistake("no-coriolis", id, {id: _times(0)})
 
 
-def _own_mistakes(guide: Guide, id: str, scales: Mapping[str, float]) -> Iterator[tuple[str, Change]]:
-    family = guide.ledger[id]
+def _changes_of(guide: Guide, family: Family, scales: Mapping[str, float]) -> Iterator[tuple[str, Change]]:
+    """What one quantity becomes with each mistake, by name."""
+    id = family.id
     if family.definition is not None:
-        yield from _in_a_definition(guide, family, scales)
+        yield from _in_a_definition(guide, family, family.definition, scales)
     elif family.kind == "pressure":
         yield from _in_reading_a_pressure(guide, id)
-    if (whole := _whole_rod(guide, id)) is not None:
-        rod = whole
-        yield "wrong-end", lambda value, values: values[rod] - value
-    if id.startswith("turn."):
-        yield "direction-reversed", lambda value, _: -value
-    elif id.startswith("dir."):
+    if (rod := _whole_rod(guide, id)) is not None:
+        yield "wrong-end", _from_the_other_end(rod)
+    if is_direction(id):
         yield "direction-reversed", lambda value, _: value + np.pi
+        return
+    if family.is_signed_rotation:
+        yield "direction-reversed", lambda value, _: -value
     elif not family.arm and family.kind != "segment":
         yield "sign-reversed", lambda value, _: -value
-    if not id.startswith("dir."):
-        for places in DECIMAL_PLACES:
-            yield "thousands-mark", _times(10.0**places)
+    for places in DECIMAL_PLACES:
+        yield "thousands-mark", _times(10.0**places)
 
 
-def _in_a_definition(guide: Guide, family: Family, scales: Mapping[str, float]) -> Iterator[tuple[str, Change]]:
-    ledger, definition = guide.ledger, family.definition
-    assert definition is not None
-    used = [ledger[ref] for ref in dict.fromkeys(refs(definition))]
+def _in_a_definition(
+    guide: Guide, family: Family, definition: Expression, scales: Mapping[str, float]
+) -> Iterator[tuple[str, Change]]:
+    used = [guide.ledger[ref] for ref in dict.fromkeys(refs(definition))]
     for given in used:
-        yield from _with_a_wrong_input(guide, family, given, scales)
+        yield from _with_a_wrong_input(guide, family, definition, given, scales)
     if family.kind == "angle" and _calls(definition, INVERSE):
         yield "radians-for-degrees", _times(np.pi / 180)
     if _calls(definition, TRIGONOMETRIC):
         angles = [given.id for given in used if given.kind == "angle"]
         yield "degrees-for-radians", _with(definition, {id: _degrees(id) for id in angles})
     if not family.constructed:
-        yield from (("sign-reversed", _instead(other)) for other in _other_signs(definition))
+        for other in _other_signs(definition):
+            yield "sign-reversed", _with(other, {})
 
 
 def _with_a_wrong_input(
-    guide: Guide, family: Family, given: Family, scales: Mapping[str, float]
+    guide: Guide, family: Family, definition: Expression, given: Family, scales: Mapping[str, float]
 ) -> Iterator[tuple[str, Change]]:
     """Mistakes about one input of a definition."""
-    ledger, definition, id = guide.ledger, family.definition, given.id
-    assert definition is not None
+    ledger, id = guide.ledger, given.id
 
     def as_printed(_: np.ndarray, values: Values) -> np.ndarray:
         """The input's printed number taken for the result's."""
@@ -131,22 +134,27 @@ def _with_a_wrong_input(
         yield "rpm-for-radians", instead(lambda values: values["n"])
     elif given.kind == "weight" and family.kind == "mass":
         yield "weight-for-mass", as_printed
-    elif given.kind == "mass" and (weight := f"G{id.removeprefix('m.')}") in ledger:
+    elif given.kind == "mass" and (weight := _weight(guide, given)):
         yield "weight-for-mass", instead(lambda values: values[weight])
-    elif given.kind.endswith("scale") and not family.constructed and (power := _power(guide, family, id)):
+    elif given.kind.endswith("scale") and not family.constructed and (power := _power(guide, definition, id)):
         number = scales.get(id, float(given.values[0])) / given.how.scale
         # v = seg and v = μ²·seg instead of v = μ·seg.
         yield "scale-forgotten", _times(number**-power)
         yield "scale-twice", _times(number**power)
 
 
-def _power(guide: Guide, family: Family, scale: str) -> int:
+def _weight(guide: Guide, mass: Family) -> str:
+    """The weight of the link that a mass is of, "" if it has none."""
+    weights = (one for one in guide.ledger.families.values() if one.kind == "weight")
+    return next((one.id for one in weights if one.symbol.sub == mass.symbol.sub), "")
+
+
+def _power(guide: Guide, definition: Expression, scale: str) -> int:
     """The power (±1) in which a scale stands in a definition as a whole; 0 if it does not."""
-    assert family.definition is not None
-    values = {id: guide.ledger[id].values for id in refs(family.definition)}
+    values = {id: guide.ledger[id].values for id in refs(definition)}
     with np.errstate(all="ignore"):
-        once = np.atleast_1d(evaluate(family.definition, values))
-        twice = np.atleast_1d(evaluate(family.definition, values | {scale: 2 * values[scale]}))
+        once = np.atleast_1d(evaluate(definition, values))
+        twice = np.atleast_1d(evaluate(definition, values | {scale: 2 * values[scale]}))
         ratio = (twice / once)[np.isfinite(twice / once)]
     for power in (1, -1):
         if ratio.size and np.allclose(ratio, 2.0**power):
@@ -162,27 +170,23 @@ def _in_reading_a_pressure(guide: Guide, id: str) -> Iterator[tuple[str, Change]
         return
     for state in gas.values():
         if state is not here:
-            yield "other-piston", _from(state.pressure)
+            yield "other-piston", _replaced_by(state.pressure)
     piston = here.piston
     for angle in (here.angle + 2 * np.pi, -here.angle, 2 * np.pi - here.angle):
-        yield (
-            "wrong-stroke",
-            _from(piston.law.table.pressure(angle, here.fraction, piston.dead_centres)),
-        )
+        pressure = piston.law.table.pressure(angle, here.fraction, piston.dead_centres)
+        yield "wrong-stroke", _replaced_by(pressure)
 
 
 def _whole_rod(guide: Guide, id: str) -> str | None:
     """The length of the rod on which `l.AS2` places a mass centre."""
-    match = re.fullmatch(r"l\.([A-Z]\d*)([A-Z]\d*)", id)
     linkage = guide.analysis.machine.linkage
-    if match is None or match[2] not in {body.centre for body in linkage.inertias}:
-        return None
+    centres = {body.centre for body in linkage.inertias}
     for dyad in linkage.dyads:
-        for end in (dyad.start, dyad.end):
-            if end == match[1]:
-                names = {f"l.{end}{dyad.middle}", f"l.{dyad.middle}{end}"}
-                earlier = takewhile(lambda name: name != id, guide.ledger.families)
-                return next((name for name in earlier if name in names), None)
+        ends = [end for end in (dyad.start, dyad.end) if id in {f"l.{end}{centre}" for centre in centres}]
+        for end in ends:
+            names = {f"l.{end}{dyad.middle}", f"l.{dyad.middle}{end}"}
+            earlier = takewhile(lambda name: name != id, guide.ledger.families)
+            return next((name for name in earlier if name in names), None)
     return None
 
 
@@ -193,12 +197,12 @@ def _times(factor: float) -> Change:
     return lambda value, _: value * factor
 
 
-def _from(values: np.ndarray) -> Change:
-    return lambda _, __: values
+def _replaced_by(other: np.ndarray) -> Change:
+    return lambda _, __: other
 
 
-def _instead(definition: Expression) -> Change:
-    return lambda _, values: np.atleast_1d(evaluate(definition, values))
+def _from_the_other_end(rod: str) -> Change:
+    return lambda value, values: values[rod] - value
 
 
 def _degrees(id: str) -> Callable[[Values], np.ndarray]:
@@ -209,8 +213,8 @@ def _with(definition: Expression, others: Mapping[str, Callable[[Values], np.nda
     """The definition worked out with other values of some of its inputs."""
 
     def change(_: np.ndarray, values: Values) -> np.ndarray:
-        changed = {id: other(values) for id, other in others.items()}
-        return np.atleast_1d(evaluate(definition, ChainMap(changed, dict(values))))
+        inputs = {id: others[id](values) if id in others else values[id] for id in refs(definition)}
+        return np.atleast_1d(evaluate(definition, inputs))
 
     return change
 

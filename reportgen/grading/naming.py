@@ -1,137 +1,363 @@
-"""What went wrong, by name: the mistakes that could have been made, run through the ledger and compared.
+"""The first wrong values by name: slips of writing, mistakes of working, given data taken wrongly.
 
-A mistake may have been made in the wrong quantity itself, or in one before it that the sheet does not show.
-All of them are evaluated at once, [sites, positions]; the one that meets most of the wrong values of a
-quantity, and meets them best, gives its name.
+Each search looks at the first wrong values that have no name yet, in the order of `SEARCHES`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
-from reportgen.grading.guide import Guide
-from reportgen.grading.marks import Marked, Place, Verdict
-from reportgen.grading.mistakes import ELSEWHERE, Site, sites_anywhere, sites_in
-from reportgen.grading.working import SIGNED, Change, Working
+from reportgen.answers.bands import is_direction
+from reportgen.answers.key import Role
+from reportgen.grading.marks import Cells, Marked, Place, Verdict
+from reportgen.grading.mistakes import OF_POSITION, WRONG_DATUM, Mistake, general_mistakes, mistakes_in
+from reportgen.grading.working import Change, Guide, Values, Working
 from reportgen.ledger.following import follow
 
+FEW_FIGURES = 2
+"""Significant figures that are too few, but still show the value; one figure shows too little."""
 
-def name_mistakes(working: Working, cells: Mapping[Place, Marked]) -> dict[Place, Site]:
-    """The mistakes behind the first wrong values of each chain that have no name yet, where they are known."""
+FEWEST_ANGLES = 4
+"""Fewer angles show no convention."""
+
+AGREED = 0.8
+"""The share of the angles not right that one convention explains."""
+
+CONVENTIONS: tuple[tuple[str, float, float], ...] = (
+    ("angle-clockwise", -1.0, 0.0),
+    ("angle-from-vertical", 1.0, -90.0),
+    ("angle-from-vertical", -1.0, 90.0),
+    ("angle-from-vertical", 1.0, 90.0),
+)
+"""How angles are measured otherwise: name, factor and summand (°) of the angle asked for."""
+
+NEAT = 2
+"""Significant figures of a datum that somebody would have given; a half of the last one where the right one has it."""
+
+APART = 3.0
+"""A right value that would be this many tolerances off with another datum shows that the datum was right."""
+
+FACTORS = np.geomspace(1 / 5, 5, 400)
+"""A datum that is taken wrongly lies within these of the right one."""
+
+
+# --- slips of writing -----------------------------------------------------------------------------
+# Too few figures, a value in another cell, angles by another convention: nothing was worked out wrongly, so
+# they are found on the sheet alone, before mistakes of working are sought.
+
+
+def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
+    """The slips behind first wrong values, where they are known."""
+    guide = working.guide
+    first = {place: cell for place, cell in cells.items() if cell.first}
+    found = (
+        *_misplaced(guide, first, cells),
+        *(("too-few-figures", place) for place, cell in first.items() if _has_too_few_figures(cell)),
+        *(("other-scale", place) for place, cell in first.items() if _is_scale_of_the_task(guide, cell)),
+        *_by_another_convention(first, cells),
+    )
+    # Nothing else comes from a slip of writing unseen, so it changes no other quantity.
+    return {place: Mistake(name, place[0], {}) for name, place in found}
+
+
+def _has_too_few_figures(cell: Marked) -> bool:
+    """Whether a value is right but for its figures."""
+    given = cell.given
+    return bool(given) and any(
+        given == float(f"{value:.{FEW_FIGURES}g}") and abs(given - value) > cell.band
+        for value in (cell.own, cell.expected)
+    )
+
+
+def _is_scale_of_the_task(guide: Guide, cell: Marked) -> bool:
+    """Whether a scale was taken from the task while the plan was drawn at another."""
+    return guide.rows[cell.id].role is Role.scale and cell.given is not None and _equals(cell, cell.expected, cell.band)
+
+
+def _misplaced(guide: Guide, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:
+    """Two values of one unit in each other's rows; a value beside its own cell, which was left empty."""
+    for (one, mine), (other, theirs) in combinations(first.items(), 2):
+        same = one[1] == other[1] and guide.rows[one[0]].unit == guide.rows[other[0]].unit
+        # Of two values that differ in sign alone, both signs were reversed.
+        opposite = abs(mine.expected + theirs.expected) <= mine.band
+        if same and not opposite and _belongs_to(mine, theirs) and _belongs_to(theirs, mine):
+            yield "rows-swapped", one
+            yield "rows-swapped", other
+    for place, cell in first.items():
+        beside = [cells[place[0], position] for position in guide.rows[place[0]].positions]
+        if any(one.verdict is Verdict.blank and _belongs_to(cell, one) for one in beside):
+            yield "wrong-column", place
+
+
+def _belongs_to(cell: Marked, other: Marked) -> bool:
+    """Whether a value is that of another cell, not of its own."""
+    return _equals(cell, other.expected, other.band) and abs(cell.expected - other.expected) > other.band
+
+
+def _equals(cell: Marked, value: float, band: float) -> bool:
+    return cell.given is not None and abs(cell.given - value) <= band
+
+
+def _by_another_convention(first: Cells, cells: Cells) -> Iterable[tuple[str, Place]]:
+    """Directions that one other convention explains, if it explains most of those that are not right."""
+    angles = {place: cell for place, cell in cells.items() if is_direction(place[0]) and cell.given is not None}
+    off = sum(cell.verdict is not Verdict.right for cell in angles.values())
+    best: list[tuple[str, Place]] = []
+    for name, factor, summand in CONVENTIONS:
+        met = [(name, place) for place in first if place in angles and _is_measured(angles[place], factor, summand)]
+        if len(met) >= max(FEWEST_ANGLES, AGREED * off, len(best) + 1):
+            best = met
+    return best
+
+
+def _is_measured(cell: Marked, factor: float, summand: float) -> bool:
+    assert cell.given is not None
+    apart = (cell.given - factor * cell.expected - summand + 180) % 360 - 180
+    return abs(apart) <= cell.band
+
+
+# --- mistakes of working --------------------------------------------------------------------------
+# A mistake may have been made in the wrong quantity itself, or in one before it that the sheet does not show.
+# All of them are evaluated at once, [mistakes, positions]; the one that meets most of the wrong values of a
+# quantity, and meets them best, gives its name.
+
+
+def mistakes_of_working(working: Working, cells: Cells) -> dict[Place, Mistake]:
+    """The mistakes behind the first wrong values that have no name yet, where they are known."""
     by_row: dict[str, list[int]] = {}
     for (id, position), cell in cells.items():
         if cell.first and not cell.mistake:
             by_row.setdefault(id, []).append(position)
     return {
-        (id, position): site
+        (id, position): mistake
         for id, positions in by_row.items()
-        for position, site in _explained(working, cells, id, positions).items()
+        for position, mistake in _explained(working, cells, id, positions)
     }
 
 
-def _explained(
-    working: Working, cells: Mapping[Place, Marked], id: str, positions: Sequence[int]
-) -> dict[int, Site]:
+def _explained(working: Working, cells: Cells, id: str, positions: Sequence[int]) -> Iterator[tuple[int, Mistake]]:
+    """The mistake at each of the positions at which a quantity is wrong, where one is found."""
     guide = working.guide
-    sites = list(_candidates(working, id))
-    if not sites:
-        return {}
+    candidates = list(_candidates(working, id))
+    if not candidates:
+        return
     row = guide.rows[id]
     index = [row.at(position) for position in positions]
     given = working.values[id][index]
     unit = guide.ledger[id].how.scale
-    band = np.array([cells[(id, position)].band for position in positions]) * unit
-    expected = np.array([[cells[(id, p)].own, cells[(id, p)].expected] for p in positions]).T * unit
+    band = np.array([cells[id, position].band for position in positions]) * unit
+    own, expected = np.array([[cells[id, k].own, cells[id, k].expected] for k in positions]).T * unit
     # A student goes on from the rounded value written down, or from the one left in the calculator.
     gone_on_from = (working, working.unrounded({one for one in cells if cells[one].verdict is Verdict.right}))
-    foreseen = np.concatenate([_foreseen(one, id, sites)[:, index] for one in gone_on_from])
-    sites = [*sites, *sites]
+    foreseen = np.concatenate([_foreseen(one, id, candidates)[:, index] for one in gone_on_from])
+    candidates = [*candidates, *candidates]
     with np.errstate(all="ignore"):
         # What a mistake makes larger, it makes less certain in the same measure.
-        wider = np.maximum(1.0, np.abs(foreseen) / np.maximum(np.abs(expected[0]), band))
-        off = _apart(guide, id, given, foreseen) / (band * wider)
-        plain = np.min([_apart(guide, id, one, foreseen) for one in expected], axis=0)
-    met = (off <= 1) & (plain > band)
-    chosen: dict[int, Site] = {}
-    worth = met.sum(axis=1)
-    needs_more = [len(row.positions) > 1 and site.mistake in ELSEWHERE for site in sites]
+        wider = np.maximum(1.0, np.abs(foreseen) / np.maximum(np.abs(own), band))
+        off = guide.distance(id, given, foreseen) / (band * wider)
+        shows = np.min([guide.distance(id, one, foreseen) for one in (own, expected)], axis=0) > band
+    met = (off <= 1) & shows
+    count = met.sum(axis=1)
+    needs_more = [len(row.positions) > 1 and mistake.name in OF_POSITION for mistake in candidates]
     for column, position in enumerate(positions):
-        fitting = [s for s in np.flatnonzero(met[:, column]) if worth[s] > 1 or not needs_more[s]]
+        fitting = [n for n in np.flatnonzero(met[:, column]) if count[n] > 1 or not needs_more[n]]
         if fitting:
-            best = min(fitting, key=lambda s: (-worth[s], round(float(off[s, column]), 2), s))
-            chosen[position] = sites[best]
-    return chosen
+            best = min(fitting, key=lambda n: (-count[n], round(float(off[n, column]), 2), n))
+            yield position, candidates[best]
 
 
-def _apart(guide: Guide, id: str, one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """How far values lie apart: directions around the circle, arms by their sizes."""
-    if id.startswith("dir."):
-        return np.asarray(np.abs(np.mod(one - other + np.pi, 2 * np.pi) - np.pi))
-    return np.asarray(np.abs(np.abs(one) - np.abs(other)) if guide.ledger[id].arm else np.abs(one - other))
-
-
-def _candidates(working: Working, id: str) -> Iterator[Site]:
-    """Mistakes in the quantity itself, then in unseen ones before it, nearest first, then about positions."""
+def _candidates(working: Working, id: str) -> Iterator[Mistake]:
+    """Mistakes in the quantity itself, then in unseen ones before it, nearest first, then general ones."""
     guide = working.guide
-    yield from sites_in(guide, id, working.scales)
-    size = id.removeprefix(SIGNED)
+    yield from mistakes_in(guide, id, working.scales)
+    size = guide.ledger.size_of(id)
     if size != id:
-        yield from sites_in(guide, size, working.scales)
+        yield from mistakes_in(guide, size, working.scales)
     before = guide.before[id]
     for other in before:
         family = guide.ledger[other]
         if not working.shows(other) and other != size and not (family.hidden or family.is_plane):
-            yield from sites_in(guide, other, working.scales)
-    above = {*before, id}
-    for site in sites_anywhere(guide):
-        if above & site.changes.keys():
-            yield site
+            yield from mistakes_in(guide, other, working.scales)
+    concerned = {*before, id}
+    yield from (mistake for mistake in general_mistakes(guide) if concerned & mistake.changes.keys())
 
 
-def _foreseen(working: Working, id: str, sites: Sequence[Site]) -> np.ndarray:
-    """What a quantity comes to with each mistake, from the student's own earlier values [sites, positions]."""
+def _foreseen(working: Working, id: str, mistakes: Sequence[Mistake]) -> np.ndarray:
+    """What a quantity comes to with each mistake, from the student's own earlier values [mistakes, positions]."""
     guide = working.guide
     ledger = guide.ledger
     made: dict[str, list[tuple[int, Change]]] = {}
-    for number, site in enumerate(sites):
-        for name, change in site.changes.items():
-            made.setdefault(name, []).append((number, change))
-    judged = {id, id.removeprefix(SIGNED)}
+    for number, mistake in enumerate(mistakes):
+        for changed, change in mistake.changes.items():
+            made.setdefault(changed, []).append((number, change))
+    judged = {id, ledger.size_of(id)}
 
-    def laid(name: str) -> Change:
-        def change(computed: np.ndarray, values: Mapping[str, np.ndarray]) -> np.ndarray:
-            base = computed if name in judged else working.over(name, computed, computed)
+    def with_mistakes(name: str) -> Change:
+        def change(computed: np.ndarray, values: Values) -> np.ndarray:
+            base = computed if name in judged else working.entered_values(name, computed, computed)
             if name not in made:
                 return base
-            rows = np.array(np.broadcast_to(base, (len(sites), np.shape(base)[-1])), copy=True)
-            width = max(rows.shape[1], len(ledger[name].values))
-            rows = np.array(np.broadcast_to(rows, (len(sites), width)), dtype=np.result_type(rows, float))
-            for number, mistaken in made[name]:
-                rows[number] = mistaken(rows[number], _Case(values, number))
+            width = max(np.shape(base)[-1], len(ledger[name].values))
+            rows = np.array(np.broadcast_to(base, (len(mistakes), width)), dtype=np.result_type(base, float))
+            for number, changed in made[name]:
+                rows[number] = changed(rows[number], _RowOf(values, number))
             return rows
 
         return change
 
     wanted = {*guide.before[id], id}
-    names = {name for name in (*working.entered, *made) if name in wanted}
-    values = follow(ledger, {name: laid(name) for name in names}, only=wanted)
-    return np.broadcast_to(values[id], (len(sites), len(ledger[id].values))).real
+    names = {name for name in (*working.entered_ids, *made) if name in wanted}
+    values = follow(ledger, {name: with_mistakes(name) for name in names}, only=wanted)
+    return np.broadcast_to(values[id], (len(mistakes), len(ledger[id].values))).real
 
 
-class _Case(Mapping[str, np.ndarray]):
-    """One case of values that have a row for each."""
+class _RowOf(Mapping[str, np.ndarray]):
+    """The values with one of several mistakes, of values that have a row for each."""
 
-    def __init__(self, values: Mapping[str, np.ndarray], number: int) -> None:
-        self.values_of_all, self.number = values, number
+    def __init__(self, values: Values, number: int) -> None:
+        self.all, self.number = values, number
 
     def __getitem__(self, id: str) -> np.ndarray:
-        value = self.values_of_all[id]
+        value = self.all[id]
         return value if value.ndim == 1 else value[self.number % len(value)]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self.values_of_all)
+        return iter(self.all)
 
     def __len__(self) -> int:
-        return len(self.values_of_all)
+        return len(self.all)
+
+
+# --- given data taken wrongly ---------------------------------------------------------------------
+# A datum is sought by working backwards: the ledger is evaluated with many values of it at once, and the one
+# that meets the student's value counts if it is a number that somebody would have given: as round as the
+# right one.  A slip of arithmetic could otherwise nearly always be put down to some datum.
+
+
+@dataclass(frozen=True, slots=True)
+class _Datum:
+    """A given quantity and the value (SI) that it seems to have been taken for."""
+
+    id: str
+    value: float
+
+    @property
+    def mistake(self) -> Mistake:
+        return Mistake(WRONG_DATUM, self.id, {self.id: lambda value, _: np.full_like(value, self.value)})
+
+
+def misread_data(working: Working, cells: Cells) -> dict[Place, Mistake]:
+    """The misread data behind first wrong values that have no other name.
+
+    Only what is the same at all positions is traced back: a length, a mass, the crank's speed.
+    """
+    found: dict[Place, Mistake] = {}
+    known: list[_Datum] = []
+    for place, cell in cells.items():
+        if not cell.first or cell.mistake or not working.guide.rows[cell.id].single:
+            continue
+        datum = next((one for one in known if _explains(working, cell, one)), None)
+        if datum is None:
+            possible = (one for one in _possible_data(working, cell) if _explains(working, cell, one))
+            datum = next((one for one in possible if not _is_contradicted(working.guide, cells, one)), None)
+            known += [datum] if datum else []
+        if datum is not None:
+            found[place] = datum.mistake
+    return found
+
+
+def _possible_data(working: Working, cell: Marked) -> Iterator[_Datum]:
+    """Neat values of each datum at which a quantity passes through the student's value."""
+    guide = working.guide
+    for id in guide.before[cell.id]:
+        family = guide.ledger[id]
+        single = len(family.values) == 1 and not (family.hidden or family.is_plane)
+        if not single or id in guide.rows or not family.values[0] > 0:
+            continue
+        right = float(family.values[0])
+        values = _at(guide, cell, id, FACTORS * right) - _given(working, cell)
+        crossing = np.flatnonzero(np.diff(np.sign(values)) != 0)
+        for index in crossing[np.isfinite(values[crossing]) & np.isfinite(values[crossing + 1])]:
+            one, other = values[index], values[index + 1]
+            share = one / (one - other)
+            factor = float(FACTORS[index : index + 2] @ (1 - share, share))
+            yield _Datum(id, _neat(guide, id, right * factor))
+
+
+def _explains(working: Working, cell: Marked, datum: _Datum) -> bool:
+    """Whether the quantity comes to the student's value, not the key's, with this value of the datum."""
+    guide = working.guide
+    if datum.id not in guide.before[cell.id]:
+        return False
+    band = cell.band * guide.ledger[cell.id].how.scale
+    foreseen = float(_at(guide, cell, datum.id, np.array([datum.value]))[0])
+    key = float(guide.ledger[cell.id].values[_index(guide, cell)].real)
+    return abs(foreseen - _given(working, cell)) <= band < abs(foreseen - key)
+
+
+def _is_contradicted(guide: Guide, cells: Cells, datum: _Datum) -> bool:
+    """Whether a value that is right, and stands on nothing wrong, would lie far off with this value of the datum.
+
+    Lengths on paper prove nothing: they are read at the student's own scale.
+    """
+    values = follow(guide.ledger, {datum.id: np.array([datum.value])})
+    wrong = {place[0] for place, cell in cells.items() if cell.verdict is Verdict.wrong}
+    for (id, position), cell in cells.items():
+        before = set(guide.before[id])
+        proves = cell.verdict is Verdict.right and not _is_on_paper(guide, id)
+        if proves and datum.id in before and not wrong & before:
+            column = np.broadcast_to(values[id].real, len(guide.ledger[id].values))
+            moved = float(column[guide.rows[id].at(position)]) / guide.ledger[id].how.scale - cell.expected
+            if abs(moved) > APART * cell.band:
+                return True
+    return False
+
+
+def _is_on_paper(guide: Guide, id: str) -> bool:
+    kind = guide.ledger[id].kind
+    return kind == "segment" or kind.endswith("scale") or is_direction(id)
+
+
+def _at(guide: Guide, cell: Marked, id: str, values: np.ndarray) -> np.ndarray:
+    """A quantity (SI) over values of a datum [M]."""
+    wanted = {*guide.before[cell.id], cell.id}
+    result = follow(guide.ledger, {id: values[:, None]}, only=wanted)[cell.id].real
+    return np.broadcast_to(result, (len(values), len(guide.ledger[cell.id].values)))[:, _index(guide, cell)]
+
+
+def _given(working: Working, cell: Marked) -> float:
+    return float(working.values[cell.id][_index(working.guide, cell)])
+
+
+def _index(guide: Guide, cell: Marked) -> int:
+    return guide.rows[cell.id].at(cell.position)
+
+
+def _neat(guide: Guide, id: str, value: float) -> float:
+    """The nearest number (SI) as round as the right one in the datum's printed unit; for 1/3.6 that of its inverse."""
+    family = guide.ledger[id]
+    # Lengths stand in metres in the ledger and in millimetres on the page: the same figures.
+    taken, right = (one / family.how.scale for one in (value, float(family.values[0])))
+    # A ratio that the ledger works out was given as 1/3.6.
+    if family.kind == "ratio" and taken < 1 and family.definition is not None:
+        return family.how.scale / _rounded(1 / taken, 1 / right)
+    return _rounded(taken, right) * family.how.scale
+
+
+def _rounded(value: float, like: float) -> float:
+    """A number to `NEAT` figures, to halves of the last one if `like` has more figures than these."""
+    parts = 1 if np.isclose(like, float(f"{like:.{NEAT - 1}e}"), rtol=1e-9) else 2
+    step = 10.0 ** (np.floor(np.log10(value)) - NEAT + 1) / parts
+    return float(round(value / step) * step)
+
+
+SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
+    slips_of_writing,
+    mistakes_of_working,
+    misread_data,
+)
+"""What looks for names, one after the other."""

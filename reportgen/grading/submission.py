@@ -1,41 +1,43 @@
 """A student's file → `Submission`: the sheet found by its words, its values by quantity and position.
 
-Rows and columns may have been moved, sorted or left out: a value's place is told by the id at the head
-of its row and the label at the head of its column, in either language.
+Rows and columns may have been moved, sorted or left out: a value's place is given by the id at the head
+of its row and the label at the head of its column, in either language.  Numbers may be written as students
+write them: with a decimal comma or point, thousands apart, powers of ten, a unit behind.
 """
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, get_args
+from typing import Literal, get_args
 
-from reportgen.answers.key import Key, Row
+from reportgen import units
+from reportgen.answers.key import Key
 from reportgen.assignment.faults import Fault, as_problem
 from reportgen.errors import AssignmentError, Mark, Problem
-from reportgen.grading.marks import Given, Place, Submission
-from reportgen.grading.written import DecimalMark, decimal_mark, is_blank, read_written
+from reportgen.grading.marks import Answer, Place, Submission
 from reportgen.notation.numbers import Language
 from reportgen.notation.symbols import KINDS
-from reportgen.units import QuantityFault
+from reportgen.units import Dimension, QuantityFault
 from reportgen.words import load_words, search_path
 from reportgen.workbook import Cell, Page, read
+
+DecimalMark = Literal[".", ","]
 
 HEAD_WITHIN = 60
 """Rows among which the head of a sheet is looked for."""
 _UNREADABLE = {"date": "cell-date", "error": "cell-error", "boolean": "cell-boolean"}
 
 
-def read_submission(
-    path: Path, key_of: Callable[[str], Key] | Key, language: Language = "vi"
-) -> Submission:
-    """The answer sheet of a file, by the key of the assignment it names, on its page of information or in its
-    title, or else of the file's stem.
+def read_submission(path: Path, key_of: Callable[[str], Key] | Key, language: Language = "vi") -> Submission:
+    """The answer sheet of a file, read by the key of its assignment.
 
+    The assignment is the one that its page of information names, or its title, or else the file's stem.
     `key_of` finds a key by the name that the sheet gives, which may be any text, and raises `KeyError` if
     there is none.  Raises `AssignmentError`, worded in `language`, if the file cannot be read, is no
     answer sheet or belongs to another assignment or machine.
@@ -59,7 +61,7 @@ def read_submission(
     if kind and kind[0] != key.kind:
         about = {"text": f"{name} ({kind[0]})", "wanted": f"{key.id} ({key.kind})"}
         raise _refused(Fault("sheet-of-another", kind[1], about), language)
-    reading = _Reading(key, language, str(path))
+    reading = _Reading(key, language)
     reading.sheet(*found)
     return Submission(key.id, str(path), reading.values, reading.problems, tuple(reading.notes))
 
@@ -74,14 +76,8 @@ def _refused(fault: Fault, language: Language) -> AssignmentError:
 @cache
 def _words(name: str) -> frozenset[str]:
     """A word of the answer sheet in every language."""
-    languages: tuple[Language, ...] = get_args(Language)
-    return frozenset(str(_sheet_words(language)[name]).casefold() for language in languages)
-
-
-@cache
-def _sheet_words(language: Language) -> Mapping[str, Any]:
-    words: Mapping[str, Any] = load_words(search_path(language))["answer_sheet"]
-    return words
+    sheets = (load_words(search_path(language))["answer_sheet"] for language in get_args(Language))
+    return frozenset(str(words[name]).casefold() for words in sheets)
 
 
 def _says(cell: Cell, name: str) -> bool:
@@ -127,8 +123,7 @@ class _Reading:
 
     key: Key
     language: Language
-    file: str
-    values: dict[Place, Given] = field(default_factory=dict)
+    values: dict[Place, Answer] = field(default_factory=dict)
     problems: dict[Place, Problem] = field(default_factory=dict)
     notes: list[Problem] = field(default_factory=list)
 
@@ -141,7 +136,7 @@ class _Reading:
             if place not in found:
                 found[place] = cell
             elif found[place].text.strip() != cell.text.strip():
-                first = str(found[place].mark).removeprefix(f"{self.file}:")
+                first = str(found[place].mark).removeprefix(f"{cell.mark.file}:")
                 self.problem(place, Fault("cell-repeated", cell.mark, {"first": first}))
         texts = (cell.text for cell in found.values() if isinstance(cell.value, str))
         mark, agreed = decimal_mark(texts, self.key.language)
@@ -188,15 +183,17 @@ class _Reading:
         if cell.kind == "formula":
             self.note(Fault("cell-formula-used", cell.mark, {"text": cell.text}))
         if isinstance(cell.value, float):
-            self.values[place] = Given(cell.value, cell.text, cell.mark)
+            self.values[place] = Answer(cell.value, cell.text, cell.mark)
             return None
         try:
-            written = read_written(cell.value, KINDS[row.kind].unit, mark, agreed)
+            number, doubtful = read_number(cell.value, KINDS[row.kind].unit, mark, agreed)
         except QuantityFault as fault:
-            return self.problem(place, Fault(fault.code, cell.mark, _shown(fault, row)))
-        if written.doubtful:
-            self.note(Fault("cell-thousands", cell.mark, {"text": cell.text, "read": f"{written.value:g}"}))
-        self.values[place] = Given(written.value, cell.text, cell.mark)
+            # The unit is named as the sheet prints it.
+            arguments = fault.arguments | ({"unit": row.unit} if "unit" in fault.arguments else {})
+            return self.problem(place, Fault(fault.code, cell.mark, arguments))
+        if doubtful:
+            self.note(Fault("cell-thousands", cell.mark, {"text": cell.text, "read": f"{number:g}"}))
+        self.values[place] = Answer(number, cell.text, cell.mark)
         return None
 
     def problem(self, place: Place, fault: Fault) -> None:
@@ -204,11 +201,6 @@ class _Reading:
 
     def note(self, fault: Fault) -> None:
         self.notes.append(as_problem(fault, self.language))
-
-
-def _shown(fault: QuantityFault, row: Row) -> dict[str, str]:
-    """The arguments of a fault, with the unit as the sheet prints it."""
-    return fault.arguments | ({"unit": row.unit} if "unit" in fault.arguments else {})
 
 
 def _is_empty(cell: Cell) -> bool:
@@ -223,3 +215,121 @@ def _label(text: str) -> str | None:
         if match:
             return match[1].strip()
     return plain if re.fullmatch(r"[0-9]+[a-z′']*|[a-z]′?", plain) else None
+
+
+# --- numbers as students write them ---------------------------------------------------------------
+
+BLANKS = frozenset({"", "-", "–", "—", "−", "…", "...", "?", "/"})
+"""What a cell without an answer holds."""
+LONGEST = 60
+"""Characters of a number."""
+
+_SPACES = re.compile(r"[\s\u00a0\u2007\u2009\u202f]+")
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺−", "0123456789-+-")
+_RAISED_POWER = re.compile(r"(?<![0-9])10([⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
+_POWER = re.compile(r"(?:(?<=[0-9])\s*[x×·⋅*.]\s*|^([+-]?))10\s*\^\s*\(?\s*([+-]?[0-9]{1,3})\s*\)?", re.IGNORECASE)
+_NUMBER = re.compile(
+    r"(?P<sign>[+-]?)\s*(?P<body>[0-9]+(?:[ '][0-9]{3}(?![0-9])|[.,][0-9]+)*[.,]?|[.,][0-9]+)"
+    r"(?:[eE](?P<power>[+-]?[0-9]{1,3}))?(?P<unit>\s*[^\s0-9].*|\s+1/.*)?"
+)
+_JOINED = re.compile(r"(?<![A-Za-z])(k?N|kg)(?=[mc]?m)")
+SPELLED = {
+    "độ": "deg",
+    **dict.fromkeys(("vg/ph", "v/ph", "vg/phút", "vòng/phút", "r/min", "rev/min"), "rpm"),
+    "1/s": "s-1",
+    **dict.fromkeys(("1/s2", "1/s²", "1/s^2"), "s-2"),
+}
+"""Units that students write and `units` does not know."""
+
+
+def is_blank(text: str) -> bool:
+    """Whether a cell's text says that there is no answer."""
+    return text.strip() in BLANKS
+
+
+def decimal_mark(texts: Iterable[str], language: Language) -> tuple[DecimalMark, bool]:
+    """The decimal mark that a sheet's texts agree on, and whether they do; else that of the language."""
+    found: set[DecimalMark] = set()
+    for text in texts:
+        match = _matched(text)
+        marks = re.findall("[.,]", match["body"]) if match else []
+        if match and len(marks) == 1 and not _plain(match["body"], ".", text)[2]:
+            found.add("." if marks == ["."] else ",")
+    if len(found) == 1:
+        return found.pop(), True
+    return ("," if language == "vi" else "."), False
+
+
+def read_number(text: str, unit: str, mark: DecimalMark, agreed: bool = False) -> tuple[float, bool]:
+    """A cell's number in `unit` ("" for a pure number), and whether it is doubtful.
+
+    `mark` decides what 1.234 means where the text itself does not; that is doubtful unless the whole sheet
+    `agreed` on the mark.  Raises `QuantityFault` (not-a-number, not-finite, unexpected-, unknown-, wrong-unit).
+    """
+    match = _matched(text)
+    if match is None:
+        raise QuantityFault("not-a-number", text=text)
+    plain, thousands, open_question = _plain(match["body"], mark, text)
+    value = float(f"{match['sign']}{plain}e{match['power'] or 0}")
+    given = (match["unit"] or "").strip()
+    if given:
+        value *= _factor(given, unit, text)
+    if not math.isfinite(value):
+        raise QuantityFault("not-finite", text=text)
+    return value, open_question and (thousands or not agreed)
+
+
+def _matched(text: str) -> re.Match[str] | None:
+    return _NUMBER.fullmatch(_tidy(text)) if len(text) <= LONGEST else None
+
+
+def _tidy(text: str) -> str:
+    """One kind of blank, minus and power of ten: 1,2·10³ becomes 1,2e3."""
+    result = _SPACES.sub(" ", text).strip().lstrip("≈~= ")
+    result = re.sub(r"^[−–—]", "-", result)
+    result = _RAISED_POWER.sub(lambda match: f"10^{match[1].translate(_RAISED)}", result)
+    result = re.sub(r"\^\s*\(?\s*−", "^-", result)
+    return _POWER.sub(lambda match: f"{'' if match[1] is None else match[1] + '1'}e{match[2]}", result)
+
+
+def _plain(body: str, mark: DecimalMark, text: str) -> tuple[str, bool, bool]:
+    """The digits with a decimal point; whether thousands were parted; whether `mark` had to decide it."""
+    joined = body.replace(" ", "").replace("'", "")
+    marks = re.findall("[.,]", joined)
+    whole, *rest = re.split("[.,]", joined)
+    if not marks:
+        return joined, False, False
+    grouped = 1 <= len(whole) <= 3 and all(len(part) == 3 for part in rest[:-1])
+    if len(set(marks)) == 2:
+        # The last mark is the decimal one: 1.234,5 or 1,234.5.
+        if len(set(marks[:-1])) > 1 or marks[-1] in marks[:-1] or not grouped:
+            raise QuantityFault("not-a-number", text=text)
+        return f"{whole}{''.join(rest[:-1])}.{rest[-1] or 0}", True, False
+    if len(marks) > 1:
+        if not grouped or len(rest[-1]) != 3:
+            raise QuantityFault("not-a-number", text=text)
+        return whole + "".join(rest), True, False
+    fits = grouped and len(rest[0]) == 3 and not whole.startswith("0") and joined == body
+    if fits and marks[0] != mark:
+        return whole + rest[0], True, True
+    return f"{whole or 0}.{rest[0] or 0}", False, fits
+
+
+def _factor(given: str, unit: str, text: str) -> float:
+    """What one of the unit given is in the unit asked for."""
+    if not unit:
+        raise QuantityFault("unexpected-unit", text=text)
+    spelled = SPELLED.get(given.casefold(), _JOINED.sub(r"\1 ", given).replace("º", "°"))
+    try:
+        factor, dimension = units.scale(spelled)
+    except ValueError:
+        raise QuantityFault("unknown-unit", given=given, unit=unit) from None
+    wanted_factor, wanted = units.scale(unit)
+    if dimension not in (wanted, _without_radian(wanted)):
+        raise QuantityFault("wrong-unit", given=given, unit=unit)
+    return factor / wanted_factor
+
+
+def _without_radian(dimension: Dimension) -> Dimension:
+    """1/s is commonly written for rad/s; nothing but a bare number would be left of an angle."""
+    return tuple(power for power in dimension if power[0] != "radian") or dimension

@@ -1,31 +1,123 @@
-"""A student's values laid over the ledger: what each later quantity comes to from them."""
+"""One assignment opened for marking, and a student's values laid over its ledger."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from reportgen.answers.bands import is_chosen_length
-from reportgen.answers.key import Role, Row
-from reportgen.grading.guide import Guide
-from reportgen.grading.marks import Place, Submission
-from reportgen.ledger.following import follow
+from reportgen.analysis import Analysis
+from reportgen.answers import bands
+from reportgen.answers.key import Key, Role, Row, make_key
+from reportgen.assignment import Assignment
+from reportgen.case import Case
+from reportgen.grading.marks import Place, Policy, Submission
+from reportgen.ledger.core import Ledger
+from reportgen.ledger.following import carried, follow, standing_on
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Ref
 
-Change = Callable[[np.ndarray, Mapping[str, np.ndarray]], np.ndarray]
+Values = Mapping[str, np.ndarray]
+"""Values (SI) by id, [N] or [1]."""
+
+Change = Callable[[np.ndarray, Values], np.ndarray]
 """A quantity's value (SI) from what it comes to and all values before it."""
 
-SIGNED = "turn."
-"""Ids of signed rotations begin so; the size stands before them under the rest of the id."""
+ALMOST = 1e-12
+"""Room for rounding in a comparison with a band."""
 
 LARGEST_SCALE = 1e6
 """A student's own scale that differs more than this from the report's is no scale."""
 
-
 CONFIRMED = 0.02
 """Two scales nearer than this are one: a millimetre in the length of a drawn crank."""
+
+
+@dataclass(frozen=True)
+class Guide:
+    """An assignment opened for marking."""
+
+    key: Key
+    ledger: Ledger
+    analysis: Analysis
+    policy: Policy
+
+    @cached_property
+    def bands(self) -> dict[str, np.ndarray]:
+        """The tolerances (SI) [N] of every row of the key.
+
+        They are the widest of drawing, rounding and a share of the quantity's maximum over the turn.
+        """
+        policy, ledger = self.policy, self.ledger
+        drawn, computed = bands.drawn(ledger, policy.paper), bands.computed(ledger, policy.digits)
+        return {
+            row.id: np.maximum(np.maximum(drawn[row.id], computed[row.id]), policy.share * self.size(row.id))
+            * (1 + ALMOST)
+            for row in self.key.rows
+        }
+
+    def size(self, id: str) -> float:
+        """The largest value of a quantity over the turn (SI); of an angle, a full turn."""
+        if bands.is_direction(id):
+            return 2 * np.pi
+        values = np.abs(self.ledger[id].values)
+        return float(values[np.isfinite(values)].max(initial=0.0))
+
+    def distance(self, id: str, one: np.ndarray | float, other: np.ndarray | float) -> np.ndarray:
+        """How far values (SI) lie apart: directions around the circle, arms by their sizes."""
+        if self.ledger[id].arm:
+            one, other = np.abs(one), np.abs(other)
+        return np.asarray(vocabulary.distance(id, np.asarray(one), np.asarray(other)))
+
+    @cached_property
+    def rows(self) -> dict[str, Row]:
+        """The rows that a sheet may fill in."""
+        return {row.id: row for row in self.key.asked}
+
+    @cached_property
+    def judged(self) -> tuple[Row, ...]:
+        """The rows that earn marks, in the ledger's order; how long the crank is drawn is the student's own choice."""
+        order = {id: index for index, id in enumerate(self.ledger.families)}
+        kept = (row for row in self.key.asked if row.kind != "segment" or row.role is not Role.scale)
+        return tuple(sorted(kept, key=lambda row: order[row.id]))
+
+    @cached_property
+    def before(self) -> dict[str, tuple[str, ...]]:
+        """Every quantity that a judged one stands on, nearest first."""
+        vectors = carried(self.ledger)
+        return {row.id: standing_on(self.ledger, row.id, vectors) for row in self.judged}
+
+    def stands_on(self, place: Place, places: Container[Place]) -> bool:
+        """Whether a value on the sheet stands on one at any of `places`."""
+        id, position = place
+        rows = (self.rows[before] for before in self.before[id] if before in self.rows)
+        return any((row.id, self.place(row, position)) in places for row in rows)
+
+    @property
+    def count(self) -> int:
+        """Positions of one turn."""
+        return self.analysis.machine.count
+
+    def repeats(self, row: Row) -> bool:
+        """Whether a quantity is asked for in the first turn only, because all turns are the same."""
+        return not row.single and max(row.positions, default=0) <= self.count < len(row.values)
+
+    def place(self, row: Row, position: int) -> int:
+        """The position at which the sheet asks for a quantity that one at `position` stands on."""
+        if row.single:
+            return 0
+        return (position - 1) % self.count + 1 if self.repeats(row) else position
+
+
+def open_guide(assignment: Assignment, policy: Policy | None = None) -> Guide:
+    """The marking guide of an assignment, computed as its report is."""
+    case = Case(assignment)
+    return Guide(make_key(case), case.ledger, case.analysis, policy or Policy())
+
+
+# --- a student's values ---------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -37,29 +129,31 @@ class Working:
     """
 
     guide: Guide
-    values: Mapping[str, np.ndarray]
+    values: Values
     scales: Mapping[str, float]
 
-    def own(self, blank_from_key: bool = False, made: Mapping[str, Change] | None = None) -> dict[str, np.ndarray]:
+    def own_values(
+        self, blank_from_key: bool = False, changes: Mapping[str, Change] | None = None
+    ) -> dict[str, np.ndarray]:
         """What every judged quantity comes to from the student's own earlier values.
 
-        A blank one on the way is replaced by the key's, or else follows like the rest.  `made` are
-        changes of quantities that the sheet does not show.
+        A blank one on the way is replaced by the key's, or else follows like the rest.  `changes` are
+        made to quantities that the sheet does not show.
         """
-        expected: dict[str, np.ndarray] = {}
-        mistaken = made or {}
+        ledger, unseen = self.guide.ledger, changes or {}
+        result: dict[str, np.ndarray] = {}
 
-        def laid(id: str) -> Change:
-            def change(computed: np.ndarray, values: Mapping[str, np.ndarray]) -> np.ndarray:
-                computed = mistaken[id](computed, values) if id in mistaken else computed
-                known = self.guide.ledger[id].values
-                expected[id] = np.broadcast_to(computed, known.shape)
-                return self.over(id, computed, known if blank_from_key else computed)
+        def entered(id: str) -> Change:
+            def change(computed: np.ndarray, values: Values) -> np.ndarray:
+                computed = unseen[id](computed, values) if id in unseen else computed
+                known = ledger[id].values
+                result[id] = np.broadcast_to(computed, known.shape)
+                return self.entered_values(id, computed, known if blank_from_key else computed)
 
             return change
 
-        follow(self.guide.ledger, {**mistaken, **{id: laid(id) for id in self.entered}})
-        return expected
+        follow(ledger, {**unseen, **{id: entered(id) for id in self.entered_ids}})
+        return result
 
     def unrounded(self, right: Container[Place]) -> Working:
         """The same with the key's value at every place where the student's is right."""
@@ -74,19 +168,19 @@ class Working:
 
     def shows(self, id: str) -> bool:
         """Whether the sheet has a value of a quantity at any position."""
-        return id in self.values or SIGNED + id in self.values
+        return id in self.values or self.guide.ledger.signed.get(id) in self.values
 
     @property
-    def entered(self) -> tuple[str, ...]:
+    def entered_ids(self) -> tuple[str, ...]:
         """Ids of the ledger that hold a value of the student's or are judged, sizes of signed rotations too."""
         judged = [row.id for row in self.guide.judged]
-        return tuple(dict.fromkeys([*judged, *(id.removeprefix(SIGNED) for id in judged), *self.values]))
+        return tuple(dict.fromkeys([*judged, *map(self.guide.ledger.size_of, judged), *self.values]))
 
-    def over(self, id: str, computed: np.ndarray, blank: np.ndarray) -> np.ndarray:
+    def entered_values(self, id: str, computed: np.ndarray, blank: np.ndarray) -> np.ndarray:
         """The student's values of a quantity, `blank` where there are none; an arm has the sign that is computed."""
         given = self.values.get(id)
         if given is None:
-            signed = self.values.get(SIGNED + id)
+            signed = self.values.get(self.guide.ledger.signed.get(id, ""))
             if signed is None:
                 return blank
             given = np.abs(signed)
@@ -104,72 +198,27 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
     """
     values = {row.id: _column(guide, row, submission) for row in guide.key.asked}
     values = {id: column for id, column in values.items() if not np.isnan(column).all()}
-    written = {row.id: float(values[row.id][0]) for row in guide.key.asked if row.id in values and _is_scale(row)}
+    asked = [row.id for row in guide.key.asked if row.role is Role.scale and row.kind != "segment"]
+    stated = {scale: float(values[scale][0]) for scale in asked if scale in values}
     scales: dict[str, float] = {}
-    for scale in (row.id for row in guide.key.asked if _is_scale(row)):
+    for scale in asked:
         usual = float(guide.ledger[scale].values[0])
-        plan = [id for id in values if scale_of(guide, id) == scale]
-        first = next((id for id in plan if _is_first(guide, id, scale)), None)
-        tried = [written.get(scale, usual) / usual, 1.0]
+        plan = [id for id in values if vocabulary.plan(id) == scale]
+        first = next((id for id in plan if _makes_scale(guide, id, scale)), None)
+        tried = [stated.get(scale, usual) / usual, 1.0]
         if first is not None:
             with np.errstate(divide="ignore"):
                 tried.insert(0, float(guide.ledger[first].values[0] / values[first][0]))
         factor = _drawn_at(guide, values, [id for id in plan if id != first], tried)
         scales[scale] = factor * usual
         values |= {id: values[id] * factor for id in plan}
-        if scale in written:
-            values[scale] = np.array([written[scale] / factor])
+        if scale in stated:
+            values[scale] = np.array([stated[scale] / factor])
     return Working(guide, values, scales)
 
 
-def _drawn_at(
-    guide: Guide, values: Mapping[str, np.ndarray], plan: Sequence[str], tried: Sequence[float]
-) -> float:
-    """The scale of a plan over the report's: of those `tried` the first that another confirms, else the best."""
-    possible = [one for one in tried if np.isfinite(one) and 1 / LARGEST_SCALE < one < LARGEST_SCALE]
-    first, *others = possible
-    if any(abs(first / other - 1) < CONFIRMED for other in others):
-        return first
-    return max(possible, key=lambda one: _agree(guide, values, plan, one))
-
-
-def _is_scale(row: Row) -> bool:
-    return row.role is Role.scale and row.kind != "segment"
-
-
-def _is_first(guide: Guide, id: str, scale: str) -> bool:
-    """Whether a length on paper is the one that a scale was made from: the drawn crank, pa."""
-    ledger = guide.ledger
-    if scale == "mu.l":
-        return is_chosen_length(ledger, ledger[id])
-    definition = ledger[id].definition
-    return isinstance(definition, Ref) and ledger[definition.id].definition is None
-
-
-def scale_of(guide: Guide, id: str) -> str:
-    """The scale that a length on paper is drawn at; "" for what is no such length."""
-    if guide.ledger[id].kind != "segment":
-        return ""
-    first, _, rest = id.partition(".")
-    if first == "seg":
-        plan = rest.partition(".")[0]
-        for scale in (f"mu.{plan}", f"mu.R{plan}"):
-            if scale in guide.ledger:
-                return scale
-    # Arms on Zhukovsky's lever are measured on the velocity plan.
-    return "mu.v" if first == "h" and id.endswith(".p") else "mu.l"
-
-
-def _agree(guide: Guide, values: Mapping[str, np.ndarray], plan: Sequence[str], factor: float) -> int:
-    """How many lengths of a plan are right when they are read at `factor` times the report's scale."""
-    return sum(
-        int((np.abs(np.abs(values[id]) * factor - np.abs(guide.ledger[id].values)) <= guide.bands[id]).sum())
-        for id in plan
-    )
-
-
 def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:
-    """A row's values in SI; those of the first turn hold for every turn where all turns are alike."""
+    """A row's values in SI; those of the first turn hold for every turn where all turns are the same."""
     column = np.full(len(row.values), np.nan)
     scale = guide.ledger[row.id].how.scale
     for position in row.positions:
@@ -179,3 +228,29 @@ def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:
         places = range(position - 1, len(column), guide.count) if guide.repeats(row) else [row.at(position)]
         column[list(places)] = given.value * scale
     return column
+
+
+def _makes_scale(guide: Guide, id: str, scale: str) -> bool:
+    """Whether a length on paper is the one that a scale was made from: the drawn crank, pa."""
+    ledger = guide.ledger
+    if scale == "mu.l":
+        return bands.is_chosen_length(ledger, ledger[id])
+    definition = ledger[id].definition
+    return isinstance(definition, Ref) and ledger[definition.id].definition is None
+
+
+def _drawn_at(guide: Guide, values: Values, plan: Sequence[str], tried: Sequence[float]) -> float:
+    """The scale of a plan over the report's: of those `tried` the first that another confirms, else the best."""
+
+    def right(factor: float) -> int:
+        """How many lengths of the plan are right at that scale."""
+        return sum(
+            int((np.abs(np.abs(values[id]) * factor - np.abs(guide.ledger[id].values)) <= guide.bands[id]).sum())
+            for id in plan
+        )
+
+    possible = [one for one in tried if np.isfinite(one) and 1 / LARGEST_SCALE < one < LARGEST_SCALE]
+    first, *others = possible
+    if any(abs(first / other - 1) < CONFIRMED for other in others):
+        return first
+    return max(possible, key=right)

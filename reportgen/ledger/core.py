@@ -67,6 +67,11 @@ class Ledger:
         """The signed angular velocities and accelerations by their sizes: omega.2 → turn.omega.2."""
         return {family.of: id for id, family in self.families.items() if family.is_signed_rotation}
 
+    def size_of(self, id: str) -> str:
+        """The id of a signed rotation's size; any other quantity is its own size."""
+        family = self.families[id]
+        return family.of if family.is_signed_rotation else id
+
     def __contains__(self, id: str) -> bool:
         return id in self.families
 

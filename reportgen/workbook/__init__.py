@@ -1,10 +1,10 @@
-"""Tables in and out: CSV and XLSX become located cells, and are written so that no text comes alive.
+"""Tables in and out: CSV and XLSX become located cells, and are written so that no text becomes a formula.
 
 `read` takes either; `write_csv` and `write_xlsx` give bytes that depend on their content alone.
 """
 
 from reportgen.workbook.cells import Cell, Page
-from reportgen.workbook.files import read
+from reportgen.workbook.reading import read
 from reportgen.workbook.writing import Book, Entry, Sheet, write_csv, write_xlsx
 
 __all__ = ["Book", "Cell", "Entry", "Page", "Sheet", "read", "write_csv", "write_xlsx"]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -44,7 +43,7 @@ class Cell:
 
     @property
     def blank(self) -> bool:
-        return self.value is None and self.kind == "empty"
+        return self.kind == "empty"
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,9 +58,19 @@ class Page:
 class RefusedError(Exception):
     """A file that is not read any further; carries the `Fault`."""
 
-    def __init__(self, code: str, mark: Mark, arguments: Mapping[str, str] | None = None) -> None:
+    def __init__(self, code: str, mark: Mark, **arguments: str) -> None:
         super().__init__(code)
-        self.fault = Fault(code, mark, arguments or {})
+        self.fault = Fault(code, mark, arguments)
+
+
+def too_large(mark: Mark) -> RefusedError:
+    return RefusedError(
+        "table-too-large", mark, rows=str(MOST_ROWS), columns=str(MOST_COLUMNS), cells=str(MOST_CELLS)
+    )
+
+
+def too_long(mark: Mark) -> RefusedError:
+    return RefusedError("text-too-long", mark, largest=str(LONGEST_CELL))
 
 
 def number_text(value: float) -> str:

@@ -1,7 +1,8 @@
-"""The zip package of an XLSX file: what is in it is judged before any of it is unpacked.
+"""The zip package of an XLSX file, judged before openpyxl sees any of it.
 
 Refused are packages that are encrypted, that hold macros or links to other files, that unpack to more than
-they should, and parts of XML with a document type, which alone can declare entities.
+they should, and parts of XML with a document type, which alone can declare entities.  `measure` refuses parts
+of which openpyxl would have to hold too much in memory.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from typing import Any
 from xml.parsers import expat
 
 from reportgen.errors import Mark
-from reportgen.workbook.cells import RefusedError
+from reportgen.workbook.cells import LONGEST_CELL, RefusedError, too_long
 
 MOST_PARTS = 2_000
 MOST_UNPACKED = 60_000_000
@@ -29,6 +30,12 @@ MOST_ELEMENTS = 100_000
 """Elements of a part that lists other parts."""
 CONTENT_TYPES = "[Content_Types].xml"
 CHUNK = 1 << 16
+MOST_HELD = 1 << 18
+"""Elements and attributes held at once; the longest row there can be, of cells with nothing but a style, has 50 000."""
+MOST_GROUPS = 1 << 20
+"""Rows of a sheet, strings of a table; no sheet can have more rows."""
+MOST_TRANSLATED = 20_000_000
+"""Characters of all formulas that take the text of a shared one, as if each were as long as the longest shared."""
 
 _OLD = b"\xd0\xcf\x11\xe0"
 _ENCRYPTED = "EncryptedPackage".encode("utf-16-le")
@@ -73,7 +80,7 @@ class Package:
         return name in self._parts
 
     def refused(self, code: str, **arguments: str) -> RefusedError:
-        return RefusedError(code, self.mark, arguments)
+        return RefusedError(code, self.mark, **arguments)
 
     def bomb(self) -> RefusedError:
         return self.refused("sheet-bomb", largest=str(MOST_UNPACKED // 1_000_000))
@@ -202,3 +209,74 @@ class Package:
 
 def _local(name: str) -> str:
     return name.rpartition(" ")[2]
+
+
+# --- how much a part holds ------------------------------------------------------------------------
+# openpyxl builds the tree of a part and lets go of each row of a sheet and each shared string once it is
+# read: its memory grows with the largest of them and with all that stands outside.
+
+_MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+_GROUPS = frozenset({f"{_MAIN} row", f"{_MAIN} si"})
+_FORMULA = f"{_MAIN} f"
+_PLACE = frozenset({"r", "spans"})
+
+
+def measure(package: Package, name: str) -> tuple[int, int]:
+    """The numbers of cells (elements right inside rows) and of formulas in a part.
+
+    Raises `RefusedError` if it is damaged or has more in it than can be held.
+    """
+    depth = held = outside = groups = cells = formulas = dependents = 0
+
+    def start(tag: str, attributes: Attributes) -> None:
+        """`depth` is 1 right inside a row or a string, 0 outside of all; `outside` is held whatever is let go."""
+        nonlocal depth, held, outside, groups, cells, formulas, dependents
+        if depth:
+            depth += 1
+            cells += depth == 2
+        elif tag in _GROUPS:
+            # openpyxl keeps what else is said of a row, such as its height.
+            depth, groups, outside = 1, groups + 1, held + (not attributes.keys() <= _PLACE)
+        held += 1 + len(attributes)
+        if tag == _FORMULA:
+            formulas += 1
+            dependents += attributes.get("t") == "shared"
+        if held > MOST_HELD or groups > MOST_GROUPS:
+            raise package.bomb()
+
+    def end(_: str) -> None:
+        nonlocal depth, held
+        if depth:
+            depth -= 1
+            if not depth:
+                held = outside
+
+    package.walk(name, start, end)
+    if dependents and dependents * _longest_shared(package, name) > MOST_TRANSLATED:
+        raise package.bomb()
+    return cells, formulas
+
+
+def _longest_shared(package: Package, name: str) -> int:
+    """The most characters in a shared formula; raises `RefusedError` if no cell could hold them."""
+    shared = False
+    length = longest = 0
+
+    def start(tag: str, attributes: Attributes) -> None:
+        nonlocal shared, length
+        shared, length = tag == _FORMULA and attributes.get("t") == "shared", 0
+
+    def end(_: str) -> None:
+        nonlocal shared
+        shared = False
+
+    def text(data: str) -> None:
+        nonlocal length, longest
+        if shared:
+            length += len(data)
+            longest = max(longest, length)
+            if length > LONGEST_CELL:
+                raise too_long(package.mark)
+
+    package.walk(name, start, end, text)
+    return longest

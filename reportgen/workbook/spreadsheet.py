@@ -10,9 +10,9 @@ import re
 import unicodedata
 import warnings
 import zipfile
-from collections.abc import Iterator
-from contextlib import closing, contextmanager, redirect_stdout
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import closing, redirect_stdout
+from dataclasses import dataclass
 from itertools import tee
 from typing import TYPE_CHECKING, Any
 
@@ -26,9 +26,10 @@ from reportgen.workbook.cells import (
     CellKind,
     Page,
     RefusedError,
+    too_large,
+    too_long,
 )
-from reportgen.workbook.extent import MOST_GROUPS, measure
-from reportgen.workbook.package import CONTENT_TYPES, Package
+from reportgen.workbook.package import CONTENT_TYPES, MOST_GROUPS, Package, measure
 
 if TYPE_CHECKING:
     from openpyxl import Workbook
@@ -36,66 +37,34 @@ if TYPE_CHECKING:
 MOST_SHEETS = 100
 _ESCAPE = re.compile(r"_x([0-9A-Fa-f]{4})_")
 
+Row = tuple[Any, ...]
+"""The cells of a row as openpyxl gives them."""
+
 
 def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
     """The sheets of a workbook in their order; raises `RefusedError`."""
-    parts = _parts(Package(data, file))
-    copy = parts.copy()
-    with warnings.catch_warnings(), redirect_stdout(io.StringIO()), _damage(Mark(file)):
+    copy, counts, formulas = _judged(Package(data, file))
+    with warnings.catch_warnings(), redirect_stdout(io.StringIO()):
         # openpyxl warns of, and even prints, what it leaves out: looks and rules, but no value of a cell.
         warnings.simplefilter("ignore")
-        with closing(_load(copy, stored=True)) as values:
-            if len(values.worksheets) != len(parts.cells):
-                raise RefusedError("sheet-damaged", Mark(file))
-            if not parts.formulas:
-                return _pages(values, None, parts, file)
-            with closing(_load(copy, stored=False)) as formulas:
-                return _pages(values, formulas, parts, file)
+        try:
+            with closing(_load(copy, stored=True)) as values:
+                if not formulas:
+                    return _pages(values, None, counts, file)
+                with closing(_load(copy, stored=False)) as texts:
+                    return _pages(values, texts, counts, file)
+        except RefusedError:
+            raise
+        except Exception:
+            # openpyxl has no exception of its own for a damaged workbook.
+            raise RefusedError("sheet-damaged", Mark(file)) from None
 
 
-def _load(copy: bytes, *, stored: bool) -> Workbook:
-    """The workbook with the stored results of its formulas, or with their texts."""
-    from openpyxl import load_workbook
+def _judged(package: Package) -> tuple[bytes, list[int], bool]:
+    """A copy with the parts that openpyxl is to read; the number of cells of each sheet; whether any is a formula.
 
-    return load_workbook(io.BytesIO(copy), read_only=True, data_only=stored, keep_links=False)
-
-
-@contextmanager
-def _damage(mark: Mark) -> Iterator[None]:
-    """Whatever goes wrong inside is damage of the workbook: openpyxl has no exception of its own for that."""
-    try:
-        yield
-    except RefusedError:
-        raise
-    except Exception:
-        raise RefusedError("sheet-damaged", mark) from None
-
-
-@dataclass(frozen=True, slots=True)
-class _Parts:
-    """The parts openpyxl is to read; for each sheet of cells, how many it has."""
-
-    package: Package
-    names: tuple[str, ...]
-    strings: str
-    cells: tuple[int, ...]
-    formulas: bool
-
-    def copy(self) -> bytes:
-        stream = io.BytesIO()
-        with zipfile.ZipFile(stream, "w") as made:
-            for name in self.names:
-                content = self.package.content(name)
-                if name == self.strings:
-                    # openpyxl drops these letters, which tell seven characters written _x005F_x000D_ from the
-                    # carriage return written _x000D_: so they are given in a way that leaves them there.
-                    content = content.replace(b"x005F_", b"x005Fx005F__")
-                made.writestr(name, content)
-        return stream.getvalue()
-
-
-def _parts(package: Package) -> _Parts:
-    """Raises `RefusedError` where a sheet cannot be found or a part has too much in it."""
+    Raises `RefusedError` where a sheet cannot be found or a part has too much in it.
+    """
     root = next((r.target for r in package.relations("_rels/.rels").values() if r.kind == "officeDocument"), "")
     workbook = root.lstrip("/")
     if workbook not in package:
@@ -109,7 +78,7 @@ def _parts(package: Package) -> _Parts:
     }
     listed = [attributes.get("id", "") for tag, attributes in package.elements(workbook) if tag == "sheet"]
     if len(listed) > MOST_SHEETS:
-        raise package.refused("table-too-large", **_limits())
+        raise too_large(package.mark)
     found = {places[id] for id in listed if places.get(id, "") in package}
     if len(found) < len(listed):
         raise package.refused("sheet-damaged")
@@ -118,81 +87,104 @@ def _parts(package: Package) -> _Parts:
         raise package.refused("sheet-no-zip")
     tables = {one.kind: places[id] for id, one in relations.items() if one.kind in ("styles", "sharedStrings")}
     others = [CONTENT_TYPES, workbook, beside, *(place for place in tables.values() if place in package)]
-    for place in others:
-        measure(package, place)
-    extents = [measure(package, place) for place in sheets]
-    return _Parts(
-        package,
-        tuple(dict.fromkeys([*others, *sheets])),
-        tables.get("sharedStrings", ""),
-        tuple(extent.cells for extent in extents),
-        any(extent.formulas for extent in extents),
-    )
+    measured = {place: measure(package, place) for place in (*others, *sheets)}
+    copy = _copy(package, measured, tables.get("sharedStrings", ""))
+    return copy, [measured[sheet][0] for sheet in sheets], any(measured[sheet][1] for sheet in sheets)
 
 
-def _limits() -> dict[str, str]:
-    return {"rows": str(MOST_ROWS), "columns": str(MOST_COLUMNS), "cells": str(MOST_CELLS)}
+def _copy(package: Package, names: Iterable[str], strings: str) -> bytes:
+    """A package of these parts; `strings` is the one of the shared strings."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as made:
+        for name in names:
+            content = package.content(name)
+            if name == strings:
+                # openpyxl drops these letters, which distinguish the seven characters written _x005F_x000D_ from the
+                # carriage return written _x000D_: so they are given in a way that leaves them there.
+                content = content.replace(b"x005F_", b"x005Fx005F__")
+            made.writestr(name, content)
+    return stream.getvalue()
 
 
-def _pages(values: Workbook, formulas: Workbook | None, parts: _Parts, file: str) -> tuple[Page, ...]:
+def _load(copy: bytes, *, stored: bool) -> Workbook:
+    """The workbook with the stored results of its formulas, or with their texts."""
+    from openpyxl import load_workbook
+
+    return load_workbook(io.BytesIO(copy), read_only=True, data_only=stored, keep_links=False)
+
+
+def _pages(values: Workbook, formulas: Workbook | None, counts: Sequence[int], file: str) -> tuple[Page, ...]:
+    if len(values.worksheets) != len(counts):
+        raise RefusedError("sheet-damaged", Mark(file))
     pages = []
-    for number, (sheet, count) in enumerate(zip(values.worksheets, parts.cells, strict=True), start=1):
+    for number, (sheet, count) in enumerate(zip(values.worksheets, counts, strict=True), start=1):
         sheet.reset_dimensions()
         if formulas is None:
-            written, shown = tee(sheet.rows)
+            typed, stored = tee(sheet.rows)
         else:
             same = formulas.worksheets[number - 1]
             same.reset_dimensions()
-            written, shown = same.rows, sheet.rows
-        rows = _Sheet(file, sheet.title, number).rows(zip(written, shown, strict=True), count)
+            typed, stored = same.rows, sheet.rows
+        rows = _Sheet(file, sheet.title, number).rows(zip(typed, stored, strict=True), count)
         pages.append(Page(sheet.title, rows, sheet.sheet_state != "visible"))
     return tuple(pages)
 
 
-Row = tuple[Any, ...]
-
-
-@dataclass
+@dataclass(frozen=True, slots=True)
 class _Sheet:
-    """Collects the cells of one sheet by row and column."""
+    """One sheet while it is read: its file, its name and its number among the sheets."""
 
     file: str
     name: str
     number: int
-    cells: dict[int, dict[int, Cell]] = field(default_factory=dict)
 
     def rows(self, read: Iterator[tuple[Row, Row]], count: int) -> tuple[tuple[Cell, ...], ...]:
         """All rows from the first on, as long as their last cell that holds something.
 
-        `read` gives each row with its formulas and with its values; `count` cells must be among them.
+        `read` gives each row twice, with formulas as typed and with stored values; `count` cells must be among them.
         """
-        found = self._collect(read)
-        last = max(self.cells, default=0)
+        cells, found = self._collected(read)
         if found != count:
             # openpyxl leaves out rows and cells that are not in order.
             raise RefusedError("sheet-damaged", self._mark(1, 1))
-        if sum(max(row) for row in self.cells.values()) > MOST_CELLS:
-            raise RefusedError("table-too-large", self._mark(last, 1), _limits())
-        return tuple(self._filled(row) for row in range(1, last + 1))
+        lengths = {row: max(columns) for row, columns in cells.items()}
+        last = max(cells, default=0)
+        if sum(lengths.values()) > MOST_CELLS:
+            raise too_large(self._mark(last, 1))
+        return tuple(
+            tuple(
+                cells[row].get(column) or Cell(None, self._mark(row, column), "empty")
+                for column in range(1, lengths.get(row, 0) + 1)
+            )
+            for row in range(1, last + 1)
+        )
 
-    def _collect(self, read: Iterator[tuple[Row, Row]]) -> int:
-        """Keep what is not empty; the number of all cells met."""
+    def _collected(self, read: Iterator[tuple[Row, Row]]) -> tuple[dict[int, dict[int, Cell]], int]:
+        """The cells that hold something, by row and column, and the number of all cells met."""
         from openpyxl.cell.read_only import ReadOnlyCell
 
+        cells: dict[int, dict[int, Cell]] = {}
         found = 0
         for number, pair in enumerate(self._whole(read), start=1):
             if number > MOST_GROUPS:
                 raise RefusedError("sheet-damaged", self._mark(number, 1))
-            for written, shown in zip(*pair, strict=True):
-                if isinstance(written, ReadOnlyCell):
-                    found += 1
-                    cell = _cell(written, shown, self._mark(written.row, written.column))
-                    if not cell.blank:
-                        self._keep(cell)
-        return found
+            for typed, stored in zip(*pair, strict=True):
+                if not isinstance(typed, ReadOnlyCell):
+                    continue
+                found += 1
+                row, column = typed.row, typed.column
+                cell = _cell(typed, stored, self._mark(row, column))
+                if cell.blank:
+                    continue
+                if row > MOST_ROWS or column > MOST_COLUMNS:
+                    raise too_large(cell.mark)
+                if isinstance(cell.value, str) and len(cell.value) > LONGEST_CELL:
+                    raise too_long(cell.mark)
+                cells.setdefault(row, {})[column] = cell
+        return cells, found
 
     def _whole(self, read: Iterator[tuple[Row, Row]]) -> Iterator[tuple[Row, Row]]:
-        """The rows up to one that openpyxl cannot read; what is told is the row after the last that was whole."""
+        """The rows up to one that openpyxl cannot read, which is refused as the row after the last whole one."""
         last = 0
         try:
             for pair in read:
@@ -201,31 +193,16 @@ class _Sheet:
         except Exception:
             raise RefusedError("sheet-damaged", self._mark(last + 1, 1)) from None
 
-    def _filled(self, row: int) -> tuple[Cell, ...]:
-        cells = self.cells.get(row, {})
-        return tuple(
-            cells.get(column) or Cell(None, self._mark(row, column), "empty")
-            for column in range(1, max(cells, default=0) + 1)
-        )
-
     def _mark(self, row: int, column: int) -> CellMark:
         return CellMark(self.file, row, column, self.name, self.number)
 
-    def _keep(self, cell: Cell) -> None:
-        row, column = cell.mark.line, cell.mark.column
-        if row > MOST_ROWS or column > MOST_COLUMNS or len(self.cells) >= MOST_CELLS:
-            raise RefusedError("table-too-large", cell.mark, _limits())
-        if isinstance(cell.value, str) and len(cell.value) > LONGEST_CELL:
-            raise RefusedError("text-too-long", cell.mark, {"largest": str(LONGEST_CELL)})
-        self.cells.setdefault(row, {})[column] = cell
 
-
-def _cell(written: Any, shown: Any, mark: CellMark) -> Cell:
-    value, kind = _value(shown.value, shown.data_type, mark)
-    if written.data_type != "f":
+def _cell(typed: Any, stored: Any, mark: CellMark) -> Cell:
+    value, kind = _value(stored.value, stored.data_type, mark)
+    if typed.data_type != "f":
         return Cell(value, mark, kind)
     # The formula of an array is an object with its text, that of a table of data one without.
-    text = written.value if isinstance(written.value, str) else getattr(written.value, "text", "=")
+    text = typed.value if isinstance(typed.value, str) else getattr(typed.value, "text", "=")
     return Cell(value, mark, "formula", text)
 
 

@@ -26,8 +26,8 @@ Style = Literal[
     "", "title", "head", "bold", "note", "input", "unasked", "good", "linked", "warn", "bad", "doubt"
 ]
 
-MOMENT = datetime.datetime(2000, 1, 1)
-"""What every file says of when it was made, so that its bytes depend on its content alone."""
+MOMENT = (2000, 1, 1, 0, 0, 0)
+"""When every file says that it was made, so that its bytes depend on its content alone."""
 FILLS = {
     "head": "D9E2EC",
     "input": "FFF9DB",
@@ -108,7 +108,7 @@ def write_xlsx(book: Book) -> bytes:
     made = Workbook()
     made.remove(made.worksheets[0])
     made.properties.creator, made.properties.title = "reportgen", _clean(book.title) or None
-    made.properties.created = MOMENT
+    made.properties.created = datetime.datetime(*MOMENT)
     taken: set[str] = set()
     for sheet in book.sheets:
         _fill(made.create_sheet(_sheet_name(sheet.name, taken)), sheet)
@@ -209,14 +209,13 @@ def _clean(text: str) -> str:
 def _timeless(data: bytes) -> bytes:
     """The package again, with one fixed moment in place of when it was written."""
     stream = io.BytesIO()
-    moment = MOMENT.timetuple()[:6]
-    stamp = f"{MOMENT.isoformat()}Z".encode()
     with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as new:
-        for info in old.infolist():
-            content = old.read(info)
-            if info.filename == "docProps/core.xml":
+        for name in old.namelist():
+            content = old.read(name)
+            if name == "docProps/core.xml":
+                stamp = f"{datetime.datetime(*MOMENT).isoformat()}Z".encode()
                 content = re.sub(rb"(<dcterms:modified[^>]*>)[^<]*", rb"\g<1>" + stamp, content)
-            part = zipfile.ZipInfo(info.filename, (moment[0], moment[1], moment[2], moment[3], moment[4], moment[5]))
+            part = zipfile.ZipInfo(name, MOMENT)
             part.compress_type = zipfile.ZIP_DEFLATED
             part.external_attr = 0o600 << 16
             new.writestr(part, content)

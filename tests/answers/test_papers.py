@@ -7,11 +7,11 @@ from collections.abc import Callable
 import pytest
 
 from reportgen import api
-from reportgen.answers.key_document import key_document
+from reportgen.answers.key_files import key_document
 from reportgen.document.plain import text_of
 from reportgen.document.tree import Document
-from reportgen.grading.class_page import class_document
-from reportgen.grading.feedback_document import feedback_document
+from reportgen.grading.feedback import feedback_document
+from reportgen.grading.grades import class_document
 from reportgen.notation.numbers import Language
 from tests.answers.test_sheet import handout
 from tests.grading.test_feedback import marking

@@ -12,9 +12,8 @@ import pytest
 from openpyxl import load_workbook
 
 from reportgen.answers.key import Key, Role, make_key
-from reportgen.answers.sheet import answer_blocks, answer_book, answer_rows, number_format
-from reportgen.answers.task import task
-from reportgen.case import open_case
+from reportgen.answers.paper import answer_tables, task
+from reportgen.answers.sheet import answer_book, number_format
 from reportgen.document.plain import plain, text_of
 from reportgen.document.tree import Document, Table
 from reportgen.notation.numbers import Language, write
@@ -60,21 +59,6 @@ def test_the_sheet_names_assignment_and_student_and_is_the_same_bytes_each_time(
     assert rows["Student"].data_type == "s"
 
 
-def test_the_csv_has_the_rows_of_the_workbook(tmp_path: Path) -> None:
-    key = small_key("en")
-    page = {(id, head): value for id, head, value, _ in cells(key, tmp_path) if id}
-    rows = answer_rows(key)
-    start = next(number for number, row in enumerate(rows) if row and row[0] == "id")
-    assert rows[0] == ("Assignment", "crank-07")
-    found = {
-        (str(row[0]), str(head)): value or None
-        for row in rows[start + 1 :]
-        for head, value in zip(rows[start], row, strict=False)
-        if row[0]
-    }
-    assert found == {place: value or None for place, value in page.items()}
-
-
 def test_a_format_shows_the_decimals_of_the_report() -> None:
     formats = {row.id: number_format(row) for row in small_key().rows}
     assert formats["v.B"] == "0.00"
@@ -85,7 +69,7 @@ def test_rows_that_share_a_symbol_are_told_apart_on_paper() -> None:
     key = small_key("en")
     twin = next(row for row in key.rows if row.id == "v.B")
     both = replace(key, rows=(*key.rows[:5], replace(twin, id="f.v.B")))
-    texts = [plain(cell.inlines, "en") for table in answer_blocks(both) for row in table.rows for cell in row]
+    texts = [plain(cell.inlines, "en") for table in answer_tables(both) for row in table.rows for cell in row]
     assert [text for text in texts if text.startswith("v_B")] == ["v_B v.B", "v_B f.v.B"]
 
 
@@ -95,14 +79,14 @@ def test_many_positions_are_split_over_tables_that_fit_the_page() -> None:
     labels = tuple(map(str, range(1, 21)))
     row = replace(wide, values=np.ones(20), positions=tuple(range(1, 21)), sense=("",) * 20)
     many = Key("x", "slider-crank", "", "en", {}, labels, (row,))
-    tables = list(answer_blocks(many))
+    tables = list(answer_tables(many))
     heads = [plain(cell.inlines, "en") for table in tables for cell in table.head[0]]
     assert [head for head in heads if head.isdigit()] == list(labels)
     assert all(sum(column.width for column in table.columns) < 160.001 for table in tables)
 
 
 def test_paper_does_not_tell_where_a_direction_does_not_exist() -> None:
-    tables = list(answer_blocks(small_key("en")))
+    tables = list(answer_tables(small_key("en")))
     (line,) = [row for table in tables for row in table.rows if plain(row[0].inlines, "en") == "α_vB"]
     assert all(cell.inlines == () for cell in line[2:])
 

@@ -11,7 +11,7 @@ import sys
 import numpy as np
 
 from tests.grading import students
-from tests.grading.test_mistakes import MACHINES, WORKED, Rates, sites
+from tests.grading.test_mistakes import MACHINES, WORKED, Rates, possible_mistakes
 
 
 def main(variants: int) -> None:
@@ -20,8 +20,8 @@ def main(variants: int) -> None:
         rates = Rates()
         for _ in range(variants):
             guide = students.open_guide(students.varied(name, rng, WORKED))
-            for site in sites(guide):
-                rates.inject(guide, site, rng)
+            for mistake in possible_mistakes(guide):
+                rates.inject(guide, mistake, rng)
         print(f"{name}, {variants} random variants\n{rates}\n", flush=True)
 
 

@@ -16,13 +16,14 @@ import numpy as np
 
 from reportgen import api
 from reportgen.answers.key import Key, Part
-from reportgen.answers.sheet import answer_rows, asked_positions
+from reportgen.answers.sheet import asked_positions
 from reportgen.batch.variants import make_variants
-from reportgen.grading.guide import Guide, open_guide
-from reportgen.grading.marks import Given, Place, Submission
-from reportgen.grading.mistakes import Site, sites_in
+from reportgen.grading.marks import Answer, Place, Submission
+from reportgen.grading.mistakes import mistakes_in
+from reportgen.grading.working import Guide, open_guide
 from reportgen.workbook import write_csv, write_xlsx
 from tests.grading import students
+from tests.grading.keys import csv_rows
 
 DEMO = students.ASSIGNMENTS / "class-demo"
 SHEETS = DEMO / "sheets"
@@ -44,7 +45,7 @@ def half_done(guide: Guide, sheet: Submission) -> Submission:
 def with_units(guide: Guide, sheet: Submission) -> Submission:
     """Units typed into the cells, centimetres where the sheet asks for millimetres, decimal commas."""
 
-    def typed(place: Place, given: Given) -> Given:
+    def typed(place: Place, given: Answer) -> Answer:
         unit = guide.rows[place[0]].unit
         factor, shown = (0.1, "cm") if unit == "mm" else (1.0, unit)
         return replace(given, text=f"{given.value * factor:.6g} {shown}".replace(".", ",").strip())
@@ -82,16 +83,16 @@ COPIED = {"K225520103023": "K225520103001"}
 """Who handed in whose values."""
 
 
-def filled(guide: Guide, id: str, mistake: str, story: Story, seed: int) -> Submission:
+def filled(guide: Guide, id: str, name: str, story: Story, seed: int) -> Submission:
     """A student's sheet as it was worked out and written down."""
-    site = next(site for site in sites_in(guide, id, {}) if site.mistake == mistake) if mistake else Site("", "", {})
-    world = students.worked_out(guide, site, np.random.default_rng(seed))
+    mistake = next(one for one in mistakes_in(guide, id, {}) if one.name == name) if name else None
+    world = students.worked_out(guide, mistake, np.random.default_rng(seed))
     return story(guide, students.written(guide, world))
 
 
 def csv(key: Key, sheet: Submission) -> bytes:
     """The sheet as CSV, as a student types it."""
-    rows = [list(row) for row in answer_rows(key)]
+    rows = csv_rows(key)
     columns = _columns(key)
     for row in rows:
         for column, position in columns.items():

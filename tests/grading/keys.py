@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from reportgen.answers.key import Key, Part, Role, Row
+from reportgen.answers.sheet import HEAD, answer_book
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import Language
 
@@ -67,3 +68,9 @@ def small_key(language: Language = "vi", id: str = "crank-07", student: str = "N
         ),
     )
     return Key(id, "slider-crank", "7", language, {"name": student, "id": "K7"} if student else {}, LABELS, rows)
+
+
+def csv_rows(key: Key) -> list[list[str | float | None]]:
+    """The empty sheet as rows of CSV: what names it, a blank line, then the answers from their head on."""
+    answers, info = ([[entry.value for entry in row] for row in sheet.rows] for sheet in answer_book(key).sheets)
+    return [*info, [], *answers[HEAD - 1 :]]

@@ -16,13 +16,13 @@ import yaml
 
 from reportgen import api
 from reportgen.answers import bands
-from reportgen.answers.key import Key, Row
-from reportgen.answers.sheet import asked_positions, grid, info_page, page, rows_shown, words_of
+from reportgen.answers.key import Key, Row, words_of
+from reportgen.answers.sheet import asked_positions, grid, info_page, page, rows_shown
 from reportgen.assignment import Assignment
 from reportgen.errors import AssignmentError, Mark
-from reportgen.grading.guide import Guide, open_guide
-from reportgen.grading.marks import Given, Submission
-from reportgen.grading.mistakes import Site as Site
+from reportgen.grading.marks import Answer, Submission
+from reportgen.grading.mistakes import Mistake
+from reportgen.grading.working import Guide, open_guide
 from reportgen.ledger.following import follow
 from reportgen.workbook import Book, Entry
 
@@ -85,7 +85,7 @@ def sheet(guide: Guide, cell: Cell) -> Submission:
         for position in row.positions:
             value = cell(row, position, float(row.values[row.at(position)]))
             if value is not None:
-                values[(row.id, position)] = Given(value, str(value), Mark("sheet.csv"))
+                values[(row.id, position)] = Answer(value, str(value), Mark("sheet.csv"))
     return Submission(guide.key.id, "sheet.csv", values, {})
 
 
@@ -113,12 +113,13 @@ def written(guide: Guide, world: World) -> Submission:
     return sheet(guide, cell)
 
 
-def worked_out(guide: Guide, site: Site | None = None, drawn: np.random.Generator | None = None) -> World:
+def worked_out(guide: Guide, mistake: Mistake | None = None, drawn: np.random.Generator | None = None) -> World:
     """The ledger run through with a mistake, and with lengths measured off by up to 0.5 mm at each end."""
     errors = bands.measuring_errors(guide.ledger, bands.PAPER_ERROR) if drawn is not None else {}
     changes: dict[str, Any] = {}
-    for id in (*errors, *(site.changes if site else ())):
-        changes[id] = _change(errors.get(id), site.changes.get(id) if site else None, drawn)
+    made = mistake.changes if mistake else {}
+    for id in (*errors, *made):
+        changes[id] = _change(errors.get(id), made.get(id), drawn)
     values = follow(guide.ledger, changes)
     return {id: np.broadcast_to(values[id], family.values.shape) for id, family in guide.ledger.families.items()}
 

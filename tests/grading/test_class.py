@@ -9,17 +9,16 @@ from pathlib import Path
 import pymupdf
 import pytest
 
-from reportgen.answers.key import make_key
-from reportgen.answers.sheet import answer_rows
+from reportgen import products
 from reportgen.batch import assess
 from reportgen.batch.assess import Graded
 from reportgen.batch.variants import make_variants
-from reportgen.case import open_case
 from reportgen.grading.comparison import compare
-from reportgen.grading.misread import WRONG_DATUM
-from reportgen.grading.policy import Policy, read_policy
+from reportgen.grading.marks import Policy, read_policy
+from reportgen.grading.mistakes import WRONG_DATUM
 from reportgen.workbook import read, write_csv
 from tests.grading import demo
+from tests.grading.keys import csv_rows
 
 POLICY = read_policy(demo.DEMO / "policy.yaml")
 
@@ -37,7 +36,7 @@ def graded(assignments: Path) -> Graded:
 
 
 def test_each_students_slip_is_told(graded: Graded) -> None:
-    told = {marking.key.id: [(cell.id, cell.mistake) for cell in marking.firsts] for marking in graded.markings}
+    told = {marking.key.id: [(cell.id, cell.mistake) for cell in marking.first_errors] for marking in graded.markings}
     for id, (where, mistake, story) in demo.SLIPS.items():
         if story is not demo.nothing_but_zeros:
             assert told[id] == ([(where, mistake)] if mistake else []), id
@@ -165,7 +164,7 @@ def test_comparing_an_empty_or_right_sheet(assignments: Path, tmp_path: Path) ->
     lines, agrees = compare(file, demo.SHEETS / "K225520103001.xlsx", language="en")
     assert (agrees, len(lines)) == (True, 1)
     empty = tmp_path / "empty.csv"
-    empty.write_bytes(write_csv(answer_rows(make_key(open_case(file)))))
+    empty.write_bytes(write_csv(csv_rows(products.opened(file).key)))
     lines, agrees = compare(file, empty, language="en")
     assert agrees
     assert "still missing" in lines[0]

@@ -14,14 +14,18 @@ from reportgen.document.plain import text_of
 from reportgen.document.tree import Figure, Table
 from reportgen.errors import CellMark, Problem
 from reportgen.figures.scene import Label
-from reportgen.grading.class_page import class_document
-from reportgen.grading.feedback import FIRST, STYLES, feedback_book
-from reportgen.grading.feedback_document import feedback_document
-from reportgen.grading.grades import grade_rows
-from reportgen.grading.marks import Given, Marked, Marking, Submission, Verdict
-from reportgen.grading.misread import WRONG_DATUM
-from reportgen.grading.sentences import mistake_inlines, points_text
-from reportgen.grading.slips import CONVENTIONS
+from reportgen.grading.feedback import (
+    FIRST,
+    STYLES,
+    feedback_book,
+    feedback_document,
+    mistake_inlines,
+    points_text,
+)
+from reportgen.grading.grades import class_document, grade_rows
+from reportgen.grading.marks import Answer, Marked, Marking, Submission, Verdict
+from reportgen.grading.mistakes import WRONG_DATUM
+from reportgen.grading.naming import CONVENTIONS
 from reportgen.notation.numbers import Language
 from reportgen.words import load_words, search_path
 from reportgen.workbook import write_csv, write_xlsx
@@ -64,7 +68,7 @@ def marking(language: Language = "en", student: str = "Nguyễn Văn A") -> Mark
         cell("dir.v.B", 3, Verdict.right, 270.0, 270.0),
         cell("M.eq", 2, Verdict.wrong, 1e300, -1234.5, first=True),
     )
-    values = {(one.id, one.position): Given(one.given, "", at(1, 1)) for one in cells if one.given is not None}
+    values = {(one.id, one.position): Answer(one.given, "", at(1, 1)) for one in cells if one.given is not None}
     problems = {("v.B", 4): Problem("not-a-number", "“see page 3” is no number", at(11, 8))}
     return Marking(key, Submission(key.id, FILE, values, problems), cells, ("classmate",))
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from reportgen.answers.key import Key
-from reportgen.grading.guide import Guide
 from reportgen.grading.marking import mark
-from reportgen.grading.marks import Verdict
-from reportgen.grading.policy import Policy
+from reportgen.grading.marks import Policy, Verdict
+from reportgen.grading.mistakes import Mistake
+from reportgen.grading.working import Guide
 from tests.grading import students
 
 WORKED = (4, 12)
@@ -95,8 +95,8 @@ def test_constant_row(mine: Guide) -> None:
 
 def test_value_out_of_proportion(mine: Guide) -> None:
     """From a radius of 7.3 m everything would follow; nothing of it is earned."""
-    site = students.Site("", "R", {"R": lambda value, _: value * 0 + 7.3})
-    marking = mark(mine, students.written(mine, students.worked_out(mine, site)))
+    mistake = Mistake("", "R", {"R": lambda value, _: value * 0 + 7.3})
+    marking = mark(mine, students.written(mine, students.worked_out(mine, mistake)))
     assert "proportion" in marking.warnings
     assert all(cell.verdict is not Verdict.follows for cell in marking.cells)
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from reportgen.answers.key import Row
-from reportgen.grading.guide import open_guide
 from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking, Verdict
-from reportgen.grading.policy import Policy
+from reportgen.grading.marks import Marking, Policy, Verdict
+from reportgen.grading.mistakes import Mistake
+from reportgen.grading.working import open_guide
 from tests.grading import students
 
 KINDS = (
@@ -69,7 +69,7 @@ def slip(id: str, factor: float, name: str = TWIN, policy: Policy | None = None)
     """A sheet on which one value came out wrong, and everything after it was worked out from that."""
     guide = students.guide(name, (AT,))
     guide = guide if policy is None else replace(guide, policy=policy)
-    world = students.worked_out(guide, students.Site("", id, {id: lambda value, _: value * factor}))
+    world = students.worked_out(guide, Mistake("", id, {id: lambda value, _: value * factor}))
     return mark(guide, students.written(guide, world))
 
 
@@ -80,7 +80,7 @@ def test_wrong_value_costs_its_own_mark_once(id: str) -> None:
     position = 0 if (id, 0) in found else AT
     assert found.pop((id, position)) is Verdict.wrong
     assert marking.points == marking.out_of - 1
-    assert {cell.id for cell in marking.firsts} == {id}
+    assert {cell.id for cell in marking.first_errors} == {id}
     assert Verdict.follows in found.values()
 
 
@@ -95,9 +95,9 @@ def test_what_follows_is_named_as_following() -> None:
 def test_second_slip_costs_a_second_mark() -> None:
     guide = students.guide(TWIN, (AT,))
     changes = {"v.BA": lambda value, _: value * 1.4, "eps.2": lambda value, _: value * 1.6}
-    marking = mark(guide, students.written(guide, students.worked_out(guide, students.Site("", "", changes))))
+    marking = mark(guide, students.written(guide, students.worked_out(guide, Mistake("", "", changes))))
     assert marking.points == marking.out_of - 2
-    assert [cell.id for cell in marking.firsts] == ["v.BA"]
+    assert [cell.id for cell in marking.first_errors] == ["v.BA"]
 
 
 def test_policy_gives_a_share_for_following() -> None:
@@ -129,7 +129,7 @@ def test_blank_value_is_replaced_by_the_key() -> None:
 def test_follows_through_a_blank() -> None:
     """A wrong length ab, v_BA left out, ω₂ worked out from the wrong length: it follows."""
     guide = students.guide(TWIN, (AT,))
-    world = students.worked_out(guide, students.Site("", "", {"seg.v.ab": lambda value, _: value * 1.3}))
+    world = students.worked_out(guide, Mistake("", "", {"seg.v.ab": lambda value, _: value * 1.3}))
     filled = students.written(guide, world)
     values = {place: given for place, given in filled.values.items() if place[0] != "v.BA"}
     found = verdicts(mark(guide, replace(filled, values=values)))
@@ -155,7 +155,7 @@ def test_own_scales_are_the_students_choice(factor: float) -> None:
 def test_wrong_scale_is_a_wrong_value() -> None:
     """μ_v ten times too large with pa as drawn: μ_v is wrong, what is computed with it follows."""
     marking = slip("mu.v", 10.0)
-    assert [(cell.id, cell.mistake) for cell in marking.firsts] == [("mu.v", "thousands-mark")]
+    assert [(cell.id, cell.mistake) for cell in marking.first_errors] == [("mu.v", "thousands-mark")]
     assert marking.points == marking.out_of - 1
 
 
@@ -164,7 +164,7 @@ def test_kinematics_of_the_first_turn_serve_the_second() -> None:
     guide = students.guide(TWIN, (4, 12))
     assert guide.rows["a.S2"].positions == guide.rows["Pqt2"].positions == (4,)
     assert guide.rows["P3"].positions == guide.rows["R.12"].positions == (4, 12)
-    world = students.worked_out(guide, students.Site("", "", {"a.S2": lambda value, _: value * 1.4}))
+    world = students.worked_out(guide, Mistake("", "", {"a.S2": lambda value, _: value * 1.4}))
     found = verdicts(mark(guide, students.written(guide, world)))
     assert found[("a.S2", 4)] is Verdict.wrong
     assert found[("Pqt2", 4)] is found[("R.12", 4)] is found[("R.12", 12)] is Verdict.follows
@@ -193,7 +193,7 @@ def test_computed_band_holds_three_figures_through_the_chain() -> None:
         for id, family in guide.ledger.families.items()
         if not (family.hidden or family.is_plane or family.exact or family.definition is None)
     ]
-    world = students.worked_out(guide, students.Site("", "", dict.fromkeys(plain, rounding)))
+    world = students.worked_out(guide, Mistake("", "", dict.fromkeys(plain, rounding)))
     found = verdicts(mark(guide, students.written(guide, world)))
     counted = Counter(found.values())
     assert set(counted) <= {Verdict.right, Verdict.follows}

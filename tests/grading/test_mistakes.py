@@ -8,11 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
-from reportgen.grading.guide import Guide
 from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking
-from reportgen.grading.misread import WRONG_DATUM
-from reportgen.grading.mistakes import Site, sites_anywhere, sites_in
+from reportgen.grading.marks import Marking, Submission
+from reportgen.grading.mistakes import WRONG_DATUM, Mistake, general_mistakes, mistakes_in
+from reportgen.grading.working import Guide
 from tests.grading import students
 from tests.grading.students import NAMES, World
 
@@ -30,43 +29,43 @@ MACHINES = (
 WORKED = (2, 3, 5, 8)
 
 SAMPLE = 30
-"""Sites drawn for each variant beside one of each name; `python -m tests.bench.mistakes` takes all."""
+"""Mistakes drawn for each variant beside one of each name; `python -m tests.bench.mistakes` takes all."""
 
 
-def sites(guide: Guide) -> list[Site]:
+def possible_mistakes(guide: Guide) -> list[Mistake]:
     """Every mistake at every place where it can occur, once where two names mean one deed.
 
     The sign of a rotation's size is the direction of the rotation.
     """
-    found: list[Site] = []
+    found: list[Mistake] = []
     for id, family in guide.ledger.families.items():
         read = family.definition is None and len(family.values) > 1
         if family.hidden or family.is_plane or (family.definition is None and not read):
             continue
         twin = f"turn.{id}" in guide.ledger
-        found += [site for site in sites_in(guide, id, {}) if not (twin and site.mistake == "sign-reversed")]
-    return [*found, *sites_anywhere(guide)]
+        found += [one for one in mistakes_in(guide, id, {}) if not (twin and one.name == "sign-reversed")]
+    return [*found, *general_mistakes(guide)]
 
 
-def is_found(guide: Guide, site: Site, world: World, first: students.Effect, marking: Marking) -> bool:
+def is_found(guide: Guide, mistake: Mistake, world: World, first: students.Effect, marking: Marking) -> bool:
     """Whether the first error is told where it shows, under its name or under one that gives the same values."""
-    hits = [cell for cell in marking.firsts if cell.id == first.id]
-    if any(cell.mistake == site.mistake for cell in hits):
+    hits = [cell for cell in marking.first_errors if cell.id == first.id]
+    if any(cell.mistake == mistake.name for cell in hits):
         return True
     row = guide.rows[first.id]
     named = {(cell.mistake, cell.where) for cell in hits if cell.mistake}
-    alike = [other for other in sites(guide) if (other.mistake, other.where) in named]
+    same = [other for other in possible_mistakes(guide) if (other.name, other.where) in named]
     return any(
         all(students.off(guide, row, students.worked_out(guide, other), k, world) <= 1 for k in first.positions)
-        for other in alike
+        for other in same
     )
 
 
-def shows(guide: Guide, site: Site, first: students.Effect) -> bool:
+def shows(guide: Guide, mistake: Mistake, first: students.Effect) -> bool:
     """Whether a mistake shows where it is made, if that is asked for at all."""
     judged = {row.id for row in guide.judged}
-    at = next((id for id in (site.where, f"turn.{site.where}") if id in judged), None)
-    return len(site.changes) > 1 or at is None or at == first.id or site.mistake == "no-coriolis"
+    at = next((id for id in (mistake.where, f"turn.{mistake.where}") if id in judged), None)
+    return len(mistake.changes) > 1 or at is None or at == first.id or mistake.name == "no-coriolis"
 
 
 @dataclass
@@ -76,15 +75,15 @@ class Rates:
     made: Counter[str] = field(default_factory=Counter)
     found: Counter[str] = field(default_factory=Counter)
 
-    def inject(self, guide: Guide, site: Site, rng: np.random.Generator) -> None:
+    def inject(self, guide: Guide, mistake: Mistake, rng: np.random.Generator) -> None:
         """One student with one mistake, drawing by hand; a mistake that shows nowhere is none."""
-        clean = students.worked_out(guide, site)
+        clean = students.worked_out(guide, mistake)
         first = students.effect(guide, clean)
-        if first is None or not shows(guide, site, first):
+        if first is None or not shows(guide, mistake, first):
             return
-        world = students.worked_out(guide, site, drawn=rng)
-        self.made[site.mistake] += 1
-        self.found[site.mistake] += is_found(guide, site, clean, first, mark(guide, students.written(guide, world)))
+        world = students.worked_out(guide, mistake, drawn=rng)
+        self.made[mistake.name] += 1
+        self.found[mistake.name] += is_found(guide, mistake, clean, first, mark(guide, students.written(guide, world)))
 
     @property
     def rate(self) -> float:
@@ -101,11 +100,11 @@ def test_named_mistakes_are_found() -> None:
     rates = Rates()
     for name in MACHINES:
         guide = students.open_guide(students.varied(name, rng, WORKED))
-        possible = sites(guide)
-        one_of_each = {site.mistake: site for site in possible}
+        possible = possible_mistakes(guide)
+        one_of_each = {mistake.name: mistake for mistake in possible}
         drawn = [possible[k] for k in rng.choice(len(possible), SAMPLE, replace=False)]
-        for site in (*one_of_each.values(), *drawn):
-            rates.inject(guide, site, rng)
+        for mistake in (*one_of_each.values(), *drawn):
+            rates.inject(guide, mistake, rng)
     print(rates)
     assert set(rates.made) == NAMES
     assert rates.rate >= 0.95, str(rates)
@@ -114,7 +113,7 @@ def test_named_mistakes_are_found() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "id", "mistake"),
+    ("machine", "id", "name"),
     [
         ("engine-twin-05", "R", "stroke-for-radius"),
         ("engine-twin-05", "L", "ratio-inverted"),
@@ -135,23 +134,23 @@ def test_named_mistakes_are_found() -> None:
         ("slotted-lever-01", "a.B3B.k", "no-coriolis"),
     ],
 )
-def test_each_mistake_on_a_sheet_of_one_position(name: str, id: str, mistake: str) -> None:
-    guide = students.guide(name, (4,))
-    site = next(site for site in sites(guide) if (site.where, site.mistake) == (id, mistake))
-    marking = mark(guide, students.written(guide, students.worked_out(guide, site)))
-    firsts = {(cell.id, cell.mistake, cell.where) for cell in marking.firsts}
-    assert (id, mistake, id) in firsts
+def test_each_mistake_on_a_sheet_of_one_position(machine: str, id: str, name: str) -> None:
+    guide = students.guide(machine, (4,))
+    mistake = next(one for one in possible_mistakes(guide) if (one.where, one.name) == (id, name))
+    marking = mark(guide, students.written(guide, students.worked_out(guide, mistake)))
+    firsts = {(cell.id, cell.mistake, cell.where) for cell in marking.first_errors}
+    assert (id, name, id) in firsts
 
 
 def test_mistake_before_the_first_value_on_the_sheet() -> None:
     """Who hands in velocities only, worked out with the stroke for the radius, is told so."""
     guide = students.guide("engine-twin-05", (4,))
-    site = next(site for site in sites(guide) if site.mistake == "stroke-for-radius")
-    world = students.worked_out(guide, site)
+    mistake = next(one for one in possible_mistakes(guide) if one.name == "stroke-for-radius")
+    world = students.worked_out(guide, mistake)
     filled = students.written(guide, world)
     kept = {place: given for place, given in filled.values.items() if place[0] in ("v.A", "v.B", "a.A")}
-    marking = mark(guide, students.Submission(filled.assignment, filled.file, kept, {}))
-    assert {(cell.id, cell.mistake, cell.where) for cell in marking.firsts} >= {
+    marking = mark(guide, Submission(filled.assignment, filled.file, kept, {}))
+    assert {(cell.id, cell.mistake, cell.where) for cell in marking.first_errors} >= {
         ("v.A", "stroke-for-radius", "R")
     }
 
@@ -159,7 +158,7 @@ def test_mistake_before_the_first_value_on_the_sheet() -> None:
 @pytest.mark.parametrize(("datum", "taken"), [("H", 0.11), ("n", 2400.0), ("D", 0.09), ("G3", 28.0)])
 def test_misread_datum_is_told(datum: str, taken: float) -> None:
     guide = students.guide("engine-twin-05", (4,))
-    site = Site("", datum, {datum: lambda value, _: value * 0 + taken})
-    marking = mark(guide, students.written(guide, students.worked_out(guide, site)))
-    assert {(cell.mistake, cell.where) for cell in marking.firsts} == {(WRONG_DATUM, datum)}
-    assert marking.points == marking.out_of - len(marking.firsts)
+    mistake = Mistake("", datum, {datum: lambda value, _: value * 0 + taken})
+    marking = mark(guide, students.written(guide, students.worked_out(guide, mistake)))
+    assert {(cell.mistake, cell.where) for cell in marking.first_errors} == {(WRONG_DATUM, datum)}
+    assert marking.points == marking.out_of - len(marking.first_errors)

@@ -6,11 +6,11 @@ from collections.abc import Callable
 
 import pytest
 
-from reportgen.grading.guide import Guide
 from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking
-from reportgen.grading.policy import Policy
-from reportgen.grading.slips import AGREED
+from reportgen.grading.marks import Marking, Policy
+from reportgen.grading.mistakes import Mistake
+from reportgen.grading.naming import AGREED
+from reportgen.grading.working import Guide
 from tests.grading import students
 
 WORKED = (4, 12)
@@ -27,16 +27,16 @@ def marked(guide: Guide, cell: Callable[[students.Row, int, float], float | None
 
 
 def names(marking: Marking) -> set[str]:
-    return {cell.mistake for cell in marking.firsts}
+    return {cell.mistake for cell in marking.first_errors}
 
 
 def test_two_figures_are_no_other_data(guide: Guide) -> None:
     """Four intermediate results cut to two figures, all else from them: four marks, and no talk of other data."""
     cut = {"R", "F", "m.2", "m.3"}
     made = {id: (lambda value, _, id=id: value * _cut(guide, id)) for id in cut}
-    marking = mark(guide, students.written(guide, students.worked_out(guide, students.Site("", "R", made))))
+    marking = mark(guide, students.written(guide, students.worked_out(guide, Mistake("", "R", made))))
     assert names(marking) == {"too-few-figures"}
-    assert {cell.id for cell in marking.firsts} == cut
+    assert {cell.id for cell in marking.first_errors} == cut
     assert marking.points == marking.out_of - len(cut)
     assert marking.warnings == ()
 
@@ -56,8 +56,8 @@ def _cut(guide: Guide, id: str) -> float:
 )
 def test_angles_by_another_convention(guide: Guide, name: str, measured: Callable[[float], float]) -> None:
     marking = marked(guide, lambda row, k, value: measured(value) if row.id.startswith("dir.") else value)
-    told = [cell.mistake for cell in marking.firsts]
-    assert told.count(name) >= AGREED * len(told)
+    found = [cell.mistake for cell in marking.first_errors]
+    assert found.count(name) >= AGREED * len(found)
 
 
 def test_one_angle_shows_no_convention(guide: Guide) -> None:
@@ -73,7 +73,8 @@ def test_rows_exchanged(guide: Guide) -> None:
         return students.figures(float(there.values[there.at(k)]))
 
     marking = marked(guide, cell)
-    assert {(one.id, one.mistake) for one in marking.firsts} == {("R.14", "rows-swapped"), ("R.05", "rows-swapped")}
+    named = {(one.id, one.mistake) for one in marking.first_errors}
+    assert named == {("R.14", "rows-swapped"), ("R.05", "rows-swapped")}
     assert marking.points == marking.out_of - 2 * len(WORKED)
 
 
@@ -87,7 +88,7 @@ def test_value_beside_its_cell(guide: Guide) -> None:
     row = guide.key.row("p.3")
     at = students.figures(float(row.values[row.at(4)]))
     marking = marked(guide, lambda row, k, value: value if row.id != "p.3" else None if k == 4 else at)
-    assert [(one.id, one.position, one.mistake) for one in marking.firsts] == [("p.3", 12, "wrong-column")]
+    assert [(one.id, one.position, one.mistake) for one in marking.first_errors] == [("p.3", 12, "wrong-column")]
     assert marking.points == marking.out_of - 2
 
 
@@ -100,14 +101,14 @@ def test_slips_are_named_without_the_guard_too() -> None:
 def test_a_slip_of_arithmetic_is_no_other_datum(guide: Guide) -> None:
     """v_A 12.3 for 13.2 could come from another n or H, but ω1 and R, which stand on them too, are right."""
     marking = marked(guide, lambda row, k, value: value * 0.932 if row.id == "v.A" else value)
-    assert [(one.id, one.mistake) for one in marking.firsts] == [("v.A", "")]
+    assert [(one.id, one.mistake) for one in marking.first_errors] == [("v.A", "")]
 
 
 def test_two_slips_of_arithmetic_are_no_other_variant(guide: Guide) -> None:
     """Area and mass both worked out wrongly, all else from them: two marks, not the whole sheet."""
     made = {"F": lambda value, _: value * 0.79, "m.2": lambda value, _: value * 1.21}
-    marking = mark(guide, students.written(guide, students.worked_out(guide, students.Site("", "F", made))))
-    assert {cell.id for cell in marking.firsts} == set(made)
+    marking = mark(guide, students.written(guide, students.worked_out(guide, Mistake("", "F", made))))
+    assert {cell.id for cell in marking.first_errors} == set(made)
     assert marking.points == marking.out_of - 2
     assert marking.warnings == ()
 
@@ -120,5 +121,5 @@ def test_a_plan_at_another_scale_than_the_one_written(guide: Guide) -> None:
         return value * 1.6 if on_plan else value
 
     marking = marked(guide, cell)
-    assert [(one.id, one.mistake) for one in marking.firsts] == [("mu.v", "other-scale")]
+    assert [(one.id, one.mistake) for one in marking.first_errors] == [("mu.v", "other-scale")]
     assert marking.points == marking.out_of - 1

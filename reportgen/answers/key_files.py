@@ -1,0 +1,258 @@
+"""The key as files: a workbook laid out as the answer sheet, CSV, JSON, and a document to print."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+
+from reportgen.answers.key import Key, Row, shown_number, symbol_text, words_of
+from reportgen.answers.paper import (
+    fields,
+    paper,
+    plain_inlines,
+    shared_symbols,
+    student_rows,
+    symbol_inlines,
+    symbol_width,
+    text_cells,
+    value_inlines,
+)
+from reportgen.answers.sheet import Filling, grid, info_page, number_format, page
+from reportgen.document.tree import (
+    Block,
+    Cell,
+    Column,
+    Document,
+    InlineMath,
+    Inlines,
+    Paragraph,
+    Section,
+    Table,
+    Text,
+    Value,
+)
+from reportgen.document.voice import FIRST_COLUMN, TEXT_WIDTH
+from reportgen.notation.expressions import Number, Symbol
+from reportgen.notation.numbers import significant_decimals
+from reportgen.notation.sheet import ZERO
+from reportgen.workbook import Book, Entry
+
+FORMAT = "reportgen-key/1"
+"""Of the JSON."""
+BAND_DIGITS = 2
+"""Significant figures of a band."""
+VALUE, BAND, SENSE = 15.6, 16.2, 23.0
+"""Widths (mm) of the columns of a quantity at each position."""
+SYMBOL, UNIT = 24.0, 24.0
+SINGLE, SINGLE_BAND = 30.0, 24.0
+"""Widths (mm) of the columns of single values."""
+FINER, FINEST = 3, 7
+"""Decimals of a band beyond those of its row; those of one whose row is exact."""
+
+
+def band(row: Row, width: float) -> float | None:
+    """A band's half width to two significant figures; one that is negligible beside the row is 0."""
+    if width != width:
+        return None
+    return 0.0 if width < ZERO * np.nanmax(np.abs(row.values), initial=0.0) else float(f"{width:.{BAND_DIGITS}g}")
+
+
+def band_decimals(width: float) -> int:
+    """Decimals that show two significant figures of a band."""
+    return max(significant_decimals(width, BAND_DIGITS), 0)
+
+
+# --- tables and data ------------------------------------------------------------------------------
+
+
+def key_book(key: Key) -> Book:
+    """The key as a workbook: values, both bands, directions in words, each a page; values are unrounded.
+
+    The page of values is laid out as a filled answer sheet.
+    """
+    words = words_of(key)["key"]
+    positions = range(1, len(key.labels) + 1)
+    turning = [row for row in key.rows if any(row.sense)]
+
+    def filling(entry: Callable[[Row, int], Entry]) -> Filling:
+        return lambda row, position: entry(row, row.at(position)) if row.has(position) else None
+
+    pages: list[tuple[str, Callable[[Row, int], Entry], Sequence[Row]]] = [
+        (words["answers"], _value_entry, key.rows),
+        (words["drawn"], lambda row, index: Entry(band(row, float(row.drawn[index]))), key.rows),
+        (words["computed"], lambda row, index: Entry(band(row, float(row.computed[index]))), key.rows),
+        *([(words["senses"], lambda row, index: Entry(row.sense[index]), turning)] if turning else []),
+    ]
+    sheets = (page(name, grid(key, name, "", filling(entry), rows, positions)) for name, entry, rows in pages)
+    return Book((*sheets, info_page(key)), f"{words['title']} {key.id}")
+
+
+def _value_entry(row: Row, index: int) -> Entry:
+    """A number that shows the report's decimals; an empty cell for one that does not exist."""
+    value = float(row.values[index])
+    return Entry(value, format=number_format(row)) if value == value else Entry()
+
+
+def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
+    """The key as rows of CSV: id, part, symbol, unit, position, value as printed, direction, both bands."""
+    words = words_of(key)
+    sheet, names = words["answer_sheet"], words["key"]
+    quantity = (sheet["id"], names["part"], sheet["symbol"], sheet["unit"])
+    head = (*quantity, words["table"]["position"], sheet["value"], names["sense"], names["drawn"], names["computed"])
+    body = (
+        (
+            row.id,
+            words["parts"][row.part],
+            symbol_text(row, key),
+            row.unit,
+            "" if row.single else key.labels[index],
+            shown_number(row, float(value)).shown if value == value else None,
+            row.sense[index],
+            band(row, float(row.drawn[index])),
+            band(row, float(row.computed[index])),
+        )
+        for row in key.rows
+        for index, value in enumerate(row.values)
+    )
+    return (head, *body)
+
+
+def key_data(key: Key) -> dict[str, Any]:
+    """The key as a JSON object: unrounded values in the units of the report, null for what does not exist.
+
+    `values`, `drawn`, `computed` (half widths of the bands) and `sense` have an entry for each of `positions`,
+    or a single one; `asked` are the positions of the answer sheet by label, [""] for a single value.
+    """
+    return {
+        "format": FORMAT,
+        "id": key.id,
+        "kind": key.kind,
+        "variant": key.variant,
+        "language": key.language,
+        "student": dict(key.student),
+        "positions": list(key.labels),
+        "rows": [
+            {
+                "id": row.id,
+                "part": row.part.value,
+                "role": row.role.value,
+                "symbol": symbol_text(row, key),
+                "kind": row.kind,
+                "unit": row.unit,
+                "decimals": row.decimals,
+                "asked": [key.label(k) for k in row.positions],
+                "values": _numbers(row.values),
+                "drawn": _numbers(row.drawn),
+                "computed": _numbers(row.computed),
+                "sense": list(row.sense),
+            }
+            for row in key.rows
+        ],
+    }
+
+
+def _numbers(values: Iterable[float]) -> list[float | None]:
+    return [float(value) if value == value else None for value in values]
+
+
+# --- the document ---------------------------------------------------------------------------------
+
+
+def key_document(key: Key, title: str) -> Document:
+    """The key as a numbered document; `title` is the machine's name."""
+    words = words_of(key)
+    blocks: list[Block] = [
+        Section(1, (Text(words["key"]["title"]),), numbered=False),
+        *fields(((words["answer_sheet"]["kind"], title), *student_rows(key))),
+        Paragraph((Text(words["key"]["note"]),)),
+    ]
+    for part, rows in groupby(key.rows, lambda row: row.part):
+        blocks += _tables(key, words, str(words["parts"][part]), list(rows))
+    return paper(key.language, words, f"{words['key']['title']} – {key.id}", blocks, variant=key.variant)
+
+
+def _tables(key: Key, words: Mapping[str, Any], name: str, rows: Sequence[Row]) -> Iterator[Table]:
+    """The tables of a part: single values in a list, then quantities beside one another by position."""
+    singles = [row for row in rows if row.single]
+    if singles:
+        yield _list(words, name, singles)
+    turning = [row for row in rows if not row.single and any(row.sense)]
+    others = [row for row in rows if not row.single and not any(row.sense)]
+    shared = shared_symbols((*others, *turning))
+    for group in (others, turning):
+        width = VALUE + 2 * BAND + (SENSE if group is turning else 0.0)
+        most = int((TEXT_WIDTH - FIRST_COLUMN) // width)
+        for start in range(0, len(group), most):
+            yield _by_position(key, words, name, group[start : start + most], shared)
+
+
+def _list(words: Mapping[str, Any], name: str, rows: Sequence[Row]) -> Table:
+    """Single values, a quantity a row."""
+    heads, shared = words["table"], shared_symbols(rows)
+    senses = any(any(row.sense) for row in rows)
+    widths = [symbol_width(rows, shared, SYMBOL), UNIT, SINGLE, SINGLE_BAND, SINGLE_BAND]
+    titles = [heads["symbol"], heads["unit"], heads["value"], words["key"]["drawn"], words["key"]["computed"]]
+    if senses:
+        widths.append(SENSE)
+        titles.append(words["key"]["sense"])
+    body = (
+        (
+            Cell(symbol_inlines(row, row.symbol in shared)),
+            Cell(plain_inlines(row.unit)),
+            *_value_cells(row, 0, senses),
+        )
+        for row in rows
+    )
+    return Table(tuple(map(Column, widths)), (text_cells(titles),), tuple(body), (Text(name),))
+
+
+def _by_position(
+    key: Key, words: Mapping[str, Any], name: str, rows: Sequence[Row], shared: Container[Symbol]
+) -> Table:
+    """Quantities beside one another, positions below one another."""
+    heads, senses = words["key"], any(any(row.sense) for row in rows)
+    widths = (VALUE, BAND, BAND, *((SENSE,) if senses else ()))
+    under = ("", heads["drawn"], heads["computed"], *((heads["sense"],) if senses else ()))
+    head = (
+        (
+            Cell((Text(words["table"]["position"]),)),
+            *(Cell(_title(row, row.symbol in shared), len(widths)) for row in rows),
+        ),
+        (Cell(), *text_cells(under) * len(rows)),
+    )
+    body = (
+        (Cell((Text(label),)), *(cell for row in rows for cell in _value_cells(row, index, senses)))
+        for index, label in enumerate(key.labels)
+    )
+    columns = tuple(map(Column, (FIRST_COLUMN, *widths * len(rows))))
+    return Table(columns, head, tuple(body), (Text(name),))
+
+
+def _title(row: Row, with_id: bool) -> Inlines:
+    """Symbol and unit of a quantity, perhaps with its id."""
+    unit = f", {row.unit}" if row.unit else ""
+    return (InlineMath(row.symbol), *plain_inlines(f"{unit} ({row.id})" if with_id else unit))
+
+
+def _value_cells(row: Row, index: int, senses: bool) -> tuple[Cell, ...]:
+    """A value, its two bands, and perhaps its direction in words."""
+    value = float(row.values[index])
+    bands = (
+        _band_inlines(row, float(widths[index])) if value == value else (Text("–"),)
+        for widths in (row.drawn, row.computed)
+    )
+    sense = (Cell(plain_inlines(row.sense[index])),) if senses else ()
+    return (Cell(value_inlines(row, value)), *map(Cell, bands), *sense)
+
+
+def _band_inlines(row: Row, width: float) -> Inlines:
+    """A band; far below the last figure of its row it is 0."""
+    shown = band(row, width)
+    if shown is None:
+        return (Text("–"),)
+    decimals = min(band_decimals(shown), FINEST if row.decimals is None else row.decimals + FINER)
+    number = Number(shown, decimals)
+    return (Value(number if number.shown else Number(0.0)),)
