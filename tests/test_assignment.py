@@ -84,10 +84,11 @@ def test_sample_holds_the_published_data() -> None:
     assert engine.report.date == datetime.date(2011, 3, 24)
     assert (engine.worked_positions, engine.cycle_positions) == ((4,), 16)
     # Printed: L = 0.171 m, ω1 = 230.38 rad/s; half of the last printed digit.
-    assert p.rod_length == pytest.approx(0.171, abs=0.0005)
+    sheet = engine_twin.machine(engine).sheet
+    assert sheet.si("L") == pytest.approx(0.171, abs=0.0005)
     assert p.speed == pytest.approx(230.38, abs=0.005)
-    assert p.mass(4) == p.mass(2) == 20 / 9.81
-    assert p.moment(4) == pytest.approx(20 / 9.81 * 0.171**2 / 12, rel=1e-12)
+    assert sheet.si("m.4") == sheet.si("m.2") == 20 / 9.81
+    assert sheet.si("J.4") == pytest.approx(20 / 9.81 * 0.171**2 / 12, rel=1e-12)
     assert engine.report.student.name is None
     assert engine.report.supervisor is None
 
@@ -142,7 +143,7 @@ def test_firing_tells_where_the_pistons_are_in_their_cycles(
     tmp_path: Path, firing: str, expected: tuple[float, float]
 ) -> None:
     engine = read(SAMPLE_TEXT.replace("[intake, compression]", firing), tmp_path)
-    phases = engine_twin.phases(engine.parameters, engine.indicator, engine.positions)
+    phases = [piston.phase for piston in engine_twin.machine(engine).pistons]
     assert phases == pytest.approx([math.radians(angle) for angle in expected])
 
 
@@ -150,7 +151,7 @@ def test_start_angle_moves_both_pistons(tmp_path: Path) -> None:
     """A clockwise crank that starts at 0° is 90° past the top of piston 3."""
     text = SAMPLE_TEXT.replace("direction: anticlockwise", "direction: clockwise, start: 0 deg")
     engine = read(text, tmp_path)
-    phases = engine_twin.phases(engine.parameters, engine.indicator, engine.positions)
+    phases = [piston.phase for piston in engine_twin.machine(engine).pistons]
     assert phases == pytest.approx((math.pi / 2, 3 * math.pi / 2))
 
 

@@ -151,17 +151,18 @@ def datum(q: Sheet, id: str, given: Given, symbol: Symbol | str = "", kind: str 
     return q.give(id, given.si, symbol, kind)
 
 
-def enter_speed(q: Sheet, n: Given | None, omega1: Given | None, flywheel: Flywheel | None = None) -> Ref:
-    """ω₁ (its size) as given, or ω₁ = 2πn/60 from the speed in rpm; δ if a flywheel is asked for."""
+def enter_speed(q: Sheet, n: Given | None, omega1: Given | None, flywheel: Flywheel | None = None) -> None:
+    """ω₁ (its size) as given, or ω₁ = 2πn/60 from the speed in rpm; δ if a flywheel is asked for.
+
+    A file with neither is refused by the kind's checks.
+    """
     if n is not None:
         rpm = n.value if n.unit == "rpm" else n.si * 30 / np.pi
-        ω1 = q.define("omega.1", 2 * PI * q.give("n", rpm) / 60)
-    else:
-        assert omega1 is not None, "a file without speed is refused by the kind's checks"
-        ω1 = q.give("omega.1", omega1.si)
+        q.define("omega.1", 2 * PI * q.give("n", rpm) / 60)
+    elif omega1 is not None:
+        q.give("omega.1", omega1.si)
     if flywheel is not None:
         datum(q, "unevenness", flywheel.delta, Symbol("δ", "ω"), "ratio")
-    return ω1
 
 
 def enter_drawn(q: Sheet, start: str, end: str, asked: Given | None, default: float = CRANK_DRAWN) -> None:

@@ -52,7 +52,7 @@ def machine(assignment: Assignment) -> Machine:
     r = datum(q, "l.OA", given.r)
     if given.guide.si:
         datum(q, "guide.angle", given.guide, "α", "angle")
-    ω1 = enter_speed(q, given.n, given.omega1, given.flywheel)
+    enter_speed(q, given.n, given.omega1, given.flywheel)
     enter_drawn(q, "O", "A", assignment.drawing.crank)
     if isinstance(given.force, given_loads.ConstantForce):
         datum(q, "P.given", given.force.F, "P", "force")
@@ -76,7 +76,7 @@ def machine(assignment: Assignment) -> Machine:
     force = given.force
 
     def formulas(q: Sheet) -> None:
-        line = natural_lines(q, "l.OA")
+        line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
         φ = give_angle(q, "phi.3", start + even_angles(positions), "φ")
         line("f.x.B", r * cos(φ))
         line("f.v.B", -ω1 * r * sin(φ))

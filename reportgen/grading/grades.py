@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from statistics import fmean, median
 from typing import Any
 
-from reportgen.answers.key import Key
+from reportgen.answers.key import Key, symbol_text
 from reportgen.answers.paper import paper, text_cells
 from reportgen.document.tree import Block, Column, Document, Figure, Paragraph, Section, Table, Text
 from reportgen.figures.charts import bars, histogram
@@ -15,7 +15,7 @@ from reportgen.figures.scene import Content
 from reportgen.grading.feedback import points_text
 from reportgen.grading.marks import Marked, Marking
 from reportgen.notation.numbers import Language, write
-from reportgen.notation.vocabulary import Chapter, symbol_text
+from reportgen.notation.vocabulary import Chapter
 from reportgen.words import load_words, search_path
 
 Value = str | float | None

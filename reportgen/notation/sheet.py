@@ -110,7 +110,7 @@ class Sheet:
     def extend(self, other: Sheet) -> None:
         """Enter what stands on another sheet; raises `ValueError` for a quantity that is on both."""
         for family in other.families.values():
-            self._put(family)
+            self.enter(family)
 
     @contextmanager
     def within(self, chapter: Chapter) -> Iterator[None]:
@@ -178,9 +178,10 @@ class Sheet:
         if isinstance(symbol, str):
             symbol = Symbol(symbol) if symbol else vocabulary.symbol(id)
         chapter = Chapter.formulas if self.chapter is Chapter.formulas else row.chapter or self.chapter
-        return self._put(Family(id, symbol, kind or row.kind, values, definition, chapter=chapter, **traits))
+        return self.enter(Family(id, symbol, kind or row.kind, values, definition, chapter=chapter, **traits))
 
-    def _put(self, family: Family) -> Ref:
+    def enter(self, family: Family) -> Ref:
+        """Enter a quantity as it stands; raises `ValueError` for one that is defined twice or has too few values."""
         id, count = family.id, len(family.values)
         if id in self.families:
             raise ValueError(f"quantity {id} is defined twice")

@@ -15,12 +15,13 @@ from pathlib import Path
 import numpy as np
 
 from reportgen import api
-from reportgen.answers.key import Key, Part
+from reportgen.answers.key import Key
 from reportgen.answers.sheet import asked_positions
 from reportgen.batch.variants import make_variants
 from reportgen.grading.marks import Answer, Place, Submission
 from reportgen.grading.mistakes import mistakes_in
 from reportgen.grading.working import Guide, open_guide
+from reportgen.notation.vocabulary import Chapter
 from reportgen.workbook import write_csv, write_xlsx
 from tests.grading import students
 from tests.grading.keys import csv_rows
@@ -37,7 +38,7 @@ def as_told(guide: Guide, sheet: Submission) -> Submission:
 
 def half_done(guide: Guide, sheet: Submission) -> Submission:
     """Velocities and accelerations only."""
-    kept = {Part.geometry, Part.velocity, Part.acceleration}
+    kept = {Chapter.geometry, Chapter.velocity, Chapter.acceleration}
     values = {place: given for place, given in sheet.values.items() if guide.rows[place[0]].part in kept}
     return replace(sheet, values=values)
 

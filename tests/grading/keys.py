@@ -7,17 +7,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.answers.key import Key, Part, Role, Row
+from reportgen.answers.key import Key, Role, Row
 from reportgen.answers.sheet import HEAD, answer_book
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import Language
+from reportgen.notation.vocabulary import Chapter
 
 LABELS = ("1", "2", "3", "4")
 
 
 def row(
     id: str,
-    part: Part,
+    part: Chapter,
     symbol: Symbol,
     kind: str,
     unit: str,
@@ -50,15 +51,23 @@ def row(
 def small_key(language: Language = "vi", id: str = "crank-07", student: str = "Nguyễn Văn A") -> Key:
     """A crank of 0.15 m at 300 rpm: one given value, a scale, single values and values at four positions."""
     rows = (
-        row("l.AB", Part.data, Symbol("l", "AB"), "length", "m", [0.15], Role.given, decimals=None),
-        row("n", Part.data, Symbol("n"), "speed of rotation", "vg/ph", [300.0], Role.given, decimals=None),
-        row("mu.l", Part.geometry, Symbol("μ", "l"), "length scale", "m/mm", [0.003], Role.scale, decimals=4),
-        row("omega.1", Part.velocity, Symbol("ω", "1"), "angular velocity", "rad/s", [10 * math.pi]),
-        row("v.B", Part.velocity, Symbol("v", "B"), "velocity", "m/s", [4.71, 2.36, -1.2, 0.0]),
-        row("dir.v.B", Part.velocity, Symbol("α", "vB"), "angle", "°", [90, 180, 270, math.nan], positions=(1, 2, 3)),
+        row("l.AB", Chapter.data, Symbol("l", "AB"), "length", "m", [0.15], Role.given, decimals=None),
+        row("n", Chapter.data, Symbol("n"), "speed of rotation", "vg/ph", [300.0], Role.given, decimals=None),
+        row("mu.l", Chapter.geometry, Symbol("μ", "l"), "length scale", "m/mm", [0.003], Role.scale, decimals=4),
+        row("omega.1", Chapter.velocity, Symbol("ω", "1"), "angular velocity", "rad/s", [10 * math.pi]),
+        row("v.B", Chapter.velocity, Symbol("v", "B"), "velocity", "m/s", [4.71, 2.36, -1.2, 0.0]),
+        row(
+            "dir.v.B",
+            Chapter.velocity,
+            Symbol("α", "vB"),
+            "angle",
+            "°",
+            [90, 180, 270, math.nan],
+            positions=(1, 2, 3),
+        ),
         row(
             "M.eq",
-            Part.torque,
+            Chapter.torque,
             Symbol("M", "cb"),
             "torque",
             "N·m",

@@ -9,10 +9,11 @@ from pathlib import Path
 import pymupdf
 import pytest
 
-from reportgen import products
+from reportgen.answers.key import make_key
 from reportgen.batch import assess
 from reportgen.batch.assess import Graded
 from reportgen.batch.variants import make_variants
+from reportgen.case import open_case
 from reportgen.grading.comparison import compare
 from reportgen.grading.marks import Policy, read_policy
 from reportgen.grading.mistakes import WRONG_DATUM
@@ -164,7 +165,7 @@ def test_comparing_an_empty_or_right_sheet(assignments: Path, tmp_path: Path) ->
     lines, agrees = compare(file, demo.SHEETS / "K225520103001.xlsx", language="en")
     assert (agrees, len(lines)) == (True, 1)
     empty = tmp_path / "empty.csv"
-    empty.write_bytes(write_csv(csv_rows(products.opened(file).key)))
+    empty.write_bytes(write_csv(csv_rows(make_key(open_case(file)))))
     lines, agrees = compare(file, empty, language="en")
     assert agrees
     assert "still missing" in lines[0]

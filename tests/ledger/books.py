@@ -6,15 +6,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.ledger import forces, kinematics, precision
+from reportgen.ledger import precision
 from reportgen.ledger.core import Ledger
+from reportgen.ledger.forces import enter_forces
 from reportgen.ledger.forces.polygon import Polygon
+from reportgen.ledger.kinematics import enter_kinematics
 from reportgen.mechanism.forces import Forces, solve_forces
 from reportgen.mechanism.loads import Load, inertia_loads, weights
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.power import virtual_work_torque
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.notation.expressions import Symbol
 from reportgen.notation.sheet import Sheet
 
 RATE = 7.0
@@ -57,22 +58,21 @@ def keep(
     loads = (*weights(linkage, motion), *inertia_loads(linkage, motion), *applied)
     b = Sheet(len(driver))
     if isinstance(linkage.driver, Crank):
-        b.give("phi.1", Symbol("φ", "1"), "angle", driver)
-        b.give("omega.1", Symbol("ω", "1"), "angular velocity", RATE)
+        b.give("phi.1", driver)
+        b.give("omega.1", RATE)
     else:
-        b.give("s.1", Symbol("s", "1"), "length", driver)
-        b.give(f"v.{linkage.driver.pin}", Symbol("v", linkage.driver.pin), "velocity", RATE)
+        b.give("s.1", driver)
+        b.give(f"v.{linkage.driver.pin}", RATE)
     for body in linkage.inertias:
-        link = str(body.link)
-        b.give(f"m.{link}", Symbol("m", link), "mass", body.mass)
-        b.give(f"J.{link}", Symbol("J", link), "moment of inertia", body.moment)
-        b.give(f"G{link}", Symbol("G", link), "weight", body.mass * abs(linkage.gravity))
+        b.give(f"m.{body.link}", body.mass)
+        b.give(f"J.{body.link}", body.moment)
+        b.give(f"G{body.link}", body.mass * abs(linkage.gravity))
     for link, _, _, size in pushes:
-        b.give(f"P{link}", Symbol("P", str(link)), "force", size)
+        b.give(f"P{link}", size)
     for link, torque in torques:
-        b.give(f"M{link}", Symbol("M", str(link)), "torque", torque)
-    kinematics.describe(b, linkage, turn)
-    polygons = forces.describe(
+        b.give(f"M{link}", torque)
+    enter_kinematics(b, linkage, turn)
+    polygons = enter_forces(
         b,
         linkage,
         turn,

@@ -12,10 +12,10 @@ import pytest
 
 from reportgen import api, catalogue
 from reportgen.analysis import FULL_TURN, analyse, motion_at
-from reportgen.catalogue.machine import Item, Machine
+from reportgen.catalogue.machine import Machine
 from reportgen.cycle.flywheel import Flywheel, accumulated, regulate
 from reportgen.ledger.report import keep
-from reportgen.notation.expressions import Symbol
+from reportgen.notation.sheet import Sheet
 from reportgen.regulation import flywheel, reduced_inertia
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -168,9 +168,12 @@ def api_mean(machine: Machine) -> float:
 
 def test_the_report_prints_what_was_found(machine: Machine) -> None:
     """The printed definitions of J_r and J_d, evaluated, are the arrays they stand for."""
-    uneven = Item("unevenness", Symbol("δ"), "ratio", 1 / 50)
-    known = tuple(item for item in machine.given if item.id != "unevenness")
-    analysis = analyse(replace(machine, unevenness=1 / 50, given=(*known, uneven)))
+    sheet = Sheet()
+    for family in machine.sheet.families.values():
+        if family.id != "unevenness":
+            sheet.enter(family)
+    sheet.give("unevenness", 1 / 50, "δ", "ratio")
+    analysis = analyse(replace(machine, unevenness=1 / 50, sheet=sheet))
     books = keep(analysis)
     assert books.flywheel is not None
     expected = reduced_inertia(analysis.machine, analysis.motion)
