@@ -19,6 +19,8 @@ from reportgen.answers.sheet import (
     words_of,
 )
 from reportgen.document.tree import (
+    FIRST_COLUMN,
+    TEXT_WIDTH,
     Block,
     Cell,
     Column,
@@ -31,7 +33,6 @@ from reportgen.document.tree import (
     Text,
     Value,
 )
-from reportgen.document.voice import FIRST_COLUMN, TEXT_WIDTH
 from reportgen.notation.expressions import Number, Symbol
 
 VALUE, BAND, SENSE = 15.6, 16.2, 23.0

@@ -15,8 +15,17 @@ import numpy as np
 
 from reportgen.answers.key import Key, Part, Role, Row
 from reportgen.document.plain import formula
-from reportgen.document.tree import Cell, Column, InlineMath, Inlines, LineBreak, Table, Text, Value
-from reportgen.document.voice import TEXT_WIDTH
+from reportgen.document.tree import (
+    TEXT_WIDTH,
+    Cell,
+    Column,
+    InlineMath,
+    Inlines,
+    LineBreak,
+    Table,
+    Text,
+    Value,
+)
 from reportgen.figures.metrics import box
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.words import load_words, search_path

@@ -7,22 +7,22 @@ from reportgen.answers.key import Key
 from reportgen.answers.paper import fields, paper
 from reportgen.answers.sheet import answer_blocks, asked_positions, known_blocks, student_rows
 from reportgen.case import Case
-from reportgen.document.outline import PLATES_UP_TO, prepare
+from reportgen.document.outline import variant_line
+from reportgen.document.report import PLATES_UP_TO, Report
 from reportgen.document.tree import Block, Document, Paragraph, Strong, Text
 
 
 def task(case: Case, key: Key) -> Document:
     """The handout of a case.  Raises `TemplateError`."""
-    assignment, words = case.assignment, case.words
-    prose, names = prepare(case)
+    report = Report(case)
+    prose, names, words, about = report.prose, report.names(), case.words, case.assignment.report
     (heading, *given) = prose.render("given.md", names)
     names |= {
         "sheet": tuple(answer_blocks(key)),
         "asked": tuple(key.labels[k - 1] for k in asked_positions(key)),
         "known_tables": tuple(known_blocks(key, _known_positions(key, case.analysis))),
     }
-    report = assignment.report
-    course = report.course or words["cover"]["course"]
+    course = about.course or words["cover"]["course"]
     blocks: list[Block] = [
         heading,
         Paragraph((Strong((Text(case.title),)),), "center"),
@@ -30,8 +30,7 @@ def task(case: Case, key: Key) -> Document:
         *given,
         *prose.render("task.md", names),
     ]
-    variant = words["variant"].format(variant=assignment.variant) if assignment.variant else ""
-    return paper(assignment.language, words, course, report.student.name or "", variant, blocks)
+    return paper(case.assignment.language, words, course, about.student.name or "", variant_line(case), blocks)
 
 
 def _known_positions(key: Key, analysis: Analysis) -> tuple[int, ...]:

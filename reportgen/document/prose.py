@@ -55,7 +55,7 @@ ENVIRONMENTS = 8
 class Prose:
     """Renders the templates found in `directories`; one object serves a whole report.
 
-    Every template may call `ref(key)`, `key(name)` and `unnumbered()` (at the end of a heading),
+    Every template may call `ref(key, …)`, `key(name)` and `unnumbered()` (at the end of a heading),
     `blank(label)`, and `inlines(words)` for what a macro or a `{% set %}` block made.
     """
 
@@ -194,8 +194,9 @@ def _join(values: Iterable[object], separator: str = "") -> str:
     return _emit(separator).join(map(_emit, parts))
 
 
-def _ref(key: str) -> Reference:
-    return Reference(_plain(key))
+def _ref(*key: object) -> Reference:
+    """A reference to what has a key; the key's parts are joined with dots."""
+    return Reference(".".join(_plain(str(part)) for part in key))
 
 
 def _key(name: str) -> Key:
@@ -215,8 +216,14 @@ def _plain(text: str) -> str:
 # --- where things come from -----------------------------------------------------------------------
 
 
+_MATH = re.compile(r"\$([^\W\d_][\w.]*)\$")
+
+
 class _Provenance(Extension):
-    """Encloses static text in its marks, and marks the line of every `{{`."""
+    """Encloses static text in its marks, and marks the line of every `{{`; `$x$` stands for `{{ math("x") }}`."""
+
+    def preprocess(self, source: str, name: str | None, filename: str | None = None) -> str:
+        return _MATH.sub(r'{{ math("\1") }}', source)
 
     def filter_stream(self, stream: TokenStream) -> Iterator[Token]:
         file = stream.filename or stream.name or ""

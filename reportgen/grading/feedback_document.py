@@ -11,6 +11,7 @@ from reportgen.answers.key import Key
 from reportgen.answers.paper import fields, paper
 from reportgen.answers.sheet import student_rows, words_of
 from reportgen.document.tree import (
+    TEXT_WIDTH,
     Block,
     Cell,
     Column,
@@ -24,7 +25,6 @@ from reportgen.document.tree import (
     Table,
     Text,
 )
-from reportgen.document.voice import TEXT_WIDTH
 from reportgen.errors import Problem
 from reportgen.grading.marks import Marked, Marking, Verdict
 from reportgen.grading.sentences import (
