@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from reportgen.document.groups import GroupView, SideView
-from reportgen.document.report import Report, function, listed
+from reportgen.document.report import Report, function, listed, lower_digits
 from reportgen.document.tree import Equation, InlineMath, Inlines, Reference, Text, Value
 from reportgen.ledger.forces import Side as PolygonSide
 from reportgen.mechanism.mobility import mobility
@@ -137,10 +137,6 @@ def R(report: Report, digits: str, part: str = "") -> Symbol:
 def lowered(report: Report, text: str) -> str:
     """Digits of point names as lowered digits: O1A → O₁A."""
     return lower_digits(text)
-
-
-def lower_digits(text: str) -> str:
-    return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
 
 
 @function

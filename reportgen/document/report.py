@@ -262,6 +262,19 @@ class Report:
         return self.machine.facts
 
     @property
+    def given_names(self) -> Mapping[str, str]:
+        """What is given, in words, by id; a declared linkage names its own quantities."""
+        if "quantities" not in self.own:
+            names: Mapping[str, str] = self.words["given"]
+            return names
+        words = self.words["linkage"]["given"]
+        declared = {
+            id: words[what] + (lower_digits(of) if what == "length" else of)
+            for id, what, of in self.own["quantities"]
+        }
+        return {**declared, "unevenness": words["unevenness"]}
+
+    @property
     def mobility(self) -> Mobility:
         return mobility(self.machine.linkage)
 
@@ -492,10 +505,6 @@ class Report:
         return "J.r" in self.ledger
 
     @property
-    def flywheel_columns(self) -> list[str]:
-        return self.known(("M.r", "A.excess", "J.r", "omega.of"))
-
-    @property
     def speed_limits(self) -> list[str]:
         uneven = ["unevenness"] if "unevenness" in self.computed else []
         return [*uneven, "omega.max", "omega.min"]
@@ -511,6 +520,11 @@ class Report:
 
     def is_zero(self, id: str, k: int | None = None) -> bool:
         return bool(self.ledger.number(id, k).value == 0)
+
+
+def lower_digits(text: str) -> str:
+    """Digits of point names as lowered digits: O1A → O₁A."""
+    return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
 
 
 def listed(parts: Iterable[Any]) -> Inlines:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -78,31 +78,28 @@ def _two_decimals(value: float) -> Inlines:
     return (Value(Number(float(f"{value:.10g}")) if short else Number(value, 2)),)
 
 
-@function
-def dead_centres_table(
-    report: Report, key: str, caption: str, head: Sequence[str], top: str, bottom: str
-) -> Table:
+@table("dead")
+def dead_centres(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """Where each slider turns back: crank's turn from position 1, the pin's distance from the crank centre."""
-    rows = []
+    words, rows = report.words["tables"]["dead"], []
     for piston in report.machine.sliders:
-        for words, angle, place in (
-            (top, piston.top_angle, piston.top),
-            (bottom, piston.bottom_angle, piston.bottom),
+        for name, angle, place in (
+            (words["top"], piston.top_angle, piston.top),
+            (words["bottom"], piston.bottom_angle, piston.bottom),
         ):
             turn = math.degrees((angle - piston.phase) % (2 * math.pi))
             turn = 0.0 if abs(turn - 360) < 1e-9 else turn
-            rows.append((str(piston.link), words, _two_decimals(turn), _two_decimals(abs(place) * MM)))
+            rows.append((str(piston.link), name, _two_decimals(turn), _two_decimals(abs(place) * MM)))
     return list_table(report, key, caption, head, rows, (20.0, 46.0, 44.0, 46.0))
 
 
-@function
-def labels_table(
-    report: Report, key: str, caption: str, head: Sequence[str], names: Mapping[str, str]
-) -> Table:
+@table("labels")
+def labels(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """The positions of one turn by their labels: the crank's turn, and what the first slider does there.
 
-    `names` says it in words for "top" and "bottom", where it turns back, and "fastest", where a = 0.
+    It turns back at its "top" and "bottom", and is "fastest" where a = 0.
     """
+    words = report.words["tables"]["labels"]
     machine, motion = report.machine, report.analysis.motion
     course = machine.sliders[0]
     pin, way = motion.points[course.pin], course.fraction(motion)
@@ -111,7 +108,7 @@ def labels_table(
     for k in range(machine.count):
         end = ("top" if way[k] < 0.5 else "bottom") if still[k] else "fastest" if steady[k] else ""
         angle = _two_decimals(math.degrees(machine.cycle_angles[k]))
-        rows.append((str(machine.position(k + 1)), angle, names.get(end, "")))
+        rows.append((str(machine.position(k + 1)), angle, words.get(end, "")))
     return list_table(report, key, caption, head, rows, (24.0, 50.0, 50.0))
 
 
@@ -146,12 +143,11 @@ def _bare_size(report: Report, id: str, k: int) -> Inlines:
     return (Value(Number(number.value, number.decimals)),)
 
 
-@function
-def summary_table(
-    report: Report, key: str, caption: str, head: Sequence[str], ids: Sequence[Sequence[str]], k: int
-) -> Table:
+@table("summary")
+def summary(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> Table:
     """Quantities at one position as "symbol = value", in rows of as many as there are heads."""
-    rows = [[Chain((report.ledger.symbol(id), report.ledger.number(id, k))) for id in row] for row in ids]
+    ledger = report.ledger
+    rows = [[Chain((ledger.symbol(id), ledger.number(id, k))) for id in row] for row in report.own["summary"]]
     return list_table(report, key, caption, head, rows, (46.0,) * len(head))
 
 
@@ -178,13 +174,14 @@ def accelerations(report: Report, key: str, caption: str, head: Sequence[str]) -
 # --- forces
 
 
-@function
-def strokes_table(report: Report, key: str, caption: str, first: str, positions: str) -> Table:
+@table("strokes")
+def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """The stroke of every piston between dead centres of any of them."""
+    positions, first = head
     gas, machine = report.analysis.gas, report.machine
     names = report.words["strokes"]
-    strokes = np.array([state.stroke for state in gas.values()])
-    starts = [0, *(int(i) + 1 for i in np.flatnonzero(np.any(np.diff(strokes, axis=1), axis=0)))]
+    courses = np.array([state.stroke for state in gas.values()])
+    starts = [0, *(int(i) + 1 for i in np.flatnonzero(np.any(np.diff(courses, axis=1), axis=0)))]
     ends = [*starts[1:], machine.positions]
     stretches = [
         f"{machine.position(start + 1)}–{machine.position(end % machine.positions + 1)}"
@@ -236,13 +233,23 @@ def balance(report: Report, key: str, caption: str, head: Sequence[str]) -> tupl
     return tables(report, key, caption, ("M.eq", "M.vw", "M.difference"), report.all_positions)
 
 
+@table("flywheel")
+def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
+    """Reduced torque and excess work; the reduced inertia if links have mass, the speed if there is a flywheel."""
+    words = report.words["tables"]["flywheel"]
+    inertia = words["inertia"] if report.has_reduced_inertia else ""
+    speed = words["speed"] if report.needs_flywheel else ""
+    ids = report.known(("M.r", "A.excess", "J.r", "omega.of"))
+    return tables(report, key, f"{caption}{inertia}{speed}", ids, report.all_positions)
+
+
 # --- checks
 
 
-@function
-def checks_table(report: Report, key: str, caption: str, head: Sequence[str], names: Mapping[str, str]) -> Table:
+@table("checks")
+def checks(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """Residuals of the independent checks, as powers of ten."""
-    found = residuals(report)
+    found, names = residuals(report), report.words["tables"]["checks"]["rows"]
     rows = [(name, _power_of_ten(found[id][0]), found[id][1]) for id, name in names.items() if id in found]
     return list_table(report, key, caption, head, rows, (95.0, 35.0, 20.0))
 
@@ -268,7 +275,7 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
         ]
         found["ledger"] = (max(forces), "N")
         difference = float(np.nanmax(np.abs(analysis.torque - analysis.torque_by_work)))
-        found["torque"] = (difference, "N" if analysis.machine.span else "N·m")
+        found["force" if analysis.machine.span else "torque"] = (difference, "N" if analysis.machine.span else "N·m")
         found["energy"] = (analysis.summary.energy_error, "")
     return found
 

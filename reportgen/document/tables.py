@@ -14,8 +14,7 @@ from reportgen.catalogue.gas import ByOrdinates
 from reportgen.catalogue.laws import AngleLaw, TableLaw, WayLaw
 from reportgen.catalogue.machine import Applied, Position, Torque
 from reportgen.cycle.indicator import StrokeIndicator
-from reportgen.document.equations import lower_digits
-from reportgen.document.report import FUNCTIONS, Function, Report, function
+from reportgen.document.report import FUNCTIONS, Function, Report, function, listed, lower_digits
 from reportgen.document.tree import (
     FIRST_COLUMN,
     TEXT_WIDTH,
@@ -176,7 +175,7 @@ def given_data(
     report: Report, key: str, caption: str, head: Sequence[str], others: Mapping[str, str] | None = None
 ) -> Table:
     """The given quantities in the words of the machine, some of them in other words."""
-    return given_table(report, key, caption, {**report.words["given"], **(others or {})})
+    return given_table(report, key, caption, {**report.given_names, **(others or {})})
 
 
 @function
@@ -208,8 +207,9 @@ def _as_typed(report: Report, id: str) -> Inlines:
     return (Value(report.ledger.number(id)),)
 
 
+@table("indicator")
 @function
-def indicator_table(report: Report, key: str, caption: str) -> Table:
+def indicator_table(report: Report, key: str, caption: str, head: Sequence[str] = ()) -> Table:
     """The indicator diagram as given, in gauge pressure: by stroke, or against the cycle angle."""
     diagram = report.assignment.indicator
     heights = diagram.height if isinstance(diagram, ByOrdinates) else ()
@@ -340,3 +340,44 @@ def lengths(
         return Table(columns, (heads,), rows, report.prose.inlines(caption), key)
 
     return _parts(key, caption, [arm for arm in arms if f"l.{arm}" in report.ledger], MOST_LENGTHS, part)
+
+
+# --- a declared linkage
+
+
+@table("frame")
+def frame(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The fixed points."""
+    return list_table(report, key, caption, head, report.own["frame"], (30.0, 50.0, 50.0))
+
+
+@table("groups")
+def groups(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The groups in the order of assembly, with the way in which each is assembled."""
+    choice = report.words["linkage"]["choice"]
+    rows = (
+        (
+            ", ".join(map(str, row.links)),
+            row.kind,
+            listed(InlineMath(symbols.point(name)) for name in row.joints),
+            choice[row.choice],
+        )
+        for row in report.own["groups"]
+    )
+    return list_table(report, key, caption, head, rows, (20.0, 20.0, 30.0, 85.0))
+
+
+@table("guides")
+def guides(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The guides: a point of the line and its direction."""
+    rows = ((str(row.slider), str(row.carrier), row.x, row.y, row.angle) for row in report.own["guides"])
+    return list_table(report, key, caption, head, rows, (20.0, 40.0, 32.0, 32.0, 30.0))
+
+
+@table("points")
+def further_points(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """Further points of the links by their distances."""
+    rows = (
+        (symbols.point(row.name), str(row.link), row.along, row.across) for row in report.own["points"]
+    )
+    return list_table(report, key, caption, head, rows, (24.0, 24.0, 40.0, 40.0))
