@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from reportgen.analysis import Analysis
+from reportgen.document.prose import PointName
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces import Polygon, joint
 from reportgen.ledger.kinematics import Side, Turn, image, scheme, sides
@@ -17,7 +18,7 @@ from reportgen.notation.expressions import refs
 class PointView:
     """A named point on a link, e.g. a mass centre: `name` S2, `image` s2."""
 
-    name: str
+    name: PointName
     image: str
     link: int
 
@@ -33,10 +34,10 @@ class CarriedPoint:
     frame, `swings` whether the link has an angular acceleration.
     """
 
-    name: str
+    name: PointName
     image: str
     link: int
-    origin: str
+    origin: PointName
     relative: str
     still: bool
     swings: bool
@@ -60,8 +61,8 @@ class SideView:
     relative acceleration that velocities give, n or k, and `sought` of the one sought on the plan, t or r.
     """
 
-    point: str
-    base: str
+    point: PointName
+    base: PointName
     shown: str
     relative: str
     still: bool
@@ -105,7 +106,7 @@ class SideView:
 
 
 def _side_view(side: Side) -> SideView:
-    common = side.point, side.base, side.shown, side.relative, side.still, side.turns
+    common = PointName(side.point), PointName(side.base), side.shown, side.relative, side.still, side.turns
     if isinstance(side, Turn):
         return SideView(*common, link=side.link, rod=side.rod, measured=side.measured)
     return SideView(*common, turning=side.turning, carrier=side.carrier)
@@ -118,7 +119,7 @@ class Contact:
     """
 
     digits: str
-    pin: str
+    pin: PointName
     link: int
     moment: str
     place: str
@@ -149,10 +150,10 @@ class GroupView:
     kind: str
     i: int
     j: int
-    P: str
-    Q: str
-    T: str
-    M: str
+    P: PointName
+    Q: PointName
+    T: PointName
+    M: PointName
     p: str
     q: str
     m: str
@@ -271,7 +272,7 @@ class GroupView:
         rods = [side.rod for side in self.sides if side.measured]
         return [f"{what}.{rod}" for rod in rods for what in ("drawn", "l")]
 
-    def _origin(self, link: int) -> str:
+    def _origin(self, link: int) -> PointName:
         """The joint that a link's points are measured from."""
         return self.P if link == self.i else self.T or self.Q
 
@@ -367,7 +368,7 @@ class GroupView:
         found = {"RRP": [last], "RPR": [first], "PRP": [(self.outer, self.Q, self.i), last], "RPP": [first, last]}
         return [self._contact(*slide) for slide in found.get(self.kind, [])]
 
-    def _contact(self, digits: str, pin: str, link: int) -> Contact:
+    def _contact(self, digits: str, pin: PointName, link: int) -> Contact:
         moment, place = f"M.{digits}", f"x.{digits}"
         family = self.ledger.families.get(moment)
         displaced = family is not None and family.definition is not None
@@ -404,8 +405,8 @@ class DriverView:
     length, of the pin's velocity and of the segments that stand for the pin's velocity and acceleration.
     """
 
-    centre: str
-    pin: str
+    centre: PointName
+    pin: PointName
     image: str
     arm: str
     others: tuple[PointView, ...]
@@ -444,12 +445,12 @@ def driver(analysis: Analysis, ledger: Ledger) -> DriverView:
     """The driver of a machine."""
     linkage = analysis.machine.linkage
     moved = linkage.driver
-    centre = moved.centre if isinstance(moved, Crank) else ""
+    centre = PointName(moved.centre if isinstance(moved, Crank) else "")
     others = tuple(
-        PointView(place.name, image(place.name), DRIVER) for place in linkage.points if place.link == DRIVER
+        PointView(PointName(place.name), image(place.name), DRIVER) for place in linkage.points if place.link == DRIVER
     )
     return DriverView(
-        centre, moved.pin, image(moved.pin), f"{centre}{moved.pin}" if centre else "", others, ledger
+        centre, PointName(moved.pin), image(moved.pin), f"{centre}{moved.pin}" if centre else "", others, ledger
     )
 
 
@@ -463,7 +464,7 @@ def groups(analysis: Analysis, polygons: tuple[Polygon, ...], ledger: Ledger) ->
 
     def on(link: int) -> tuple[PointView, ...]:
         places = (place.name for place in linkage.points if place.link == link)
-        return tuple(PointView(name, image(name), link) for name in places)
+        return tuple(PointView(PointName(name), image(name), link) for name in places)
 
     def view(dyad: Dyad) -> GroupView:
         i, j = dyad.links
@@ -476,9 +477,9 @@ def groups(analysis: Analysis, polygons: tuple[Polygon, ...], ledger: Ledger) ->
             kind=dyad.kind,
             i=i,
             j=j,
-            P=start,
-            Q=dyad.middle,
-            T=dyad.end if isinstance(dyad.end, str) else "",
+            P=PointName(start),
+            Q=PointName(dyad.middle),
+            T=PointName(dyad.end if isinstance(dyad.end, str) else ""),
             M=one.point,
             p=image(start),
             q=image(dyad.middle),

@@ -34,6 +34,7 @@ from reportgen.document import markdown
 from reportgen.document.markdown import SECRET, Emitted, Key, Place, Rendered, Unnumbered
 from reportgen.document.tree import BlankLine, Block, InlineMath, Inlines, Reference, Text, Value
 from reportgen.errors import ReportgenError, TemplateError
+from reportgen.notation import symbols
 from reportgen.notation.expressions import Expression, Number
 from reportgen.notation.numbers import MINUS
 
@@ -50,6 +51,10 @@ _values: ContextVar[list[Emitted]] = ContextVar("values")
 
 ENVIRONMENTS = 8
 """How many search paths (language, kind, school) keep their compiled templates."""
+
+
+class PointName(str):
+    """The name of a point, which templates print as its symbol."""
 
 
 class Prose:
@@ -148,6 +153,8 @@ def _emit(value: object) -> str:
     match value:
         case Undefined():
             return str(value)  # raises, naming what is undefined
+        case PointName():
+            return _store(InlineMath(symbols.point(value)))
         case str():
             return _emit_text(value)
         case bool() | float() | None:
@@ -217,13 +224,17 @@ def _plain(text: str) -> str:
 
 
 _MATH = re.compile(r"\$([^\W\d_][\w.]*)\$")
+_REFERENCE = re.compile(r"@((?:eq|fig|tab)(?:\.\w+)+)")
 
 
 class _Provenance(Extension):
-    """Encloses static text in its marks, and marks the line of every `{{`; `$x$` stands for `{{ math("x") }}`."""
+    """Encloses static text in its marks, and marks the line of every `{{`.
+
+    Before that `$x$` becomes `{{ math("x") }}`, and `@fig.a` becomes `{{ ref("fig.a") }}`.
+    """
 
     def preprocess(self, source: str, name: str | None, filename: str | None = None) -> str:
-        return _MATH.sub(r'{{ math("\1") }}', source)
+        return _REFERENCE.sub(r'{{ ref("\1") }}', _MATH.sub(r'{{ math("\1") }}', source))
 
     def filter_stream(self, stream: TokenStream) -> Iterator[Token]:
         file = stream.filename or stream.name or ""

@@ -20,11 +20,11 @@ from reportgen.catalogue.gas import ByOrdinates
 from reportgen.catalogue.machine import Machine, Piston, Position
 from reportgen.cycle.flywheel import Flywheel
 from reportgen.document.groups import DriverView, GroupView, SideView, driver, groups
-from reportgen.document.prose import Prose
+from reportgen.document.prose import PointName, Prose
 from reportgen.document.tree import Block, InlineMath, Inlines, Paragraph, Text
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces import Polygon
-from reportgen.ledger.kinematics import centred, scheme
+from reportgen.ledger.kinematics import Turn, centred, scheme
 from reportgen.mechanism.mobility import Mobility, mobility
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Symbol
@@ -51,8 +51,8 @@ class BodyView:
     """A link with an inertia couple: its number, mass centre, the pin it is measured from, the ids to show."""
 
     link: int
-    centre: str
-    start: str
+    centre: PointName
+    start: PointName
     ids: tuple[str, ...]
     still: bool = False
     """Whether that pin is fixed to the frame."""
@@ -74,8 +74,8 @@ class PlaneLink:
     """
 
     link: int
-    base: str
-    point: str
+    base: PointName
+    point: PointName
     rod: str
     group: GroupView
 
@@ -396,7 +396,7 @@ class Report:
         """The links that turn about no fixed point and are no mere sliders, in the order of assembly."""
         owner = {link: group for group in self.groups for link in (group.i, group.j)}
         turns = centred(scheme(self.machine.linkage))
-        return tuple(PlaneLink(turn.link, turn.base, turn.point, turn.rod, owner[turn.link]) for turn in turns)
+        return tuple(_plane_link(turn, owner[turn.link]) for turn in turns)
 
     # --- forces
 
@@ -428,11 +428,11 @@ class Report:
             # A block turns about no base of a plan: the pin it sits on is its first joint.
             start = next(
                 (side.base for group in self.groups for side in group.sides if side.turns and side.link == body.link),
-                next((group.P for group in self.groups if group.i == body.link), ""),
+                next((group.P for group in self.groups if group.i == body.link), PointName("")),
             )
             if len(ids) == 2:
                 found.append(
-                    BodyView(body.link, body.centre, start, tuple(ids), start in self.machine.linkage.ground)
+                    BodyView(body.link, PointName(body.centre), start, tuple(ids), start in self.machine.linkage.ground)
                 )
         return tuple(found)
 
@@ -520,6 +520,10 @@ class Report:
 
     def is_zero(self, id: str, k: int | None = None) -> bool:
         return bool(self.ledger.number(id, k).value == 0)
+
+
+def _plane_link(turn: Turn, group: GroupView) -> PlaneLink:
+    return PlaneLink(turn.link, PointName(turn.base), PointName(turn.point), turn.rod, group)
 
 
 def lower_digits(text: str) -> str:
