@@ -8,7 +8,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from reportgen.document.groups import GroupView, SideView
+from reportgen.document.groups import GroupView
+from reportgen.document.parts import SideView
 from reportgen.document.report import Report, function, listed, lower_digits
 from reportgen.document.tree import Equation, InlineMath, Inlines, Reference, Text, Value
 from reportgen.ledger.forces import Side as PolygonSide

@@ -18,8 +18,9 @@ from reportgen.document.drawing import (
     on_paper,
 )
 from reportgen.document.groups import GroupView
+from reportgen.document.parts import BodyView
 from reportgen.document.plans import force_plan, velocity_plan
-from reportgen.document.report import BodyView, Report
+from reportgen.document.report import Report
 from reportgen.figures import lever as lever_figure
 from reportgen.figures.actions import ArmOf, Couple, Force
 from reportgen.figures.bodies import bodies as bodies_figure

@@ -23,8 +23,9 @@ from reportgen.document.drawing import (
     on_paper,
     short,
 )
-from reportgen.document.groups import GroupView, SideView
-from reportgen.document.report import DENSE, SAME, PlaneLink, Report, function
+from reportgen.document.groups import GroupView
+from reportgen.document.parts import PlaneLink, SideView
+from reportgen.document.report import DENSE, SAME, Report, function
 from reportgen.figures import indicator as indicator_figure
 from reportgen.figures import scheme as scheme_figure
 from reportgen.figures.coriolis import Sliding

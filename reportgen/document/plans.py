@@ -9,7 +9,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from reportgen.document.drawing import A3_ACROSS, HALF, MM, TEXT_BLOCK, Drawn, figure, on_paper
-from reportgen.document.groups import GroupView, SideView
+from reportgen.document.groups import GroupView
+from reportgen.document.parts import SideView
 from reportgen.document.report import Report
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
 from reportgen.figures.sheet import sheets

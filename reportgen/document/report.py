@@ -19,12 +19,13 @@ from reportgen.case import Case
 from reportgen.catalogue.gas import ByOrdinates
 from reportgen.catalogue.machine import Machine, Piston, Position
 from reportgen.cycle.flywheel import Flywheel
-from reportgen.document.groups import DriverView, GroupView, SideView, driver, groups
+from reportgen.document.groups import GroupView, driver, groups
+from reportgen.document.parts import BodyView, DriverView, PlaneLink
 from reportgen.document.prose import PointName, Prose
 from reportgen.document.tree import Block, InlineMath, Inlines, Paragraph, Text
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces import Polygon
-from reportgen.ledger.kinematics import Turn, centred, scheme
+from reportgen.ledger.kinematics import centred, scheme
 from reportgen.mechanism.mobility import Mobility, mobility
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Symbol
@@ -44,63 +45,6 @@ def function(called: Function) -> Function:
     """Let templates call a function of a report by its name."""
     FUNCTIONS[called.__name__] = called
     return called
-
-
-@dataclass(frozen=True, slots=True)
-class BodyView:
-    """A link with an inertia couple: its number, mass centre, the pin it is measured from, the ids to show."""
-
-    link: int
-    centre: PointName
-    start: PointName
-    ids: tuple[str, ...]
-    still: bool = False
-    """Whether that pin is fixed to the frame."""
-
-    @property
-    def force(self) -> str:
-        return f"Pqt{self.link}"
-
-    @property
-    def couple(self) -> str:
-        return f"M.Pqt{self.link}"
-
-
-@dataclass(frozen=True, slots=True)
-class PlaneLink:
-    """A link in plane motion: its number, two points with drawn velocities, their `rod` and their `group`.
-
-    The other members are the ids that the section on instant centres works out for it.
-    """
-
-    link: int
-    base: PointName
-    point: PointName
-    rod: str
-    group: GroupView
-
-    @property
-    def omega(self) -> str:
-        return f"omega.{self.link}"
-
-    @property
-    def distances(self) -> list[str]:
-        return self._of_points("seg")
-
-    @property
-    def rates(self) -> list[str]:
-        return [f"ic.omega.{self.link}", f"ic.v.{self.link}"]
-
-    @property
-    def angles(self) -> list[str]:
-        return self._of_points("angle")
-
-    @property
-    def projections(self) -> list[str]:
-        return self._of_points("along")
-
-    def _of_points(self, what: str) -> list[str]:
-        return [f"ic.{what}.{self.link}.{name}" for name in (self.base, self.point)]
 
 
 @dataclass(frozen=True)
@@ -265,7 +209,7 @@ class Report:
     def given_names(self) -> Mapping[str, str]:
         """What is given, in words, by id; a declared linkage names its own quantities."""
         if "quantities" not in self.own:
-            names: Mapping[str, str] = self.words["given"]
+            names: Mapping[str, str] = self.words.get("given", {})
             return names
         words = self.words["linkage"]["given"]
         declared = {
@@ -343,60 +287,14 @@ class Report:
         """Those of the ids that the ledger knows, each once."""
         return [id for id in dict.fromkeys(ids) if id in self.ledger]
 
-    def turning(self, prefix: str) -> list[str]:
-        """Signed angular quantities of the links that turn."""
-        return self.known(f"{prefix}{link}" for link in self.machine.linkage.links)
-
-    @property
-    def turning_velocities(self) -> list[str]:
-        """The angular velocities of all links, the driver's first."""
-        return [*(["omega.1"] if self.driver.centre else []), *self.turning("turn.omega.")]
-
-    @property
-    def turning_accelerations(self) -> list[str]:
-        return self.turning("turn.eps.")
-
-    @property
-    def velocity_segments(self) -> list[str]:
-        ids: list[str] = []
-        for group in self.groups:
-            ids += [f"seg.v.p{group.m}", *(f"seg.v.{side.base.lower()}{group.m}" for side in group.moving)]
-            ids += _images("v", group)
-        return self.known(ids)
-
-    @property
-    def acceleration_segments(self) -> list[str]:
-        ids: list[str] = []
-        for group in self.groups:
-            ids.append(f"seg.a.p{group.m}")
-            ids += [f"seg.a.{part}.{side.relative}" for side in group.sides for part in _parts(side)]
-            ids += _images("a", group)
-        return self.known(ids)
-
-    @property
-    def velocity_columns(self) -> list[str]:
-        ids: list[str] = []
-        for group in self.groups:
-            # Relative to a fixed point a velocity is the point's own.
-            ids += [f"v.{group.M}", *(side.velocity for side in group.moving), f"v.{group.Q}"]
-            ids += [f"v.{place.name}" for place in group.points]
-        return self.known([*ids, *self.turning("turn.omega.")])
-
-    @property
-    def acceleration_columns(self) -> list[str]:
-        ids: list[str] = []
-        for group in self.groups:
-            ids.append(f"a.{group.M}")
-            ids += [f"a.{side.relative}.{part}" for side in group.sides for part in _parts(side)]
-            ids += [f"a.{group.Q}", *(f"a.{place.name}" for place in group.points)]
-        return self.known([*ids, *self.turning("turn.eps.")])
-
     @cached_property
     def plane_links(self) -> tuple[PlaneLink, ...]:
         """The links that turn about no fixed point and are no mere sliders, in the order of assembly."""
-        owner = {link: group for group in self.groups for link in (group.i, group.j)}
+        owner = {link: group.name for group in self.groups for link in (group.i, group.j)}
         turns = centred(scheme(self.machine.linkage))
-        return tuple(_plane_link(turn, owner[turn.link]) for turn in turns)
+        return tuple(PlaneLink(
+                turn.link, PointName(turn.base), PointName(turn.point), turn.rod, owner[turn.link]
+            ) for turn in turns)
 
     # --- forces
 
@@ -435,20 +333,6 @@ class Report:
                     BodyView(body.link, PointName(body.centre), start, tuple(ids), start in self.machine.linkage.ground)
                 )
         return tuple(found)
-
-    @property
-    def reaction_ids(self) -> list[str]:
-        ids = [
-            f"R.{name}"
-            for group in reversed(self.groups)
-            for name in (f"{group.outer}.t", f"{group.guide}.t", group.outer, group.inner, group.guide)
-        ]
-        return self.known([*ids, "R.01"])
-
-    @property
-    def reaction_angles(self) -> list[str]:
-        joints = [name for group in reversed(self.groups) for name in (group.outer, group.inner, group.guide)]
-        return self.known(f"dir.R{name}" for name in (*joints, "01"))
 
     @property
     def displaced_reactions(self) -> bool:
@@ -522,10 +406,6 @@ class Report:
         return bool(self.ledger.number(id, k).value == 0)
 
 
-def _plane_link(turn: Turn, group: GroupView) -> PlaneLink:
-    return PlaneLink(turn.link, PointName(turn.base), PointName(turn.point), turn.rod, group)
-
-
 def lower_digits(text: str) -> str:
     """Digits of point names as lowered digits: O1A → O₁A."""
     return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
@@ -541,12 +421,3 @@ def _with_commas(parts: Iterable[Any]) -> Iterator[Any]:
         if index:
             yield Text(", ")
         yield part
-
-
-def _images(what: str, group: GroupView) -> list[str]:
-    return [f"seg.{what}.p{place}" for place in (group.q, *(place.image for place in group.points))]
-
-
-def _parts(side: SideView) -> list[str]:
-    """Suffixes of a side's relative accelerations, the known one first."""
-    return [part for part in (side.part, side.sought) if part]

@@ -7,8 +7,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from reportgen.document.groups import GroupView
+from reportgen.document.parts import SideView
 from reportgen.document.report import Report, function
-from reportgen.document.tables import cell, list_table, table, tables
+from reportgen.document.tables import cell, columns, list_table, table, tables
 from reportgen.document.tree import (
     FIRST_COLUMN,
     TEXT_WIDTH,
@@ -114,12 +116,13 @@ def labels(report: Report, key: str, caption: str, head: Sequence[str]) -> Table
 
 @table("omega")
 def angular_velocities(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> Table:
-    return _rotations(report, key, caption, head, report.turning_velocities, k)
+    driver = ["omega.1"] if report.driver.centre else []
+    return _rotations(report, key, caption, head, [*driver, *_of_links(report, "turn.omega.")], k)
 
 
 @table("eps")
 def angular_accelerations(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> Table:
-    return _rotations(report, key, caption, head, report.turning_accelerations, k)
+    return _rotations(report, key, caption, head, _of_links(report, "turn.eps."), k)
 
 
 def _rotations(
@@ -151,24 +154,57 @@ def summary(report: Report, key: str, caption: str, head: Sequence[str], k: int)
     return list_table(report, key, caption, head, rows, (46.0,) * len(head))
 
 
-@table("v.segments")
-def velocity_segments(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    return tables(report, key, caption, report.velocity_segments, report.positions)
+@columns("v.segments")
+def velocity_segments(report: Report) -> list[str]:
+    ids: list[str] = []
+    for group in report.groups:
+        ids += [f"seg.v.p{group.m}", *(f"seg.v.{side.base.lower()}{group.m}" for side in group.moving)]
+        ids += _images("v", group)
+    return report.known(ids)
 
 
-@table("v")
-def velocities(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    return tables(report, key, caption, report.velocity_columns, report.positions)
+@columns("v")
+def velocities(report: Report) -> list[str]:
+    ids: list[str] = []
+    for group in report.groups:
+        # Relative to a fixed point a velocity is the point's own.
+        ids += [f"v.{group.M}", *(side.velocity for side in group.moving), f"v.{group.Q}"]
+        ids += [f"v.{place}" for place in group.points]
+    return [*report.known(ids), *_of_links(report, "turn.omega.")]
 
 
-@table("a.segments")
-def acceleration_segments(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    return tables(report, key, caption, report.acceleration_segments, report.positions)
+@columns("a.segments")
+def acceleration_segments(report: Report) -> list[str]:
+    ids: list[str] = []
+    for group in report.groups:
+        ids.append(f"seg.a.p{group.m}")
+        ids += [f"seg.a.{part}.{side.relative}" for side in group.sides for part in _parts(side)]
+        ids += _images("a", group)
+    return report.known(ids)
 
 
-@table("a")
-def accelerations(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    return tables(report, key, caption, report.acceleration_columns, report.positions)
+@columns("a")
+def accelerations(report: Report) -> list[str]:
+    ids: list[str] = []
+    for group in report.groups:
+        ids.append(f"a.{group.M}")
+        ids += [f"a.{side.relative}.{part}" for side in group.sides for part in _parts(side)]
+        ids += [f"a.{group.Q}", *(f"a.{place}" for place in group.points)]
+    return [*report.known(ids), *_of_links(report, "turn.eps.")]
+
+
+def _of_links(report: Report, prefix: str) -> list[str]:
+    """Signed angular quantities of the links that turn."""
+    return report.known(f"{prefix}{link}" for link in report.machine.linkage.links)
+
+
+def _images(what: str, group: GroupView) -> list[str]:
+    return [f"seg.{what}.p{place}" for place in (group.q, *(place.image for place in group.points))]
+
+
+def _parts(side: SideView) -> list[str]:
+    """Suffixes of a side's relative accelerations, the known one first."""
+    return [part for part in (side.part, side.sought) if part]
 
 
 # --- forces
@@ -199,19 +235,25 @@ def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tabl
     return list_table(report, key, caption, (positions, *stretches), across, widths)
 
 
-@table("inertia")
-def inertia(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    return tables(report, key, caption, report.inertia_lines, report.all_positions)
+@columns("inertia", cycle=True)
+def inertia(report: Report) -> list[str]:
+    return report.inertia_lines
 
 
-@table("R")
-def reactions(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    return tables(report, key, caption, report.reaction_ids, report.all_positions)
+@columns("R", cycle=True)
+def reactions(report: Report) -> list[str]:
+    ids = [
+        f"R.{name}"
+        for group in reversed(report.groups)
+        for name in (f"{group.outer}.t", f"{group.guide}.t", group.outer, group.inner, group.guide)
+    ]
+    return report.known([*ids, "R.01"])
 
 
-@table("R.angles")
-def reaction_angles(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    return tables(report, key, caption, report.reaction_angles, report.all_positions)
+@columns("R.angles", cycle=True)
+def reaction_angles(report: Report) -> list[str]:
+    joints = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
+    return report.known(f"dir.R{name}" for name in (*joints, "01"))
 
 
 @table("lever")
@@ -228,9 +270,9 @@ def lever_table(report: Report, key: str, caption: str, head: Sequence[str], k: 
     return list_table(report, key, caption, head, rows, (30.0, 36.0, 44.0, 44.0))
 
 
-@table("M")
-def balance(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    return tables(report, key, caption, ("M.eq", "M.vw", "M.difference"), report.all_positions)
+@columns("M", cycle=True)
+def balance(report: Report) -> list[str]:
+    return ["M.eq", "M.vw", "M.difference"]
 
 
 @table("flywheel")

@@ -50,6 +50,22 @@ def table(name: str) -> Callable[[Function], Function]:
     return register
 
 
+Ids = Callable[[Report], Sequence[str]]
+
+
+def columns(name: str, cycle: bool = False) -> Callable[[Ids], Ids]:
+    """Register a table of quantities, which the function lists, at all positions of one turn or of the cycle."""
+
+    def register(ids: Ids) -> Ids:
+        def quantities(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
+            return tables(report, key, caption, ids(report), report.all_positions if cycle else report.positions)
+
+        TABLES[name] = quantities
+        return ids
+
+    return register
+
+
 def insert_table(report: Report, name: str, *arguments: Any) -> Any:
     """A registered table with its words; one of a position k has k in its key and its caption."""
     words, position = report.words["tables"][name], next((k for k in arguments if isinstance(k, Position)), None)
