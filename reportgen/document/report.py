@@ -6,7 +6,7 @@ here where they are defined.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any, TypeVar
@@ -413,11 +413,4 @@ def lower_digits(text: str) -> str:
 
 def listed(parts: Iterable[Any]) -> Inlines:
     """Inlines side by side with commas."""
-    return tuple(_with_commas(parts))
-
-
-def _with_commas(parts: Iterable[Any]) -> Iterator[Any]:
-    for index, part in enumerate(parts):
-        if index:
-            yield Text(", ")
-        yield part
+    return tuple(one for index, part in enumerate(parts) for one in ((Text(", "), part) if index else (part,)))
