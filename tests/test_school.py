@@ -33,6 +33,23 @@ def test_a_school_overrides_one_section(tmp_path: Path, monkeypatch: pytest.Monk
     assert "Position plan" in text
 
 
+def test_a_section_of_a_school_may_call_and_write_short(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    root = tmp_path / "templates"
+    shutil.copytree(installation.templates(), root)
+    (root / "my-school" / "en").mkdir(parents=True)
+    (root / "my-school" / "en" / "foreword.md").write_text(
+        "# Preface {{ unnumbered() }}\n\nFig. @fig.ours shows $A$, $O_1$ and $omega.1$ = {{ value('omega.1') }}.\n\n"
+        '{{ figure("scheme", "fig.ours", "Our machine") }}\n\n'
+        '{{ tables("tab.ours", "Our speeds", ["v.B"], positions) }}\n',
+        encoding="utf-8",
+    )
+    monkeypatch.setattr(installation, "templates", lambda: root)
+    text = text_of(api.document(api.load(with_school(tmp_path, "my-school"))))
+    assert "shows A, O_1 and ω_1 = " in text
+    assert "Our machine" in text
+    assert "Our speeds" in text
+
+
 @pytest.mark.parametrize("name", ["nowhere", "vi", "../vi", "frames"])
 def test_an_unknown_school_is_a_located_fault(tmp_path: Path, name: str) -> None:
     (problem,) = api.check(with_school(tmp_path, name), "en")

@@ -22,6 +22,8 @@ from reportgen.answers.paper import (
 )
 from reportgen.answers.sheet import Filling, grid, info_page, number_format, page
 from reportgen.document.tree import (
+    FIRST_COLUMN,
+    TEXT_WIDTH,
     Block,
     Cell,
     Column,
@@ -34,7 +36,6 @@ from reportgen.document.tree import (
     Text,
     Value,
 )
-from reportgen.document.voice import FIRST_COLUMN, TEXT_WIDTH
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.notation.numbers import significant_decimals
 from reportgen.notation.sheet import ZERO

@@ -11,8 +11,9 @@ from reportgen.answers.key import Key, Role, Row, shown_number, words_of
 from reportgen.answers.sheet import asked_positions, info_rows, open_cells
 from reportgen.case import Case
 from reportgen.document.numbering import number
-from reportgen.document.outline import PLATES_UP_TO, prepare
+from reportgen.document.report import PLATES_UP_TO, Report
 from reportgen.document.tree import (
+    TEXT_WIDTH,
     BlankLine,
     Block,
     Cell,
@@ -28,7 +29,6 @@ from reportgen.document.tree import (
     Value,
     Words,
 )
-from reportgen.document.voice import TEXT_WIDTH
 from reportgen.figures.metrics import box
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.notation.numbers import Language
@@ -118,8 +118,8 @@ def task(case: Case, key: Key) -> Document:
 
     Raises `TemplateError`.
     """
-    assignment, words, machine = case.assignment, case.words, case.analysis.machine
-    prose, names = prepare(case)
+    report = Report(case)
+    prose, names, words, machine = report.prose, report.names(), case.words, case.analysis.machine
     every = range(1, machine.positions + 1)
     asked = asked_positions(key)
     (heading, *given) = prose.render("given.md", names)
@@ -128,7 +128,7 @@ def task(case: Case, key: Key) -> Document:
         "asked": tuple(map(key.label, asked)),
         "known_tables": tuple(_known_tables(key, every if machine.count <= PLATES_UP_TO else asked)),
     }
-    report = assignment.report
+    about = case.assignment.report
     blocks: list[Block] = [
         heading,
         Paragraph((Strong((Text(case.title),)),), "center"),
@@ -136,8 +136,8 @@ def task(case: Case, key: Key) -> Document:
         *given,
         *prose.render("task.md", names),
     ]
-    course = report.course or words["cover"]["course"]
-    return paper(assignment.language, words, course, blocks, report.student.name or "", assignment.variant)
+    course = about.course or words["cover"]["course"]
+    return paper(case.assignment.language, words, course, blocks, about.student.name or "", case.assignment.variant)
 
 
 def answer_tables(key: Key) -> Iterator[Table]:

@@ -1,4 +1,4 @@
-"""The Markdown half of prose: rendered text becomes blocks of the tree.
+"""Markdown with tokens for values → blocks of the tree.
 
 The vocabulary is small on purpose: headings to level 4, paragraphs, emphasis, strong, line breaks,
 lists and page breaks (`---`).  Everything else has its own block, made by a function.
@@ -6,7 +6,9 @@ lists and page breaks (`---`).  Everything else has its own block, made by a fun
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+import secrets
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import cast, get_args
@@ -14,7 +16,6 @@ from typing import cast, get_args
 from markdown_it import MarkdownIt
 from markdown_it.tree import SyntaxTreeNode
 
-from reportgen.document.fragments import TOKEN, Emitted, Key, Rendered, Unnumbered
 from reportgen.document.tree import (
     Block,
     Emph,
@@ -29,6 +30,38 @@ from reportgen.document.tree import (
     Text,
 )
 from reportgen.errors import TemplateError
+
+SECRET = str(secrets.randbelow(10**18)).zfill(18)
+"""Drawn anew in every process, so that no user's text can imitate a mark or a token; it never reaches the result."""
+TOKEN = re.compile(f"\ue000{SECRET}:(\\d+)\ue001")
+"""A value's token in the Markdown text; its group is the index of the value."""
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """Names the section whose heading it ends."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Unnumbered:
+    """Keeps the section whose heading it ends out of the count."""
+
+
+Emitted = Inline | Block | Key | Unnumbered
+Place = tuple[str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Rendered:
+    """Markdown with tokens: `values` and their `places` by index, `lines` the origin of every line."""
+
+    text: str
+    values: Sequence[Emitted]
+    places: Mapping[int, Place]
+    lines: Sequence[Place]
+
 
 _BLOCKS = get_args(Block)
 _DEEPEST = 4

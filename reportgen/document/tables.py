@@ -1,50 +1,399 @@
-"""The tables that templates may call, by name; what they show of the report is in the modules beside.
+"""Tables of what is given, and what all tables of a report are made with.
 
-Given data: `given_tables`; motion: `motion_tables`; forces: `force_tables`; checks: `check_tables`.
+A table is a function of a report, its key, caption and head, and of what it shows.  Registered under a name
+it is called as `table(name, …)`, with the words that `words.yaml` has for it under `tables`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
-from reportgen.document.check_tables import CheckTables
-from reportgen.document.force_tables import ForceTables
-from reportgen.document.given_tables import GivenTables
-from reportgen.document.motion_tables import MotionTables
-from reportgen.document.tabled import Tabled
-from reportgen.document.tree import Table
+from reportgen.catalogue.given_loads import ByOrdinates
+from reportgen.catalogue.loads import AngleLaw, Applied, TableLaw, Torque, WayLaw
+from reportgen.catalogue.machine import Position
+from reportgen.cycle.applied import StrokeIndicator
+from reportgen.document.report import FUNCTIONS, Function, Report, function, listed, lower_digits
+from reportgen.document.tree import (
+    FIRST_COLUMN,
+    TEXT_WIDTH,
+    Cell,
+    Column,
+    InlineMath,
+    Inlines,
+    Table,
+    Text,
+    Value,
+)
+from reportgen.notation import symbols
+from reportgen.notation.expressions import Expression, Fraction, Number, Symbol, refs
 
+MM = 1e3
+WIDEST_COLUMN = 26.0
 MOST_COLUMNS = 9
+MOST_LENGTHS = 7
+"""Columns of lengths that stand beside one another."""
+LONG_WORDS = 10
+"""A column with a text this long is one of words and set flush left."""
+
+TABLES: dict[str, Callable[..., Any]] = {}
 
 
-class Tables(Tabled):
-    """All tables of one report."""
+def table(name: str) -> Callable[[Function], Function]:
+    """Register a table under the name by which templates call it; its key is `tab.` and this name."""
 
-    @property
-    def functions(self) -> dict[str, Callable[..., Any]]:
-        """What templates may call, by name."""
-        kinds = (GivenTables, MotionTables, ForceTables, CheckTables)
-        found: dict[str, Callable[..., Any]] = {"tables": self.tables}
-        for kind in kinds:
-            found |= kind(self.assignment, self.facts, self.voice).functions
-        return found
+    def register(called: Function) -> Function:
+        TABLES[name] = called
+        return called
 
-    def tables(
-        self, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]
-    ) -> tuple[Table, ...]:
-        """One table, or several below one another where the columns are too many; the key names the first."""
-        wide = MOST_COLUMNS - 1
-        count = max(-(-len(ids) // wide), 1)
-        size = -(-len(ids) // count)
-        parts = [ids[start : start + size] for start in range(0, len(ids), size)]
-        rows = list(positions)
-        return tuple(
-            self.voice.table(
-                key if index == 0 else f"{key}.{index + 1}",
-                caption if count == 1 else f"{caption} ({index + 1}/{count})",
-                part,
-                rows,
-            )
-            for index, part in enumerate(parts)
+    return register
+
+
+Ids = Callable[[Report], Sequence[str]]
+
+
+def columns(name: str, cycle: bool = False) -> Callable[[Ids], Ids]:
+    """Register a table of quantities, which the function lists, at all positions of one turn or of the cycle."""
+
+    def register(ids: Ids) -> Ids:
+        def quantities(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
+            return tables(report, key, caption, ids(report), report.all_positions if cycle else report.positions)
+
+        TABLES[name] = quantities
+        return ids
+
+    return register
+
+
+def insert_table(report: Report, name: str, *arguments: Any) -> Any:
+    """A registered table with its words; one of a position k has k in its key and its caption."""
+    words, position = report.words["tables"][name], next((k for k in arguments if isinstance(k, Position)), None)
+    key = f"tab.{name}" if position is None else f"tab.{name}.{position}"
+    return TABLES[name](report, key, words["caption"].format(k=position), words.get("head", ()), *arguments)
+
+
+FUNCTIONS["table"] = insert_table
+
+# --- what tables are made with
+
+
+def cell(content: object) -> Cell:
+    """A table cell from text, a symbol, a number or inlines."""
+    return Cell(_inlines(content))
+
+
+def _inlines(content: object) -> Inlines:
+    match content:
+        case str():
+            return (Text(content),) if content else ()
+        case Number():
+            return (Value(content),)
+        case tuple():
+            return tuple(inline for part in content for inline in _inlines(part))
+        case Text() | Value() | InlineMath():
+            return (content,)
+    if isinstance(content, Expression):
+        return (InlineMath(content),)
+    raise TypeError(f"a {type(content).__name__} has no place in a table")
+
+
+def bare(report: Report, id: str, position: int | None) -> Inlines:
+    """A number without its unit, a dash for what does not exist."""
+    number = report.ledger.number(id, position, size=report.ledger[id].arm)
+    if number.value != number.value or _is_direction_of_zero(report, id, position):
+        return (Text("–"),)
+    return (Value(Number(number.value, number.decimals, "")),)
+
+
+def _is_direction_of_zero(report: Report, id: str, position: int | None) -> bool:
+    """Whether an angle `dir.R05`, `dir.v.B` is that of a vector which is zero."""
+    if not id.startswith("dir."):
+        return False
+    name = id.removeprefix("dir.")
+    size = f"R.{name[1:]}" if name.startswith("R") else name
+    return size in report.ledger and report.is_zero(size, position)
+
+
+def _columns(report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]) -> Table:
+    """A table of quantities (columns) at positions (rows); the head shows symbol and unit."""
+    ledger = report.ledger
+    width = min((TEXT_WIDTH - FIRST_COLUMN) / len(ids), WIDEST_COLUMN)
+    units = [ledger.units.get(ledger[id].how.unit, ledger[id].how.unit) for id in ids]
+    head = (
+        (cell(report.words["table"]["position"]), *(cell(ledger.symbol(id)) for id in ids)),
+        (Cell(), *map(cell, units)),
+    )
+    rows = tuple((cell(str(k)), *(cell(bare(report, id, k)) for id in ids)) for k in positions)
+    columns = (Column(FIRST_COLUMN), *(Column(width) for _ in ids))
+    return Table(columns, head, rows, report.prose.inlines(caption), key)
+
+
+@function
+def tables(
+    report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]
+) -> tuple[Table, ...]:
+    """Quantities at positions: one table, or several below one another where the columns are too many."""
+    rows = list(positions)
+
+    def part(key: str, caption: str, ids: Sequence[str]) -> Table:
+        return _columns(report, key, caption, ids, rows)
+
+    return _parts(key, caption, ids, MOST_COLUMNS - 1, part)
+
+
+def _parts(
+    key: str, caption: str, columns: Sequence[str], most: int, make: Callable[[str, str, Sequence[str]], Table]
+) -> tuple[Table, ...]:
+    """A table, or as many of even width as keep to `most` columns; the key names the first."""
+    count = max(-(-len(columns) // most), 1)
+    size = -(-len(columns) // count)
+    return tuple(
+        make(
+            f"{key}.{index + 1}" if index else key,
+            caption if count == 1 else f"{caption} ({index + 1}/{count})",
+            columns[index * size : (index + 1) * size],
         )
+        for index in range(count)
+    )
+
+
+@function
+def list_table(
+    report: Report,
+    key: str,
+    caption: str,
+    head: Sequence[object],
+    rows: Iterable[Sequence[object]],
+    widths: Sequence[float],
+) -> Table:
+    """A free table: cells are texts, symbols, numbers or inlines; widths in mm; columns of words flush left."""
+    body = [tuple(row) for row in rows]
+    words = [any(_is_wordy(row[i]) for row in body) for i in range(len(widths))]
+    return Table(
+        tuple(Column(width, "left" if wordy else "center") for width, wordy in zip(widths, words, strict=True)),
+        (tuple(map(cell, head)),),
+        tuple(tuple(map(cell, row)) for row in body),
+        report.prose.inlines(caption),
+        key,
+    )
+
+
+def _is_wordy(content: object) -> bool:
+    return isinstance(content, str) and len(content) >= LONG_WORDS
+
+
+# --- given data
+
+
+@table("given")
+def given_data(
+    report: Report, key: str, caption: str, head: Sequence[str], others: Mapping[str, str] | None = None
+) -> Table:
+    """The given quantities in the words of the machine, some of them in other words."""
+    return given_table(report, key, caption, {**report.given_names, **(others or {})})
+
+
+@function
+def given_table(report: Report, key: str, caption: str, names: Mapping[str, str]) -> Table:
+    """All given quantities of the machine that `names` describes; what is derived is left out."""
+    heads = report.words["table"]
+    rows = [
+        (name, report.ledger.symbol(id), _as_typed(report, id))
+        for id, name in names.items()
+        if id in report.ledger and _is_given(report, id)
+    ]
+    return list_table(
+        report, key, caption, (heads["quantity"], heads["symbol"], heads["value"]), rows, (92.0, 28.0, 40.0)
+    )
+
+
+def _is_given(report: Report, id: str) -> bool:
+    definition = report.ledger[id].definition
+    return definition is None or not refs(definition)
+
+
+def _as_typed(report: Report, id: str) -> Inlines:
+    """A given number with its unit; a ratio written 1/3.6 stays one."""
+    definition = report.ledger[id].definition
+    if isinstance(definition, Fraction):
+        ends = [part for part in (definition.top, definition.bottom) if isinstance(part, Number)]
+        if len(ends) == 2:
+            return Value(ends[0]), Text("/"), Value(ends[1])
+    return (Value(report.ledger.number(id)),)
+
+
+@table("indicator")
+@function
+def indicator_table(report: Report, key: str, caption: str, head: Sequence[str] = ()) -> Table:
+    """The indicator diagram as given, in gauge pressure: by stroke, or against the cycle angle."""
+    diagram = report.assignment.indicator
+    heights = diagram.height if isinstance(diagram, ByOrdinates) else ()
+    law = report.machine.pistons[0].law
+    return _law_table(report, law, key, caption, report.words["strokes"], Symbol("p"), 1e4, heights)
+
+
+@function
+def force_table(report: Report, key: str, caption: str, names: Sequence[str]) -> Table:
+    """A working force as given (N): a row for each of the strokes `names`, or against the crank angle."""
+    law = report.machine.applied[0].law
+    assert isinstance(law, TableLaw)
+    return _law_table(report, law, key, caption, names, Symbol("P"))
+
+
+@function
+def load_table(report: Report, key: str, caption: str, name: str, strokes: Sequence[str]) -> Table:
+    """The load `name` as given (N, N·m): a row for each of the `strokes`, or against the driver's turn or way."""
+    loads: tuple[Applied | Torque, ...] = (*report.machine.applied, *report.machine.torques)
+    law = next(load.law for load in loads if load.name == name)
+    shown = report.ledger.symbol(name)
+    if isinstance(law, AngleLaw):
+        angles = [math.degrees(angle) for angle in law.angles]
+        return _beside(report, key, caption, [(Symbol("φ"), angles), (shown, law.values)])
+    if isinstance(law, WayLaw):
+        ways = [way * MM for way in law.ways]
+        return _beside(report, key, caption, [(Symbol("s"), ways), (shown, law.values)])
+    assert isinstance(law, TableLaw)
+    return _law_table(report, law, key, caption, strokes, shown)
+
+
+def _law_table(
+    report: Report,
+    law: TableLaw,
+    key: str,
+    caption: str,
+    names: Sequence[str],
+    shown: Symbol,
+    unit: float = 1.0,
+    heights: Sequence[float] = (),
+) -> Table:
+    """The nodes of a law; `heights` (mm) are those it was read from, if it was read from a drawing."""
+    nodes = law.table
+    if isinstance(nodes, StrokeIndicator):
+        rows = [
+            (cell(name), *(_exact(value / unit) for value in row))
+            for name, row in zip(names, nodes.rows, strict=False)
+        ]
+        head = (cell(Fraction(Symbol("s"), Symbol("H"))), *map(_exact, nodes.nodes))
+        return _blocks(report, key, caption, head, rows, FIRST_COLUMN + 8)
+    last = law.turns * 2 * math.pi * (1 + 1e-15)
+    columns: list[tuple[Symbol, Sequence[float]]] = [
+        (Symbol("φ"), [math.degrees(angle) for angle in nodes.angles if angle <= last]),
+        *(((Symbol("y"), list(heights)),) if heights else ()),
+        (shown, [value / unit for value in nodes.pressures]),
+    ]
+    return _beside(report, key, caption, columns)
+
+
+def _exact(value: float) -> Cell:
+    return Cell((Value(Number(float(f"{value:.10g}"))),))
+
+
+def _beside(
+    report: Report, key: str, caption: str, columns: Sequence[tuple[Symbol, Sequence[float]]]
+) -> Table:
+    """Long columns, folded into sets side by side."""
+    head = tuple(cell(shown) for shown, _ in columns)
+    sets = [tuple(map(_exact, row)) for row in zip(*(values for _, values in columns), strict=False)]
+    beside = 3 if len(columns) > 2 else 4
+    rows_count = -(-len(sets) // beside)
+    filled = sets + [(Cell(),) * len(columns)] * (rows_count * beside - len(sets))
+    body = tuple(
+        tuple(one for block in range(beside) for one in filled[block * rows_count + row])
+        for row in range(rows_count)
+    )
+    width = Column(TEXT_WIDTH / beside / len(columns) - 2.0)
+    return Table((width,) * (beside * len(columns)), (head * beside,), body, report.prose.inlines(caption), key)
+
+
+def _blocks(
+    report: Report,
+    key: str,
+    caption: str,
+    head: tuple[Cell, ...],
+    rows: Sequence[tuple[Cell, ...]],
+    first: float,
+) -> Table:
+    """A wide table; more than 13 columns are set below one another in blocks of at most 12 values."""
+    most = 12
+    width = min((TEXT_WIDTH - first) / min(len(head) - 1, most), 14.0)
+    body: list[tuple[Cell, ...]] = []
+    for start in range(1, len(head), most):
+        stop = min(start + most, len(head))
+        pad = (Cell(),) * (most - (stop - start)) if len(head) - 1 > most else ()
+        if start > 1:
+            body.append((head[0], *head[start:stop], *pad))
+        body += [(row[0], *row[start:stop], *pad) for row in rows]
+    count = min(len(head) - 1, most)
+    columns = (Column(first, "left"), *(Column(width),) * count)
+    return Table(columns, ((head[0], *head[1 : count + 1]),), tuple(body), report.prose.inlines(caption), key)
+
+
+@table("joints")
+def joints(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """All joints: number, place, links, type."""
+    kinds = report.words["joints"]
+    rows = (
+        (str(number), symbols.point(joint.point), f"{joint.links[0]} – {joint.links[1]}", kinds[joint.kind])
+        for number, joint in enumerate(report.mobility.joints, start=1)
+    )
+    return list_table(report, key, caption, head, rows, (20.0, 30.0, 40.0, 50.0))
+
+
+@table("lengths")
+def lengths(
+    report: Report, key: str, caption: str, head: Sequence[str], arms: Sequence[str]
+) -> tuple[Table, ...]:
+    """Real and drawn lengths, one column a length; many lengths in several tables below one another."""
+
+    def part(key: str, caption: str, arms: Sequence[str]) -> Table:
+        columns = (Column(46.0, "left"), *(Column(min((TEXT_WIDTH - 46) / len(arms), 22.0)),) * len(arms))
+        rows = tuple(
+            (cell(title), *(Cell(bare(report, f"{prefix}.{arm}", None)) for arm in arms))
+            for title, prefix in zip(head[1:], ("l", "drawn"), strict=True)
+        )
+        heads = (cell(head[0]), *(cell(lower_digits(arm)) for arm in arms))
+        return Table(columns, (heads,), rows, report.prose.inlines(caption), key)
+
+    return _parts(key, caption, [arm for arm in arms if f"l.{arm}" in report.ledger], MOST_LENGTHS, part)
+
+
+# --- a declared linkage
+
+
+@table("frame")
+def frame(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The fixed points."""
+    return list_table(report, key, caption, head, report.own["frame"], (30.0, 50.0, 50.0))
+
+
+@table("groups")
+def groups(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The groups in the order of assembly, with the way in which each is assembled."""
+    choice = report.words["linkage"]["choice"]
+    rows = (
+        (
+            ", ".join(map(str, row.links)),
+            row.kind,
+            listed(InlineMath(symbols.point(name)) for name in row.joints),
+            choice[row.choice],
+        )
+        for row in report.own["groups"]
+    )
+    return list_table(report, key, caption, head, rows, (20.0, 20.0, 30.0, 85.0))
+
+
+@table("guides")
+def guides(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The guides: a point of the line and its direction."""
+    rows = ((str(row.slider), str(row.carrier), row.x, row.y, row.angle) for row in report.own["guides"])
+    return list_table(report, key, caption, head, rows, (20.0, 40.0, 32.0, 32.0, 30.0))
+
+
+@table("points")
+def further_points(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """Further points of the links by their distances."""
+    rows = (
+        (symbols.point(row.name), str(row.link), row.along, row.across) for row in report.own["points"]
+    )
+    return list_table(report, key, caption, head, rows, (24.0, 24.0, 40.0, 40.0))

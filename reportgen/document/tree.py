@@ -107,6 +107,12 @@ class Equation:
     number: str = ""
 
 
+TEXT_WIDTH = 160.0
+"""What of an A4 page text takes across (mm)."""
+FIRST_COLUMN = 16.0
+"""The column of a table that names the positions (mm)."""
+
+
 @dataclass(frozen=True, slots=True)
 class Column:
     width: float

@@ -14,6 +14,7 @@ from reportgen.answers.paper import fields, paper, student_rows, text_cells
 from reportgen.answers.sheet import NAMES, asked_positions, given_entry, grid, info_page, page, rows_shown
 from reportgen.document.plain import plain
 from reportgen.document.tree import (
+    TEXT_WIDTH,
     Block,
     Column,
     Document,
@@ -28,7 +29,6 @@ from reportgen.document.tree import (
     Text,
     Value,
 )
-from reportgen.document.voice import TEXT_WIDTH
 from reportgen.errors import Problem
 from reportgen.grading.marks import Marked, Marking, Verdict
 from reportgen.notation.expressions import Number

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from reportgen.case import open_case
-from reportgen.document.drawings import Drawings
-from reportgen.document.facts import Facts
-from reportgen.document.views import driver, groups
+from reportgen.document.groups import GroupView
+from reportgen.document.plans import acceleration_plan, force_stages, velocity_plan
+from reportgen.document.report import Report
 from reportgen.figures.plan import Plan, merged, stages
 from reportgen.figures.scene import Arrow, Line
 from reportgen.figures.style import NEW
@@ -34,23 +34,21 @@ def additions(drawing: Plan, stage: int) -> list[tuple[complex, complex]]:
     return [(start, end) for start, end in (*new, *lines) if abs(end - start) > VISIBLE]
 
 
-def drawn_up(file: Path) -> tuple[Facts, Drawings]:
-    case = open_case(file, "en")
-    facts = Facts(case, groups(case.analysis, case.polygons), driver(case.analysis))
-    return facts, Drawings(case.assignment, facts, case.words, facts.worked)
-
-
 @pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])
 def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> None:
-    facts, drawings = drawn_up(file)
-    k = facts.worked[0]
-    for group in facts.groups:
+    report = Report(open_case(file))
+    k = report.assignment.worked_positions[0]
+
+    def is_drawn(group: GroupView, name: str) -> bool:
+        return report.ledger.number(f"seg.{group.name}.{name}", k).value > SAME
+
+    for group in report.groups:
         if group.polygon is None:
             continue
-        known = [s for s in group.polygon.sides if not s.unknown and facts.drawn(group, s.name, k).value > SAME]
+        known = [s for s in group.polygon.sides if not s.unknown and is_drawn(group, s.name)]
         by_moments = {s.start + s.end for s in known if s.name.endswith(".t")}
         given = {s.start + s.end for s in known} - by_moments
-        panels = drawings.force_stages(k, group).scenes
+        panels = force_stages(report, k, group).scenes
         arrows = [[item for item in panel.items if isinstance(item, Arrow)] for panel in panels]
         assert given <= {arrow.name for arrow in arrows[0]}
         assert not by_moments & {arrow.name for arrow in arrows[0]}
@@ -61,10 +59,9 @@ def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> Non
 
 @pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])
 def test_every_stage_adds_an_arrow_or_a_line(file: Path) -> None:
-    facts, drawings = drawn_up(file)
-    analysis, worked = facts.analysis, facts.worked
-    for k in range(1, analysis.machine.count + 1):
-        for drawing in (drawings.velocity_plan(k), drawings.acceleration_plan(k)):
+    report = Report(open_case(file))
+    for k in range(1, report.count + 1):
+        for drawing in (velocity_plan(report, k), acceleration_plan(report, k)):
             parts = merged(drawing)
             assert all(additions(parts, stage) for stage in range(parts.last_stage + 1))
             # Nothing is lost or put before what it stands on.
@@ -73,7 +70,6 @@ def test_every_stage_adds_an_arrow_or_a_line(file: Path) -> None:
             after = [piece.stage for piece in (*parts.vectors, *parts.lines, *parts.points)]
             renumbered = [new for _, new in sorted(zip(order, after, strict=True))]
             assert renumbered == sorted(after)
-    k = (worked[0] - 1) % analysis.machine.count + 1
-    for panel in stages(drawings.velocity_plan(k), 0.5):
+    for panel in stages(velocity_plan(report, report.worked[0]), 0.5):
         pens = [item.stroke.colour for item in panel.items if isinstance(item, Arrow | Line)]
         assert NEW.colour in pens

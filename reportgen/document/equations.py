@@ -1,0 +1,368 @@
+"""What templates say in symbols: quantities, worked lines, vector equations.
+
+All functions here are called by templates under their own names; they take everything from the ledger.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+from reportgen.document.groups import GroupView
+from reportgen.document.parts import SideView
+from reportgen.document.report import Report, function, listed, lower_digits
+from reportgen.document.tree import Equation, InlineMath, Inlines, Reference, Text, Value
+from reportgen.ledger.forces.polygon import Side as PolygonSide
+from reportgen.mechanism.mobility import mobility
+from reportgen.notation import symbols
+from reportgen.notation.expressions import (
+    Chain,
+    Expression,
+    Number,
+    Ref,
+    Symbol,
+    Term,
+    VectorEquation,
+    refs,
+    substitute,
+)
+
+# --- numbers and symbols
+
+
+@function
+def symbol(report: Report, id: str) -> Symbol:
+    """The symbol of a quantity."""
+    return report.ledger.symbol(id)
+
+
+@function
+def math(report: Report, text: str) -> Symbol:
+    """What a template writes as `$…$`: a quantity's symbol by its id, else letters with what is lowered."""
+    if text in report.ledger:
+        return report.ledger.symbol(text)
+    base = re.match(r"[^\W\d_]*", text)
+    assert base is not None
+    return Symbol(base[0], text[base.end() :].removeprefix("_"))
+
+
+@function
+def value(report: Report, id: str, position: int | None = None, size: bool = False) -> Value:
+    """A quantity's number with its unit; `size` leaves its sign away."""
+    return Value(report.ledger.number(id, position, size=size))
+
+
+@function
+def quantity(report: Report, id: str, position: int | None = None) -> Inlines:
+    """A quantity as "symbol = number" in running text."""
+    return InlineMath(symbol(report, id)), Text(" = "), value(report, id, position)
+
+
+@function
+def known(report: Report, id: str) -> bool:
+    """Whether the report has a quantity."""
+    return id in report.ledger
+
+
+@function
+def zero(report: Report, id: str, position: int | None = None) -> bool:
+    return report.is_zero(id, position)
+
+
+@function
+def negative(report: Report, id: str, position: int | None = None) -> bool:
+    return bool(report.ledger.number(id, position).value < 0)
+
+
+@function
+def direction(report: Report, id: str, position: int | None = None) -> str:
+    """The sense of a rotation in words; a dash where there is none."""
+    return report.sense(report.ledger.number(id, position).value)
+
+
+@function
+def point(report: Report, name: str) -> Symbol:
+    """The symbol of a point, e.g. S with a lowered 2."""
+    return symbols.point(name)
+
+
+@function
+def points(report: Report, names: Iterable[object]) -> Inlines:
+    """Symbols of points, side by side with commas."""
+    return listed(InlineMath(symbols.point(str(name))) for name in names)
+
+
+@function
+def image(report: Report, name: str, prime: bool = False) -> Symbol:
+    """The image of a point on a plan."""
+    return symbols.on_plan(name, prime)
+
+
+@function
+def letters(report: Report, base: str, sub: str | int = "", sup: str = "") -> Symbol:
+    """Any symbol."""
+    return Symbol(base, str(sub), sup)
+
+
+@function
+def vector(report: Report, base: str, sub: str | int = "", sup: str = "") -> Symbol:
+    """Any symbol under an arrow."""
+    return Symbol(base, str(sub), sup, "vector")
+
+
+@function
+def v(report: Report, of: str | SideView) -> Symbol:
+    """The velocity of a point as a vector; of a side, the relative one."""
+    return Symbol("v", of if isinstance(of, str) else of.pair, over="vector")
+
+
+@function
+def a(report: Report, of: str | SideView, part: str = "") -> Symbol:
+    """The acceleration of a point, or a part of it, as a vector; of a side, the relative one."""
+    return Symbol("a", of if isinstance(of, str) else of.pair, part, "vector")
+
+
+@function
+def R(report: Report, digits: str, part: str = "") -> Symbol:
+    """The reaction in a joint, or a part of it, as a vector."""
+    return Symbol("R", digits, part, "vector")
+
+
+@function
+def lowered(report: Report, text: str) -> str:
+    """Digits of point names as lowered digits: O1A → O₁A."""
+    return lower_digits(text)
+
+
+@function
+def group_kind(report: Report, group: GroupView) -> str:
+    return str(report.words["groups"][group.kind])
+
+
+@function
+def stroke_name(report: Report, link: int, position: int) -> str:
+    """The stroke that a piston is on."""
+    return str(report.words["strokes"][int(report.analysis.gas[f"P{link}"].stroke[position - 1])])
+
+
+@function
+def plate_refs(report: Report, prefix: str) -> Inlines:
+    """References to a figure of every group, in the order of the force analysis."""
+    return listed(Reference(f"{prefix}{group.name}") for group in reversed(report.groups))
+
+
+@function
+def force_list(report: Report, group: GroupView, position: int) -> Inlines:
+    """The known sides of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, …"""
+    assert group.polygon is not None
+    known_sides = [side for side in group.polygon.sides if not side.unknown]
+    shown = []
+    for side in known_sides:
+        length = quantity(report, f"seg.{group.name}.{side.name}", position)
+        shown.append((*length, Text(" ("), InlineMath(report.force_symbol(side.name)), Text(")")))
+    return tuple(part for index, one in enumerate(shown) for part in ((Text(", "),) if index else ()) + one)
+
+
+# --- lines
+
+
+@function
+def line(report: Report, id: str, position: int | None = None, note: str = "", key: str = "") -> Equation:
+    """One worked line: symbol = formula = numbers = result."""
+    return lines(report, [id], position, note, key)
+
+
+@function
+def lines(
+    report: Report, ids: Sequence[str], position: int | None = None, note: str = "", key: str = ""
+) -> Equation:
+    """Several worked lines, aligned."""
+    return Equation(tuple(_worked(report, id, position, note) for id in ids), key)
+
+
+def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
+    """A worked line; one that comes to zero says why instead of showing its numbers."""
+    chain = report.ledger.chain(id, position, note)
+    result = chain.parts[-1]
+    if not note and isinstance(result, Number) and result.value == 0 and report.ledger[id].definition:
+        patterns = report.words["zero"].items()
+        reason = next((str(why) for pattern, why in patterns if re.fullmatch(str(pattern), id)), "")
+        return Chain((chain.parts[0], result), reason)
+    return chain
+
+
+@function
+def centre_lines(report: Report, rod: int, what: str) -> list[str]:
+    """Closed formulas of a rod's mass centre by components."""
+    names = [place.name for group in report.groups for place in group.points_i if group.i == rod]
+    return report.known(id for name in names for id in (f"f.x.{name}.{what}", f"f.y.{name}.{what}", f"f.{what}.{name}"))
+
+
+@function
+def equations(report: Report, name: str, position: int | None = None) -> Equation:
+    """Equations of the machine's own, with the numbers at a position if they name quantities."""
+
+    def number_of(ref: Ref) -> Number:
+        number = report.ledger.number(ref.id, position)
+        return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
+
+    return Equation(tuple(substitute(row, number_of) for row in report.machine.equations[name]))
+
+
+@function
+def mobility_line(report: Report) -> Equation:
+    """W = 3n − (2t + c) + r − s with the numbers put in."""
+    counted = mobility(report.machine.linkage)
+    sizes = counted.n, counted.lower_pairs, counted.higher_pairs, counted.passive, counted.redundant
+
+    def freedom(n: Expression, t: Expression, c: Expression, r: Expression, s: Expression) -> Expression:
+        return 3 * n - (2 * t + c) + r - s
+
+    formula, numbers = freedom(*map(Symbol, "ntcrs")), freedom(*map(Number, sizes))
+    # A chain within a chain stays on one line: it is not broken at its equals signs.
+    return Equation((Chain((Chain((Symbol("W"), formula, numbers, Number(counted.W))),)),))
+
+
+# --- vector equations of motion
+
+
+@function
+def velocity_equation(report: Report, group: GroupView, position: int) -> Equation:
+    """v_M = v_P + v_MP = v_T + v_MT with what is known of each vector; a fixed base leaves v_M's direction."""
+    still = next((side for side in group.sides if side.still), None)
+    sides: list[tuple[Term, ...]] = [(_unknown(report, "v", group.M, "", still),)]
+    for side in group.moving:
+        relative = _unknown(report, "v", side.pair, "", side)
+        sides.append((_base(report, side, "v"), relative))
+    return _equation(report, sides, "rows", f"eq.v.{group}.{position}")
+
+
+@function
+def acceleration_equation(report: Report, group: GroupView, position: int) -> Equation:
+    """a_M = a_P + aⁿ_MP + aᵗ_MP = a_G + aᵏ_MG + aʳ_MG with what is known of each vector."""
+    fixed = next((side for side in group.sides if not side.sought), None)
+    sides: list[tuple[Term, ...]] = [(_unknown(report, "a", group.M, "", fixed),)]
+    for side in group.sides:
+        if side is not fixed:
+            base = () if side.still else (_base(report, side, "a"),)
+            sides.append((*base, *_relative(report, side)))
+    return _equation(report, sides, "rows", f"eq.a.{group}.{position}")
+
+
+def _equation(report: Report, sides: Sequence[tuple[Term, ...]], rows: str, key: str = "") -> Equation:
+    return Equation((VectorEquation(tuple(sides), tuple(report.words["vector"][rows])),), key)
+
+
+def _term(base: str, sub: str, sup: str, *known: Expression | str | None) -> Term:
+    return Term(Symbol(base, sub, sup, "vector"), known)
+
+
+def _unknown(report: Report, base: str, sub: str, sup: str, side: SideView | None) -> Term:
+    """A vector of which only the direction is known, that of what is sought on a side."""
+    return _term(base, sub, sup, None if side is None else _direction(report, side), None, None)
+
+
+def _direction(report: Report, side: SideView) -> str:
+    """The direction of what is sought on a side."""
+    if side.turns:
+        return f"⊥ {lower_digits(side.rod)}"
+    return str(report.words["vector"]["along_slot" if side.carrier is None else "along_guide"])
+
+
+def _relative(report: Report, side: SideView) -> tuple[Term, ...]:
+    """aⁿ and aᵗ of a turning side, aᵏ and aʳ of a sliding one."""
+    words, ledger = report.words["vector"], report.ledger
+    sought = _unknown(report, "a", side.pair, "τ" if side.turns else "r", side)
+    if side.turns:
+        size = ledger.symbol(side.velocity) ** 2 / ledger.symbol(f"l.{side.rod}")
+        way = f"{lower_digits(side.point)} → {lower_digits(side.base)}"
+        return _term("a", side.pair, "n", f"∥ {lower_digits(side.rod)}", way, size), sought
+    if not side.turning:
+        return (sought,)
+    twice = 2 * ledger.symbol(side.omega) * ledger.symbol(side.velocity)
+    across = words["across_slot" if side.carrier is None else "across_guide"]
+    return _term("a", side.pair, "k", across, words["turned"], twice), sought
+
+
+def _base(report: Report, side: SideView, what: str) -> Term:
+    """The vector of a side's base: on the crank with its direction and size, else known from before."""
+    words, ledger = report.words["vector"], report.ledger
+    arm = f"{report.driver.centre}{side.base}"
+    if not report.driver.centre or f"l.{arm}" not in ledger or not _on_crank(report, side.base):
+        return _term(what, side.shown, "", words["given"], words["given"], words["given"])
+    length, omega = ledger.symbol(f"l.{arm}"), ledger.symbol("omega.1")
+    if what == "v":
+        return _term("v", side.shown, "", f"⊥ {arm}", words["with_crank"], omega * length)
+    size = omega**2 * length
+    return _term("a", side.shown, "", f"∥ {arm}", f"{side.base} → {report.driver.centre}", size)
+
+
+def _on_crank(report: Report, name: str) -> bool:
+    """Whether a point's velocity is computed as that of a point of the crank."""
+    definition = report.ledger[f"v.{name}"].definition
+    return definition is not None and "omega.1" in refs(definition)
+
+
+# --- equations of equilibrium
+
+
+@function
+def force_equation(report: Report, group: GroupView, position: int) -> Equation:
+    """The equilibrium of a group's two links; only the two reactions that close the plan are unknown."""
+    assert group.polygon is not None
+    terms = [_force(report, group, side) for side in group.polygon.sides]
+    return _balance(report, terms, f"eq.R.{group}.{position}")
+
+
+@function
+def link_equation(report: Report, group: GroupView, link: int, position: int | None = None) -> Equation:
+    """The equilibrium of one link of a group with a slide between its links, R_ij or R_ji included.
+
+    Only an equation with a position has a number to refer to.
+    """
+    assert group.polygon is not None
+    words = report.words["vector"]
+    own = [side for side in group.polygon.sides if side.link == link]
+    terms = [_force(report, group, side) for side in own if not side.unknown]
+    # Across the slot; its size is computed before the plan, or read from the plan of link j.
+    first = group.kind == "RPP" and link == group.j
+    inner = R(report, group.across if link == group.j else group.inner)
+    terms.append(Term(inner, (words["across_slot"], None if first else words["computed"])))
+    terms += [_force(report, group, side) for side in own if side.unknown]
+    return _balance(report, terms, "" if position is None else f"eq.R.{group}.{position}")
+
+
+@function
+def driver_equation(report: Report) -> Equation:
+    """The equilibrium of forces on the driver; of a sliding one the directions by its guide are known."""
+    assert report.driver_polygon is not None
+    words = report.words["vector"]
+    slides = "Rcb" in report.on_crank
+    unknown = {"R01": words["across_guide"], "Rcb": words["along_guide"]} if slides else {}
+    terms = [
+        Term(
+            report.force_vector(side.name),
+            (unknown.get(side.name), None) if side.unknown else (words["given"], words["given"]),
+        )
+        for side in report.driver_polygon.sides
+    ]
+    return _balance(report, terms)
+
+
+def _force(report: Report, group: GroupView, side: PolygonSide) -> Term:
+    """A force of a group's plan with what is known of it."""
+    words = report.words["vector"]
+    way = group.one if side.link == group.i else group.two
+    shown = report.force_vector(side.name)
+    if side.name.endswith((".n", ".t")) and way.turns:
+        normal = side.name.endswith(".n")
+        along = f"{'∥' if normal else '⊥'} {lower_digits(way.rod)}"
+        return Term(shown, (along, None if normal else words["computed"]))
+    if side.unknown:
+        return Term(shown, (words["across_guide"] if way.guided else None, None))
+    return Term(shown, (words["given"], words["given"]))
+
+
+def _balance(report: Report, terms: Sequence[Term], key: str = "") -> Equation:
+    zero_vector = Term(Symbol("0", over="vector"), ("", ""))
+    return _equation(report, [tuple(terms), (zero_vector,)], "force_rows", key)

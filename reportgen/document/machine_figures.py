@@ -1,0 +1,261 @@
+"""Figures of the mechanism: scheme, groups, positions, the gas beside the cylinder, Coriolis, instant centres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from reportgen.analysis import FULL_TURN, motion_at
+from reportgen.catalogue.loads import Piston
+from reportgen.catalogue.machine import Machine
+from reportgen.cycle.applied import StrokeIndicator
+from reportgen.document.drawing import (
+    A3_ACROSS,
+    A3_UPRIGHT,
+    WHITE,
+    Drawn,
+    drawing_scale,
+    figure,
+    looks,
+    on_paper,
+    short,
+)
+from reportgen.document.groups import GroupView
+from reportgen.document.parts import PlaneLink, SideView
+from reportgen.document.report import DENSE, SAME, Report, function
+from reportgen.figures import indicator as indicator_figure
+from reportgen.figures import scheme as scheme_figure
+from reportgen.figures.draft import Draft
+from reportgen.figures.forces import Sliding
+from reportgen.figures.forces import coriolis as coriolis_figure
+from reportgen.figures.positions import Centre, PositionPlan, centre_plan, position_plan
+from reportgen.figures.scene import Scene
+from reportgen.ledger.kinematics.centres import PREFIX, centre_symbol
+from reportgen.mechanism.motion import Motion, solve_motion
+from reportgen.mechanism.structure import DRIVER, GROUND
+from reportgen.notation import symbols
+from reportgen.notation.expressions import Chain, Number, Symbol
+
+SCHEME_BOX = (120.0, 130.0)
+SHOWN_AT = 1
+"""The position (from 0) at which schemes are drawn: the first one away from the start."""
+ROOM = 24.0
+"""What margins, labels and the scale take of a drawing's page (mm), across and upwards."""
+
+# --- the machine at one position and over a turn
+
+
+@figure("scheme")
+def scheme(report: Report) -> Drawn:
+    factor = _reduction(report)
+    scale = drawing_scale(report) * factor
+    look = looks(report, scale, factor)
+    motion = report.analysis.motion
+    return Drawn((scheme_figure.scheme(report.machine.linkage, motion, SHOWN_AT, scale, look),))
+
+
+@figure("groups")
+def groups(report: Report) -> Drawn:
+    """The driver and each group by itself."""
+    factor = _reduction(report)
+    scale, words = drawing_scale(report) * factor, report.words["figure"]
+    titles = (words["driver"], *(words["group"].format(i=group.i, j=group.j) for group in report.groups))
+    look = replace(looks(report, scale, factor), scale=None)
+    motion = report.analysis.motion
+    return Drawn(scheme_figure.groups(report.machine.linkage, motion, SHOWN_AT, scale, look, titles))
+
+
+def _reduction(report: Report) -> float:
+    """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
+    points = [point.p[SHOWN_AT] for point in report.analysis.motion.points.values()]
+    size = np.array(points)[np.isfinite(points)] * drawing_scale(report)
+    needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
+    return 1.0 / float(next(step for step in (1, 2, 2.5, 4, 5, 10, 20, 25, 40, 50, 100, 1000) if step >= needed))
+
+
+@figure("positions")
+def positions(report: Report) -> Drawn:
+    return on_paper(_positions(report, None))
+
+
+def _positions(report: Report, beside: Draft | None) -> Scene:
+    """The numbered positions of one turn, alone with the paths of points or beside another drawing."""
+    machine = report.machine
+    shows = PositionPlan(
+        _numbered(report),
+        machine.paths if beside is None else (),
+        (report.assignment.worked_positions[0] - 1) % machine.count,
+        labels=tuple(map(str, report.positions)),
+    )
+    one_turn = _motion(machine, machine.cycle_angles[: machine.count])
+    return _position_plan(report, one_turn, shows, beside)
+
+
+@figure("extremes")
+def extremes(report: Report) -> Drawn:
+    """The mechanism where its first slider turns back: I as its stroke begins, II as it ends."""
+    course = report.machine.sliders[0]
+    motion = motion_at(report.machine, course.dead_centres[:2] - course.phase)
+    shows = PositionPlan(_numbered(report), report.machine.paths, labels=("I", "II"))
+    return on_paper(_position_plan(report, motion, shows))
+
+
+def _position_plan(
+    report: Report, motion: Motion, shows: PositionPlan, beside: Draft | None = None
+) -> Scene:
+    dense = _motion(report.machine, np.linspace(0.0, FULL_TURN, DENSE))
+    scale = drawing_scale(report)
+    look = replace(looks(report, scale), blocks={}, centres=())
+    return position_plan(report.machine.linkage, motion, dense, scale, shows, look, beside=beside)
+
+
+def _motion(machine: Machine, cycle_angle: np.ndarray) -> Motion:
+    return solve_motion(machine.linkage, machine.angles(cycle_angle), machine.turn * machine.speed)
+
+
+def _numbered(report: Report) -> tuple[str, ...]:
+    """Points that carry the positions' numbers: pins of the crank, joints, of a slotted lever its end."""
+    centres = {body.centre for body in report.machine.linkage.inertias}
+    names = [*report.crank_pins]
+    for group in report.groups:
+        ends = [place.name for place in group.points_j if place.name not in centres]
+        names += ends if group.kind == "RPR" else [group.Q]
+    return tuple(names)
+
+
+# --- the gas
+
+
+@figure("indicator")
+def indicator(report: Report) -> Drawn:
+    """The diagram in line with the first piston's stroke, every piston's positions read from it."""
+    machine, gases = report.machine, report.analysis.gas
+    first = machine.pistons[0]
+    unit, scale = 1e4, drawing_scale(report)
+    top, bottom = first.top * scale, first.bottom * scale
+    highest = max(float(np.max(gas.pressure)) for gas in gases.values())
+    highest = max(highest, _highest(first.indicator)) / unit
+    side = _free_side(machine)
+    start, end, mu = indicator_figure.beside(top, bottom, side, 75.0, highest)
+    note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
+    frame = indicator_figure.Frame(start, end, side, mu, report.words["figure"]["pressure"], note)
+    branches = [
+        indicator_figure.Branch(name, x, tuple(p / unit for p in pressures))
+        for name, x, pressures in _branches(first, machine, report.words["strokes"])
+    ]
+    readings = [
+        indicator_figure.Reading(
+            Symbol(str(machine.position(k + 1)), "" if len(machine.pistons) == 1 else f"({gas.piston.link})"),
+            float(gas.fraction[k]),
+            float(gas.pressure[k]) / unit,
+            top + (bottom - top) * float(gas.fraction[k]) if _in_line(first, gas.piston) else None,
+        )
+        for gas in gases.values()
+        for k in range(machine.positions)
+    ]
+    return on_paper(_positions(report, indicator_figure.indicator(frame, branches, readings)))
+
+
+def _free_side(machine: Machine) -> complex:
+    """The side of the first cylinder that is free for its diagram: away from other cylinders, else to its right."""
+    first = machine.pistons[0]
+    right = 1j * first.inward
+    ways = [((one.top + one.bottom) / 2 - first.bottom) / right for one in machine.pistons]
+    return right if sum(way.real for way in ways) <= SAME else -right
+
+
+def _in_line(first: Piston, other: Piston) -> bool:
+    """Whether a piston moves on the line of the first one, where its positions are projected from."""
+    return abs(((other.top - first.top) / first.inward).imag) + abs((other.inward / first.inward).imag) < SAME
+
+
+def _highest(table: Any) -> float:
+    rows = table.rows if isinstance(table, StrokeIndicator) else (table.pressures,)
+    return max(max(row) for row in rows)
+
+
+def _branches(
+    piston: Piston, machine: Machine, names: Sequence[str]
+) -> Iterator[tuple[str, tuple[float, ...], tuple[float, ...]]]:
+    """Each stroke's line over s/H; a table by crank angle is carried over by the motion of the piston."""
+    table = piston.indicator
+    if isinstance(table, StrokeIndicator):
+        yield from ((name, table.fractions, row) for name, row in zip(names, table.rows, strict=True))
+        return
+    edges = (*piston.dead_centres, 2 * FULL_TURN)
+    for name, (start, end) in zip(names, pairwise(edges), strict=True):
+        angle = np.union1d(np.linspace(start, end, 91), [a for a in table.angles if start < a < end])
+        fractions = piston.fraction(motion_at(machine, angle - piston.phase))
+        pressure = np.interp(angle, table.angles, table.pressures)
+        yield name, tuple(map(float, fractions)), tuple(map(float, pressure))
+
+
+# --- Coriolis acceleration
+
+
+@figure("coriolis")
+def coriolis(report: Report, k: int, group: GroupView, side: SideView) -> Drawn:
+    """The relative velocity in a turning guide, turned by 90° in the sense of its ω."""
+    ledger, points = report.ledger, report.analysis.motion.points
+    omega = float(ledger[f"turn.omega.{side.turning}"].at(k).real)
+    relative = complex(points[side.point].v[k - 1]) - complex(points[side.base].v[k - 1])
+    sliding = Sliding(
+        symbols.point(side.point),
+        (Symbol("v", side.pair, over="vector"), relative),
+        (Symbol("a", side.pair, "k", "vector"), 1j * omega * relative),
+        (ledger.symbol(side.omega), float(np.sign(omega))),
+    )
+    return Drawn((coriolis_figure(sliding),))
+
+
+# --- instant centres
+
+
+@function
+def centre_state(report: Report, link: PlaneLink, k: int) -> str:
+    """How a link's centre lies: "found", "shift" (the link does not turn), "rest" (at its base), "far"."""
+    ledger = report.ledger
+    if ledger[link.omega].at(k) == 0:
+        return "shift"
+    if ledger[f"v.{link.base}"].at(k) == 0:
+        return "rest"
+    return "found" if np.isfinite([ledger[id].at(k) for id in link.distances]).all() else "far"
+
+
+@function
+def centres_drawn(report: Report, k: int) -> tuple[PlaneLink, ...]:
+    """The links whose centres stand on the sheet together with the mechanism."""
+    spots = [complex(point.p[k - 1]) * drawing_scale(report) for point in report.analysis.motion.points.values()]
+    kept: list[PlaneLink] = []
+    for link in report.plane_links:
+        if centre_state(report, link, k) == "found" and _fits(np.array([*spots, _place(report, link, k)])):
+            spots.append(_place(report, link, k))
+            kept.append(link)
+    return tuple(kept)
+
+
+def _place(report: Report, link: PlaneLink, k: int) -> complex:
+    return complex(report.ledger[f"{PREFIX}{link.link}"].at(k)) * drawing_scale(report)
+
+
+def _fits(spots: np.ndarray) -> bool:
+    """Whether a drawing of these spots (mm) has room on a page, upright or across."""
+    wide, high = float(np.ptp(spots.real)) + ROOM, float(np.ptp(spots.imag)) + ROOM
+    return any(wide <= paper[0] - WHITE[0] and high <= paper[1] - WHITE[1] for paper in (A3_ACROSS, A3_UPRIGHT))
+
+
+@figure("centres")
+def centres(report: Report, k: int) -> Drawn:
+    """The mechanism at a position, true to μ_l, with the normals that meet in the centres."""
+    linkage, scale = report.machine.linkage, drawing_scale(report)
+    marks = [
+        Centre(centre_symbol(link.link), _place(report, link, k), (link.base, link.point))
+        for link in centres_drawn(report, k)
+    ]
+    links = (GROUND, DRIVER, *(link for link in linkage.links if link != DRIVER))
+    motion = report.analysis.motion
+    return on_paper(centre_plan(linkage, motion, k - 1, scale, links, marks, looks(report, scale)))

@@ -1,0 +1,418 @@
+"""One report: what its templates, tables and figures share.
+
+Templates name every property of a `Report`, and call the functions, tables and figures that are registered
+here where they are defined.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import Any, TypeVar
+
+import numpy as np
+
+from reportgen.analysis import FULL_TURN, Analysis, analyse
+from reportgen.assignment import Assignment
+from reportgen.case import Case
+from reportgen.catalogue.given_loads import ByOrdinates
+from reportgen.catalogue.loads import Piston
+from reportgen.catalogue.machine import Machine, Position
+from reportgen.cycle.flywheel import Flywheel
+from reportgen.document.groups import GroupView, driver, groups
+from reportgen.document.parts import BodyView, DriverView, PlaneLink
+from reportgen.document.prose import PointName, Prose
+from reportgen.document.tree import Block, InlineMath, Inlines, Paragraph, Text
+from reportgen.ledger.core import Ledger
+from reportgen.ledger.forces.polygon import Polygon
+from reportgen.ledger.kinematics.centres import links_in_plane_motion
+from reportgen.ledger.kinematics.sides import scheme
+from reportgen.mechanism.mobility import Mobility, mobility
+from reportgen.notation import symbols
+from reportgen.notation.expressions import Symbol
+
+PLATES_UP_TO = 24
+"""Above this many positions, plates are drawn for worked positions only."""
+DENSE = 361
+"""Samples of a turn from which curves are drawn."""
+SAME = 1e-9
+"""Cycle angles nearer than this are one."""
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+FUNCTIONS: dict[str, Callable[..., Any]] = {}
+
+
+def function(called: Function) -> Function:
+    """Let templates call a function of a report by its name."""
+    FUNCTIONS[called.__name__] = called
+    return called
+
+
+@dataclass(frozen=True)
+class Report:
+    """A case with its prose; every property is a name in its templates."""
+
+    case: Case
+
+    # --- what it is made of
+
+    @cached_property
+    def prose(self) -> Prose:
+        return Prose(self.case.directories)
+
+    @property
+    def words(self) -> Mapping[str, Any]:
+        return self.case.words
+
+    @property
+    def assignment(self) -> Assignment:
+        return self.case.assignment
+
+    @property
+    def analysis(self) -> Analysis:
+        return self.case.analysis
+
+    @property
+    def machine(self) -> Machine:
+        return self.analysis.machine
+
+    @property
+    def ledger(self) -> Ledger:
+        return self.case.ledger
+
+    @property
+    def flywheel(self) -> Flywheel | None:
+        return self.case.flywheel
+
+    @cached_property
+    def groups(self) -> tuple[GroupView, ...]:
+        """The groups in the order of assembly."""
+        return groups(self.analysis, self.case.polygons, self.ledger)
+
+    @cached_property
+    def driver(self) -> DriverView:
+        return driver(self.analysis, self.ledger)
+
+    @cached_property
+    def dense_cycle(self) -> Analysis:
+        """The whole analysis over the cycle, finely, the numbered positions among the samples."""
+        own = self.machine.cycle_angles
+        turns = self.machine.turns
+        grid = np.linspace(0.0, turns * FULL_TURN, turns * (DENSE - 1) + 1)
+        between = np.abs(grid[:, None] - own).min(axis=1) > SAME
+        return analyse(self.machine, np.sort(np.concatenate((grid[between], own))))
+
+    def names(self) -> dict[str, Any]:
+        """All that templates may name: the properties of the report and the registered functions."""
+        kinds = (property, cached_property)
+        own = [name for name, member in vars(Report).items() if isinstance(member, kinds) and name[0] != "_"]
+        return {
+            **{name: getattr(self, name) for name in own if name != "dense_cycle"},
+            **{name: partial(called, self) for name, called in FUNCTIONS.items()},
+        }
+
+    # --- the assignment in words
+
+    @property
+    def machine_title(self) -> str:
+        title = self.case.title
+        return title[:1].lower() + title[1:]
+
+    @property
+    def variant(self) -> str:
+        return self.assignment.variant
+
+    @property
+    def turn_words(self) -> str:
+        """The sense of the driver's rotation."""
+        return self.sense(self.machine.turn)
+
+    def sense(self, value: float) -> str:
+        """The sense of a rotation; a dash where there is none."""
+        words = self.words["sense"]
+        return str(words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"])
+
+    @property
+    def place_and_date(self) -> str:
+        labels, report = self.words["cover"], self.assignment.report
+        place, day = report.place or "……………………", report.date
+        if day is None:
+            return str(labels["no_date"]).format(place=place)
+        months = labels.get("months")
+        return str(labels["date"]).format(
+            place=place,
+            day=day.day,
+            month=day.month,
+            year=day.year,
+            month_name=months[day.month - 1] if months else day.month,
+        )
+
+    @property
+    def signature(self) -> tuple[Block, ...]:
+        """Place, date and name under the foreword; without a name the label stands over a line to sign."""
+        student = f"{self.words['cover']['student']}: {self.assignment.report.student.name or '…' * 20}"
+        return tuple(Paragraph((Text(line),), "right") for line in (self.place_and_date, student))
+
+    # --- positions
+
+    @property
+    def count(self) -> int:
+        """Positions of one turn."""
+        return self.machine.count
+
+    @property
+    def cycle_count(self) -> int:
+        return self.machine.positions
+
+    @property
+    def even_count(self) -> int:
+        """Evenly spaced positions of one turn."""
+        return self.assignment.positions.count
+
+    @property
+    def positions(self) -> tuple[Position, ...]:
+        return self.machine.numbered(range(1, self.machine.count + 1))
+
+    @property
+    def all_positions(self) -> tuple[Position, ...]:
+        return self.machine.numbered(range(1, self.machine.positions + 1))
+
+    @property
+    def worked(self) -> tuple[Position, ...]:
+        """The positions of one turn whose motion is worked out in full."""
+        count = self.machine.count
+        return self.machine.numbered(dict.fromkeys((k - 1) % count + 1 for k in self.assignment.worked_positions))
+
+    @property
+    def worked_forces(self) -> tuple[Position, ...]:
+        """The positions of the cycle whose forces are worked out in full."""
+        return self.machine.numbered(self.assignment.worked_positions)
+
+    @property
+    def worked_list(self) -> str:
+        return ", ".join(map(str, self.worked_forces))
+
+    @property
+    def plates(self) -> tuple[int, ...]:
+        """Positions whose plans are drawn: all of the cycle, or the worked ones when there are very many."""
+        if self.assignment.positions.count <= PLATES_UP_TO:
+            return tuple(range(1, self.assignment.cycle_positions + 1))
+        return self.assignment.worked_positions
+
+    # --- the machine
+
+    @property
+    def own(self) -> Mapping[str, Any]:
+        """What only the words of this kind of machine name."""
+        return self.machine.facts
+
+    @property
+    def given_names(self) -> Mapping[str, str]:
+        """What is given, in words, by id; a declared linkage names its own quantities."""
+        if "quantities" not in self.own:
+            names: Mapping[str, str] = self.words.get("given", {})
+            return names
+        words = self.words["linkage"]["given"]
+        declared = {
+            id: words[what] + (lower_digits(of) if what == "length" else of)
+            for id, what, of in self.own["quantities"]
+        }
+        return {**declared, "unevenness": words["unevenness"]}
+
+    @property
+    def mobility(self) -> Mobility:
+        return mobility(self.machine.linkage)
+
+    @property
+    def pistons(self) -> tuple[Piston, ...]:
+        return self.machine.pistons
+
+    @property
+    def starts_at_dead_centre(self) -> bool:
+        """Whether the first position is a dead centre of the first slider."""
+        return bool(self.machine.sliders) and self.machine.sliders[0].phase == 0
+
+    @property
+    def speed_in_rpm(self) -> bool:
+        """Whether the driver's angular velocity follows from its speed in revolutions a minute."""
+        return "omega.1" in self.computed
+
+    @property
+    def has_flywheel(self) -> bool:
+        """Whether the assignment asks for a flywheel."""
+        return "unevenness" in self.ledger
+
+    @property
+    def has_ordinates(self) -> bool:
+        """Whether the indicator diagram is given by measured heights."""
+        return isinstance(self.assignment.indicator, ByOrdinates)
+
+    @property
+    def synthesised(self) -> bool:
+        return "synthesis" in self.machine.outline
+
+    @property
+    def has_force(self) -> bool:
+        """Whether a working force acts, be it constant or not."""
+        return bool(self.machine.applied)
+
+    @property
+    def has_forces(self) -> bool:
+        """Whether anything loads the machine, weights and inertia included."""
+        return bool(self.analysis.loads)
+
+    @property
+    def has_formulas(self) -> bool:
+        """Whether closed formulas check the plans."""
+        return bool(self.machine.compared)
+
+    @property
+    def needs_flywheel(self) -> bool:
+        """Whether the links alone are too light to keep the speed even enough."""
+        return "omega.of" in self.ledger
+
+    @cached_property
+    def computed(self) -> frozenset[str]:
+        """The ids of what has a formula."""
+        return frozenset(id for id, family in self.ledger.families.items() if family.definition is not None)
+
+    @property
+    def not_recomputing(self) -> Inlines:
+        """Symbols of the quantities whose lines cannot be recomputed to the last digit."""
+        found = dict.fromkeys(map(self.ledger.symbol, self.ledger.cancellations))
+        return listed(InlineMath(symbol) for symbol in found)
+
+    # --- motion
+
+    def known(self, ids: Iterable[str]) -> list[str]:
+        """Those of the ids that the ledger knows, each once."""
+        return [id for id in dict.fromkeys(ids) if id in self.ledger]
+
+    @cached_property
+    def plane_links(self) -> tuple[PlaneLink, ...]:
+        """The links that turn about no fixed point and are no mere sliders, in the order of assembly."""
+        owner = {link: group.name for group in self.groups for link in (group.i, group.j)}
+        turns = links_in_plane_motion(scheme(self.machine.linkage))
+        return tuple(PlaneLink(
+                turn.link, PointName(turn.base), PointName(turn.point), turn.rod, owner[turn.link]
+            ) for turn in turns)
+
+    # --- forces
+
+    @property
+    def bodies(self) -> list[str]:
+        """The links that have mass."""
+        return [str(body.link) for body in self.machine.linkage.inertias]
+
+    @property
+    def mass_lines(self) -> list[str]:
+        return self.known(f"{what}.{link}" for what in "mJ" for link in self.bodies)
+
+    @property
+    def without_mass(self) -> list[str]:
+        """The links whose mass is not given."""
+        links = sorted({1, *(link for group in self.groups for link in (group.i, group.j))})
+        return [str(link) for link in links if f"m.{link}" not in self.mass_lines]
+
+    @property
+    def inertia_lines(self) -> list[str]:
+        return self.known(f"{what}{link}" for what in ("Pqt", "M.Pqt") for link in self.bodies)
+
+    @cached_property
+    def couples(self) -> tuple[BodyView, ...]:
+        """Links whose inertia is a force and a couple, replaced by one force off the mass centre."""
+        found = []
+        for body in self.machine.linkage.inertias:
+            ids = self.known((f"e.Pqt{body.link}", f"l.{body.centre}K{body.link}"))
+            # A block turns about no base of a plan: the pin it sits on is its first joint.
+            start = next(
+                (side.base for group in self.groups for side in group.sides if side.turns and side.link == body.link),
+                next((group.P for group in self.groups if group.i == body.link), PointName("")),
+            )
+            if len(ids) == 2:
+                found.append(
+                    BodyView(body.link, PointName(body.centre), start, tuple(ids), start in self.machine.linkage.ground)
+                )
+        return tuple(found)
+
+    @property
+    def displaced_reactions(self) -> bool:
+        """Whether the reaction of any slide may act beside its pin."""
+        digits = [name for group in self.groups for name in (group.outer, group.inner, group.guide)]
+        return any(f"M.{name}" in self.computed for name in digits)
+
+    @property
+    def has_slides(self) -> bool:
+        return any(group.kind != "RRR" for group in self.groups)
+
+    @property
+    def driver_polygon(self) -> Polygon | None:
+        return self.case.polygons[-1] if self.case.polygons else None
+
+    @property
+    def on_crank(self) -> frozenset[str]:
+        """The forces of the driver's force plan."""
+        return frozenset(side.name for side in self.driver_polygon.sides) if self.driver_polygon else frozenset()
+
+    @property
+    def joined(self) -> list[GroupView]:
+        """The groups that hang on the driver."""
+        return [group for group in self.groups if group.carrier == 1]
+
+    @property
+    def crank_arms(self) -> list[str]:
+        """Arms of the forces on the driver about its centre."""
+        return [id for id in self.ledger.families if id.startswith("h.") and id.endswith(f".{self.driver.centre}")]
+
+    @property
+    def crank_lines(self) -> list[str]:
+        return [*self.crank_arms, "M.eq"]
+
+    @property
+    def crank_pins(self) -> list[str]:
+        """The crank's pin, and further points of the crank that a group hangs on."""
+        hung = {pin for group in self.groups for pin in (group.P, group.T)}
+        return [self.driver.pin, *(place.name for place in self.driver.others if place.name in hung)]
+
+    @property
+    def lever_couples(self) -> list[str]:
+        """What torques, which have no arm, contribute to the balance by virtual work."""
+        return self.known(f"M.{torque.name}.p" for torque in self.machine.torques)
+
+    @property
+    def inertia_parts(self) -> list[str]:
+        """The shares of the links in the reduced moment of inertia, and their sum."""
+        return [id for id in self.ledger.families if id.startswith("J.r.") and id in self.computed] + ["J.r"]
+
+    @property
+    def has_reduced_inertia(self) -> bool:
+        """Whether moving links have mass, which the flywheel's calculation reduces to the crank."""
+        return "J.r" in self.ledger
+
+    @property
+    def speed_limits(self) -> list[str]:
+        uneven = ["unevenness"] if "unevenness" in self.computed else []
+        return [*uneven, "omega.max", "omega.min"]
+
+    # --- quantities and points by name
+
+    def force_symbol(self, name: str) -> Symbol:
+        """The symbol of a force of a plan: of a load by its own id, of a reaction R12, R12.t by its joint."""
+        return self.ledger.symbol(name if name in self.ledger else f"R.{name.removeprefix('R')}")
+
+    def force_vector(self, name: str) -> Symbol:
+        return symbols.vector(self.force_symbol(name))
+
+    def is_zero(self, id: str, k: int | None = None) -> bool:
+        return bool(self.ledger.number(id, k).value == 0)
+
+
+def lower_digits(text: str) -> str:
+    """Digits of point names as lowered digits: O1A → O₁A."""
+    return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
+
+
+def listed(parts: Iterable[Any]) -> Inlines:
+    """Inlines side by side with commas."""
+    return tuple(one for index, part in enumerate(parts) for one in ((Text(", "), part) if index else (part,)))

@@ -1,0 +1,343 @@
+"""Tables of results: motion, forces, and the checks that do not repeat the calculation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from reportgen.document.groups import GroupView
+from reportgen.document.parts import SideView
+from reportgen.document.report import Report, function
+from reportgen.document.tables import cell, columns, list_table, table, tables
+from reportgen.document.tree import (
+    FIRST_COLUMN,
+    TEXT_WIDTH,
+    Cell,
+    Column,
+    InlineMath,
+    Inlines,
+    Table,
+    Text,
+    Value,
+)
+from reportgen.notation.expressions import Chain, Number, Power, Symbol
+
+MM = 1e3
+MOST_COORDINATES, MOST_WIDE = 10, 8
+"""Columns of coordinates in one table; fewer where one of them is −100 mm or less."""
+WIDE = -0.1
+"""A coordinate (m) that takes the widest column."""
+STILL = 1e-9
+"""A rate below this share of its greatest value is zero."""
+NARROWEST = 16.0
+"""Columns of words narrower than this (mm) are set as rows instead."""
+
+# --- motion
+
+
+@table("positions")
+def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
+    """x and y of every moving point at every position of one turn, in mm; several tables where they are many."""
+    linkage, motion, count = report.machine.linkage, report.analysis.motion, report.count
+    # The point of a lever under a block's pin lies where the pin is.
+    under = {dyad.middle for dyad in linkage.dyads if dyad.kind == "RPR"}
+    names = [name for name in motion.points if name not in {*linkage.ground, *under}]
+    courses = [
+        (Symbol(axis, name), part[:count])
+        for name in names
+        for axis, part in (("x", motion.points[name].p.real), ("y", motion.points[name].p.imag))
+    ]
+    kept = [(shown, values) for shown, values in courses if np.abs(values).max() > 1e-12]
+    wide = any(values.min() <= WIDE for _, values in kept)
+    blocks = -(-len(kept) // (MOST_WIDE if wide else MOST_COORDINATES))
+    size = 2 * -(-len(kept) // (2 * blocks))
+    parts = [kept[start : start + size] for start in range(0, len(kept), size)]
+
+    def part_table(number: int, part: Sequence[tuple[Symbol, np.ndarray]]) -> Table:
+        width = min((TEXT_WIDTH - FIRST_COLUMN) / len(part), 22.0)
+        heads = (cell(report.words["table"]["position"]), *(cell(shown) for shown, _ in part))
+        rows = tuple(
+            (cell(str(k)), *(Cell((Value(Number(_without_dust(values[k - 1] * MM), 2)),)) for _, values in part))
+            for k in report.positions
+        )
+        title = caption if len(parts) == 1 else f"{caption} ({number}/{len(parts)})"
+        columns = (Column(FIRST_COLUMN), *(Column(width),) * len(part))
+        part_key = key if number == 1 else f"{key}.{number}"
+        return Table(columns, (heads,), rows, report.prose.inlines(title), part_key)
+
+    return tuple(part_table(number, part) for number, part in enumerate(parts, start=1))
+
+
+def _without_dust(value: float) -> float:
+    return 0.0 if abs(value) < 1e-9 else value
+
+
+def _two_decimals(value: float) -> Inlines:
+    """A number to two decimals, or as it is when it has no more than two."""
+    short = abs(value * 100 - round(value * 100)) < 1e-7
+    return (Value(Number(float(f"{value:.10g}")) if short else Number(value, 2)),)
+
+
+@table("dead")
+def dead_centres(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """Where each slider turns back: crank's turn from position 1, the pin's distance from the crank centre."""
+    words, rows = report.words["tables"]["dead"], []
+    for piston in report.machine.sliders:
+        for name, angle, place in (
+            (words["top"], piston.top_angle, piston.top),
+            (words["bottom"], piston.bottom_angle, piston.bottom),
+        ):
+            turn = math.degrees((angle - piston.phase) % (2 * math.pi))
+            turn = 0.0 if abs(turn - 360) < 1e-9 else turn
+            rows.append((str(piston.link), name, _two_decimals(turn), _two_decimals(abs(place) * MM)))
+    return list_table(report, key, caption, head, rows, (20.0, 46.0, 44.0, 46.0))
+
+
+@table("labels")
+def labels(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The positions of one turn by their labels: the crank's turn, and what the first slider does there.
+
+    It turns back at its "top" and "bottom", and is "fastest" where a = 0.
+    """
+    words = report.words["tables"]["labels"]
+    machine, motion = report.machine, report.analysis.motion
+    course = machine.sliders[0]
+    pin, way = motion.points[course.pin], course.fraction(motion)
+    still, steady = (np.abs(rate) < STILL * np.abs(rate).max() for rate in (pin.v, pin.a))
+    rows = []
+    for k in range(machine.count):
+        end = ("top" if way[k] < 0.5 else "bottom") if still[k] else "fastest" if steady[k] else ""
+        angle = _two_decimals(math.degrees(machine.cycle_angles[k]))
+        rows.append((str(machine.position(k + 1)), angle, words.get(end, "")))
+    return list_table(report, key, caption, head, rows, (24.0, 50.0, 50.0))
+
+
+@table("omega")
+def angular_velocities(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> Table:
+    driver = ["omega.1"] if report.driver.centre else []
+    return _rotations(report, key, caption, head, [*driver, *_of_links(report, "turn.omega.")], k)
+
+
+@table("eps")
+def angular_accelerations(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> Table:
+    return _rotations(report, key, caption, head, _of_links(report, "turn.eps."), k)
+
+
+def _rotations(
+    report: Report, key: str, caption: str, head: Sequence[str], ids: Sequence[str], k: int
+) -> Table:
+    """Angular velocities or accelerations with their sense in words."""
+    ledger = report.ledger
+    rows = (
+        (
+            ledger.symbol(id),
+            _bare_size(report, id, k),
+            report.turn_words if id == "omega.1" else report.sense(ledger.number(id, k).value),
+        )
+        for id in ids
+    )
+    return list_table(report, key, caption, head, rows, (34.0, 40.0, 60.0))
+
+
+def _bare_size(report: Report, id: str, k: int) -> Inlines:
+    number = report.ledger.number(id, k, size=True)
+    return (Value(Number(number.value, number.decimals)),)
+
+
+@table("summary")
+def summary(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> Table:
+    """Quantities at one position as "symbol = value", in rows of as many as there are heads."""
+    ledger = report.ledger
+    rows = [[Chain((ledger.symbol(id), ledger.number(id, k))) for id in row] for row in report.own["summary"]]
+    return list_table(report, key, caption, head, rows, (46.0,) * len(head))
+
+
+@columns("v.segments")
+def velocity_segments(report: Report) -> list[str]:
+    ids: list[str] = []
+    for group in report.groups:
+        ids += [f"seg.v.p{group.m}", *(f"seg.v.{side.base.lower()}{group.m}" for side in group.moving)]
+        ids += _images("v", group)
+    return report.known(ids)
+
+
+@columns("v")
+def velocities(report: Report) -> list[str]:
+    ids: list[str] = []
+    for group in report.groups:
+        # Relative to a fixed point a velocity is the point's own.
+        ids += [f"v.{group.M}", *(side.velocity for side in group.moving), f"v.{group.Q}"]
+        ids += [f"v.{place}" for place in group.points]
+    return [*report.known(ids), *_of_links(report, "turn.omega.")]
+
+
+@columns("a.segments")
+def acceleration_segments(report: Report) -> list[str]:
+    ids: list[str] = []
+    for group in report.groups:
+        ids.append(f"seg.a.p{group.m}")
+        ids += [f"seg.a.{part}.{side.relative}" for side in group.sides for part in _parts(side)]
+        ids += _images("a", group)
+    return report.known(ids)
+
+
+@columns("a")
+def accelerations(report: Report) -> list[str]:
+    ids: list[str] = []
+    for group in report.groups:
+        ids.append(f"a.{group.M}")
+        ids += [f"a.{side.relative}.{part}" for side in group.sides for part in _parts(side)]
+        ids += [f"a.{group.Q}", *(f"a.{place}" for place in group.points)]
+    return [*report.known(ids), *_of_links(report, "turn.eps.")]
+
+
+def _of_links(report: Report, prefix: str) -> list[str]:
+    """Signed angular quantities of the links that turn."""
+    return report.known(f"{prefix}{link}" for link in report.machine.linkage.links)
+
+
+def _images(what: str, group: GroupView) -> list[str]:
+    return [f"seg.{what}.p{place}" for place in (group.q, *(place.image for place in group.points))]
+
+
+def _parts(side: SideView) -> list[str]:
+    """Suffixes of a side's relative accelerations, the known one first."""
+    return [part for part in (side.part, side.sought) if part]
+
+
+# --- forces
+
+
+@table("strokes")
+def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The stroke of every piston between dead centres of any of them."""
+    positions, first = head
+    gas, machine = report.analysis.gas, report.machine
+    names = report.words["strokes"]
+    courses = np.array([state.stroke for state in gas.values()])
+    starts = [0, *(int(i) + 1 for i in np.flatnonzero(np.any(np.diff(courses, axis=1), axis=0)))]
+    ends = [*starts[1:], machine.positions]
+    stretches = [
+        f"{machine.position(start + 1)}–{machine.position(end % machine.positions + 1)}"
+        for start, end in zip(starts, ends, strict=True)
+    ]
+    of_pistons = [[names[int(state.stroke[start])] for start in starts] for state in gas.values()]
+    pistons = [f"{first} {state.piston.link}" for state in gas.values()]
+    width = (TEXT_WIDTH - 30) / len(starts)
+    if width < NARROWEST:
+        down = zip(stretches, *of_pistons, strict=True)
+        widths = (30.0, *(40.0,) * len(pistons))
+        return list_table(report, key, caption, (positions, *pistons), down, widths)
+    across = [(piston, *row) for piston, row in zip(pistons, of_pistons, strict=True)]
+    widths = (30.0, *(min(width, 30.0),) * len(starts))
+    return list_table(report, key, caption, (positions, *stretches), across, widths)
+
+
+@columns("inertia", cycle=True)
+def inertia(report: Report) -> list[str]:
+    return report.inertia_lines
+
+
+@columns("R", cycle=True)
+def reactions(report: Report) -> list[str]:
+    ids = [
+        f"R.{name}"
+        for group in reversed(report.groups)
+        for name in (f"{group.outer}.t", f"{group.guide}.t", group.outer, group.inner, group.guide)
+    ]
+    return report.known([*ids, "R.01"])
+
+
+@columns("R.angles", cycle=True)
+def reaction_angles(report: Report) -> list[str]:
+    joints = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
+    return report.known(f"dir.R{name}" for name in (*joints, "01"))
+
+
+@table("lever")
+@function
+def lever_table(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> Table:
+    """Loads on the turned velocity plan: size, arm, moment about the pole by μ_l, anticlockwise positive."""
+    ledger = report.ledger
+    loads = [id.split(".")[1] for id in ledger.families if id.startswith("h.") and id.endswith(".p")]
+    rows = []
+    for load in loads:
+        numbers = ledger.number(load, k), ledger.number(f"h.{load}.p", k, size=True), ledger.number(f"M.{load}.p", k)
+        cells = ((Value(Number(number.value, number.decimals)),) for number in numbers)
+        rows.append((ledger.symbol(load), *cells))
+    return list_table(report, key, caption, head, rows, (30.0, 36.0, 44.0, 44.0))
+
+
+@columns("M", cycle=True)
+def balance(report: Report) -> list[str]:
+    return ["M.eq", "M.vw", "M.difference"]
+
+
+@table("flywheel")
+def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
+    """Reduced torque and excess work; the reduced inertia if links have mass, the speed if there is a flywheel."""
+    words = report.words["tables"]["flywheel"]
+    inertia = words["inertia"] if report.has_reduced_inertia else ""
+    speed = words["speed"] if report.needs_flywheel else ""
+    ids = report.known(("M.r", "A.excess", "J.r", "omega.of"))
+    return tables(report, key, f"{caption}{inertia}{speed}", ids, report.all_positions)
+
+
+# --- checks
+
+
+@table("checks")
+def checks(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """Residuals of the independent checks, as powers of ten."""
+    found, names = residuals(report), report.words["tables"]["checks"]["rows"]
+    rows = [(name, _power_of_ten(found[id][0]), found[id][1]) for id, name in names.items() if id in found]
+    return list_table(report, key, caption, head, rows, (95.0, 35.0, 20.0))
+
+
+def residuals(report: Report) -> dict[str, tuple[float, str]]:
+    """The largest residual of each check and its unit: closure, formulas, reactions, torques, energy."""
+    analysis, values = report.analysis, report.ledger.families
+    found = {"closure": (_closure(report), "m")}
+    for name, prefix in (("formulas", ("v.", "omega.")), ("formulas_a", ("a.", "eps."))):
+        differences = [
+            float(np.max(np.abs(np.abs(values[one].values) - np.abs(values[other].values))))
+            / float(np.max(np.abs(values[one].values)))
+            for one, other in analysis.machine.compared
+            if one.startswith(prefix)
+        ]
+        if differences:
+            found[name] = (max(differences), "")
+    if analysis.loads:
+        forces = [
+            float(np.nanmax(np.abs(reaction.force - values[f"F.{name}"].values)))
+            for name, reaction in analysis.forces.reactions.items()
+            if f"F.{name}" in values
+        ]
+        found["ledger"] = (max(forces), "N")
+        difference = float(np.nanmax(np.abs(analysis.torque - analysis.torque_by_work)))
+        found["force" if analysis.machine.span else "torque"] = (difference, "N" if analysis.machine.span else "N·m")
+        found["energy"] = (analysis.summary.energy_error, "")
+    return found
+
+
+def _closure(report: Report) -> float:
+    """How far a distance of two points of one link is from its length at any position (m)."""
+    motion, families = report.analysis.motion, report.ledger.families
+    pairs = [(group.P, group.Q) for group in report.groups]
+    pairs += [(group.T, group.Q) for group in report.groups if group.kind == "RRR"]
+    rods = [(p, q, families[f"l.{p}{q}"].values) for p, q in pairs if f"l.{p}{q}" in families]
+    differences = [np.abs(motion.points[p].p - motion.points[q].p) - length for p, q, length in rods]
+    differences += [
+        np.abs(motion.points[point.name].p - motion.origins[point.link].p) - abs(point.local)
+        for point in report.machine.linkage.points
+    ]
+    return max(float(np.nanmax(np.abs(difference))) for difference in differences)
+
+
+def _power_of_ten(value: float) -> Inlines:
+    """A residual as a power of ten: < 10⁻¹² m."""
+    if value == 0:
+        return (Value(Number(0.0)),)
+    return Text("< "), InlineMath(Power(Number(10), Number(math.ceil(math.log10(value)))))
