@@ -30,6 +30,8 @@ ENGINES = ("typst", "latex")
 
 RELATIVE, ABSOLUTE = 1e-10, 1e-8
 """Unrounded results (SI) may differ by rounding: another order of the same operations."""
+JOINT = '"#"'
+"""Where two strings meet in typst's source: they read as one."""
 SHOWN = 12
 """Differing lines shown of a file."""
 
@@ -109,7 +111,8 @@ def take(folder: Path, out: Path) -> None:
 def say(out: Path, name: str, text: str, place: Path) -> None:
     """Keep what was printed, without the name of a temporary folder."""
     out.mkdir(parents=True, exist_ok=True)
-    (out / f"{name}.txt").write_text(text.replace(str(place), "DIR"), encoding="utf-8")
+    text = text.replace(str(place), "DIR").replace(str(ROOT), "ROOT")
+    (out / f"{name}.txt").write_text(text, encoding="utf-8")
 
 
 def report(out: Path, file: Path, engine: str, language: str, place: Path) -> None:
@@ -137,7 +140,8 @@ def task(out: Path, file: Path, language: str, place: Path) -> None:
     made = place / "made"
     files = ("--assignments", place, "--make", "task", "--jobs", "1", "--out", made)
     say(out, "batch", run("batch", place / "roster.csv", *files, "--lang", language), place)
-    take(made / file.stem, out)
+    for folder in (path for path in made.iterdir() if path.is_dir()):
+        take(folder, out)
 
 
 def example_class(out: Path, language: str, place: Path) -> None:
@@ -196,7 +200,8 @@ def write(out: Path, parts: list[str]) -> None:
 
 
 def alike(one: str, other: str) -> bool:
-    """Whether two lines say the same, numbers within rounding."""
+    """Whether two lines say the same, numbers within rounding; strings of a source may be parted otherwise."""
+    one, other = one.replace(JOINT, ""), other.replace(JOINT, "")
     if one == other:
         return True
     if NUMBER.sub("#", one) != NUMBER.sub("#", other):
