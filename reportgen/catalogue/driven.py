@@ -307,7 +307,11 @@ def driven(
     """
     given, positions = assignment.parameters, assignment.positions
     loaded = bool(own.get("applied") or own.get("torques"))
-    fields: dict[str, Any] = {"count": positions.count, "turns": assignment.turns} | own
+    fields: dict[str, Any] = {
+        "count": positions.count,
+        "turns": assignment.turns,
+        "outline": outline(bool(linkage.inertias), loaded, given.flywheel, **(sections or {})),
+    }
     return Machine(
         kind=assignment.kind,
         linkage=linkage,
@@ -315,7 +319,6 @@ def driven(
         turn=positions.sign,
         speed=given.speed,
         sheet=q,
-        outline=outline(bool(linkage.inertias), loaded, given.flywheel, **(sections or {})),
         unevenness=given.unevenness,
-        **fields,
+        **(fields | own),
     )

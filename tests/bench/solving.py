@@ -32,18 +32,22 @@ def machine(path: Path) -> tuple[Machine, Engine]:
     """
     assignment = api.load(path)
     built: Machine = catalogue.module(assignment.kind).machine(assignment)
-    given, table = assignment.parameters, built.pistons[0].indicator
+    given, table, q = assignment.parameters, built.pistons[0].indicator, built.sheet
     if not isinstance(table, StrokeIndicator):
         raise TypeError("the closed form reads an indicator diagram by stroke")
     cylinders = tuple(
         Cylinder(
-            offset, piston.phase, given.mass(piston.rod), given.moment(piston.rod), given.mass(piston.link)
+            offset,
+            piston.phase,
+            q.si(f"m.{piston.rod}"),
+            q.si(f"J.{piston.rod}"),
+            q.si(f"m.{piston.link}"),
         )
         for piston, offset in zip(built.pistons, (0.0, given.crank_angle.si), strict=True)
     )
     return built, Engine(
-        radius=given.H.si / 2,
-        rod=given.rod_length,
+        radius=q.si("R"),
+        rod=q.si("L"),
         share=given.s.si,
         area=built.pistons[0].area,
         gravity=given.g.si,
