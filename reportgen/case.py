@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from reportgen.cycle.flywheel import Flywheel
     from reportgen.ledger.core import Ledger
     from reportgen.ledger.forces.polygon import Polygon
-    from reportgen.ledger.report import Books
 
 
 @dataclass(frozen=True)
@@ -35,25 +34,21 @@ class Case:
         return analyse(catalogue.module(self.assignment.kind).machine(self.assignment))
 
     @cached_property
-    def _books(self) -> Books:
-        from reportgen.ledger.report import keep
-
-        return keep(self.analysis, self.words["units"])
-
-    @property
     def ledger(self) -> Ledger:
         """Every number by its id, with the units of the assignment's language."""
-        return self._books.ledger
+        from reportgen.ledger.report import write_ledger
+
+        return write_ledger(self.analysis, self.words["units"])
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:
         """The force plans: one for each group, the driver's last; none without loads."""
-        return self._books.polygons
+        return self.ledger.polygons
 
     @property
     def flywheel(self) -> Flywheel | None:
         """The flywheel, if the assignment asks for one."""
-        return self._books.flywheel
+        return self.ledger.flywheel
 
     @property
     def directories(self) -> tuple[Path, ...]:

@@ -14,6 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.cycle.flywheel import Flywheel
+from reportgen.ledger.forces.polygon import Polygon
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import (
     Chain,
@@ -61,6 +63,9 @@ class Ledger:
     cancellations: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
     """Units whose printed form depends on the language, e.g. rpm."""
+    polygons: tuple[Polygon, ...] = ()
+    """The force plans: one for each group, the driver's last; none without loads."""
+    flywheel: Flywheel | None = None
 
     @cached_property
     def signed(self) -> Mapping[str, str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,26 +12,20 @@ from reportgen.catalogue.loads import TableLaw
 from reportgen.cycle.flywheel import Flywheel
 from reportgen.ledger import precision
 from reportgen.ledger.core import Ledger
-from reportgen.ledger.flywheel import enter_flywheel
 from reportgen.ledger.forces import enter_forces
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics import centres, enter_kinematics
-from reportgen.notation.expressions import PI, Symbol, call
+from reportgen.mechanism.structure import Linkage
+from reportgen.notation.expressions import PI, Expression, Symbol, call, total
 from reportgen.notation.sheet import ZERO, Sheet, is_short
 from reportgen.notation.vocabulary import Chapter
 
-
-@dataclass(frozen=True)
-class Books:
-    """The ledger of a report and how its force plans are laid out."""
-
-    ledger: Ledger
-    polygons: tuple[Polygon, ...]
-    flywheel: Flywheel | None = None
+TERMS = 4
+"""More terms than these are no longer one line of a page."""
 
 
-def keep(analysis: Analysis, units: Mapping[str, str] | None = None) -> Books:
-    """The books of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures."""
+def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None) -> Ledger:
+    """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures."""
     machine = analysis.machine
     q = Sheet(machine.positions)
     if machine.span:
@@ -56,13 +49,12 @@ def keep(analysis: Analysis, units: Mapping[str, str] | None = None) -> Books:
             _cycle(q, analysis)
             if machine.unevenness is not None:
                 flywheel = regulation.flywheel(machine, machine.unevenness)
-                enter_flywheel(q, machine.linkage, flywheel, machine.cycle_angles)
+                _flywheel(q, machine.linkage, flywheel, machine.cycle_angles)
     # The checks by instant centres take the other numbers as they are printed.
     main = {id: family for id, family in q.families.items() if not id.startswith(centres.PREFIX)}
     settled, listed = precision.choose(main, (("M.eq", "M.vw"),) if "M.eq" in q else ())
     decimals, more = precision.choose(q.families, fixed=settled)
-    ledger = Ledger(q.families, decimals, machine.positions, listed + more, units or {})
-    return Books(ledger, polygons, flywheel)
+    return Ledger(q.families, decimals, machine.positions, listed + more, units or {}, polygons, flywheel)
 
 
 def _masses(q: Sheet, analysis: Analysis) -> None:
@@ -124,3 +116,58 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
 def _without_dust(value: float, size: float) -> float:
     """A mean that is nothing beside what it is the mean of is 0."""
     return 0.0 if abs(value) < ZERO * size else value
+
+
+# --- the flywheel -----------------------------------------------------------------------------------
+
+
+def _flywheel(q: Sheet, linkage: Linkage, flywheel: Flywheel, positions: np.ndarray) -> None:
+    """Enter the flywheel of a machine whose positions are the cycle angles `positions`; δ is `unevenness`.
+
+    Ids: `J.r` reduced inertia (only where a moving link has mass), `M.r` reduced torque, `A.excess` excess work,
+    `omega.of` the regulated speed at each position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`,
+    `A.lower`, and `J.d` the flywheel.
+    """
+    at = np.searchsorted(flywheel.angle, positions - 1e-9)
+    inertia = _reduced(q, linkage)
+    if inertia is not None:
+        q.define("J.r", inertia)
+    largest, δ, ω1 = float(np.abs(flywheel.torque).max()), q["unevenness"], q["omega.1"]
+    q.give("M.r", flywheel.torque[at], exact=False, scale=largest)
+    q.give("M.c", flywheel.constant, exact=False, scale=largest)
+    most = float(np.abs(flywheel.work).max())
+    q.give("A.excess", flywheel.work[at], "A", "work", exact=False, scale=most)
+    q.define("omega.max", ω1 * (1 + δ / 2))
+    q.define("omega.min", ω1 * (1 - δ / 2))
+    a = q.give("A.upper", flywheel.upper, "a", "work", exact=False)
+    b = q.give("A.lower", flywheel.lower, "b", "work", exact=False)
+    q.define("J.d", (a - b) / (δ * ω1**2))
+    if flywheel.moment > 0:
+        q.give("omega.of", flywheel.speed[at], "ω", exact=False)
+
+
+def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:
+    """J_r = Σ m v_S²/ω₁² + J ω²/ω₁² over the links that move so; None where no link with mass moves.
+
+    Where that is too long for a line, each link's part of it is entered as `J.r.` and its number.
+    """
+    ω1 = q["omega.1"]
+    parts: dict[int, list[Expression]] = {}
+    for body in linkage.inertias:
+        link, centre, rotation = body.link, f"v.{body.centre}", f"omega.{body.link}"
+        own: list[Expression] = []
+        if body.mass > 0 and centre in q:
+            own.append(q[f"m.{link}"] * q[centre] ** 2)
+        if body.moment > 0 and rotation in q:
+            own.append(q[f"J.{link}"] * q[rotation] ** 2)
+        if own:
+            parts[link] = own
+    terms = [term for own in parts.values() for term in own]
+    if not terms:
+        return None
+    if len(terms) <= TERMS or len(parts) == 1:
+        return total(terms) / ω1**2
+    each = [
+        q.define(f"J.r.{link}", total(own) / ω1**2, Symbol("J", f"r{link}")) for link, own in parts.items()
+    ]
+    return total(each)

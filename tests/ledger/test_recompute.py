@@ -14,7 +14,7 @@ from recompute import excess, worst_lines
 from reportgen import api
 from reportgen.ledger import precision
 from reportgen.ledger.core import Ledger
-from reportgen.ledger.report import keep as keep_analysis
+from reportgen.ledger.report import write_ledger
 from reportgen.notation.expressions import Chain, Number
 
 ROUND = np.radians(17.0 + 30.0 * np.arange(12))
@@ -29,7 +29,7 @@ SLACK = 1 + 1e-6
 def engine() -> Ledger:
     """The twin engine's ledger, 16 positions."""
     file = Path(__file__).parents[2] / "assignments" / "engine-twin-05.yaml"
-    return keep_analysis(api.analyse(api.load(file))).ledger
+    return write_ledger(api.analyse(api.load(file)))
 
 
 def assert_recomputes(ledger: Ledger) -> None:

@@ -62,11 +62,11 @@ def test_the_torque_balances_the_power_of_both_forces(published: Analysis) -> No
 
 
 def test_closed_formulas_give_the_plans(published: Analysis) -> None:
-    from reportgen.ledger.report import keep
+    from reportgen.ledger.report import write_ledger
 
-    books = keep(published)
+    ledger = write_ledger(published)
     for plan, formula in published.machine.compared:
-        one, other = (np.abs(books.ledger[id].values) for id in (plan, formula))
+        one, other = (np.abs(ledger[id].values) for id in (plan, formula))
         assert one == pytest.approx(other, abs=1e-9 * other.max()), plan
 
 

@@ -13,7 +13,7 @@ import pytest
 
 from reportgen import api
 from reportgen.analysis import Analysis
-from reportgen.ledger.report import keep
+from reportgen.ledger.report import write_ledger
 
 ASSIGNMENT = Path(__file__).parents[2] / "assignments" / "lever-six-bar-01.yaml"
 FITTED, CONTRADICTED, SQUARED = 0.0145, 0.035, 0.065
@@ -50,12 +50,12 @@ def solved() -> Analysis:
     ],
 )
 def test_printed_figures(solved: Analysis, id: str, printed: float, error: float) -> None:
-    assert float(keep(solved).ledger[id].at(2)) == pytest.approx(printed, rel=error)
+    assert float(write_ledger(solved)[id].at(2)) == pytest.approx(printed, rel=error)
 
 
 def test_the_short_segment_of_the_coupler(solved: Analysis) -> None:
     """ac is drawn 12 mm long: v_AC and ω_AC are read to half a millimetre of it, aⁿ_AC to twice that."""
-    ledger, reading = keep(solved).ledger, HALF_A_MILLIMETRE / 12
+    ledger, reading = write_ledger(solved), HALF_A_MILLIMETRE / 12
     assert float(ledger["v.CA"].at(2)) == pytest.approx(0.24, rel=reading)
     assert float(ledger["omega.2"].at(2)) == pytest.approx(2.6, rel=reading)
     assert float(ledger["a.CA.n"].at(2)) == pytest.approx(0.64, rel=2 * reading)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from reportgen.ledger.forces.loads import LoadOn, Origin, Statics, lone_couple, moments
 from reportgen.ledger.forces.polygon import Path, Polygon, Side, drawn_sides, force_plan, read
 from reportgen.mechanism.structure import DRIVER, Crank
-from reportgen.notation.constructions import dot, meet, quotient, sign, turned
-from reportgen.notation.expressions import Expression, Sum, Symbol
+from reportgen.notation.expressions import Expression, Sum, Symbol, dot, meet, quotient, sign, turned
 
 
 def driver(statics: Statics) -> Polygon:

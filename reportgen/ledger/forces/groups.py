@@ -26,8 +26,7 @@ import numpy as np
 from reportgen.ledger.forces.loads import FAINT, LoadOn, Statics, above, joint, moments, opposite
 from reportgen.ledger.forces.polygon import Path, Polygon, Side, drawn_sides, force_plan, read
 from reportgen.mechanism.structure import Dyad, DyadKind, Guide
-from reportgen.notation.constructions import dot, meet, quotient, turned
-from reportgen.notation.expressions import Expression, Ref, Sum, Symbol, total
+from reportgen.notation.expressions import Expression, Ref, Sum, Symbol, dot, meet, quotient, total, turned
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.symbols import drawn_length
 

@@ -15,8 +15,7 @@ import numpy as np
 from reportgen.ledger.kinematics.linkage import NOWHERE, Sizes, longest
 from reportgen.ledger.kinematics.sides import Scheme, image
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Guide, Inertia
-from reportgen.notation.constructions import cross, quotient, sign
-from reportgen.notation.expressions import Expression, Number, Ref, Sum, Symbol, call
+from reportgen.notation.expressions import Expression, Number, Ref, Sum, Symbol, call, cross, quotient, sign
 from reportgen.notation.sheet import Sheet
 
 FAINT = 1e-12

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.ledger.forces.loads import Statics
-from reportgen.notation.constructions import heading
 from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import Expression, Number, Symbol
+from reportgen.notation.expressions import Expression, Number, Symbol, heading
 from reportgen.notation.numbers import nice_up
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.symbols import segment

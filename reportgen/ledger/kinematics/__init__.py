@@ -13,9 +13,9 @@ speed `v.A` of its pin.
 
 from __future__ import annotations
 
-from reportgen.ledger.kinematics import driver, points
+from reportgen.ledger.kinematics import driver
 from reportgen.ledger.kinematics.centres import enter_centres
-from reportgen.ledger.kinematics.groups import group
+from reportgen.ledger.kinematics.groups import group, images, places
 from reportgen.ledger.kinematics.linkage import Kinematics
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import DRIVER, Crank, Linkage
@@ -36,16 +36,16 @@ def enter_kinematics(q: Sheet, linkage: Linkage, turn: int) -> None:
 
 
 def _enter(q: Sheet, linkage: Linkage, turn: int, scales: tuple[float, float] | None = None) -> Kinematics:
-    for name, place in linkage.ground.items():
-        q.give(f"p.{name}", complex(place), point(name), "length")
+    for name, at in linkage.ground.items():
+        q.give(f"p.{name}", complex(at), point(name), "length")
     plan = scheme(linkage)
     if isinstance(linkage.driver, Crank):
         k = driver.crank(q, plan, linkage.driver, turn)
     else:
         k = driver.slide(q, plan, linkage.driver, turn, scales)
-        points.places(k, DRIVER, None)
+        places(k, DRIVER, None)
         for what in ("v", "a"):
-            points.images(k, what, DRIVER, None)
+            images(k, what, DRIVER, None)
     for dyad in linkage.dyads:
         group(k, dyad)
     enter_centres(k)

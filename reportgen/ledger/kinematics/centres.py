@@ -11,8 +11,7 @@ from __future__ import annotations
 from reportgen.ledger.kinematics.linkage import Kinematics
 from reportgen.ledger.kinematics.sides import Scheme, Turn, image, sides
 from reportgen.mechanism.structure import DRIVER, Crank
-from reportgen.notation.constructions import arg, meet, quotient, turned
-from reportgen.notation.expressions import Expression, Symbol, call, cos
+from reportgen.notation.expressions import Expression, Symbol, arg, call, cos, meet, quotient, turned
 from reportgen.notation.symbols import point, segment
 
 PREFIX = "ic."

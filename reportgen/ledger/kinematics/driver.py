@@ -9,8 +9,7 @@ import numpy as np
 from reportgen.ledger.kinematics.linkage import Kinematics, What, longest, natural_sizes
 from reportgen.ledger.kinematics.sides import Scheme, image
 from reportgen.mechanism.structure import DRIVER, Crank, SlidingDriver
-from reportgen.notation.constructions import cis, turned
-from reportgen.notation.expressions import Number
+from reportgen.notation.expressions import Number, cis, turned
 from reportgen.notation.numbers import nice_up
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.symbols import drawn_length, on_plan, segment

@@ -1,26 +1,38 @@
-"""Where a group's links lie, kind by kind, and the order in which a group is entered."""
+"""Where a group's links lie, kind by kind, the order in which a group is entered, and the points of its links."""
 
 from __future__ import annotations
 
 import cmath
 from collections.abc import Callable, Mapping
 
-from reportgen.ledger.kinematics import points, rates
-from reportgen.ledger.kinematics.linkage import Kinematics, What
-from reportgen.ledger.kinematics.sides import Turn, image, sides, under
-from reportgen.mechanism.structure import Dyad, DyadKind, Guide
-from reportgen.notation.constructions import circle_circle, circle_line, meet, turned
-from reportgen.notation.expressions import Expression, Ref, call, sqrt
-from reportgen.notation.symbols import drawn_length
+from reportgen.ledger.kinematics import rates
+from reportgen.ledger.kinematics.linkage import NOWHERE, POLES, Kinematics, PlacedLink, What
+from reportgen.ledger.kinematics.sides import Side, Turn, image, sides, under
+from reportgen.mechanism.structure import Dyad, DyadKind, Guide, LinkPoint
+from reportgen.notation.expressions import (
+    Expression,
+    Ref,
+    Symbol,
+    call,
+    circle_circle,
+    circle_line,
+    meet,
+    sqrt,
+    turned,
+)
+from reportgen.notation.symbols import drawn_length, on_plan, segment
+
+OFF_LINE = 1e-9
+"""A point nearer to the line of a link's joints than this share of its distance lies on it."""
 
 
 def group(k: Kinematics, dyad: Dyad) -> None:
     """Enter a group: its places, velocities, accelerations, and those of its links' points."""
     both = sides(k.scheme, dyad)
     PLACES[dyad.kind](k, dyad)
-    turns = {link: points.turn_of(link, both) for link in dyad.links}
+    turns = {link: _turn_of(link, both) for link in dyad.links}
     for link, turn in turns.items():
-        points.places(k, link, turn)
+        places(k, link, turn)
     _motion(k, dyad, "v", turns, lambda: rates.velocity(k, *both))
     _motion(k, dyad, "a", turns, lambda: rates.acceleration(k, *both))
 
@@ -34,7 +46,7 @@ def _motion(
     if dyad.kind == "RPP":
         _middle_of_rpp(k, dyad, what)
     for link, turn in turns.items():
-        points.images(k, what, link, turn)
+        images(k, what, link, turn)
 
 
 def _pin(end: str | Guide) -> str:
@@ -133,3 +145,102 @@ PLACES: Mapping[DyadKind, Callable[[Kinematics, Dyad], None]] = {
     "PRP": _prp,
     "RPP": _rpp,
 }
+
+
+# --- points of links --------------------------------------------------------------------------------
+
+
+def _points(k: Kinematics, link: int) -> tuple[LinkPoint, ...]:
+    """The named points of a link besides its joints."""
+    return tuple(place for place in k.scheme.linkage.points if place.link == link)
+
+
+def _off_line(point: LinkPoint) -> bool:
+    """Whether a point forms a triangle with its link's joints."""
+    return abs(point.local.imag) > OFF_LINE * abs(point.local)
+
+
+def _turn_of(link: int, sides: tuple[Side, Side]) -> Turn | None:
+    """The side that a link turns on, None for one that slides."""
+    return next((side for side in sides if isinstance(side, Turn) and side.link == link), None)
+
+
+def places(k: Kinematics, link: int, turn: Turn | None) -> None:
+    """Enter the places of a link's points: on a rod by the ratio of lengths, else along the frame's axis."""
+    q, placed = k.q, k.links[link]
+    for point in _points(k, link):
+        length = k.length(placed.origin, point.name, abs(point.local))
+        angle = k.constant(f"turn.{point.name}", cmath.exp(1j * cmath.phase(point.local)) if point.local else 1)
+        if turn is not None and not turn.measured:
+            whole = q[f"l.{turn.rod}"]
+            reach: Expression = length / whole * angle * q[f"rod.{link}"]
+            if _off_line(point):
+                k.length(turn.point, point.name, abs(point.local - q.si(whole)))
+        else:
+            reach = length * angle * k.axis(link)
+        q.construct(f"p.{point.name}", k.place(placed.origin) + reach)
+        k.drawn(placed.origin, point.name)
+
+
+def images(k: Kinematics, what: What, link: int, turn: Turn | None) -> None:
+    """Enter velocities or accelerations of a link's points."""
+    placed = k.links[link]
+    for point in _points(k, link):
+        if turn is not None:
+            _by_similarity(k, what, point, turn)
+        elif placed.omega is not None:
+            _by_rotation(k, what, point, placed)
+        else:
+            _by_translation(k, what, point, placed)
+
+
+def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Turn) -> None:
+    """The similarity theorem: the plan's figure is similar to the link's and turned in the same way."""
+    q, base, tip = k.q, turn.base, turn.point
+    first, last, new = "p" if turn.still else image(base), image(tip), image(point.name)
+    along = k.image(what, tip) - k.image(what, base)
+    ratio = q[f"l.{base}{point.name}"] / q[f"l.{turn.rod}"]
+    angle = q[f"turn.{point.name}"]
+    if turn.measured:
+        id = f"similar.{point.name}"
+        if id not in q:
+            q.construct(id, angle * k.axis(point.link) * q[f"l.{turn.rod}"] / q[f"rod.{point.link}"])
+        angle = q[id]
+    k.vertex(what, new, k.image(what, base) + ratio * angle * along)
+    whole = f"seg.{what}.{first}{last}"
+    letters = k.letter(what, base), on_plan(tip, what == "a")
+    if whole not in q:
+        k.segment(whole, *letters, along, what)
+    target = on_plan(point.name, what == "a")
+    q.define(f"seg.{what}.{first}{new}", ratio * q[whole], segment(letters[0], target))
+    if _off_line(point) and not turn.measured:
+        other = q[f"l.{tip}{point.name}"] / q[f"l.{turn.rod}"]
+        q.define(f"seg.{what}.{last}{new}", other * q[whole], segment(letters[1], target))
+    k.absolute(what, point.name)
+
+
+def _by_rotation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedLink) -> None:
+    """v_E = v_O + ω l_OE, a_E = a_O + ω² l_OE + ε l_OE, as the link turns about its origin."""
+    q, name, link = k.q, point.name, point.link
+    length, relative = q[f"l.{placed.origin}{name}"], f"{name}{placed.origin}"
+    if point.local:
+        omega, size = q[f"omega.{link}"], k.sizes.of(what)
+        if what == "v":
+            q.define(f"v.{relative}", omega * length, scale=size)
+        else:
+            q.define(f"a.{relative}.n", omega**2 * length, scale=size)
+            if placed.eps is not None:
+                q.define(f"a.{relative}.t", q[f"eps.{link}"] * length, scale=size)
+    arm = k.place(name) - k.place(placed.origin)
+    k.vertex(what, image(name), k.image_at(what, link, arm))
+    k.absolute(what, name)
+
+
+def _by_translation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedLink) -> None:
+    """All points of a link that does not turn have one velocity and one acceleration."""
+    q, name = k.q, point.name
+    plan = k.vertex(what, image(name), k.image(what, placed.origin))
+    k.segment(f"seg.{what}.p{image(name)}", Symbol(POLES[what]), on_plan(name, what == "a"), abs(plan), what)
+    same = NOWHERE if k.scheme.still(placed.origin) else q[f"{what}.{placed.origin}"]
+    q.define(f"{what}.{name}", same, scale=k.sizes.of(what))
+    k.direction(what, name)

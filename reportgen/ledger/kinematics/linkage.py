@@ -10,8 +10,7 @@ import numpy as np
 
 from reportgen.ledger.kinematics.sides import Scheme, image
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Guide, Linkage
-from reportgen.notation.constructions import heading, turned
-from reportgen.notation.expressions import Expression, Number, Ref, Symbol
+from reportgen.notation.expressions import Expression, Number, Ref, Symbol, heading, turned
 from reportgen.notation.sheet import Sheet, is_short
 from reportgen.notation.symbols import drawn_length, on_plan, segment
 

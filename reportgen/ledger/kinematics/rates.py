@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from reportgen.ledger.kinematics.linkage import NOWHERE, POLES, Kinematics, What
 from reportgen.ledger.kinematics.sides import Side, Slide, Turn, image
-from reportgen.notation.constructions import cross, meet, quotient, sign, turned
-from reportgen.notation.expressions import Expression, Symbol
+from reportgen.notation.expressions import Expression, Symbol, cross, meet, quotient, sign, turned
 from reportgen.notation.symbols import on_plan, segment
 
 
