@@ -47,7 +47,7 @@ class Way:
     end: float = FULL_TURN
     turning: bool = True
 
-    def told(self, place: float) -> str:
+    def shown(self, place: float) -> str:
         """A place in degrees, −180…180, or in millimetres, without trailing zeros."""
         return f"{np.degrees(np.angle(np.exp(1j * place))) if self.turning else place * 1e3:.4g}"
 
@@ -82,11 +82,11 @@ def findings(
             around = np.array([place - step, place, place + step])
             gap = _gap(clear, around, np.array([True, False, True]))
         if gap is not None:
-            ends = dict(zip(("first", "last"), map(way.told, gap), strict=True))
+            ends = dict(zip(("first", "last"), map(way.shown, gap), strict=True))
             yield Finding(f"no-assembly{of_slide}", member.where, {**about, **ends})
             return
         if least < SINGULAR**2:
-            at = {"angle" if way.turning else "first": way.told(place)}
+            at = {"angle" if way.turning else "first": way.shown(place)}
             yield Finding(f"dead-point{of_slide}", member.where, {**about, **at})
             return
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -31,7 +31,7 @@ class Chapter(StrEnum):
     cycle = "cycle"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Row:
     """A family of ids, as a regular expression.
 
@@ -46,6 +46,10 @@ class Row:
     plan: str = ""
     before: str = ""
     around: bool = False
+
+    @cached_property
+    def pattern(self) -> re.Pattern[str]:
+        return re.compile(self.ids)
 
 
 _NAME = r"(?P<sub>[^.]+)"
@@ -128,15 +132,14 @@ ROWS: tuple[Row, ...] = (
     Row(r"W", "W", "work"),
     Row(r"power", "N", "power"),
 )
-_PATTERNS = tuple((re.compile(row.ids), row) for row in ROWS)
 _PRINTED = {"t": "τ"}
 _NO_ROW = Row("")
 
 
 @lru_cache(maxsize=4096)
 def _found(id: str) -> tuple[Row, dict[str, str]]:
-    for pattern, row in _PATTERNS:
-        if match := pattern.fullmatch(id):
+    for row in ROWS:
+        if match := row.pattern.fullmatch(id):
             return row, {name: text or "" for name, text in match.groupdict().items()}
     return _NO_ROW, {}
 

@@ -123,7 +123,7 @@ def scheme(linkage: Linkage) -> Scheme:
             link if isinstance(end, str) else spins[end.link]
             for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)
         )
-        # A slide between the two links makes them turn alike.
+        # A slide between the two links makes them turn with one angular velocity.
         spins |= {i: second if dyad.kind in {"RPR", "RPP"} else first, j: second}
     return Scheme(linkage, owners(linkage), spins)
 
