@@ -7,11 +7,12 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
-from reportgen.answers.key import Key, Role, Row, shown_number, words_of
+from reportgen.answers.key import Key, Role, Row, words_of
 from reportgen.answers.sheet import asked_positions, info_rows, open_cells
 from reportgen.case import Case
 from reportgen.document.numbering import number
-from reportgen.document.report import PLATES_UP_TO, Report
+from reportgen.document.outline import open_report
+from reportgen.document.report import PLATES_UP_TO
 from reportgen.document.tree import (
     TEXT_WIDTH,
     BlankLine,
@@ -23,6 +24,7 @@ from reportgen.document.tree import (
     Inlines,
     LineBreak,
     Paragraph,
+    Section,
     Strong,
     Table,
     Text,
@@ -70,6 +72,16 @@ def fields(pairs: Iterable[tuple[str, str]]) -> Iterable[Block]:
     return (*((Paragraph(tuple(lines)),) if lines else ()), *empty)
 
 
+def heading(title: str, level: int = 1) -> Section:
+    """A heading without a number."""
+    return Section(level, (Text(title),), numbered=False)
+
+
+def paragraph(text: str) -> Paragraph:
+    """A paragraph of plain text."""
+    return Paragraph((Text(text),))
+
+
 def student_rows(key: Key) -> tuple[tuple[str, str], ...]:
     """Whose paper it is: label and text of assignment, variant (if any), student."""
     assignment, _, variant, *student = info_rows(key)
@@ -79,19 +91,19 @@ def student_rows(key: Key) -> tuple[tuple[str, str], ...]:
 # --- cells of tables ------------------------------------------------------------------------------
 
 
-def plain_inlines(text: str) -> Inlines:
-    """A text as it stands; an empty one gives no inline."""
-    return (Text(text),) if text else ()
+DASH = "–"
+"""In the cell of what does not exist."""
 
 
-def text_cells(texts: Iterable[str]) -> tuple[Cell, ...]:
-    """A row of texts."""
-    return tuple(Cell(plain_inlines(text)) for text in texts)
+def cells(contents: Iterable[str | Number | Inlines]) -> tuple[Cell, ...]:
+    """The cells of a row: texts as they stand, numbers, or anything else that a line holds."""
+    return tuple(Cell(_inlines(content)) for content in contents)
 
 
-def value_inlines(row: Row, value: float) -> Inlines:
-    """A number as the report prints it, a dash for what does not exist."""
-    return (Value(shown_number(row, value)),) if value == value else (Text("–"),)
+def _inlines(content: str | Number | Inlines) -> Inlines:
+    if isinstance(content, Number):
+        return (Value(content),) if content.value == content.value else (Text(DASH),)
+    return content if isinstance(content, tuple) else (Text(content),) if content else ()
 
 
 def symbol_inlines(row: Row, with_id: bool) -> Inlines:
@@ -118,11 +130,11 @@ def task(case: Case, key: Key) -> Document:
 
     Raises `TemplateError`.
     """
-    report = Report(case)
+    report = open_report(case)
     prose, names, words, machine = report.prose, report.names(), case.words, case.analysis.machine
     every = range(1, machine.positions + 1)
     asked = asked_positions(key)
-    (heading, *given) = prose.render("given.md", names)
+    (title, *given) = prose.render("given.md", names)
     names |= {
         "sheet": tuple(answer_tables(key)),
         "asked": tuple(map(key.label, asked)),
@@ -130,7 +142,7 @@ def task(case: Case, key: Key) -> Document:
     }
     about = case.assignment.report
     blocks: list[Block] = [
-        heading,
+        title,
         Paragraph((Strong((Text(case.title),)),), "center"),
         *fields(student_rows(key)),
         *given,
@@ -142,7 +154,7 @@ def task(case: Case, key: Key) -> Document:
 
 def answer_tables(key: Key) -> Iterator[Table]:
     """The empty sheet as tables to fill in by hand, a table or more for each part with something to fill in."""
-    words, cells = words_of(key), open_cells(key)
+    words, open_at = words_of(key), open_cells(key)
     for part, members in groupby(key.rows, lambda row: row.part):
         caption = (Text(str(words["parts"][part])),)
         rows = [row for row in members if row.positions]
@@ -153,7 +165,7 @@ def answer_tables(key: Key) -> Iterator[Table]:
             for some in _split(positions):
                 asked = [row for row in group if set(row.positions) & set(some)]
                 if asked:
-                    yield _answer_table(_heads(key, words, some), asked, some, shared, cells, caption)
+                    yield _answer_table(_heads(key, words, some), asked, some, shared, open_at, caption)
 
 
 def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
@@ -163,21 +175,14 @@ def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
     rows = [row for row in key.rows if row.role is Role.given and not row.single and row.part is not Chapter.formulas]
     for some in _split(positions) if rows else ():
         head = (words["table"]["symbol"], words["table"]["unit"], *map(key.label, some))
-        body = tuple(
-            (
-                Cell(symbol_inlines(row, with_id=False)),
-                Cell(plain_inlines(row.unit)),
-                *(Cell(_known_inlines(float(row.values[row.at(k)]))) for k in some),
-            )
-            for row in rows
-        )
+        body = (cells((symbol_inlines(row, False), row.unit, *(_known_number(row, k) for k in some))) for row in rows)
         columns = (Column(SYMBOL), Column(UNIT), *(Column(VALUE),) * len(some))
-        yield Table(columns, (text_cells(head),), body, caption)
+        yield Table(columns, (cells(head),), tuple(body), caption)
 
 
-def _known_inlines(value: float) -> Inlines:
+def _known_number(row: Row, position: int) -> Number:
     """A given number short enough for a column: an angle may be one that follows from lengths."""
-    return (Value(Number(float(f"{value:.{KNOWN_DIGITS}g}"), None)),) if value == value else (Text("–"),)
+    return Number(float(f"{row.values[row.at(position)]:.{KNOWN_DIGITS}g}"), None)
 
 
 def _split(positions: Sequence[int]) -> Iterator[Sequence[int]]:
@@ -201,27 +206,28 @@ def _answer_table(
     rows: Sequence[Row],
     positions: Sequence[int],
     shared: Container[Symbol],
-    cells: Mapping[str, Container[int]],
+    open_at: Mapping[str, Container[int]],
     caption: Inlines,
 ) -> Table:
     """Quantities below one another, in as many sets side by side as the page has room for.
 
-    `cells` are the positions at which each row has a cell to fill in, by id.
+    `open_at` are the positions at which each row has a cell to fill in, by id.
     """
     symbol = symbol_width(rows, shared, SYMBOL)
-    beside = max(int(TEXT_WIDTH // (symbol + UNIT + VALUE * len(positions))), 1)
-    beside = min(beside, len(rows))
+    beside = min(max(int(TEXT_WIDTH // (symbol + UNIT + VALUE * len(positions))), 1), len(rows))
     value = min((TEXT_WIDTH / beside - symbol - UNIT) / len(positions), 1.5 * VALUE)
     columns = (Column(symbol), Column(UNIT), *(Column(value),) * len(positions))
     height = -(-len(rows) // beside)
     filled = [
-        (
-            Cell(symbol_inlines(row, row.symbol in shared)),
-            Cell(plain_inlines(row.unit)),
-            *(Cell() if k in cells[row.id] else Cell((Text("–"),)) for k in positions),
+        cells(
+            (
+                symbol_inlines(row, row.symbol in shared),
+                row.unit,
+                *("" if k in open_at[row.id] else DASH for k in positions),
+            )
         )
         for row in rows
     ]
     filled += [(Cell(),) * len(columns)] * (beside * height - len(rows))
     body = (tuple(cell for line in filled[start::height] for cell in line) for start in range(height))
-    return Table(columns * beside, (text_cells(heads) * beside,), tuple(body), caption)
+    return Table(columns * beside, (cells(heads) * beside,), tuple(body), caption)

@@ -16,7 +16,7 @@ from reportgen.assignment import checks
 from reportgen.assignment.common import Assignment, Draft, Kind, file_model, sections
 from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, Finding, Where, as_error, close_or_known
 from reportgen.assignment.source import List, Node, Scalar, Source, Table, plain, read_source
-from reportgen.errors import AssignmentError, Mark, Problem
+from reportgen.errors import Mark
 from reportgen.notation.numbers import Language
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -30,27 +30,6 @@ class Kinds:
 
     names: Sequence[str]
     find: Callable[[str], Kind]
-
-
-def load(path: Path, kinds: Kinds, language: Language | None = None) -> Assignment:
-    """The assignment of a file; `language` overrides that of its report.
-
-    Raises `AssignmentError` with every fault of the file.
-    """
-    source = read_source(path)
-    assignment, faults = assess(source, path, kinds)
-    if assignment is None:
-        raise as_error(faults, language or language_of(source))
-    return assignment.with_language(language) if language else assignment
-
-
-def check(path: Path, kinds: Kinds, language: Language | None = None) -> list[Problem]:
-    """All faults of a file in its order; none if it can be loaded."""
-    try:
-        load(path, kinds, language)
-    except AssignmentError as fault:
-        return list(fault.problems)
-    return []
 
 
 def assess(source: Source, path: Path, kinds: Kinds) -> tuple[Assignment | None, list[Fault]]:

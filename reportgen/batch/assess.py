@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-from reportgen import api, catalogue, products
+from reportgen import api, catalogue
 from reportgen.answers.key import Key
 from reportgen.api import Engine
 from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_problem, word
@@ -138,7 +138,7 @@ def put(
 ) -> Iterator[Path]:
     """Write every file of a graded class below `out`, each in one step; raises `OutputError`."""
     for name, content in files_of(graded, policy, engine, language):
-        yield from products.put(out / name.parent, {name.name: content})
+        yield from api.put(out / name.parent, {name.name: content})
 
 
 def summary(graded: Graded, language: Language | None) -> Iterator[str]:

@@ -14,11 +14,10 @@ from hashlib import sha256
 from pathlib import Path
 
 from reportgen import installation
-from reportgen.api import Engine
+from reportgen.api import Engine, Maker
 from reportgen.assignment.faults import unexpected, word
 from reportgen.errors import AssignmentError, Problem, ReportgenError
 from reportgen.notation.numbers import Language
-from reportgen.products import Maker
 
 SYSTEM = 3
 """Exit code of a failure that no change of the assignment can mend."""

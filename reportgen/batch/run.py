@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TextIO
 
 from reportgen import api
-from reportgen.api import Engine
+from reportgen.api import MAKERS, Engine, Maker
 from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_problem, word
 from reportgen.batch import manifest
 from reportgen.batch.jobs import Job, Outcome, failed, making
@@ -22,7 +22,6 @@ from reportgen.batch.roster import Assigned, Roster, Student, match_files, read_
 from reportgen.batch.variants import make_variants
 from reportgen.errors import Mark, Problem
 from reportgen.notation.numbers import Language, write
-from reportgen.products import MAKERS, Maker
 
 if TYPE_CHECKING:
     from rich.progress import ProgressColumn

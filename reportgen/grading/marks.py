@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from fnmatch import fnmatchcase
@@ -85,6 +85,12 @@ class Marked:
 Cells = Mapping[Place, Marked]
 
 
+def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
+    """The points that cells earned, and those that they are worth."""
+    found = [(cell.points, cell.worth) for cell in cells]
+    return sum(points for points, _ in found), sum(worth for _, worth in found)
+
+
 @dataclass(frozen=True)
 class Marking:
     """All verdicts on a submission, in the order of the key's rows; `warnings` are keys of `warnings` in words."""
@@ -96,11 +102,11 @@ class Marking:
 
     @property
     def points(self) -> float:
-        return sum(cell.points for cell in self.cells)
+        return points_of(self.cells)[0]
 
     @property
     def out_of(self) -> float:
-        return sum(cell.worth for cell in self.cells)
+        return points_of(self.cells)[1]
 
     @property
     def share(self) -> float:
