@@ -144,11 +144,8 @@ def put(
 def summary(graded: Graded, language: Language | None) -> Iterator[str]:
     """A line for each student marked, and how many handed nothing in."""
     for marking in graded.markings:
-        yield word("graded", language).format(
-            id=marking.key.id,
-            points=f"{marking.points:g}",
-            out_of=f"{marking.out_of:g}",
-            firsts=len(marking.first_errors),
-        )
+        points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
+        firsts = len(marking.first_errors)
+        yield word("graded", language, id=marking.key.id, points=points, out_of=out_of, firsts=firsts)
     if graded.missing:
         yield word("graded_missing", language, count=len(graded.missing))
