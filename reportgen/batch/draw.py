@@ -101,7 +101,8 @@ class _Lottery:
                 faults += self._faults_of_roster(student)
             else:
                 # No combination is usable: no other student could get one either.
-                return Draw((), tuple(self._faults_of_spec(student)))
+                tried = {"count": str(min(self.spec.size, MOST_TRIED)), "size": str(self.spec.size)}
+                return Draw((), (Fault("no-variant", self.spec.mark, tried), *self._reasons(student)))
         shared = any(count > 1 for count in self.taken.values())
         return Draw(tuple(drawn), tuple(faults), len(self.taken) if shared else None)
 
@@ -162,10 +163,6 @@ class _Lottery:
         reasons = self._reasons(student)
         own = [fault for fault in reasons if fault.mark in cells]
         return own or [Fault(fault.code, cells[0], fault.arguments) for fault in reasons[:1]]
-
-    def _faults_of_spec(self, student: Student) -> list[Fault]:
-        tried = {"count": str(min(self.spec.size, MOST_TRIED)), "size": str(self.spec.size)}
-        return [Fault("no-variant", self.spec.mark, tried), *self._reasons(student)]
 
 
 def _key(settings: Settings) -> Key:

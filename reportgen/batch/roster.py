@@ -68,12 +68,8 @@ class Roster:
     columns: tuple[Column, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Assigned:
-    """A student with the assignment file, or with the reason why there is none."""
-
-    student: Student
-    file: Path | Problem
+Assigned = tuple[Student, Path | Problem]
+"""A student with the assignment file, or with the reason why there is none."""
 
 
 def read_roster(path: Path, language: Language | None = None) -> Roster:
@@ -221,12 +217,12 @@ def match_files(
     `AssignmentError` as `assignment_files` does.
     """
     files = assignment_files(folder, language)
-    assigned = []
+    assigned: list[Assigned] = []
     for student in students:
         found = next((files[stem] for stem in map(comparable, (student.folder, student.id)) if stem in files), None)
         missing = Fault("no-assignment", student.mark, {"text": student.id})
-        assigned.append(Assigned(student, found or as_problem(missing, language)))
-    taken = {one.file for one in assigned}
+        assigned.append((student, found or as_problem(missing, language)))
+    taken = {file for _, file in assigned}
     return assigned, [path for path in files.values() if path not in taken]
 
 

@@ -81,6 +81,10 @@ class Marked:
     where: str = ""
     classmates: tuple[str, ...] = ()
 
+    def equals(self, value: float, band: float) -> bool:
+        """Whether a value was given that lies within a band of another."""
+        return self.given is not None and abs(self.given - value) <= band
+
 
 Cells = Mapping[Place, Marked]
 

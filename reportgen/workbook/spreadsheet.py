@@ -19,13 +19,11 @@ from typing import TYPE_CHECKING, Any
 from reportgen.errors import CellMark, Mark
 from reportgen.workbook.cells import (
     LONGEST_CELL,
-    MOST_CELLS,
-    MOST_COLUMNS,
-    MOST_ROWS,
     Cell,
     CellKind,
     Page,
     RefusedError,
+    exceeds,
     too_large,
     too_long,
 )
@@ -149,7 +147,7 @@ class _Sheet:
             raise RefusedError("sheet-damaged", self._mark(1, 1))
         lengths = {row: max(columns) for row, columns in cells.items()}
         last = max(cells, default=0)
-        if sum(lengths.values()) > MOST_CELLS:
+        if exceeds(0, 0, sum(lengths.values())):
             raise too_large(self._mark(last, 1))
         return tuple(
             tuple(
@@ -176,7 +174,7 @@ class _Sheet:
                 cell = _cell(typed, stored, self._mark(row, column))
                 if cell.blank:
                     continue
-                if row > MOST_ROWS or column > MOST_COLUMNS:
+                if exceeds(row, column):
                     raise too_large(cell.mark)
                 if isinstance(cell.value, str) and len(cell.value) > LONGEST_CELL:
                     raise too_long(cell.mark)
