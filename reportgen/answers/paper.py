@@ -10,27 +10,11 @@ from typing import Any
 from reportgen.answers.key import Key, Role, Row, words_of
 from reportgen.answers.sheet import asked_positions, info_rows, open_cells
 from reportgen.case import Case
+from reportgen.document import tree
 from reportgen.document.numbering import number
 from reportgen.document.outline import open_report
 from reportgen.document.report import PLATES_UP_TO
-from reportgen.document.tree import (
-    TEXT_WIDTH,
-    BlankLine,
-    Block,
-    Cell,
-    Column,
-    Document,
-    InlineMath,
-    Inlines,
-    LineBreak,
-    Paragraph,
-    Section,
-    Strong,
-    Table,
-    Text,
-    Value,
-    Words,
-)
+from reportgen.document.tree import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
 from reportgen.figures.metrics import box
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.notation.numbers import Language
@@ -56,25 +40,26 @@ def paper(
 ) -> Document:
     """A numbered document without a cover; title left and variant right in its header, `owner` its author."""
     note = words["variant"].format(variant=variant) if variant else ""
-    footer = ("", words["document"]["page"])
-    return number(Document(language, title, owner, (title, note), footer, Words(**words["document"]), tuple(blocks)))
+    terms = words["document"]
+    header, footer = (title, note), ("", terms["page"])
+    return number(Document(language, title, owner, header, footer, tree.Words(**terms), tuple(blocks)))
 
 
 def fields(pairs: Iterable[tuple[str, str]]) -> Iterable[Block]:
     """Labelled texts, a line each, as typed; without a text a dotted line to fill in."""
-    lines: list[Text | Strong | LineBreak] = []
+    lines: list[Text | tree.Strong | tree.LineBreak] = []
     empty: list[Block] = []
     for label, text in pairs:
         if not text:
-            empty.append(BlankLine(f"{label}:"))
+            empty.append(tree.BlankLine(f"{label}:"))
             continue
-        lines += [*([LineBreak()] if lines else []), Text(f"{label}: "), Strong((Text(text),))]
+        lines += [*([tree.LineBreak()] if lines else []), Text(f"{label}: "), tree.Strong((Text(text),))]
     return (*((Paragraph(tuple(lines)),) if lines else ()), *empty)
 
 
-def heading(title: str, level: int = 1) -> Section:
+def heading(title: str, level: int = 1) -> tree.Section:
     """A heading without a number."""
-    return Section(level, (Text(title),), numbered=False)
+    return tree.Section(level, (Text(title),), numbered=False)
 
 
 def paragraph(text: str) -> Paragraph:
@@ -102,13 +87,13 @@ def cells(contents: Iterable[str | Number | Inlines]) -> tuple[Cell, ...]:
 
 def _inlines(content: str | Number | Inlines) -> Inlines:
     if isinstance(content, Number):
-        return (Value(content),) if content.value == content.value else (Text(DASH),)
+        return (tree.Value(content),) if content.value == content.value else (Text(DASH),)
     return content if isinstance(content, tuple) else (Text(content),) if content else ()
 
 
 def symbol_inlines(row: Row, with_id: bool) -> Inlines:
     """A quantity's symbol, perhaps with its id below."""
-    return (InlineMath(row.symbol), *((LineBreak(), Text(row.id)) if with_id else ()))
+    return (InlineMath(row.symbol), *((tree.LineBreak(), Text(row.id)) if with_id else ()))
 
 
 def symbol_width(rows: Iterable[Row], shared: Container[Symbol], least: float) -> float:
@@ -143,7 +128,7 @@ def task(case: Case, key: Key) -> Document:
     about = case.assignment.report
     blocks: list[Block] = [
         title,
-        Paragraph((Strong((Text(case.title),)),), "center"),
+        Paragraph((tree.Strong((Text(case.title),)),), "center"),
         *fields(student_rows(key)),
         *given,
         *prose.render("task.md", names),
@@ -214,8 +199,8 @@ def _answer_table(
     `open_at` are the positions at which each row has a cell to fill in, by id.
     """
     symbol = symbol_width(rows, shared, SYMBOL)
-    beside = min(max(int(TEXT_WIDTH // (symbol + UNIT + VALUE * len(positions))), 1), len(rows))
-    value = min((TEXT_WIDTH / beside - symbol - UNIT) / len(positions), 1.5 * VALUE)
+    beside = min(max(int(tree.TEXT_WIDTH // (symbol + UNIT + VALUE * len(positions))), 1), len(rows))
+    value = min((tree.TEXT_WIDTH / beside - symbol - UNIT) / len(positions), 1.5 * VALUE)
     columns = (Column(symbol), Column(UNIT), *(Column(value),) * len(positions))
     height = -(-len(rows) // beside)
     filled = [

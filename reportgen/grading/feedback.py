@@ -12,21 +12,18 @@ from reportgen.answers.key import Key, Row, shown_number, words_of
 from reportgen.answers.key_files import band, band_decimals
 from reportgen.answers.paper import DASH, cells, fields, heading, paper, paragraph, student_rows
 from reportgen.answers.sheet import NAMES, asked_positions, given_entry, grid, info_page, page, rows_shown
+from reportgen.document import tree
 from reportgen.document.plain import plain
 from reportgen.document.tree import (
-    TEXT_WIDTH,
     Block,
     Column,
     Document,
     Inline,
     InlineMath,
     Inlines,
-    List,
     Paragraph,
-    Strong,
     Table,
     Text,
-    Value,
 )
 from reportgen.errors import Problem
 from reportgen.grading.marks import Marked, Marking, Verdict, points_of
@@ -127,7 +124,7 @@ def feedback_document(marking: Marking, title: str, show_answers: bool = True) -
     blocks: list[Block] = [
         heading(feedback["title"]),
         *fields(((words["answer_sheet"]["kind"], title), *student_rows(key))),
-        Paragraph((Strong(score),)),
+        Paragraph((tree.Strong(score),)),
         *(paragraph(words["warnings"][warning]) for warning in marking.warnings),
         *_section(feedback["firsts"], _firsts(marking, words, show_answers)),
         *_section(feedback["followed"], _followed(marking, words)),
@@ -153,7 +150,8 @@ def _firsts(marking: Marking, words: Mapping[str, Any], show_answers: bool) -> I
             yield paragraph(words["feedback"]["no_firsts"])
         return
     yield paragraph(words["feedback"]["firsts_lead"])
-    yield List(tuple((Paragraph(_first(cell, marking.key, words, show_answers)),) for cell in firsts), ordered=True)
+    lines = (_first(cell, marking.key, words, show_answers) for cell in firsts)
+    yield tree.List(tuple((Paragraph(line),) for line in lines), ordered=True)
 
 
 def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool) -> Inlines:
@@ -161,7 +159,7 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
     feedback, row = words["feedback"], key.row(cell.id)
     assert cell.given is not None
     number = shown_number(row, cell.expected)
-    expected = Value(Number(number.value, number.decimals, row.unit))
+    expected = tree.Value(Number(number.value, number.decimals, row.unit))
     label = key.label(cell.position)
     return (
         InlineMath(row.symbol),
@@ -193,7 +191,7 @@ def _listed(problems: Iterable[Problem]) -> Iterator[Block]:
     found = sorted(problems, key=lambda problem: problem.mark)
     if found:
         texts = (f"{str(one.mark).removeprefix(f'{one.mark.file}:')}: {one.message}." for one in found)
-        yield List(tuple((paragraph(text),) for text in texts))
+        yield tree.List(tuple((paragraph(text),) for text in texts))
 
 
 def _by_part(marking: Marking, words: Mapping[str, Any]) -> Table:
@@ -202,7 +200,7 @@ def _by_part(marking: Marking, words: Mapping[str, Any]) -> Table:
     verdicts = [verdict for verdict in Verdict if any(cell.verdict is verdict for cell in marking.cells)]
     parts = groupby(marking.cells, lambda cell: key.row(cell.id).part)
     heads = (feedback["part"], *(str(words["verdicts"][v]) for v in verdicts), feedback["points"], feedback["out_of"])
-    first = TEXT_WIDTH - len(verdicts) * COUNT - 2 * POINTS
+    first = tree.TEXT_WIDTH - len(verdicts) * COUNT - 2 * POINTS
     columns = (Column(first, "left"), *(Column(COUNT),) * len(verdicts), Column(POINTS), Column(POINTS))
     rows = [_counted(str(words["parts"][part]), list(of_part), verdicts, key) for part, of_part in parts]
     rows.append(_counted(feedback["total"], marking.cells, verdicts, key))
@@ -238,7 +236,7 @@ def _given_value(row: Row, value: float) -> Inline:
     """A student's value with its unit, to six figures; one of any size takes little room."""
     if value and not LEAST < abs(value) < MOST:
         return Text(f"{value:.4g} {row.unit}".replace("-", MINUS).strip())
-    return Value(Number(float(f"{value:.6g}"), None, row.unit))
+    return tree.Value(Number(float(f"{value:.6g}"), None, row.unit))
 
 
 def mistake_inlines(cell: Marked, key: Key, words: Mapping[str, Any]) -> Inlines:
