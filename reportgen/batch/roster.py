@@ -27,7 +27,7 @@ from reportgen.errors import Mark, Problem
 from reportgen.notation.numbers import Language
 from reportgen.workbook import Page, read
 
-PERSONAL = ("id", "name", "class", "section", "email")
+PERSONAL = ("name", "id", "class", "section", "email")
 NAME_PARTS = ("family", "given")
 SECTIONS = ("parameters", "positions", "drawing", "indicator", "report")
 ASSIGNMENT_SUFFIXES = frozenset({".yaml", ".yml"})
@@ -44,15 +44,19 @@ _LIKE_HASHED = re.compile(rf".*-[0-9A-F]{{{HASH_DIGITS}}}")
 
 @dataclass(frozen=True, slots=True)
 class Student:
-    """A row of the roster; `overrides` are values with their cells by path ("parameters.H")."""
+    """A row of the roster.
 
-    id: str
-    name: str
-    class_: str
-    section: str
-    email: str
+    `card` is what it says of the student, by the keys of `report.student`; `overrides` are values with their
+    cells by path ("parameters.H").
+    """
+
+    card: Mapping[str, str]
     overrides: Mapping[str, Scalar]
     mark: Mark
+
+    @property
+    def id(self) -> str:
+        return self.card["id"]
 
     @property
     def folder(self) -> str:
@@ -113,7 +117,7 @@ def _used(headings: Sequence[Column]) -> list[Column]:
     used: list[Column] = []
     taken: set[str] = set()
     for column in headings:
-        optional = column.name in (*PERSONAL[1:], *NAME_PARTS)
+        optional = column.name in (*PERSONAL, *NAME_PARTS)
         if column.name == "id" or _PATH.fullmatch(column.name) or (optional and column.name not in taken):
             used.append(column)
             taken.add(column.name)
@@ -160,12 +164,10 @@ def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
 
 
 def _student(row: Record) -> Student:
-    personal = {name: row.values[name].text if name in row.values else "" for name in PERSONAL}
     parts = (value.text for name, value in row.values.items() if name in NAME_PARTS)
-    personal["name"] = personal["name"] or " ".join(parts)
+    texts = {"name": " ".join(parts), **{name: value.text for name, value in row.values.items()}}
     overrides = {name: value for name, value in row.values.items() if _PATH.fullmatch(name)}
-    class_ = personal.pop("class")
-    return Student(**personal, class_=class_, overrides=overrides, mark=row.mark)
+    return Student({name: texts[name] for name in PERSONAL if texts.get(name)}, overrides, row.mark)
 
 
 def folder_name(id: str) -> str:

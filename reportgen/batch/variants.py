@@ -171,15 +171,7 @@ def _head(spec: Spec, drawn: Drawn, body: str) -> str:
 
 
 def _body(spec: Spec, drawn: Drawn) -> str:
-    student = drawn.student
-    personal = {
-        "name": student.name,
-        "id": student.id,
-        "class": student.class_,
-        "section": student.section,
-        "email": student.email,
-    }
-    card = Table(tuple((_scalar(key), _scalar(text)) for key, text in personal.items() if text), _HERE)
+    card = Table(tuple((_scalar(key), _scalar(text)) for key, text in drawn.student.card.items()), _HERE)
     top: Node = put(assembled(spec.top, drawn.settings), ("report", "student"), card)
     if at(top, ("report", "language")) is None:
         top = put(top, ("report", "language"), _scalar(spec.language))
