@@ -13,7 +13,7 @@ from pathlib import Path
 from reportgen import api, catalogue
 from reportgen.answers.key import Key
 from reportgen.api import Engine
-from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_problem, word
+from reportgen.assignment.faults import Fault, as_problem, word
 from reportgen.batch.roster import assignment_files, comparable, folder_name
 from reportgen.errors import AssignmentError, Mark, Problem, ReportgenError
 from reportgen.grading.feedback import feedback_book, feedback_document
@@ -77,11 +77,7 @@ def grade(
     problems: list[Problem] = []
     for path in _sheets(submissions):
         try:
-            if not path.exists():
-                fault = Fault("unreadable", Mark(str(path)), {"reason": "FileNotFoundError"})
-                problems.append(as_problem(fault, language))
-                continue
-            submission = read_submission(path, lambda name: room.guide(name).key, language or DEFAULT_LANGUAGE)
+            submission = read_submission(path, lambda name: room.guide(name).key, language)
             earlier = markings.get(submission.assignment)
             if earlier is not None:
                 kept, left = _preferred(Path(earlier.submission.file), path, submission.assignment)

@@ -19,10 +19,10 @@ from pathlib import Path
 
 from pydantic_core import PydanticCustomError
 
-from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_error, as_problem
+from reportgen.assignment.faults import Fault, as_error, as_problem
 from reportgen.assignment.fields import Text
 from reportgen.assignment.source import Scalar
-from reportgen.batch.table import Column, Record, columns, heading_row, records, repeated
+from reportgen.batch.table import Column, Record, columns, heading_row, records
 from reportgen.errors import Mark, Problem
 from reportgen.notation.numbers import Language
 from reportgen.workbook import Page, read
@@ -78,20 +78,14 @@ Assigned = tuple[Student, Path | Problem]
 
 def read_roster(path: Path, language: Language | None = None) -> Roster:
     """The class of a table file; raises `AssignmentError` with all its faults, in `language`."""
-    page, start = _page(read(path, language or DEFAULT_LANGUAGE))
+    page, start = _page(read(path, language))
     faults: list[Fault] = []
     if start is None:
         first = next((cell.mark for row in page.rows for cell in row if not cell.blank), Mark(str(path)))
         raise as_error([Fault("no-id-column", first)], language)
     headings = [_normal(column, faults) for column in columns(page.rows[start])]
     used = _used(headings)
-    faults += repeated(used)
-    rows: list[Record] = []
-    for record in records(page, used, start + 1):
-        if isinstance(record, Fault):
-            faults.append(record)
-        elif record.values or record.refused:
-            rows.append(record)
+    rows = [row for row in records(page, used, start + 1, faults) if row.values or row.refused]
     faults += [fault for row in rows for fault in _unfit(row)]
     faults += _id_faults(rows)
     if not rows:

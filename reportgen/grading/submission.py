@@ -34,7 +34,7 @@ HEAD_WITHIN = 60
 _UNREADABLE = {"date": "cell-date", "error": "cell-error", "boolean": "cell-boolean"}
 
 
-def read_submission(path: Path, key_of: Callable[[str], Key] | Key, language: Language = "vi") -> Submission:
+def read_submission(path: Path, key_of: Callable[[str], Key] | Key, language: Language | None = None) -> Submission:
     """The answer sheet of a file, read by the key of its assignment.
 
     The assignment is the one that its page of information names, or its title, or else the file's stem.
@@ -118,7 +118,7 @@ class _Reading:
     """What is found in one sheet."""
 
     key: Key
-    language: Language
+    language: Language | None
     values: dict[Place, Answer] = field(default_factory=dict)
     problems: dict[Place, Problem] = field(default_factory=dict)
     notes: list[Problem] = field(default_factory=list)

@@ -34,7 +34,7 @@ _LINE_END = re.compile(r"\r\n|\r|\n")
 _WIDE = (b"\xff\xfe", b"\xfe\xff")
 
 
-def read(path: Path, language: Language = "vi") -> tuple[Page, ...]:
+def read(path: Path, language: Language | None = None) -> tuple[Page, ...]:
     """The pages of a CSV or XLSX file; raises `AssignmentError` with the fault that stops it, in `language`."""
     try:
         return _read(path)
