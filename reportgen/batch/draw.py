@@ -29,7 +29,6 @@ import numpy as np
 from reportgen import api, catalogue
 from reportgen.analysis import Analysis, motion_at
 from reportgen.assignment.faults import Fault
-from reportgen.assignment.reading import assess
 from reportgen.batch.editing import path_text
 from reportgen.batch.roster import Roster, Student
 from reportgen.batch.spec import DRAWN_SECTIONS, Settings, Spec, place
@@ -183,7 +182,7 @@ def judge_of(spec: Spec) -> Judge:
     """Judges variants of a spec: each must pass `check`, turn fully and have finite results."""
 
     def judge(settings: Settings) -> tuple[Fault, ...]:
-        assignment, faults = assess(spec.source(settings), spec.path, catalogue.known())
+        assignment, faults = catalogue.assess(spec.source(settings), spec.path)
         if assignment is None:
             return tuple(faults)
         try:

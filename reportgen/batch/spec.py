@@ -26,7 +26,7 @@ from pathlib import Path
 from reportgen import catalogue
 from reportgen.assignment.common import Kind
 from reportgen.assignment.faults import Fault, Where, as_error, close_or_known
-from reportgen.assignment.reading import allowed_forms, assess, known_keys, language_of, misread
+from reportgen.assignment.reading import allowed_forms, known_keys, language_of, misread
 from reportgen.assignment.source import List, Node, Scalar, Source, Table, read_source
 from reportgen.batch.editing import at, path_text, put, without
 from reportgen.batch.table import Column, columns, records
@@ -148,7 +148,7 @@ def read_spec(path: Path, language: Language | None = None) -> Spec:
     name = at(top, ("kind",))
     named = isinstance(name, Scalar) and name.text in catalogue.kinds()
     if source.faults or not isinstance(top, Table) or not isinstance(name, Scalar) or not named:
-        raise as_error(assess(source, path, catalogue.known())[1], language)
+        raise as_error(catalogue.assess(source, path)[1], language)
     kind = catalogue.kind(name.text)
     faults: list[Fault] = []
     base = without(top, OWN_KEYS)

@@ -18,8 +18,8 @@ from typing import Any
 from reportgen import installation
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
-from reportgen.assignment.faults import as_error
-from reportgen.assignment.source import read_source
+from reportgen.assignment.faults import Fault, as_error
+from reportgen.assignment.source import Source, read_source
 from reportgen.errors import AssignmentError, Problem
 from reportgen.notation.numbers import Language
 from reportgen.words import FILE, load_words
@@ -54,9 +54,9 @@ def kind(name: str) -> Kind:
     )
 
 
-def known() -> reading.Kinds:
-    """All kinds, for the reader of assignment files."""
-    return reading.Kinds(tuple(kinds()), kind)
+def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
+    """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
+    return reading.assess(source, path, kinds(), kind)
 
 
 def title(name: str, language: Language) -> str:
@@ -74,9 +74,8 @@ def load(path: Path | str, language: Language | None = None) -> Assignment:
 
     Raises `AssignmentError` with all faults of the file, located.
     """
-    path = Path(path)
-    source = read_source(path)
-    assignment, faults = reading.assess(source, path, known())
+    source = read_source(Path(path))
+    assignment, faults = assess(source, Path(path))
     if assignment is None:
         raise as_error(faults, language or reading.language_of(source))
     return assignment.with_language(language) if language else assignment
