@@ -1,4 +1,4 @@
-"""What a script or the command line calls: load, check, solve, build.
+"""What a script or the command line calls: load, check, solve, build, and the makers of report, task and key.
 
 The whole way in one place: file → `Assignment` → `Machine` → `Analysis` → `Ledger` → `Document` → PDF.
 What comes before the document is in a `Case`.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.case import Case, open_case
-from reportgen.errors import Problem, ReportgenError
+from reportgen.errors import ReportgenError
 from reportgen.notation.numbers import Language
 
 if TYPE_CHECKING:
@@ -33,14 +33,7 @@ class OutputError(ReportgenError):
     exit_code = 3
 
 
-def load(path: Path | str, language: Language | None = None) -> Assignment:
-    """The assignment of a file; raises `AssignmentError` with all its faults, located."""
-    return open_case(path, language).assignment
-
-
-def check(path: Path | str, language: Language | None = None) -> list[Problem]:
-    """All faults of an assignment file, none if it is in order."""
-    return catalogue.check(Path(path), language)
+load, check = catalogue.load, catalogue.check
 
 
 def analyse(assignment: Assignment) -> Analysis:
@@ -77,13 +70,8 @@ def build(
     """
     assignment = load(path, language)
     source, pdf = typeset(document(assignment), engine)
-    target = Path(out) / assignment.id / "report.pdf"
-    with reported():
-        target.parent.mkdir(parents=True, exist_ok=True)
-        if keep_source:
-            replace(target.with_suffix(SUFFIX[engine]), source.encode())
-        replace(target, pdf)
-    return target
+    files = {f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}
+    return put(Path(out) / assignment.id, {**files, "report.pdf": pdf})[-1]
 
 
 def typeset(tree: Document, engine: Engine) -> tuple[str, bytes]:
@@ -99,6 +87,67 @@ def typeset(tree: Document, engine: Engine) -> tuple[str, bytes]:
     return source, typst.compile(source)
 
 
+# --- products: what a batch makes of an assignment file -----------------------------------------------
+
+
+Maker = Callable[[Path, Engine, Language | None], Mapping[str, bytes]]
+"""Makes the files of one product, by name; it depends on its arguments alone, so that it can run anywhere."""
+
+KEY_FORMATS = ("pdf", "xlsx", "csv", "json")
+
+
+def report_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
+    """The complete report."""
+    return {"report.pdf": typeset(document(load(path, language)), engine)[1]}
+
+
+def task_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
+    """The student's handout, and the answer sheet to fill in; no answer is in them."""
+    from reportgen.answers.key import make_key
+    from reportgen.answers.paper import task
+    from reportgen.answers.sheet import answer_book
+    from reportgen.workbook import write_xlsx
+
+    case = open_case(path, language)
+    key = make_key(case)
+    return {"task.pdf": typeset(task(case, key), engine)[1], "answers.xlsx": write_xlsx(answer_book(key))}
+
+
+def key_files(
+    path: Path, engine: Engine, language: Language | None, formats: Sequence[str] = ("pdf", "xlsx")
+) -> Mapping[str, bytes]:
+    """The answer key in some of `KEY_FORMATS`."""
+    from reportgen.answers import key_files as files
+    from reportgen.answers.key import make_key
+    from reportgen.workbook import write_csv, write_xlsx
+
+    case = open_case(path, language)
+    key = make_key(case)
+    makers: Mapping[str, Callable[[], bytes]] = {
+        "pdf": lambda: typeset(files.key_document(key, case.title), engine)[1],
+        "xlsx": lambda: write_xlsx(files.key_book(key)),
+        "csv": lambda: write_csv(files.key_rows(key)),
+        "json": lambda: files.key_json(key).encode(),
+    }
+    return {f"key.{name}": makers[name]() for name in formats}
+
+
+MAKERS: Mapping[str, Maker] = {"task": task_files, "report": report_files, "key": key_files}
+"""The products by the names that `--make` takes."""
+
+
+# --- writing files ------------------------------------------------------------------------------------
+
+
+def put(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
+    """Write files by name into a folder, each in one step; raises `OutputError`."""
+    with reported():
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, content in files.items():
+            replace(folder / name, content)
+    return [folder / name for name in files]
+
+
 def replace(target: Path, content: bytes) -> None:
     """Put `content` in place of a file in one step: a reader sees the old or the new, never a half."""
     handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
@@ -106,17 +155,13 @@ def replace(target: Path, content: bytes) -> None:
     try:
         with os.fdopen(handle, "wb") as stream:
             stream.write(content)
-        temporary.chmod(0o666 & ~_umask())
+        umask = os.umask(0)
+        os.umask(umask)
+        temporary.chmod(0o666 & ~umask)
         temporary.replace(target)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
-
-
-def _umask() -> int:
-    current = os.umask(0)
-    os.umask(current)
-    return current
 
 
 @contextmanager

@@ -72,5 +72,4 @@ def open_case(path: Path | str, language: Language | None = None) -> Case:
 
     Raises `AssignmentError` with all faults of the file, located.
     """
-    assignment = catalogue.load(Path(path), language)
-    return Case(assignment if language is None else assignment.with_language(language))
+    return Case(catalogue.load(path, language))

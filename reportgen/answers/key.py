@@ -130,13 +130,18 @@ def make_key(case: Case) -> Key:
     def row(id: str) -> Row:
         family = ledger[id]
         scale = family.how.scale
-        values = np.array([ledger[id].at(k + 1).real for k in range(len(family.values))])
+        values = np.array([family.at(k + 1).real for k in range(len(family.values))])
         if family.is_direction:
-            values = np.where(_exists(ledger, family), np.abs(values), np.nan)
+            # A vector of no length has none.
+            exists = [ledger[family.of].at(k + 1) != 0 for k in range(len(values))]
+            values = np.where(exists, np.abs(values), np.nan)
         if family.arm:
             values = np.abs(values)
-        role, part = _role(ledger, family), _chapter(ledger, family)
-        workable = _is_workable(family) and (part is not Chapter.cycle or complete)
+        role = _role(ledger, family)
+        part = Chapter.data if role is Role.given and len(values) == 1 else family.chapter
+        # What is read from a diagram can be worked out on paper, an integral over the cycle cannot.
+        workable = id != "M.difference" and (family.definition is not None or len(values) > 1)
+        workable = workable and (part is not Chapter.cycle or complete)
         asked = (role is Role.scale and not bands.is_round_scale(family)) or (role is Role.asked and workable)
         return Row(
             id,
@@ -182,11 +187,6 @@ def _role(ledger: Ledger, family: Family) -> Role:
     return Role.given if typed else Role.asked
 
 
-def _is_workable(family: Family) -> bool:
-    """Whether it can be worked out on paper: what is read from a diagram can, an integral over the cycle cannot."""
-    return family.id != "M.difference" and (family.definition is not None or len(family.values) > 1)
-
-
 def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int) -> tuple[int, ...]:
     """The worked positions; what repeats from turn to turn (all kinematics) is asked for in the first turn."""
     if len(values) == 1:
@@ -197,19 +197,8 @@ def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int) -> tuple[
     return tuple(dict.fromkeys(k for k in asked if np.isfinite(values[k - 1])))
 
 
-def _exists(ledger: Ledger, direction: Family) -> np.ndarray:
-    """At which positions the vector of a direction has a length."""
-    return np.array([ledger[direction.of].at(k + 1) != 0 for k in range(len(direction.values))])
-
-
 def _sense(family: Family, value: float, words: Mapping[str, str]) -> str:
     """The sense of a rotation in words; "" for any other quantity."""
     if not family.is_signed_rotation:
         return ""
     return words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"]
-
-
-def _chapter(ledger: Ledger, family: Family) -> Chapter:
-    """The chapter of the key: given data first, else what the vocabulary says of the family."""
-    given = _role(ledger, family) is Role.given and len(family.values) == 1
-    return Chapter.data if given else family.chapter

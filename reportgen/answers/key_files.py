@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
@@ -10,32 +11,20 @@ import numpy as np
 
 from reportgen.answers.key import Key, Row, shown_number, symbol_text, words_of
 from reportgen.answers.paper import (
+    DASH,
+    cells,
     fields,
+    heading,
     paper,
-    plain_inlines,
+    paragraph,
     shared_symbols,
     student_rows,
     symbol_inlines,
     symbol_width,
-    text_cells,
-    value_inlines,
 )
 from reportgen.answers.sheet import Filling, grid, info_page, number_format, page
-from reportgen.document.tree import (
-    FIRST_COLUMN,
-    TEXT_WIDTH,
-    Block,
-    Cell,
-    Column,
-    Document,
-    InlineMath,
-    Inlines,
-    Paragraph,
-    Section,
-    Table,
-    Text,
-    Value,
-)
+from reportgen.document import tree
+from reportgen.document.tree import Cell, Column, Document, InlineMath, Inlines, Table, Text
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.notation.numbers import significant_decimals
 from reportgen.notation.sheet import ZERO
@@ -155,6 +144,11 @@ def key_data(key: Key) -> dict[str, Any]:
     }
 
 
+def key_json(key: Key) -> str:
+    """The text of `key_data`."""
+    return json.dumps(key_data(key), ensure_ascii=False, allow_nan=False, indent=1) + "\n"
+
+
 def _numbers(values: Iterable[float]) -> list[float | None]:
     return [float(value) if value == value else None for value in values]
 
@@ -165,10 +159,10 @@ def _numbers(values: Iterable[float]) -> list[float | None]:
 def key_document(key: Key, title: str) -> Document:
     """The key as a numbered document; `title` is the machine's name."""
     words = words_of(key)
-    blocks: list[Block] = [
-        Section(1, (Text(words["key"]["title"]),), numbered=False),
+    blocks: list[tree.Block] = [
+        heading(words["key"]["title"]),
         *fields(((words["answer_sheet"]["kind"], title), *student_rows(key))),
-        Paragraph((Text(words["key"]["note"]),)),
+        paragraph(words["key"]["note"]),
     ]
     for part, rows in groupby(key.rows, lambda row: row.part):
         blocks += _tables(key, words, str(words["parts"][part]), list(rows))
@@ -185,7 +179,7 @@ def _tables(key: Key, words: Mapping[str, Any], name: str, rows: Sequence[Row]) 
     shared = shared_symbols((*others, *turning))
     for group in (others, turning):
         width = VALUE + 2 * BAND + (SENSE if group is turning else 0.0)
-        most = int((TEXT_WIDTH - FIRST_COLUMN) // width)
+        most = int((tree.TEXT_WIDTH - tree.FIRST_COLUMN) // width)
         for start in range(0, len(group), most):
             yield _by_position(key, words, name, group[start : start + most], shared)
 
@@ -199,15 +193,8 @@ def _list(words: Mapping[str, Any], name: str, rows: Sequence[Row]) -> Table:
     if senses:
         widths.append(SENSE)
         titles.append(words["key"]["sense"])
-    body = (
-        (
-            Cell(symbol_inlines(row, row.symbol in shared)),
-            Cell(plain_inlines(row.unit)),
-            *_value_cells(row, 0, senses),
-        )
-        for row in rows
-    )
-    return Table(tuple(map(Column, widths)), (text_cells(titles),), tuple(body), (Text(name),))
+    body = (cells((symbol_inlines(row, row.symbol in shared), row.unit, *_values(row, 0, senses))) for row in rows)
+    return Table(tuple(map(Column, widths)), (cells(titles),), tuple(body), (Text(name),))
 
 
 def _by_position(
@@ -217,43 +204,35 @@ def _by_position(
     heads, senses = words["key"], any(any(row.sense) for row in rows)
     widths = (VALUE, BAND, BAND, *((SENSE,) if senses else ()))
     under = ("", heads["drawn"], heads["computed"], *((heads["sense"],) if senses else ()))
-    head = (
-        (
-            Cell((Text(words["table"]["position"]),)),
-            *(Cell(_title(row, row.symbol in shared), len(widths)) for row in rows),
-        ),
-        (Cell(), *text_cells(under) * len(rows)),
-    )
+    titles = (Cell(_title(row, row.symbol in shared), len(widths)) for row in rows)
+    head = ((*cells((words["table"]["position"],)), *titles), (Cell(), *cells(under) * len(rows)))
     body = (
-        (Cell((Text(label),)), *(cell for row in rows for cell in _value_cells(row, index, senses)))
+        cells((label, *(value for row in rows for value in _values(row, index, senses))))
         for index, label in enumerate(key.labels)
     )
-    columns = tuple(map(Column, (FIRST_COLUMN, *widths * len(rows))))
+    columns = tuple(map(Column, (tree.FIRST_COLUMN, *widths * len(rows))))
     return Table(columns, head, tuple(body), (Text(name),))
 
 
 def _title(row: Row, with_id: bool) -> Inlines:
     """Symbol and unit of a quantity, perhaps with its id."""
-    unit = f", {row.unit}" if row.unit else ""
-    return (InlineMath(row.symbol), *plain_inlines(f"{unit} ({row.id})" if with_id else unit))
+    text = (f", {row.unit}" if row.unit else "") + (f" ({row.id})" if with_id else "")
+    return (InlineMath(row.symbol), *((Text(text),) if text else ()))
 
 
-def _value_cells(row: Row, index: int, senses: bool) -> tuple[Cell, ...]:
+def _values(row: Row, index: int, senses: bool) -> tuple[Number | str, ...]:
     """A value, its two bands, and perhaps its direction in words."""
     value = float(row.values[index])
-    bands = (
-        _band_inlines(row, float(widths[index])) if value == value else (Text("–"),)
-        for widths in (row.drawn, row.computed)
-    )
-    sense = (Cell(plain_inlines(row.sense[index])),) if senses else ()
-    return (Cell(value_inlines(row, value)), *map(Cell, bands), *sense)
+    widths = (float(row.drawn[index]), float(row.computed[index]))
+    bands = (_band_number(row, width) if value == value else DASH for width in widths)
+    return (shown_number(row, value), *bands, *((row.sense[index],) if senses else ()))
 
 
-def _band_inlines(row: Row, width: float) -> Inlines:
+def _band_number(row: Row, width: float) -> Number | str:
     """A band; far below the last figure of its row it is 0."""
     shown = band(row, width)
     if shown is None:
-        return (Text("–"),)
+        return DASH
     decimals = min(band_decimals(shown), FINEST if row.decimals is None else row.decimals + FINER)
     number = Number(shown, decimals)
-    return (Value(number if number.shown else Number(0.0)),)
+    return number if number.shown else Number(0.0)

@@ -7,29 +7,14 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
-from reportgen.answers.key import Key, Role, Row, shown_number, words_of
+from reportgen.answers.key import Key, Role, Row, words_of
 from reportgen.answers.sheet import asked_positions, info_rows, open_cells
 from reportgen.case import Case
+from reportgen.document import tree
 from reportgen.document.numbering import number
 from reportgen.document.outline import open_report
 from reportgen.document.report import PLATES_UP_TO
-from reportgen.document.tree import (
-    TEXT_WIDTH,
-    BlankLine,
-    Block,
-    Cell,
-    Column,
-    Document,
-    InlineMath,
-    Inlines,
-    LineBreak,
-    Paragraph,
-    Strong,
-    Table,
-    Text,
-    Value,
-    Words,
-)
+from reportgen.document.tree import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
 from reportgen.figures.metrics import box
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.notation.numbers import Language
@@ -55,20 +40,31 @@ def paper(
 ) -> Document:
     """A numbered document without a cover; title left and variant right in its header, `owner` its author."""
     note = words["variant"].format(variant=variant) if variant else ""
-    footer = ("", words["document"]["page"])
-    return number(Document(language, title, owner, (title, note), footer, Words(**words["document"]), tuple(blocks)))
+    terms = words["document"]
+    header, footer = (title, note), ("", terms["page"])
+    return number(Document(language, title, owner, header, footer, tree.Words(**terms), tuple(blocks)))
 
 
 def fields(pairs: Iterable[tuple[str, str]]) -> Iterable[Block]:
     """Labelled texts, a line each, as typed; without a text a dotted line to fill in."""
-    lines: list[Text | Strong | LineBreak] = []
+    lines: list[Text | tree.Strong | tree.LineBreak] = []
     empty: list[Block] = []
     for label, text in pairs:
         if not text:
-            empty.append(BlankLine(f"{label}:"))
+            empty.append(tree.BlankLine(f"{label}:"))
             continue
-        lines += [*([LineBreak()] if lines else []), Text(f"{label}: "), Strong((Text(text),))]
+        lines += [*([tree.LineBreak()] if lines else []), Text(f"{label}: "), tree.Strong((Text(text),))]
     return (*((Paragraph(tuple(lines)),) if lines else ()), *empty)
+
+
+def heading(title: str, level: int = 1) -> tree.Section:
+    """A heading without a number."""
+    return tree.Section(level, (Text(title),), numbered=False)
+
+
+def paragraph(text: str) -> Paragraph:
+    """A paragraph of plain text."""
+    return Paragraph((Text(text),))
 
 
 def student_rows(key: Key) -> tuple[tuple[str, str], ...]:
@@ -80,24 +76,24 @@ def student_rows(key: Key) -> tuple[tuple[str, str], ...]:
 # --- cells of tables ------------------------------------------------------------------------------
 
 
-def plain_inlines(text: str) -> Inlines:
-    """A text as it stands; an empty one gives no inline."""
-    return (Text(text),) if text else ()
+DASH = "–"
+"""In the cell of what does not exist."""
 
 
-def text_cells(texts: Iterable[str]) -> tuple[Cell, ...]:
-    """A row of texts."""
-    return tuple(Cell(plain_inlines(text)) for text in texts)
+def cells(contents: Iterable[str | Number | Inlines]) -> tuple[Cell, ...]:
+    """The cells of a row: texts as they stand, numbers, or anything else that a line holds."""
+    return tuple(Cell(_inlines(content)) for content in contents)
 
 
-def value_inlines(row: Row, value: float) -> Inlines:
-    """A number as the report prints it, a dash for what does not exist."""
-    return (Value(shown_number(row, value)),) if value == value else (Text("–"),)
+def _inlines(content: str | Number | Inlines) -> Inlines:
+    if isinstance(content, Number):
+        return (tree.Value(content),) if content.value == content.value else (Text(DASH),)
+    return content if isinstance(content, tuple) else (Text(content),) if content else ()
 
 
 def symbol_inlines(row: Row, with_id: bool) -> Inlines:
     """A quantity's symbol, perhaps with its id below."""
-    return (InlineMath(row.symbol), *((LineBreak(), Text(row.id)) if with_id else ()))
+    return (InlineMath(row.symbol), *((tree.LineBreak(), Text(row.id)) if with_id else ()))
 
 
 def symbol_width(rows: Iterable[Row], shared: Container[Symbol], least: float) -> float:
@@ -123,7 +119,7 @@ def task(case: Case, key: Key) -> Document:
     prose, names, words, machine = report.prose, report.names(), case.words, case.analysis.machine
     every = range(1, machine.positions + 1)
     asked = asked_positions(key)
-    (heading, *given) = prose.render("given.md", names)
+    (title, *given) = prose.render("given.md", names)
     names |= {
         "sheet": tuple(answer_tables(key)),
         "asked": tuple(map(key.label, asked)),
@@ -131,8 +127,8 @@ def task(case: Case, key: Key) -> Document:
     }
     about = case.assignment.report
     blocks: list[Block] = [
-        heading,
-        Paragraph((Strong((Text(case.title),)),), "center"),
+        title,
+        Paragraph((tree.Strong((Text(case.title),)),), "center"),
         *fields(student_rows(key)),
         *given,
         *prose.render("task.md", names),
@@ -143,7 +139,7 @@ def task(case: Case, key: Key) -> Document:
 
 def answer_tables(key: Key) -> Iterator[Table]:
     """The empty sheet as tables to fill in by hand, a table or more for each part with something to fill in."""
-    words, cells = words_of(key), open_cells(key)
+    words, open_at = words_of(key), open_cells(key)
     for part, members in groupby(key.rows, lambda row: row.part):
         caption = (Text(str(words["parts"][part])),)
         rows = [row for row in members if row.positions]
@@ -154,7 +150,7 @@ def answer_tables(key: Key) -> Iterator[Table]:
             for some in _split(positions):
                 asked = [row for row in group if set(row.positions) & set(some)]
                 if asked:
-                    yield _answer_table(_heads(key, words, some), asked, some, shared, cells, caption)
+                    yield _answer_table(_heads(key, words, some), asked, some, shared, open_at, caption)
 
 
 def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
@@ -164,21 +160,14 @@ def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
     rows = [row for row in key.rows if row.role is Role.given and not row.single and row.part is not Chapter.formulas]
     for some in _split(positions) if rows else ():
         head = (words["table"]["symbol"], words["table"]["unit"], *map(key.label, some))
-        body = tuple(
-            (
-                Cell(symbol_inlines(row, with_id=False)),
-                Cell(plain_inlines(row.unit)),
-                *(Cell(_known_inlines(float(row.values[row.at(k)]))) for k in some),
-            )
-            for row in rows
-        )
+        body = (cells((symbol_inlines(row, False), row.unit, *(_known_number(row, k) for k in some))) for row in rows)
         columns = (Column(SYMBOL), Column(UNIT), *(Column(VALUE),) * len(some))
-        yield Table(columns, (text_cells(head),), body, caption)
+        yield Table(columns, (cells(head),), tuple(body), caption)
 
 
-def _known_inlines(value: float) -> Inlines:
+def _known_number(row: Row, position: int) -> Number:
     """A given number short enough for a column: an angle may be one that follows from lengths."""
-    return (Value(Number(float(f"{value:.{KNOWN_DIGITS}g}"), None)),) if value == value else (Text("–"),)
+    return Number(float(f"{row.values[row.at(position)]:.{KNOWN_DIGITS}g}"), None)
 
 
 def _split(positions: Sequence[int]) -> Iterator[Sequence[int]]:
@@ -202,27 +191,28 @@ def _answer_table(
     rows: Sequence[Row],
     positions: Sequence[int],
     shared: Container[Symbol],
-    cells: Mapping[str, Container[int]],
+    open_at: Mapping[str, Container[int]],
     caption: Inlines,
 ) -> Table:
     """Quantities below one another, in as many sets side by side as the page has room for.
 
-    `cells` are the positions at which each row has a cell to fill in, by id.
+    `open_at` are the positions at which each row has a cell to fill in, by id.
     """
     symbol = symbol_width(rows, shared, SYMBOL)
-    beside = max(int(TEXT_WIDTH // (symbol + UNIT + VALUE * len(positions))), 1)
-    beside = min(beside, len(rows))
-    value = min((TEXT_WIDTH / beside - symbol - UNIT) / len(positions), 1.5 * VALUE)
+    beside = min(max(int(tree.TEXT_WIDTH // (symbol + UNIT + VALUE * len(positions))), 1), len(rows))
+    value = min((tree.TEXT_WIDTH / beside - symbol - UNIT) / len(positions), 1.5 * VALUE)
     columns = (Column(symbol), Column(UNIT), *(Column(value),) * len(positions))
     height = -(-len(rows) // beside)
     filled = [
-        (
-            Cell(symbol_inlines(row, row.symbol in shared)),
-            Cell(plain_inlines(row.unit)),
-            *(Cell() if k in cells[row.id] else Cell((Text("–"),)) for k in positions),
+        cells(
+            (
+                symbol_inlines(row, row.symbol in shared),
+                row.unit,
+                *("" if k in open_at[row.id] else DASH for k in positions),
+            )
         )
         for row in rows
     ]
     filled += [(Cell(),) * len(columns)] * (beside * height - len(rows))
     body = (tuple(cell for line in filled[start::height] for cell in line) for start in range(height))
-    return Table(columns * beside, (text_cells(heads) * beside,), tuple(body), caption)
+    return Table(columns * beside, (cells(heads) * beside,), tuple(body), caption)

@@ -69,6 +69,11 @@ class Interval:
         high = f"< {self.below:g}" if self.below < math.inf else f"≤ {self.most:g}"
         return f"{low}, {high}"
 
+    def require(self, value: float, text: str, unit: str = "", **hint: str) -> None:
+        """Raises the fault of a value, typed as `text`, that does not lie here."""
+        if value not in self:
+            raise fault("out-of-range", text=text, range=f"{self} ({unit})" if unit else str(self), **hint)
+
     def schema(self) -> dict[str, float]:
         keys = ("exclusiveMinimum", "exclusiveMaximum", "minimum", "maximum")
         ends = zip(keys, (self.above, self.below, self.least, self.most), strict=True)
@@ -84,9 +89,7 @@ class Quantity(Reader):
 
     def read(self, value: object) -> Given:
         given = _measured(lambda text: read_quantity(text, self.unit), value)
-        size = given.si / read_unit(self.unit, self.unit)
-        if size not in self.interval:
-            raise fault("out-of-range", text=given.text, range=f"{self.interval} ({self.unit})")
+        self.interval.require(given.si / read_unit(self.unit, self.unit), given.text, self.unit)
         return given
 
     def schema(self) -> dict[str, Any]:
@@ -129,13 +132,12 @@ class Ratio(Reader):
 
     def read(self, value: object) -> Given:
         given = _measured(read_ratio, value)
-        if given.si in self.interval:
-            return given
         hint = {}
         if self.inverse and given.si >= 1:
             turned = 2 <= given.si <= 10 and "/" not in given.text
             hint = {"hint": self.inverse, "turned": f"1/{given.text.strip()}" if turned else "1/3.6"}
-        raise fault("out-of-range", text=given.text, range=str(self.interval), **hint)
+        self.interval.require(given.si, given.text, **hint)
+        return given
 
     def schema(self) -> dict[str, Any]:
         number = {"type": "number", **self.interval.schema()}
@@ -150,8 +152,7 @@ class Decimal(Reader):
 
     def read(self, value: object) -> float:
         given = _measured(lambda text: read_ratio(text, fractions=False), value)
-        if given.si not in self.interval:
-            raise fault("out-of-range", text=given.text, range=str(self.interval))
+        self.interval.require(given.si, given.text)
         return given.si
 
     def schema(self) -> dict[str, Any]:
@@ -169,8 +170,7 @@ class Whole(Reader):
         text = _text(value, "whole number")
         if not _INTEGER.fullmatch(text.strip()):
             raise fault("wrong-type", expected="whole number", text=text)
-        if not self.least <= int(text) <= self.most:
-            raise fault("out-of-range", text=text, range=f"≥ {self.least}, ≤ {self.most}")
+        Interval(least=self.least, most=self.most).require(int(text), text)
         return int(text)
 
     def schema(self) -> dict[str, Any]:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
@@ -16,7 +16,7 @@ from reportgen.assignment import checks
 from reportgen.assignment.common import Assignment, Draft, Kind, file_model, sections
 from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, Finding, Where, as_error, close_or_known
 from reportgen.assignment.source import List, Node, Scalar, Source, Table, plain, read_source
-from reportgen.errors import AssignmentError, Mark, Problem
+from reportgen.errors import Mark
 from reportgen.notation.numbers import Language
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -24,43 +24,19 @@ _WHOLE = "file"
 _FORMS = {"object": "table", "array": "list"}
 
 
-@dataclass(frozen=True, slots=True)
-class Kinds:
-    """The kinds a file may name: `find` gives what the reader must know of one of `names`."""
+def assess(
+    source: Source, path: Path, kinds: Collection[str], find: Callable[[str], Kind]
+) -> tuple[Assignment | None, list[Fault]]:
+    """The assignment of nodes that were read from `path` or put together from several files; else its faults.
 
-    names: Sequence[str]
-    find: Callable[[str], Kind]
-
-
-def load(path: Path, kinds: Kinds, language: Language | None = None) -> Assignment:
-    """The assignment of a file; `language` overrides that of its report.
-
-    Raises `AssignmentError` with every fault of the file.
+    `kinds` are those that a file may name; `find` gives what the reader must know of one of them.
     """
-    source = read_source(path)
-    assignment, faults = assess(source, path, kinds)
-    if assignment is None:
-        raise as_error(faults, language or language_of(source))
-    return assignment.with_language(language) if language else assignment
-
-
-def check(path: Path, kinds: Kinds, language: Language | None = None) -> list[Problem]:
-    """All faults of a file in its order; none if it can be loaded."""
-    try:
-        load(path, kinds, language)
-    except AssignmentError as fault:
-        return list(fault.problems)
-    return []
-
-
-def assess(source: Source, path: Path, kinds: Kinds) -> tuple[Assignment | None, list[Fault]]:
-    """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
     top, faults = _top(source)
     if top is None:
         return None, faults
     raw: dict[str, Any] = plain(top)
     name = raw.get("kind")
-    kind = kinds.find(name) if isinstance(name, str) and name in kinds.names else None
+    kind = find(name) if isinstance(name, str) and name in kinds else None
     findings, draft = _sections(raw, kind)
     if kind is None:
         findings.insert(0, _no_kind(name, kinds))
@@ -115,12 +91,12 @@ def _top(source: Source) -> tuple[Table | None, list[Fault]]:
     return None, faults
 
 
-def _no_kind(name: object, kinds: Kinds) -> Finding:
+def _no_kind(name: object, kinds: Collection[str]) -> Finding:
     if name is None:
         return Finding("missing-key", ("kind",), {"key": "kind"})
     if not isinstance(name, str):
         return Finding("wrong-type", ("kind",), {"expected": "text"})
-    return Finding("unknown-kind", ("kind",), {"text": name, "known": ", ".join(kinds.names)})
+    return Finding("unknown-kind", ("kind",), {"text": name, "known": ", ".join(kinds)})
 
 
 def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Draft]:

@@ -10,10 +10,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-from reportgen import api, catalogue, products
+from reportgen import api, catalogue
 from reportgen.answers.key import Key
 from reportgen.api import Engine
-from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_problem, word
+from reportgen.assignment.faults import Fault, as_problem, word
 from reportgen.batch.roster import assignment_files, comparable, folder_name
 from reportgen.errors import AssignmentError, Mark, Problem, ReportgenError
 from reportgen.grading.feedback import feedback_book, feedback_document
@@ -77,11 +77,7 @@ def grade(
     problems: list[Problem] = []
     for path in _sheets(submissions):
         try:
-            if not path.exists():
-                fault = Fault("unreadable", Mark(str(path)), {"reason": "FileNotFoundError"})
-                problems.append(as_problem(fault, language))
-                continue
-            submission = read_submission(path, lambda name: room.guide(name).key, language or DEFAULT_LANGUAGE)
+            submission = read_submission(path, lambda name: room.guide(name).key, language)
             earlier = markings.get(submission.assignment)
             if earlier is not None:
                 kept, left = _preferred(Path(earlier.submission.file), path, submission.assignment)
@@ -138,19 +134,14 @@ def put(
 ) -> Iterator[Path]:
     """Write every file of a graded class below `out`, each in one step; raises `OutputError`."""
     for name, content in files_of(graded, policy, engine, language):
-        yield from products.put(out / name.parent, {name.name: content})
+        yield from api.put(out / name.parent, {name.name: content})
 
 
 def summary(graded: Graded, language: Language | None) -> Iterator[str]:
     """A line for each student marked, and how many handed nothing in."""
     for marking in graded.markings:
-        yield word(
-            "graded",
-            language,
-            id=marking.key.id,
-            points=f"{marking.points:g}",
-            out_of=f"{marking.out_of:g}",
-            firsts=len(marking.first_errors),
-        )
+        points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
+        firsts = len(marking.first_errors)
+        yield word("graded", language, id=marking.key.id, points=points, out_of=out_of, firsts=firsts)
     if graded.missing:
         yield word("graded_missing", language, count=len(graded.missing))

@@ -29,7 +29,6 @@ import numpy as np
 from reportgen import api, catalogue
 from reportgen.analysis import Analysis, motion_at
 from reportgen.assignment.faults import Fault
-from reportgen.assignment.reading import assess
 from reportgen.batch.editing import path_text
 from reportgen.batch.roster import Roster, Student
 from reportgen.batch.spec import DRAWN_SECTIONS, Settings, Spec, place
@@ -101,7 +100,8 @@ class _Lottery:
                 faults += self._faults_of_roster(student)
             else:
                 # No combination is usable: no other student could get one either.
-                return Draw((), tuple(self._faults_of_spec(student)))
+                tried = {"count": str(min(self.spec.size, MOST_TRIED)), "size": str(self.spec.size)}
+                return Draw((), (Fault("no-variant", self.spec.mark, tried), *self._reasons(student)))
         shared = any(count > 1 for count in self.taken.values())
         return Draw(tuple(drawn), tuple(faults), len(self.taken) if shared else None)
 
@@ -163,10 +163,6 @@ class _Lottery:
         own = [fault for fault in reasons if fault.mark in cells]
         return own or [Fault(fault.code, cells[0], fault.arguments) for fault in reasons[:1]]
 
-    def _faults_of_spec(self, student: Student) -> list[Fault]:
-        tried = {"count": str(min(self.spec.size, MOST_TRIED)), "size": str(self.spec.size)}
-        return [Fault("no-variant", self.spec.mark, tried), *self._reasons(student)]
-
 
 def _key(settings: Settings) -> Key:
     """What makes two variants the same: equal texts at equal places, but for what the cover says."""
@@ -186,7 +182,7 @@ def judge_of(spec: Spec) -> Judge:
     """Judges variants of a spec: each must pass `check`, turn fully and have finite results."""
 
     def judge(settings: Settings) -> tuple[Fault, ...]:
-        assignment, faults = assess(spec.source(settings), spec.path, catalogue.known())
+        assignment, faults = catalogue.assess(spec.source(settings), spec.path)
         if assignment is None:
             return tuple(faults)
         try:

@@ -14,11 +14,10 @@ from hashlib import sha256
 from pathlib import Path
 
 from reportgen import installation
-from reportgen.api import Engine
+from reportgen.api import Engine, Maker
 from reportgen.assignment.faults import unexpected, word
 from reportgen.errors import AssignmentError, Problem, ReportgenError
 from reportgen.notation.numbers import Language
-from reportgen.products import Maker
 
 SYSTEM = 3
 """Exit code of a failure that no change of the assignment can mend."""
@@ -73,40 +72,36 @@ def making(engine: Engine, language: Language | None) -> Making:
     return Making(installation.version(), installation.templates_hash(), engine, language)
 
 
-def run_job(job: Job) -> Outcome:
-    """The outcome of a job; whatever goes wrong in it is an outcome, too."""
-    language = job.making.language
-    try:
-        if making(job.making.engine, language) != job.making:
-            return failed(word("other_templates", language))
-        with tempfile.TemporaryDirectory(prefix="reportgen-") as name:
-            return _make(job, Path(name))
-    except OSError as error:
-        return failed(word("system", language, text=error.strerror or error))
-
-
 def failed(problem: str) -> Outcome:
     """The outcome of a job that failed for a reason outside the assignment."""
     return Outcome(problems=(problem,), exit_code=SYSTEM)
 
 
-def _make(job: Job, scratch: Path) -> Outcome:
-    """The files of a product, made in a folder of its own whose name is left out of what is said of failures."""
+def run_job(job: Job) -> Outcome:
+    """The outcome of a job; whatever goes wrong in it is an outcome, too.
+
+    It is made in a folder of its own whose name is left out of what is said of failures.
+    """
+    engine, language = job.making.engine, job.making.language
+    scratch = ""
 
     def without_paths(text: str) -> str:
         return text.replace(f"{scratch}{os.sep}", "").replace(str(installation.templates()), "templates")
 
-    file = scratch / job.file
-    file.write_bytes(job.content)
     try:
-        return Outcome(files=dict(job.maker(file, job.making.engine, job.making.language)))
+        if making(engine, language) != job.making:
+            return failed(word("other_templates", language))
+        with tempfile.TemporaryDirectory(prefix="reportgen-") as scratch:
+            file = Path(scratch, job.file)
+            file.write_bytes(job.content)
+            return Outcome(files=dict(job.maker(file, engine, language)))
     except AssignmentError as error:
         problems = tuple(problem.in_file(job.file) for problem in error.problems)
         return Outcome(problems=problems, exit_code=error.exit_code)
     except ReportgenError as error:
         return Outcome(problems=(without_paths(str(error)),), exit_code=error.exit_code)
-    except OSError:
-        raise
+    except OSError as error:
+        return failed(word("system", language, text=error.strerror or error))
     except Exception as error:
         # A fault of the program itself must not cost the others their results.
-        return failed(without_paths(unexpected(error, job.making.language)))
+        return failed(without_paths(unexpected(error, language)))

@@ -19,15 +19,15 @@ from pathlib import Path
 
 from pydantic_core import PydanticCustomError
 
-from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_error, as_problem
+from reportgen.assignment.faults import Fault, as_error, as_problem
 from reportgen.assignment.fields import Text
 from reportgen.assignment.source import Scalar
-from reportgen.batch.table import Column, Record, columns, heading_row, records, repeated
+from reportgen.batch.table import Column, Record, columns, heading_row, records
 from reportgen.errors import Mark, Problem
 from reportgen.notation.numbers import Language
 from reportgen.workbook import Page, read
 
-PERSONAL = ("id", "name", "class", "section", "email")
+PERSONAL = ("name", "id", "class", "section", "email")
 NAME_PARTS = ("family", "given")
 SECTIONS = ("parameters", "positions", "drawing", "indicator", "report")
 ASSIGNMENT_SUFFIXES = frozenset({".yaml", ".yml"})
@@ -44,15 +44,19 @@ _LIKE_HASHED = re.compile(rf".*-[0-9A-F]{{{HASH_DIGITS}}}")
 
 @dataclass(frozen=True, slots=True)
 class Student:
-    """A row of the roster; `overrides` are values with their cells by path ("parameters.H")."""
+    """A row of the roster.
 
-    id: str
-    name: str
-    class_: str
-    section: str
-    email: str
+    `card` is what it says of the student, by the keys of `report.student`; `overrides` are values with their
+    cells by path ("parameters.H").
+    """
+
+    card: Mapping[str, str]
     overrides: Mapping[str, Scalar]
     mark: Mark
+
+    @property
+    def id(self) -> str:
+        return self.card["id"]
 
     @property
     def folder(self) -> str:
@@ -68,30 +72,20 @@ class Roster:
     columns: tuple[Column, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Assigned:
-    """A student with the assignment file, or with the reason why there is none."""
-
-    student: Student
-    file: Path | Problem
+Assigned = tuple[Student, Path | Problem]
+"""A student with the assignment file, or with the reason why there is none."""
 
 
 def read_roster(path: Path, language: Language | None = None) -> Roster:
     """The class of a table file; raises `AssignmentError` with all its faults, in `language`."""
-    page, start = _page(read(path, language or DEFAULT_LANGUAGE))
+    page, start = _page(read(path, language))
     faults: list[Fault] = []
     if start is None:
         first = next((cell.mark for row in page.rows for cell in row if not cell.blank), Mark(str(path)))
         raise as_error([Fault("no-id-column", first)], language)
     headings = [_normal(column, faults) for column in columns(page.rows[start])]
     used = _used(headings)
-    faults += repeated(used)
-    rows: list[Record] = []
-    for record in records(page, used, start + 1):
-        if isinstance(record, Fault):
-            faults.append(record)
-        elif record.values or record.refused:
-            rows.append(record)
+    rows = [row for row in records(page, used, start + 1, faults) if row.values or row.refused]
     faults += [fault for row in rows for fault in _unfit(row)]
     faults += _id_faults(rows)
     if not rows:
@@ -117,7 +111,7 @@ def _used(headings: Sequence[Column]) -> list[Column]:
     used: list[Column] = []
     taken: set[str] = set()
     for column in headings:
-        optional = column.name in (*PERSONAL[1:], *NAME_PARTS)
+        optional = column.name in (*PERSONAL, *NAME_PARTS)
         if column.name == "id" or _PATH.fullmatch(column.name) or (optional and column.name not in taken):
             used.append(column)
             taken.add(column.name)
@@ -164,12 +158,10 @@ def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
 
 
 def _student(row: Record) -> Student:
-    personal = {name: row.values[name].text if name in row.values else "" for name in PERSONAL}
     parts = (value.text for name, value in row.values.items() if name in NAME_PARTS)
-    personal["name"] = personal["name"] or " ".join(parts)
+    texts = {"name": " ".join(parts), **{name: value.text for name, value in row.values.items()}}
     overrides = {name: value for name, value in row.values.items() if _PATH.fullmatch(name)}
-    class_ = personal.pop("class")
-    return Student(**personal, class_=class_, overrides=overrides, mark=row.mark)
+    return Student({name: texts[name] for name in PERSONAL if texts.get(name)}, overrides, row.mark)
 
 
 def folder_name(id: str) -> str:
@@ -221,12 +213,12 @@ def match_files(
     `AssignmentError` as `assignment_files` does.
     """
     files = assignment_files(folder, language)
-    assigned = []
+    assigned: list[Assigned] = []
     for student in students:
         found = next((files[stem] for stem in map(comparable, (student.folder, student.id)) if stem in files), None)
         missing = Fault("no-assignment", student.mark, {"text": student.id})
-        assigned.append(Assigned(student, found or as_problem(missing, language)))
-    taken = {one.file for one in assigned}
+        assigned.append((student, found or as_problem(missing, language)))
+    taken = {file for _, file in assigned}
     return assigned, [path for path in files.values() if path not in taken]
 
 

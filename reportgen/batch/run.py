@@ -5,14 +5,14 @@ from __future__ import annotations
 import errno
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TextIO
 
 from reportgen import api
-from reportgen.api import Engine
+from reportgen.api import MAKERS, Engine, Maker
 from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_problem, word
 from reportgen.batch import manifest
 from reportgen.batch.jobs import Job, Outcome, failed, making
@@ -22,7 +22,6 @@ from reportgen.batch.roster import Assigned, Roster, Student, match_files, read_
 from reportgen.batch.variants import make_variants
 from reportgen.errors import Mark, Problem
 from reportgen.notation.numbers import Language, write
-from reportgen.products import MAKERS, Maker
 
 if TYPE_CHECKING:
     from rich.progress import ProgressColumn
@@ -68,7 +67,7 @@ class Failure:
     problems: tuple[Problem | str, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Result:
     """What a batch came to: counts of products, the failures by student, the exit code they mean.
 
@@ -76,11 +75,11 @@ class Result:
     """
 
     manifest: Path
-    made: int
-    kept: int
-    failures: tuple[Failure, ...]
-    notes: tuple[str, ...]
-    exit_code: int
+    notes: list[str]
+    made: int = 0
+    kept: int = 0
+    failures: list[Failure] = field(default_factory=list)
+    exit_code: int = 0
 
     def summary(self, language: Language | None) -> Iterator[str]:
         """The batch's end in lines: notes, each problem once with all students it met, the counts."""
@@ -109,32 +108,25 @@ def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS
     chosen = {name: makers[name] for name in order.products}
     workers = pool or _pool(order)
     with locked(order.out, order.language):
-        assigned, notes = _assigned(order, roster)
-        return _run(order, assigned, notes, chosen, workers, stream)
+        return _run(order, roster, chosen, workers, stream)
 
 
-def _run(
-    order: Order,
-    assigned: Sequence[Assigned],
-    notes: Sequence[str],
-    makers: Mapping[str, Maker],
-    pool: Pool,
-    stream: TextIO,
-) -> Result:
+def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, stream: TextIO) -> Result:
+    assigned, notes = _assigned(order, roster)
     out = order.out
-    for folder in (out, *(out / one.student.folder for one in assigned)):
+    for folder in (out, *(out / student.folder for student, _ in assigned)):
         _remove_temporary(folder)
     before = manifest.read(out)
-    number = {one.student.id: number for number, one in enumerate(assigned)}
+    number = {student.id: number for number, (student, _) in enumerate(assigned)}
     entries = {key: entry for key, entry in before.items() if entry.student in number}
     with api.reported():
-        manifest.write(out, entries.values())
+        result = Result(manifest.write(out, entries.values()), notes)
     how = making(order.engine, order.language)
     kept: list[Job] = []
     jobs: list[Job] = []
     refused: list[tuple[Student, Problem]] = []
-    for one in assigned:
-        student, read = one.student, _read(one.file, order.language)
+    for student, file in assigned:
+        read = _read(file, order.language)
         if isinstance(read, Problem):
             refused.append((student, read))
             continue
@@ -142,53 +134,44 @@ def _run(
             job = Job(student.id, student.folder, product, maker, *read, how)
             entry = entries.get((job.student, product))
             (kept if entry is not None and entry.holds(job, out) else jobs).append(job)
+    result.kept = len(kept)
     with (
         watching(len(assigned) * len(makers), stream, order.language or DEFAULT_LANGUAGE) as watch,
         manifest.journal(out) as record,
     ):
-        results = _Results(entries, record, watch)
+
+        def add(entry: Entry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
+            """Each entry stands in the journal before its event is shown."""
+            entries[entry.student, entry.product] = entry
+            with api.reported():
+                record(entry)
+            result.exit_code = max(result.exit_code, exit_code)
+            if problems:
+                result.failures.append(Failure(entry.student, entry.product, problems))
+            else:
+                result.made += 1
+            watch(entry.folder, entry.product, "failed" if problems else "done")
+
         for job in kept:
             watch(job.folder, job.product, "kept")
         for student, problem in refused:
             # The manifest names no folders.
             text = str(problem.in_file(Path(problem.mark.file).name))
             for product in makers:
-                results.add(Entry(student.id, student.folder, product, problems=(text,)), (problem,), exit_code=1)
-        files = {one.student.id: str(one.file) for one in assigned}
+                add(Entry(student.id, student.folder, product, problems=(text,)), (problem,), exit_code=1)
+        files = {student.id: str(file) for student, file in assigned}
         with closing(pool(jobs, lambda job: watch(job.folder, job.product, "retried"))) as outcomes:
             for job, made in outcomes:
-                outcome = _written(job, made, out)
-                file = files[job.student]
-                problems = tuple(one if isinstance(one, str) else one.in_file(file) for one in outcome.problems)
-                results.add(manifest.entry(job, outcome), problems, outcome.exit_code)
+                outcome = _put(job, made, out)
+                file_name = files[job.student]
+                problems = tuple(one if isinstance(one, str) else one.in_file(file_name) for one in outcome.problems)
+                add(manifest.entry(job, outcome), problems, outcome.exit_code)
     with api.reported():
-        target = manifest.write(out, entries.values())
-    failures = tuple(sorted(results.failures, key=lambda failure: number[failure.student]))
+        manifest.write(out, entries.values())
+    result.failures.sort(key=lambda failure: number[failure.student])
     if gone := {entry.student for entry in before.values()} - number.keys():
-        notes = (*notes, word("batch_gone", order.language, count=len(gone)))
-    return Result(target, results.made, len(kept), failures, tuple(notes), results.exit_code)
-
-
-@dataclass(slots=True)
-class _Results:
-    """What has come so far; each entry stands in the journal before its event is shown."""
-
-    entries: dict[tuple[str, str], Entry]
-    record: Callable[[Entry], None]
-    watch: Watch
-    failures: list[Failure] = field(default_factory=list)
-    made: int = 0
-    exit_code: int = 0
-
-    def add(self, entry: Entry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
-        self.entries[entry.student, entry.product] = entry
-        with api.reported():
-            self.record(entry)
-        self.exit_code = max(self.exit_code, exit_code)
-        if problems:
-            self.failures.append(Failure(entry.student, entry.product, problems))
-        self.made += not problems
-        self.watch(entry.folder, entry.product, "failed" if problems else "done")
+        result.notes.append(word("batch_gone", order.language, count=len(gone)))
+    return result
 
 
 # --- progress ---------------------------------------------------------------------------------------
@@ -258,8 +241,8 @@ def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
         folder = order.out / DRAWN
         _remove_temporary(folder)
         variants = make_variants(order.spec, order.roster, folder, language=order.language)
-        files = zip(roster.students, variants.files, strict=True)
-        return [Assigned(student, file.path) for student, file in files], list(variants.remarks)
+        paths = [file.path for file in variants.files]
+        return list(zip(roster.students, paths, strict=True)), list(variants.remarks)
     if order.assignments is None:
         raise ValueError("assignments are either drawn or given")
     assigned, unused = match_files(roster.students, order.assignments, order.language)
@@ -282,17 +265,12 @@ def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes] 
 
 def _pool(order: Order) -> Pool:
     if order.cluster is None:
-        return local(order.jobs or _cores())
+        # As many as there are cores that this process may use.
+        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        return local(order.jobs or cores)
     from reportgen.batch.cluster import cluster
 
     return cluster(order.cluster, order.language)
-
-
-def _cores() -> int:
-    """The cores of this machine that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 # --- files ------------------------------------------------------------------------------------------
@@ -334,7 +312,7 @@ def _remove_temporary(folder: Path) -> None:
                 path.unlink(missing_ok=True)
 
 
-def _written(job: Job, outcome: Outcome, out: Path) -> Outcome:
+def _put(job: Job, outcome: Outcome, out: Path) -> Outcome:
     """The outcome once its files stand; if they cannot, and it is this student's matter alone, a failure.
 
     Raises `OutputError` where every other student would meet the same.

@@ -26,10 +26,10 @@ from pathlib import Path
 from reportgen import catalogue
 from reportgen.assignment.common import Kind
 from reportgen.assignment.faults import Fault, Where, as_error, close_or_known
-from reportgen.assignment.reading import allowed_forms, assess, known_keys, language_of, misread
+from reportgen.assignment.reading import allowed_forms, known_keys, language_of, misread
 from reportgen.assignment.source import List, Node, Scalar, Source, Table, read_source
 from reportgen.batch.editing import at, path_text, put, without
-from reportgen.batch.table import Column, columns, records, repeated
+from reportgen.batch.table import Column, columns, records
 from reportgen.errors import Mark
 from reportgen.notation.numbers import Language
 from reportgen.units import NUMBER, QuantityFault, read_number, read_quantity, read_unit
@@ -148,7 +148,7 @@ def read_spec(path: Path, language: Language | None = None) -> Spec:
     name = at(top, ("kind",))
     named = isinstance(name, Scalar) and name.text in catalogue.kinds()
     if source.faults or not isinstance(top, Table) or not isinstance(name, Scalar) or not named:
-        raise as_error(assess(source, path, catalogue.known())[1], language)
+        raise as_error(catalogue.assess(source, path)[1], language)
     kind = catalogue.kind(name.text)
     faults: list[Fault] = []
     base = without(top, OWN_KEYS)
@@ -320,16 +320,12 @@ def _rows(file: Path, kind: Kind, base: Table, faults: list[Fault], language: La
     page = next((page for page in pages if any(page.rows)), pages[0])
     start = next(index for index, row in enumerate(page.rows) if row)
     headings = columns(page.rows[start])
-    faults += repeated(headings)
     values = [column for column in headings if column.name != "variant"]
     faults += [fault for column in values for fault in _no_place(kind, base, column)]
     places = {column.name: place(kind, column.name) for column in values}
     rows: list[Choice] = []
     names: set[str] = set()
-    for record in records(page, headings, start + 1):
-        if isinstance(record, Fault):
-            faults.append(record)
-            continue
+    for record in records(page, headings, start + 1, faults):
         name = record.values["variant"].text if "variant" in record.values else str(len(rows) + 1)
         if name in names:
             faults.append(Fault("choice-repeated", record.mark, {"text": name}))

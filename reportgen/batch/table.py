@@ -80,8 +80,16 @@ def heading_row(page: Page, wanted: str) -> int | None:
     return next((k for k, row in rows if any(column.name == wanted for column in columns(row))), None)
 
 
-def records(page: Page, headings: Sequence[Column], start: int) -> Iterator[Record | Fault]:
-    """The rows from index `start` on that hold something; a fault for each cell that shows no value."""
+def records(page: Page, headings: Sequence[Column], start: int, faults: list[Fault]) -> Iterator[Record]:
+    """The rows from index `start` on that hold something.
+
+    Faults are headings that stand for a column there is already, and cells that show no value.
+    """
+    seen: set[str] = set()
+    for column in headings:
+        if column.name in seen:
+            faults.append(Fault("column-twice", column.mark, {"key": column.name}))
+        seen.add(column.name)
     for row in page.rows[start:]:
         values: dict[str, Scalar] = {}
         refused: set[str] = set()
@@ -91,7 +99,7 @@ def records(page: Page, headings: Sequence[Column], start: int) -> Iterator[Reco
             if not (text or cell.kind == "formula"):
                 continue
             if cell.kind in ("error", "formula") and (cell.value is None or str(cell.value).startswith("#")):
-                yield Fault("no-cell-value", cell.mark, {"text": cell.formula or cell.text})
+                faults.append(Fault("no-cell-value", cell.mark, {"text": cell.formula or cell.text}))
                 refused.add(column.name)
                 continue
             # A bare number has the unit of its heading.
@@ -101,12 +109,3 @@ def records(page: Page, headings: Sequence[Column], start: int) -> Iterator[Reco
         if first is not None:
             cells = {column.name: cell.mark for column, cell in present}
             yield Record(values, first.mark, cells, frozenset(refused))
-
-
-def repeated(headings: Sequence[Column]) -> Iterator[Fault]:
-    """A fault for each heading that stands for a column there is already."""
-    seen: set[str] = set()
-    for column in headings:
-        if column.name in seen:
-            yield Fault("column-twice", column.mark, {"key": column.name})
-        seen.add(column.name)

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from statistics import median
 from typing import Literal, NamedTuple
@@ -47,13 +48,22 @@ State = Literal["new", "changed", "same", "kept"]
 """Of a file: made, made anew, left since nothing changed, left since it was edited by hand."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class StudentFile:
-    """A student's assignment file: where it belongs, its whole text, and what is to be done with it."""
+    """A student's assignment file: whose it is, where it belongs, its whole text, what is to be done with it."""
 
+    drawn: Drawn
     path: Path
     text: str
     state: State
+
+    @cached_property
+    def effort(self) -> Effort | None:
+        """The figures of the file as it stands once it is made; None for one edited by hand that is at fault."""
+        try:
+            return effort(api.load(self.path))
+        except AssignmentError:
+            return None
 
 
 class Effort(NamedTuple):
@@ -111,11 +121,10 @@ def make_variants(
     for file in files:
         if file.state in ("new", "changed"):
             api.replace(file.path, file.text.encode())
-    efforts = [_effort(file) for file in files]
-    api.replace(out / TABLE, _csv(files, result.drawn, efforts))
-    remarks = (*_remarks(files, result.drawn, efforts, spec.language), *_sharing(result, spec))
-    known = {drawn.student.id: one for drawn, one in zip(result.drawn, efforts, strict=True) if one is not None}
-    return Variants(files, remarks, tuple(_summary(list(known), list(known.values()), spec.language)))
+    api.replace(out / TABLE, _csv(files))
+    remarks = (*_remarks(files, spec.language), *_sharing(result, spec))
+    efforts = {file.drawn.student.id: file.effort for file in files if file.effort is not None}
+    return Variants(files, remarks, tuple(_summary(efforts, spec.language)))
 
 
 def _refuse(faults: Sequence[Fault], spec: Spec) -> None:
@@ -130,7 +139,7 @@ def _student_file(spec: Spec, drawn: Drawn, folder: Path, force: bool) -> Studen
     """The assignment file of a student in `folder`; one there that was edited is kept unless `force`."""
     body = _body(spec, drawn)
     path = folder / f"{drawn.student.folder}.yaml"
-    return StudentFile(path, _head(spec, drawn, body) + body, _state(path, body, force))
+    return StudentFile(drawn, path, _head(spec, drawn, body) + body, _state(path, body, force))
 
 
 def _state(path: Path, body: str, force: bool) -> State:
@@ -162,15 +171,7 @@ def _head(spec: Spec, drawn: Drawn, body: str) -> str:
 
 
 def _body(spec: Spec, drawn: Drawn) -> str:
-    student = drawn.student
-    personal = {
-        "name": student.name,
-        "id": student.id,
-        "class": student.class_,
-        "section": student.section,
-        "email": student.email,
-    }
-    card = Table(tuple((_scalar(key), _scalar(text)) for key, text in personal.items() if text), _HERE)
+    card = Table(tuple((_scalar(key), _scalar(text)) for key, text in drawn.student.card.items()), _HERE)
     top: Node = put(assembled(spec.top, drawn.settings), ("report", "student"), card)
     if at(top, ("report", "language")) is None:
         top = put(top, ("report", "language"), _scalar(spec.language))
@@ -250,23 +251,13 @@ def _shown(value: float) -> str:
 # --- what the instructor sees -----------------------------------------------------------------------
 
 
-def _effort(file: StudentFile) -> Effort | None:
-    """The figures of a file as it now stands; None for a file edited by hand that is at fault."""
-    try:
-        return effort(api.load(file.path))
-    except AssignmentError:
-        return None
-
-
-def _remarks(
-    files: Sequence[StudentFile], drawn: Sequence[Drawn], efforts: Sequence[Effort | None], language: Language
-) -> Iterator[str]:
+def _remarks(files: Sequence[StudentFile], language: Language) -> Iterator[str]:
     """What to say of the files that were kept."""
-    for file, one, figures in zip(files, drawn, efforts, strict=True):
+    for file in files:
         if file.state == "kept":
             yield word("variants_kept", language, path=file.path)
-        if figures is None:
-            yield word("variants_unchecked", language, id=one.student.id)
+        if file.effort is None:
+            yield word("variants_unchecked", language, id=file.drawn.student.id)
 
 
 def _sharing(result: Draw, spec: Spec) -> Iterator[str]:
@@ -279,26 +270,27 @@ def _sharing(result: Draw, spec: Spec) -> Iterator[str]:
         yield word("variants_same", spec.language, variant=spec.label(group[0].combination), ids=ids)
 
 
-def _summary(ids: Sequence[str], efforts: Sequence[Effort], language: Language) -> Iterator[str]:
-    spreads = compare(efforts)
+def _summary(efforts: Mapping[str, Effort], language: Language) -> Iterator[str]:
+    """How equal the variants are, by the figures of each student's file."""
+    spreads, students = compare(list(efforts.values())), list(efforts.items())
     yield word("variants_table", language, count=len(efforts))
     yield from _table(spreads, language)
     for spread in spreads:
-        values = [f"{ids[k]} ({_shown(getattr(efforts[k], spread.name))})" for k in spread.outliers]
-        if values:
+        apart = [f"{id} ({_shown(getattr(one, spread.name))})" for id, one in (students[k] for k in spread.outliers)]
+        if apart:
             about = {"name": word(spread.name, language), "median": _shown(spread.median)}
-            yield word("variants_apart", language, ids=", ".join(values), **about)
+            yield word("variants_apart", language, ids=", ".join(apart), **about)
 
 
-def _csv(files: Sequence[StudentFile], drawn: Sequence[Drawn], efforts: Sequence[Effort | None]) -> bytes:
+def _csv(files: Sequence[StudentFile]) -> bytes:
     """One row a student: id, file, variant, values drawn or set, as the file now has them, and its figures."""
-    places: list[Where] = list(dict.fromkeys(where for one in drawn for where in one.settings))
+    places: list[Where] = list(dict.fromkeys(where for file in files for where in file.drawn.settings))
     rows: list[list[str | float | None]] = [["id", "file", "variant", *map(path_text, places), *Effort._fields]]
-    for file, one, figures in zip(files, drawn, efforts, strict=True):
+    for file in files:
         top = read_source(file.path).top
         found = (at(top, where) for where in (("variant",), *places))
         values = [node.text if isinstance(node, Scalar) else None for node in found]
-        tail = figures or (None,) * len(Effort._fields)
+        tail = file.effort or (None,) * len(Effort._fields)
         rounded = [None if value is None else float(f"{value:.6g}") for value in tail]
-        rows.append([one.student.id, file.path.name, *values, *rounded])
+        rows.append([file.drawn.student.id, file.path.name, *values, *rounded])
     return write_csv(rows)

@@ -18,7 +18,9 @@ from typing import Any
 from reportgen import installation
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
-from reportgen.errors import Problem
+from reportgen.assignment.faults import Fault, as_error
+from reportgen.assignment.source import Source, read_source
+from reportgen.errors import AssignmentError, Problem
 from reportgen.notation.numbers import Language
 from reportgen.words import FILE, load_words
 
@@ -52,9 +54,9 @@ def kind(name: str) -> Kind:
     )
 
 
-def known() -> reading.Kinds:
-    """All kinds, for the reader of assignment files."""
-    return reading.Kinds(tuple(kinds()), kind)
+def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
+    """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
+    return reading.assess(source, path, kinds(), kind)
 
 
 def title(name: str, language: Language) -> str:
@@ -67,14 +69,25 @@ def titles(language: Language) -> dict[str, str]:
     return {name: title(name, language) for name in kinds()}
 
 
-def load(path: Path, language: Language | None = None) -> Assignment:
-    """The assignment of a file; raises `AssignmentError` with all its faults."""
-    return reading.load(path, known(), language)
+def load(path: Path | str, language: Language | None = None) -> Assignment:
+    """The assignment of a file, in its own language or in `language`.
+
+    Raises `AssignmentError` with all faults of the file, located.
+    """
+    source = read_source(Path(path))
+    assignment, faults = assess(source, Path(path))
+    if assignment is None:
+        raise as_error(faults, language or reading.language_of(source))
+    return assignment.with_language(language) if language else assignment
 
 
-def check(path: Path, language: Language | None = None) -> list[Problem]:
-    """All faults of a file, none if it is in order."""
-    return reading.check(path, known(), language)
+def check(path: Path | str, language: Language | None = None) -> list[Problem]:
+    """All faults of an assignment file in its order, none if it can be loaded."""
+    try:
+        load(path, language)
+    except AssignmentError as error:
+        return list(error.problems)
+    return []
 
 
 def sample(name: str, language: Language) -> str:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -25,90 +24,76 @@ app = typer.Typer(
 )
 
 
-class Lang(StrEnum):
-    vi = "vi"
-    en = "en"
-
-
-class Engine(StrEnum):
-    typst = "typst"
-    latex = "latex"
-
-
 File = Annotated[Path, typer.Argument(metavar="FILE", help="Assignment file.", show_default=False)]
 Files = Annotated[list[Path], typer.Argument(metavar="FILE", help="Assignment files.", show_default=False)]
 LangOption = Annotated[
-    Lang | None, typer.Option("--lang", help="Language, instead of the file's own.", show_default=False)
+    Language | None, typer.Option("--lang", help="Language, instead of the file's own.", show_default=False)
 ]
-EngineOption = Annotated[Engine, typer.Option("--engine", help="Typesetter.")]
-
-
-class Outcome:
-    """The exit code of a piece of work."""
-
-    code = 0
+EngineOption = Annotated[Literal["typst", "latex"], typer.Option("--engine", help="Typesetter.")]
 
 
 @contextmanager
-def ending(lang: Lang | None) -> Iterator[Outcome]:
-    """Prints what goes wrong inside, never a traceback, and remembers the exit code it means."""
-    outcome = Outcome()
+def ending(lang: Language | None) -> Iterator[None]:
+    """Prints what goes wrong inside, never a traceback, and ends with the exit code it means."""
     try:
-        yield outcome
+        yield
+    except (typer.Exit, typer.BadParameter, BrokenPipeError):
+        raise
     except AssignmentError as error:
         print(*error.problems, sep="\n", file=sys.stderr)
-        outcome.code = error.exit_code
+        code = error.exit_code
     except ReportgenError as error:
         complain(str(error))
-        outcome.code = error.exit_code
-    except BrokenPipeError:
-        raise
+        code = error.exit_code
     except OSError as error:
         complain(say("system", lang, text=error))
-        outcome.code = SYSTEM
-    except (typer.Exit, typer.BadParameter):
-        raise
+        code = SYSTEM
     except Exception as error:
         complain_of_program(error, lang)
-        outcome.code = SYSTEM
+        code = SYSTEM
+    else:
+        return
+    raise typer.Exit(code)
+
+
+def for_each(files: list[Path], lang: Language | None, work: Callable[[Path], None]) -> None:
+    """Does the work for every file, whatever comes of the others, and ends with the gravest exit code.
+
+    Files of one name, which would write to one folder, are wrong usage.
+    """
+    seen: dict[str, Path] = {}
+    for file in files:
+        if seen.setdefault(file.stem, file) is not file:
+            raise typer.BadParameter(say("same_name", lang, first=seen[file.stem], second=file))
+    code = 0
+    for file in files:
+        try:
+            with ending(lang):
+                work(file)
+        except typer.Exit as end:
+            code = max(code, end.exit_code)
+    raise typer.Exit(code)
 
 
 def complain(text: str) -> None:
     print(f"reportgen: {text}", file=sys.stderr)
 
 
-def complain_of_program(error: BaseException, lang: Lang | None = None) -> None:
+def complain_of_program(error: BaseException, lang: Language | None = None) -> None:
     """Says that an exception nobody expected is a fault of the program."""
     from reportgen.assignment.faults import unexpected
 
-    complain(unexpected(error, language(lang)))
+    complain(unexpected(error, lang))
 
 
-def say(key: str, lang: Lang | None, /, **arguments: object) -> str:
+def say(key: str, lang: Language | None, /, **arguments: object) -> str:
     """A text of the message table in the language of the command line."""
     from reportgen.assignment.faults import word
 
-    return word(key, language(lang), **arguments)
+    return word(key, lang, **arguments)
 
 
-def language(lang: Lang | None) -> Language | None:
-    return None if lang is None else "en" if lang is Lang.en else "vi"
-
-
-def typesetter(engine: Engine) -> Literal["typst", "latex"]:
-    return "latex" if engine is Engine.latex else "typst"
-
-
-def refuse_same_names(files: list[Path], lang: Lang | None) -> None:
-    """Two files of one name would write to one folder."""
-    seen: dict[str, Path] = {}
-    for file in files:
-        if file.stem in seen:
-            raise typer.BadParameter(say("same_name", lang, first=seen[file.stem], second=file))
-        seen[file.stem] = file
-
-
-def listed(text: str, known: Collection[str], option: str, complaint: str, lang: Lang | None) -> tuple[str, ...]:
+def listed(text: str, known: Collection[str], option: str, complaint: str, lang: Language | None) -> tuple[str, ...]:
     """The names in a list separated by commas, each once; a name that is not `known` is wrong usage."""
     names = tuple(dict.fromkeys(name.strip() for name in text.split(",")))
     for name in names:

@@ -11,18 +11,15 @@ import typer
 from reportgen.cli.common import (
     AT_FAULT,
     INTERRUPTED,
-    Engine,
     EngineOption,
     Files,
     LangOption,
     app,
     complain,
     ending,
-    language,
+    for_each,
     listed,
-    refuse_same_names,
     say,
-    typesetter,
 )
 
 Roster = Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)]
@@ -41,11 +38,10 @@ def variants(
     """Draw a variant for each student of ROSTER and freeze it into DIR/<id>.yaml."""
     from reportgen.batch.variants import make_variants
 
-    with ending(lang) as outcome:
-        made = make_variants(spec, roster, out, force, language(lang))
+    with ending(lang):
+        made = make_variants(spec, roster, out, force, lang)
         print(*(file.path for file in made.files), "", *made.summary, sep="\n")
         print(*made.remarks, sep="\n", end="\n" * bool(made.remarks), file=sys.stderr)
-    raise typer.Exit(outcome.code)
 
 
 @app.command()
@@ -63,7 +59,7 @@ def batch(
     jobs: Annotated[
         int | None, typer.Option("--jobs", metavar="N", min=1, help="Processes.", show_default="one a core")
     ] = None,
-    engine: EngineOption = Engine.typst,
+    engine: EngineOption = "typst",
     lang: LangOption = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out"),
     cluster: Annotated[
@@ -72,23 +68,22 @@ def batch(
     ] = None,
 ) -> None:
     """Make task, report or key of everybody on ROSTER; go on where an earlier run was stopped."""
+    from reportgen.api import MAKERS
     from reportgen.batch.run import Order, run_batch
-    from reportgen.products import MAKERS
 
     if (spec is None) == (assignments is None):
         raise typer.BadParameter(say("one_of_spec", lang))
     products = listed(make, MAKERS, "--make", "no_product", lang)
-    order = Order(roster, spec, assignments, out, products, typesetter(engine), language(lang), jobs or 0, cluster)
-    with ending(lang) as outcome:
+    order = Order(roster, spec, assignments, out, products, engine, lang, jobs or 0, cluster)
+    with ending(lang):
         try:
             result = run_batch(order, sys.stderr)
         except KeyboardInterrupt:
             complain(say("batch_stopped", lang))
             raise typer.Exit(INTERRUPTED) from None
-        print(*result.summary(language(lang)), sep="\n", file=sys.stderr)
+        print(*result.summary(lang), sep="\n", file=sys.stderr)
         print(result.manifest, flush=True)
-        outcome.code = result.exit_code
-    raise typer.Exit(outcome.code)
+        raise typer.Exit(result.exit_code)
 
 
 @app.command()
@@ -98,21 +93,19 @@ def key(
         str, typer.Option("--format", metavar="LIST", help="Of pdf, xlsx, csv, json; parted by commas.")
     ] = "pdf,xlsx",
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the keys.")] = Path("out"),
-    engine: EngineOption = Engine.typst,
+    engine: EngineOption = "typst",
     lang: LangOption = None,
 ) -> None:
     """Write the answer key of each FILE to DIR/<id>/: every value with the bands within which it is right."""
-    from reportgen import products
+    from reportgen import api
 
-    refuse_same_names(files, lang)
-    formats = listed(format, products.KEY_FORMATS, "--format", "no_format", lang)
-    code = 0
-    for file in files:
-        with ending(lang) as outcome:
-            made = products.key_files(file, typesetter(engine), language(lang), formats)
-            print(*products.put(out / file.stem, made), sep="\n", flush=True)
-        code = max(code, outcome.code)
-    raise typer.Exit(code)
+    formats = listed(format, api.KEY_FORMATS, "--format", "no_format", lang)
+
+    def work(file: Path) -> None:
+        made = api.key_files(file, engine, lang, formats)
+        print(*api.put(out / file.stem, made), sep="\n", flush=True)
+
+    for_each(files, lang, work)
 
 
 @app.command()
@@ -128,19 +121,18 @@ def grade(
         Path | None, typer.Option("--policy", metavar="FILE", help="How to mark.", show_default=False)
     ] = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out/marked"),
-    engine: EngineOption = Engine.typst,
+    engine: EngineOption = "typst",
     lang: LangOption = None,
 ) -> None:
     """Mark filled answer sheets from each student's own values; write feedback, grades.csv and the class page."""
     from reportgen.batch import assess
     from reportgen.grading.marks import Policy, read_policy
 
-    with ending(lang) as outcome:
-        rules = Policy() if policy is None else read_policy(policy, language(lang))
-        graded = assess.grade(submissions, assignments, rules, language(lang))
-        for path in assess.put(graded, rules, out, typesetter(engine), language(lang)):
+    with ending(lang):
+        rules = Policy() if policy is None else read_policy(policy, lang)
+        graded = assess.grade(submissions, assignments, rules, lang)
+        for path in assess.put(graded, rules, out, engine, lang):
             print(path, flush=True)
-        print(*assess.summary(graded, language(lang)), sep="\n")
+        print(*assess.summary(graded, lang), sep="\n")
         print(*graded.problems, sep="\n", end="\n" * bool(graded.problems), file=sys.stderr)
-        outcome.code = AT_FAULT if graded.problems else 0
-    raise typer.Exit(outcome.code)
+        raise typer.Exit(AT_FAULT if graded.problems else 0)

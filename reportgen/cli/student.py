@@ -11,17 +11,14 @@ import typer
 
 from reportgen.cli.common import (
     AT_FAULT,
-    Engine,
     EngineOption,
     File,
     Files,
     LangOption,
     app,
     ending,
-    language,
-    refuse_same_names,
+    for_each,
     say,
-    typesetter,
     write,
 )
 
@@ -30,7 +27,7 @@ from reportgen.cli.common import (
 def build(
     files: Files,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the reports.")] = Path("out"),
-    engine: EngineOption = Engine.typst,
+    engine: EngineOption = "typst",
     lang: LangOption = None,
     keep_source: Annotated[
         bool, typer.Option("--keep-source", help="Also leave the source with its figures.")
@@ -39,14 +36,10 @@ def build(
     """Write the complete report of each FILE to DIR/<id>/report.pdf."""
     from reportgen import api
 
-    refuse_same_names(files, lang)
+    def work(file: Path) -> None:
+        print(api.build(file, out, engine, lang, keep_source), flush=True)
 
-    code = 0
-    for file in files:
-        with ending(lang) as outcome:
-            print(api.build(file, out, typesetter(engine), language(lang), keep_source), flush=True)
-        code = max(code, outcome.code)
-    raise typer.Exit(code)
+    for_each(files, lang, work)
 
 
 @app.command()
@@ -66,15 +59,14 @@ def solve(
     from reportgen import api
     from reportgen.tables import print_tables
 
-    with ending(lang) as outcome:
-        assignment = api.load(file, language(lang))
+    with ending(lang):
+        assignment = api.load(file, lang)
         results = api.solve(assignment, positions)
         if json_file is None:
             print_tables(results, assignment.language)
         else:
             text = json.dumps(results, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
             write(json_file, text)
-    raise typer.Exit(outcome.code)
 
 
 @app.command()
@@ -82,7 +74,7 @@ def check(files: Files, lang: LangOption = None) -> None:
     """Validate each FILE; silent when all is well."""
     from reportgen import api
 
-    problems = [problem for file in files for problem in api.check(file, language(lang))]
+    problems = [problem for file in files for problem in api.check(file, lang)]
     for problem in problems:
         print(problem, file=sys.stderr)
     raise typer.Exit(AT_FAULT if problems else 0)
@@ -101,9 +93,8 @@ def new(
 
     if kind not in catalogue.kinds():
         raise typer.BadParameter(say("no_kind", lang, kind=kind, known=", ".join(catalogue.kinds())))
-    with ending(lang) as outcome:
-        write(output or Path("-"), catalogue.sample(kind, language(lang) or "vi"))
-    raise typer.Exit(outcome.code)
+    with ending(lang):
+        write(output or Path("-"), catalogue.sample(kind, lang or "vi"))
 
 
 @app.command()
@@ -111,7 +102,7 @@ def kinds(lang: LangOption = None) -> None:
     """List the machines that are known, a line each."""
     from reportgen import catalogue
 
-    titles = catalogue.titles(language(lang) or "vi")
+    titles = catalogue.titles(lang or "vi")
     width = max(map(len, titles))
     for kind, title in titles.items():
         print(f"{kind:{width}}  {title}")
@@ -137,8 +128,7 @@ def compare(
     """Check your own SHEET before handing it in: where it first leaves the assignment, without answers."""
     from reportgen.grading.comparison import compare as compared
 
-    with ending(lang) as outcome:
-        lines, agrees = compared(file, sheet, hint, language(lang))
+    with ending(lang):
+        lines, agrees = compared(file, sheet, hint, lang)
         print(*lines, sep="\n")
-        outcome.code = 0 if agrees else AT_FAULT
-    raise typer.Exit(outcome.code)
+        raise typer.Exit(0 if agrees else AT_FAULT)

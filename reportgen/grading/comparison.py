@@ -25,8 +25,7 @@ def compare(
 
     Raises `AssignmentError` if the assignment or the sheet cannot be read.
     """
-    assignment = load(file, language)
-    guide = open_guide(assignment if language is None else assignment.with_language(language), Policy(guard=False))
+    guide = open_guide(load(file, language), Policy(guard=False))
     marking = mark(guide, read_submission(sheet, guide.key, guide.key.language))
     # A blank value does not disagree, nor does one that follows from a right one.
     agrees = not (marking.submission.problems or any(cell.verdict is Verdict.wrong for cell in marking.cells))

@@ -10,27 +10,23 @@ from typing import Any
 
 from reportgen.answers.key import Key, Row, shown_number, words_of
 from reportgen.answers.key_files import band, band_decimals
-from reportgen.answers.paper import fields, paper, student_rows, text_cells
+from reportgen.answers.paper import DASH, cells, fields, heading, paper, paragraph, student_rows
 from reportgen.answers.sheet import NAMES, asked_positions, given_entry, grid, info_page, page, rows_shown
+from reportgen.document import tree
 from reportgen.document.plain import plain
 from reportgen.document.tree import (
-    TEXT_WIDTH,
     Block,
     Column,
     Document,
     Inline,
     InlineMath,
     Inlines,
-    List,
     Paragraph,
-    Section,
-    Strong,
     Table,
     Text,
-    Value,
 )
 from reportgen.errors import Problem
-from reportgen.grading.marks import Marked, Marking, Verdict
+from reportgen.grading.marks import Marked, Marking, Verdict, points_of
 from reportgen.notation.expressions import Number
 from reportgen.notation.numbers import MINUS, Language, printed, write
 from reportgen.workbook import Book, Entry, Sheet
@@ -61,13 +57,13 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
     """The marked sheet as a workbook: the layout of the answer sheet, points behind each row and their sum below."""
     key, words = marking.key, words_of(marking.key)
     feedback = words["feedback"]
-    cells = {(cell.id, cell.position): cell for cell in marking.cells}
+    marked = {(cell.id, cell.position): cell for cell in marking.cells}
     positions = asked_positions(key)
 
     def filling(row: Row, position: int) -> Entry | None:
         place = (row.id, position)
-        if place in cells:
-            return _marked(marking, words, cells[place], show_answers)
+        if place in marked:
+            return _marked(marking, words, marked[place], show_answers)
         if position not in row.positions:
             return given_entry(row, position)
         # A value that is not marked stands as it was typed.
@@ -75,7 +71,7 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
         return Entry(answer.value if answer else None)
 
     def tail(row: Row) -> Sequence[Entry]:
-        own = [cells[row.id, k] for k in row.positions if (row.id, k) in cells]
+        own = [marked[row.id, k] for k in row.positions if (row.id, k) in marked]
         return _points(own) if own else ()
 
     heads = (feedback["points"], feedback["out_of"])
@@ -93,10 +89,10 @@ def _marked(marking: Marking, words: Mapping[str, Any], cell: Marked, show_answe
     return Entry(cell.given, FIRST if cell.first else STYLES[cell.verdict], comment)
 
 
-def _points(cells: Sequence[Marked], style: Style = "") -> tuple[Entry, Entry]:
+def _points(judged: Sequence[Marked], style: Style = "") -> tuple[Entry, Entry]:
     """Points earned and points to be earned."""
-    sums = (sum(cell.points for cell in cells), sum(cell.worth for cell in cells))
-    return (Entry(round(sums[0], 2), style), Entry(round(sums[1], 2), style))
+    earned, worth = points_of(judged)
+    return (Entry(round(earned, 2), style), Entry(round(worth, 2), style))
 
 
 def _legend(words: Mapping[str, Any]) -> Sheet:
@@ -126,10 +122,10 @@ def feedback_document(marking: Marking, title: str, show_answers: bool = True) -
         out_of=points_text(marking.out_of, key.language),
     )
     blocks: list[Block] = [
-        Section(1, (Text(feedback["title"]),), numbered=False),
+        heading(feedback["title"]),
         *fields(((words["answer_sheet"]["kind"], title), *student_rows(key))),
-        Paragraph((Strong(score),)),
-        *(Paragraph((Text(words["warnings"][warning]),)) for warning in marking.warnings),
+        Paragraph((tree.Strong(score),)),
+        *(paragraph(words["warnings"][warning]) for warning in marking.warnings),
         *_section(feedback["firsts"], _firsts(marking, words, show_answers)),
         *_section(feedback["followed"], _followed(marking, words)),
         *_section(feedback["unread"], _listed(marking.submission.problems.values())),
@@ -143,7 +139,7 @@ def feedback_document(marking: Marking, title: str, show_answers: bool = True) -
 def _section(title: str, blocks: Iterable[Block]) -> tuple[Block, ...]:
     """A section with its heading; no heading without a block."""
     inner = tuple(blocks)
-    return (Section(2, (Text(title),), numbered=False), *inner) if inner else ()
+    return (heading(title, 2), *inner) if inner else ()
 
 
 def _firsts(marking: Marking, words: Mapping[str, Any], show_answers: bool) -> Iterator[Block]:
@@ -151,10 +147,11 @@ def _firsts(marking: Marking, words: Mapping[str, Any], show_answers: bool) -> I
     firsts = [cell for cell in marking.first_errors if cell.given is not None]
     if not firsts:
         if not any(cell.verdict is Verdict.wrong for cell in marking.cells):
-            yield Paragraph((Text(words["feedback"]["no_firsts"]),))
+            yield paragraph(words["feedback"]["no_firsts"])
         return
-    yield Paragraph((Text(words["feedback"]["firsts_lead"]),))
-    yield List(tuple((Paragraph(_first(cell, marking.key, words, show_answers)),) for cell in firsts), ordered=True)
+    yield paragraph(words["feedback"]["firsts_lead"])
+    lines = (_first(cell, marking.key, words, show_answers) for cell in firsts)
+    yield tree.List(tuple((Paragraph(line),) for line in lines), ordered=True)
 
 
 def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool) -> Inlines:
@@ -162,7 +159,7 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
     feedback, row = words["feedback"], key.row(cell.id)
     assert cell.given is not None
     number = shown_number(row, cell.expected)
-    expected = Value(Number(number.value, number.decimals, row.unit))
+    expected = tree.Value(Number(number.value, number.decimals, row.unit))
     label = key.label(cell.position)
     return (
         InlineMath(row.symbol),
@@ -177,11 +174,11 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
 def _followed(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
     """The values that differ from the key but earned their points, quantity by quantity."""
     key = marking.key
-    cells = [cell for cell in marking.cells if cell.verdict is Verdict.follows]
-    if not cells:
+    followed = [cell for cell in marking.cells if cell.verdict is Verdict.follows]
+    if not followed:
         return
     line: list[Any] = []
-    for id, of_row in groupby(cells, lambda cell: cell.id):
+    for id, of_row in groupby(followed, lambda cell: cell.id):
         symbol = InlineMath(key.row(id).symbol)
         labels = ", ".join(key.label(cell.position) for cell in of_row if cell.position)
         line += [Text("; ")] if line else []
@@ -194,30 +191,26 @@ def _listed(problems: Iterable[Problem]) -> Iterator[Block]:
     found = sorted(problems, key=lambda problem: problem.mark)
     if found:
         texts = (f"{str(one.mark).removeprefix(f'{one.mark.file}:')}: {one.message}." for one in found)
-        yield List(tuple((Paragraph((Text(text),)),) for text in texts))
+        yield tree.List(tuple((paragraph(text),) for text in texts))
 
 
 def _by_part(marking: Marking, words: Mapping[str, Any]) -> Table:
     """Counts of verdicts and points, a part a row, and their sums."""
     key, feedback = marking.key, words["feedback"]
     verdicts = [verdict for verdict in Verdict if any(cell.verdict is verdict for cell in marking.cells)]
-    parts = [
-        (str(words["parts"][part]), list(cells))
-        for part, cells in groupby(marking.cells, lambda cell: key.row(cell.id).part)
-    ]
+    parts = groupby(marking.cells, lambda cell: key.row(cell.id).part)
     heads = (feedback["part"], *(str(words["verdicts"][v]) for v in verdicts), feedback["points"], feedback["out_of"])
-    first = TEXT_WIDTH - len(verdicts) * COUNT - 2 * POINTS
+    first = tree.TEXT_WIDTH - len(verdicts) * COUNT - 2 * POINTS
     columns = (Column(first, "left"), *(Column(COUNT),) * len(verdicts), Column(POINTS), Column(POINTS))
-    rows = [_counted(name, cells, verdicts, key) for name, cells in parts]
+    rows = [_counted(str(words["parts"][part]), list(of_part), verdicts, key) for part, of_part in parts]
     rows.append(_counted(feedback["total"], marking.cells, verdicts, key))
-    return Table(columns, (text_cells(heads),), tuple(map(text_cells, rows)), (Text(feedback["by_part"]),))
+    return Table(columns, (cells(heads),), tuple(map(cells, rows)), (Text(feedback["by_part"]),))
 
 
-def _counted(name: str, cells: Sequence[Marked], verdicts: Sequence[Verdict], key: Key) -> tuple[str, ...]:
-    counts = Counter(cell.verdict for cell in cells)
-    points = (sum(cell.points for cell in cells), sum(cell.worth for cell in cells))
-    numbers = (str(counts[verdict] or "–") for verdict in verdicts)
-    return (name, *numbers, *(points_text(value, key.language) for value in points))
+def _counted(name: str, judged: Sequence[Marked], verdicts: Sequence[Verdict], key: Key) -> tuple[str, ...]:
+    counts = Counter(cell.verdict for cell in judged)
+    numbers = (str(counts[verdict] or DASH) for verdict in verdicts)
+    return (name, *numbers, *(points_text(value, key.language) for value in points_of(judged)))
 
 
 # --- verdicts and mistakes in words ---------------------------------------------------------------
@@ -243,7 +236,7 @@ def _given_value(row: Row, value: float) -> Inline:
     """A student's value with its unit, to six figures; one of any size takes little room."""
     if value and not LEAST < abs(value) < MOST:
         return Text(f"{value:.4g} {row.unit}".replace("-", MINUS).strip())
-    return Value(Number(float(f"{value:.6g}"), None, row.unit))
+    return tree.Value(Number(float(f"{value:.6g}"), None, row.unit))
 
 
 def mistake_inlines(cell: Marked, key: Key, words: Mapping[str, Any]) -> Inlines:

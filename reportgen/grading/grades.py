@@ -8,12 +8,12 @@ from statistics import fmean, median
 from typing import Any
 
 from reportgen.answers.key import Key, symbol_text
-from reportgen.answers.paper import paper, text_cells
-from reportgen.document.tree import Block, Column, Document, Figure, Paragraph, Section, Table, Text
+from reportgen.answers.paper import DASH, cells, heading, paper, paragraph
+from reportgen.document.tree import Block, Column, Document, Figure, Table, Text
 from reportgen.figures.charts import bars, histogram
 from reportgen.figures.scene import Content
 from reportgen.grading.feedback import points_text
-from reportgen.grading.marks import Marked, Marking
+from reportgen.grading.marks import Marked, Marking, points_of
 from reportgen.notation.numbers import Language, write
 from reportgen.notation.vocabulary import Chapter
 from reportgen.words import load_words, search_path
@@ -70,7 +70,7 @@ def _who(key: Key) -> tuple[str, str, str]:
 
 
 def _points_of(marking: Marking, part: Chapter) -> float:
-    return round(sum(cell.points for cell in marking.cells if marking.key.row(cell.id).part is part), 2)
+    return round(points_of(cell for cell in marking.cells if marking.key.row(cell.id).part is part)[0], 2)
 
 
 def _cell_text(key: Key, cell: Marked) -> str:
@@ -96,7 +96,7 @@ def class_document(
     words = load_words(search_path(language))
     page = words["class_page"]
     blocks: list[Block] = [
-        Section(1, (Text(page["title"]),), numbered=False),
+        heading(page["title"]),
         *_summary(markings, page, language, missing),
         _marks(markings, words, language, missing),
     ]
@@ -115,9 +115,9 @@ def _summary(
             mean=write(fmean(shares), 0, language),
             median=write(median(shares), 0, language),
         )
-        yield Paragraph((Text(text),))
+        yield paragraph(text)
     if missing:
-        yield Paragraph((Text(page["missing"].format(count=len(missing))),))
+        yield paragraph(page["missing"].format(count=len(missing)))
 
 
 def _marks(
@@ -135,9 +135,9 @@ def _marks(
         )
         for marking in markings
     ]
-    rows += [(*_who(key), "–", "–", "–") for key in missing]
+    rows += [(*_who(key), DASH, DASH, DASH) for key in missing]
     columns = tuple(Column(width, "left" if n < 2 else "center") for n, width in enumerate(WIDTHS))
-    return Table(columns, (text_cells(heads),), tuple(map(text_cells, rows)), (Text(page["list"]),))
+    return Table(columns, (cells(heads),), tuple(map(cells, rows)), (Text(page["list"]),))
 
 
 def _spread(markings: Sequence[Marking], page: Mapping[str, Any]) -> Figure:
@@ -153,7 +153,7 @@ def _errors(markings: Sequence[Marking], words: Mapping[str, Any]) -> Iterator[B
     page = words["class_page"]
     firsts = [(marking.key, cell) for marking in markings for cell in marking.first_errors]
     if not firsts:
-        yield Paragraph((Text(page["nothing"]),))
+        yield paragraph(page["nothing"])
         return
     symbols: dict[str, Content] = {cell.id: key.row(cell.id).symbol for key, cell in firsts}
     quantities = Counter(cell.id for _, cell in firsts).most_common()

@@ -115,15 +115,14 @@ def _copied_from(guide: Guide, cells: Cells, classmates: Sequence[Key]) -> tuple
     source = False
     for key in classmates:
         telling = {place: theirs for place, cell in cells.items() if (theirs := _theirs(guide, cell, key)) is not None}
-        met = [place for place, theirs in telling.items() if _meets(cells[place], theirs)]
+        met = [
+            place for place, theirs in telling.items()
+            if (cell := cells[place]).verdict is not Verdict.right and cell.equals(theirs, cell.band)
+        ]
         for place in met if len(met) >= FEWEST else ():
             equal.setdefault(place, []).append(key.id)
         source = source or len(met) >= max(FEWEST, SAME * len(telling))
     return equal, source
-
-
-def _meets(cell: Marked, value: float) -> bool:
-    return cell.verdict is not Verdict.right and cell.given is not None and abs(cell.given - value) <= cell.band
 
 
 def _follows_throughout(cells: Cells) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from fnmatch import fnmatchcase
@@ -81,8 +81,18 @@ class Marked:
     where: str = ""
     classmates: tuple[str, ...] = ()
 
+    def equals(self, value: float, band: float) -> bool:
+        """Whether a value was given that lies within a band of another."""
+        return self.given is not None and abs(self.given - value) <= band
+
 
 Cells = Mapping[Place, Marked]
+
+
+def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
+    """The points that cells earned, and those that they are worth."""
+    found = [(cell.points, cell.worth) for cell in cells]
+    return sum(points for points, _ in found), sum(worth for _, worth in found)
 
 
 @dataclass(frozen=True)
@@ -96,11 +106,11 @@ class Marking:
 
     @property
     def points(self) -> float:
-        return sum(cell.points for cell in self.cells)
+        return points_of(self.cells)[0]
 
     @property
     def out_of(self) -> float:
-        return sum(cell.worth for cell in self.cells)
+        return points_of(self.cells)[1]
 
     @property
     def share(self) -> float:

@@ -81,7 +81,7 @@ def _changes_of(guide: Guide, family: Family, scales: Mapping[str, float]) -> It
     elif family.kind == "pressure":
         yield from _in_reading_a_pressure(guide, id)
     if (rod := _whole_rod(guide, id)) is not None:
-        yield "wrong-end", _from_the_other_end(rod)
+        yield "wrong-end", lambda value, values: values[rod] - value
     if is_direction(id):
         yield "direction-reversed", lambda value, _: value + np.pi
         return
@@ -199,10 +199,6 @@ def _times(factor: float) -> Change:
 
 def _replaced_by(other: np.ndarray) -> Change:
     return lambda _, __: other
-
-
-def _from_the_other_end(rod: str) -> Change:
-    return lambda value, values: values[rod] - value
 
 
 def _degrees(id: str) -> Callable[[Values], np.ndarray]:

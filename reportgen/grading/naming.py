@@ -57,7 +57,12 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
     found = (
         *_misplaced(guide, first, cells),
         *(("too-few-figures", place) for place, cell in first.items() if _has_too_few_figures(cell)),
-        *(("other-scale", place) for place, cell in first.items() if _is_scale_of_the_task(guide, cell)),
+        # A scale was taken from the task while the plan was drawn at another.
+        *(
+            ("other-scale", place)
+            for place, cell in first.items()
+            if guide.rows[place[0]].role is Role.scale and cell.equals(cell.expected, cell.band)
+        ),
         *_by_another_convention(first, cells),
     )
     # Nothing else comes from a slip of writing unseen, so it changes no other quantity.
@@ -71,11 +76,6 @@ def _has_too_few_figures(cell: Marked) -> bool:
         given == float(f"{value:.{FEW_FIGURES}g}") and abs(given - value) > cell.band
         for value in (cell.own, cell.expected)
     )
-
-
-def _is_scale_of_the_task(guide: Guide, cell: Marked) -> bool:
-    """Whether a scale was taken from the task while the plan was drawn at another."""
-    return guide.rows[cell.id].role is Role.scale and cell.given is not None and _equals(cell, cell.expected, cell.band)
 
 
 def _misplaced(guide: Guide, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:
@@ -95,11 +95,7 @@ def _misplaced(guide: Guide, first: Cells, cells: Cells) -> Iterator[tuple[str, 
 
 def _belongs_to(cell: Marked, other: Marked) -> bool:
     """Whether a value is that of another cell, not of its own."""
-    return _equals(cell, other.expected, other.band) and abs(cell.expected - other.expected) > other.band
-
-
-def _equals(cell: Marked, value: float, band: float) -> bool:
-    return cell.given is not None and abs(cell.given - value) <= band
+    return cell.equals(other.expected, other.band) and abs(cell.expected - other.expected) > other.band
 
 
 def _by_another_convention(first: Cells, cells: Cells) -> Iterable[tuple[str, Place]]:

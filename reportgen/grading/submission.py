@@ -18,8 +18,8 @@ from typing import Literal, get_args
 
 from reportgen import units
 from reportgen.answers.key import Key
-from reportgen.assignment.faults import Fault, as_problem
-from reportgen.errors import AssignmentError, Mark, Problem
+from reportgen.assignment.faults import Fault, as_error, as_problem
+from reportgen.errors import Mark, Problem
 from reportgen.grading.marks import Answer, Place, Submission
 from reportgen.notation.numbers import Language
 from reportgen.notation.symbols import KINDS
@@ -34,7 +34,7 @@ HEAD_WITHIN = 60
 _UNREADABLE = {"date": "cell-date", "error": "cell-error", "boolean": "cell-boolean"}
 
 
-def read_submission(path: Path, key_of: Callable[[str], Key] | Key, language: Language = "vi") -> Submission:
+def read_submission(path: Path, key_of: Callable[[str], Key] | Key, language: Language | None = None) -> Submission:
     """The answer sheet of a file, read by the key of its assignment.
 
     The assignment is the one that its page of information names, or its title, or else the file's stem.
@@ -45,29 +45,25 @@ def read_submission(path: Path, key_of: Callable[[str], Key] | Key, language: La
     pages = read(path, language)
     found = _sheet(pages)
     if found is None:
-        raise _refused(Fault("sheet-no-head", Mark(str(path))), language)
+        raise as_error([Fault("sheet-no-head", Mark(str(path)))], language)
     named = _beside(pages, "assignment") or _titled(found[0].rows[: found[1]])
     name, mark = named or (path.stem, Mark(str(path)))
     if isinstance(key_of, Key):
         key = key_of
         if named and name != key.id:
-            raise _refused(Fault("sheet-of-another", mark, {"text": name, "wanted": key.id}), language)
+            raise as_error([Fault("sheet-of-another", mark, {"text": name, "wanted": key.id})], language)
     else:
         try:
             key = key_of(name)
         except KeyError:
-            raise _refused(Fault("sheet-unknown", mark, {"text": name}), language) from None
+            raise as_error([Fault("sheet-unknown", mark, {"text": name})], language) from None
     kind = _beside(pages, "kind")
     if kind and kind[0] != key.kind:
         about = {"text": f"{name} ({kind[0]})", "wanted": f"{key.id} ({key.kind})"}
-        raise _refused(Fault("sheet-of-another", kind[1], about), language)
+        raise as_error([Fault("sheet-of-another", kind[1], about)], language)
     reading = _Reading(key, language)
     reading.sheet(*found)
     return Submission(key.id, str(path), reading.values, reading.problems, tuple(reading.notes))
-
-
-def _refused(fault: Fault, language: Language) -> AssignmentError:
-    return AssignmentError([as_problem(fault, language)])
 
 
 # --- finding the sheet ----------------------------------------------------------------------------
@@ -122,7 +118,7 @@ class _Reading:
     """What is found in one sheet."""
 
     key: Key
-    language: Language
+    language: Language | None
     values: dict[Place, Answer] = field(default_factory=dict)
     problems: dict[Place, Problem] = field(default_factory=dict)
     notes: list[Problem] = field(default_factory=list)

@@ -63,6 +63,11 @@ class RefusedError(Exception):
         self.fault = Fault(code, mark, arguments)
 
 
+def exceeds(row: int, column: int, cells: int = 0) -> bool:
+    """Whether a table with that row, column or number of cells is larger than any that is read."""
+    return row > MOST_ROWS or column > MOST_COLUMNS or cells > MOST_CELLS
+
+
 def too_large(mark: Mark) -> RefusedError:
     return RefusedError(
         "table-too-large", mark, rows=str(MOST_ROWS), columns=str(MOST_COLUMNS), cells=str(MOST_CELLS)

@@ -226,11 +226,12 @@ def measure(package: Package, name: str) -> tuple[int, int]:
 
     Raises `RefusedError` if it is damaged or has more in it than can be held.
     """
-    depth = held = outside = groups = cells = formulas = dependents = 0
+    depth = held = outside = groups = cells = formulas = dependents = length = longest = 0
+    shared = False
 
     def start(tag: str, attributes: Attributes) -> None:
         """`depth` is 1 right inside a row or a string, 0 outside of all; `outside` is held whatever is let go."""
-        nonlocal depth, held, outside, groups, cells, formulas, dependents
+        nonlocal depth, held, outside, groups, cells, formulas, dependents, shared, length
         if depth:
             depth += 1
             cells += depth == 2
@@ -238,39 +239,22 @@ def measure(package: Package, name: str) -> tuple[int, int]:
             # openpyxl keeps what else is said of a row, such as its height.
             depth, groups, outside = 1, groups + 1, held + (not attributes.keys() <= _PLACE)
         held += 1 + len(attributes)
-        if tag == _FORMULA:
-            formulas += 1
-            dependents += attributes.get("t") == "shared"
+        shared, length = tag == _FORMULA and attributes.get("t") == "shared", 0
+        formulas += tag == _FORMULA
+        dependents += shared
         if held > MOST_HELD or groups > MOST_GROUPS:
             raise package.bomb()
 
     def end(_: str) -> None:
-        nonlocal depth, held
+        nonlocal depth, held, shared
+        shared = False
         if depth:
             depth -= 1
             if not depth:
                 held = outside
 
-    package.walk(name, start, end)
-    if dependents and dependents * _longest_shared(package, name) > MOST_TRANSLATED:
-        raise package.bomb()
-    return cells, formulas
-
-
-def _longest_shared(package: Package, name: str) -> int:
-    """The most characters in a shared formula; raises `RefusedError` if no cell could hold them."""
-    shared = False
-    length = longest = 0
-
-    def start(tag: str, attributes: Attributes) -> None:
-        nonlocal shared, length
-        shared, length = tag == _FORMULA and attributes.get("t") == "shared", 0
-
-    def end(_: str) -> None:
-        nonlocal shared
-        shared = False
-
     def text(data: str) -> None:
+        """No cell could hold a longer formula."""
         nonlocal length, longest
         if shared:
             length += len(data)
@@ -279,4 +263,6 @@ def _longest_shared(package: Package, name: str) -> int:
                 raise too_long(package.mark)
 
     package.walk(name, start, end, text)
-    return longest
+    if dependents * longest > MOST_TRANSLATED:
+        raise package.bomb()
+    return cells, formulas

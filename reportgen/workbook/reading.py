@@ -7,18 +7,16 @@ import unicodedata
 from collections.abc import Iterator
 from pathlib import Path
 
-from reportgen.assignment.faults import as_problem
+from reportgen.assignment.faults import as_error
 from reportgen.assignment.source import mark_in
-from reportgen.errors import AssignmentError, Mark
+from reportgen.errors import Mark
 from reportgen.notation.numbers import Language
 from reportgen.workbook.cells import (
     LONGEST_CELL,
-    MOST_CELLS,
-    MOST_COLUMNS,
-    MOST_ROWS,
     Cell,
     Page,
     RefusedError,
+    exceeds,
     too_large,
     too_long,
     unguarded,
@@ -36,12 +34,12 @@ _LINE_END = re.compile(r"\r\n|\r|\n")
 _WIDE = (b"\xff\xfe", b"\xfe\xff")
 
 
-def read(path: Path, language: Language = "vi") -> tuple[Page, ...]:
+def read(path: Path, language: Language | None = None) -> tuple[Page, ...]:
     """The pages of a CSV or XLSX file; raises `AssignmentError` with the fault that stops it, in `language`."""
     try:
         return _read(path)
     except RefusedError as refused:
-        raise AssignmentError([as_problem(refused.fault, language)]) from None
+        raise as_error([refused.fault], language) from None
 
 
 def _read(path: Path) -> tuple[Page, ...]:
@@ -78,7 +76,7 @@ def _read_csv(data: bytes, file: str, name: str) -> Page:
     for row in _rows(text, file):
         rows.append(row)
         cells += len(row)
-        if len(rows) > MOST_ROWS or cells > MOST_CELLS or len(row) > MOST_COLUMNS:
+        if exceeds(len(rows), len(row), cells):
             raise too_large(row[-1].mark if row else Mark(file))
     return Page(name, tuple(rows))
 

@@ -10,22 +10,20 @@ import re
 import unicodedata
 import warnings
 import zipfile
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import closing, redirect_stdout
-from dataclasses import dataclass
+from functools import partial
 from itertools import tee
 from typing import TYPE_CHECKING, Any
 
 from reportgen.errors import CellMark, Mark
 from reportgen.workbook.cells import (
     LONGEST_CELL,
-    MOST_CELLS,
-    MOST_COLUMNS,
-    MOST_ROWS,
     Cell,
     CellKind,
     Page,
     RefusedError,
+    exceeds,
     too_large,
     too_long,
 )
@@ -39,6 +37,8 @@ _ESCAPE = re.compile(r"_x([0-9A-Fa-f]{4})_")
 
 Row = tuple[Any, ...]
 """The cells of a row as openpyxl gives them."""
+Marks = Callable[[int, int], CellMark]
+"""Gives the mark of a cell of one sheet by its row and column."""
 
 
 def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
@@ -125,76 +125,62 @@ def _pages(values: Workbook, formulas: Workbook | None, counts: Sequence[int], f
             same = formulas.worksheets[number - 1]
             same.reset_dimensions()
             typed, stored = same.rows, sheet.rows
-        rows = _Sheet(file, sheet.title, number).rows(zip(typed, stored, strict=True), count)
+        mark = partial(CellMark, file, sheet=sheet.title, number=number)
+        rows = _rows(zip(typed, stored, strict=True), count, mark)
         pages.append(Page(sheet.title, rows, sheet.sheet_state != "visible"))
     return tuple(pages)
 
 
-@dataclass(frozen=True, slots=True)
-class _Sheet:
-    """One sheet while it is read: its file, its name and its number among the sheets."""
+def _rows(read: Iterator[tuple[Row, Row]], count: int, mark: Marks) -> tuple[tuple[Cell, ...], ...]:
+    """All rows of a sheet from the first on, as long as their last cell that holds something.
 
-    file: str
-    name: str
-    number: int
+    `read` gives each row twice, with formulas as typed and with stored values; `count` cells must be among them.
+    """
+    from openpyxl.cell.read_only import ReadOnlyCell
 
-    def rows(self, read: Iterator[tuple[Row, Row]], count: int) -> tuple[tuple[Cell, ...], ...]:
-        """All rows from the first on, as long as their last cell that holds something.
-
-        `read` gives each row twice, with formulas as typed and with stored values; `count` cells must be among them.
-        """
-        cells, found = self._collected(read)
-        if found != count:
-            # openpyxl leaves out rows and cells that are not in order.
-            raise RefusedError("sheet-damaged", self._mark(1, 1))
-        lengths = {row: max(columns) for row, columns in cells.items()}
-        last = max(cells, default=0)
-        if sum(lengths.values()) > MOST_CELLS:
-            raise too_large(self._mark(last, 1))
-        return tuple(
-            tuple(
-                cells[row].get(column) or Cell(None, self._mark(row, column), "empty")
-                for column in range(1, lengths.get(row, 0) + 1)
-            )
-            for row in range(1, last + 1)
+    cells: dict[int, dict[int, Cell]] = {}
+    found = 0
+    for number, pair in enumerate(_whole(read, mark), start=1):
+        if number > MOST_GROUPS:
+            raise RefusedError("sheet-damaged", mark(number, 1))
+        for typed, stored in zip(*pair, strict=True):
+            if not isinstance(typed, ReadOnlyCell):
+                continue
+            found += 1
+            row, column = typed.row, typed.column
+            cell = _cell(typed, stored, mark(row, column))
+            if cell.blank:
+                continue
+            if exceeds(row, column):
+                raise too_large(cell.mark)
+            if isinstance(cell.value, str) and len(cell.value) > LONGEST_CELL:
+                raise too_long(cell.mark)
+            cells.setdefault(row, {})[column] = cell
+    if found != count:
+        # openpyxl leaves out rows and cells that are not in order.
+        raise RefusedError("sheet-damaged", mark(1, 1))
+    lengths = {row: max(columns) for row, columns in cells.items()}
+    last = max(cells, default=0)
+    if exceeds(0, 0, sum(lengths.values())):
+        raise too_large(mark(last, 1))
+    return tuple(
+        tuple(
+            cells[row].get(column) or Cell(None, mark(row, column), "empty")
+            for column in range(1, lengths.get(row, 0) + 1)
         )
+        for row in range(1, last + 1)
+    )
 
-    def _collected(self, read: Iterator[tuple[Row, Row]]) -> tuple[dict[int, dict[int, Cell]], int]:
-        """The cells that hold something, by row and column, and the number of all cells met."""
-        from openpyxl.cell.read_only import ReadOnlyCell
 
-        cells: dict[int, dict[int, Cell]] = {}
-        found = 0
-        for number, pair in enumerate(self._whole(read), start=1):
-            if number > MOST_GROUPS:
-                raise RefusedError("sheet-damaged", self._mark(number, 1))
-            for typed, stored in zip(*pair, strict=True):
-                if not isinstance(typed, ReadOnlyCell):
-                    continue
-                found += 1
-                row, column = typed.row, typed.column
-                cell = _cell(typed, stored, self._mark(row, column))
-                if cell.blank:
-                    continue
-                if row > MOST_ROWS or column > MOST_COLUMNS:
-                    raise too_large(cell.mark)
-                if isinstance(cell.value, str) and len(cell.value) > LONGEST_CELL:
-                    raise too_long(cell.mark)
-                cells.setdefault(row, {})[column] = cell
-        return cells, found
-
-    def _whole(self, read: Iterator[tuple[Row, Row]]) -> Iterator[tuple[Row, Row]]:
-        """The rows up to one that openpyxl cannot read, which is refused as the row after the last whole one."""
-        last = 0
-        try:
-            for pair in read:
-                yield pair
-                last += 1
-        except Exception:
-            raise RefusedError("sheet-damaged", self._mark(last + 1, 1)) from None
-
-    def _mark(self, row: int, column: int) -> CellMark:
-        return CellMark(self.file, row, column, self.name, self.number)
+def _whole(read: Iterator[tuple[Row, Row]], mark: Marks) -> Iterator[tuple[Row, Row]]:
+    """The rows up to one that openpyxl cannot read, which is refused as the row after the last whole one."""
+    last = 0
+    try:
+        for pair in read:
+            yield pair
+            last += 1
+    except Exception:
+        raise RefusedError("sheet-damaged", mark(last + 1, 1)) from None
 
 
 def _cell(typed: Any, stored: Any, mark: CellMark) -> Cell:

@@ -30,7 +30,7 @@ Put = Callable[..., Path]
 
 
 def classes(*ids: str) -> Roster:
-    return Roster(tuple(Student(id, "", "", "", "", {}, Mark("r", k)) for k, id in enumerate(ids, start=2)))
+    return Roster(tuple(Student({"id": id}, {}, Mark("r", k)) for k, id in enumerate(ids, start=2)))
 
 
 def ids(count: int) -> tuple[str, ...]:

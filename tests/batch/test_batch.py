@@ -32,7 +32,7 @@ def test_each_student_gets_a_folder(tmp_path: Path) -> None:
         "manifest.json",
     }
     assert batch.events == [("K1", "little", "done"), ("K2", "little", "done")]
-    assert (done.made, done.kept, done.exit_code, done.notes) == (2, 0, 0, ())
+    assert (done.made, done.kept, done.exit_code, done.notes) == (2, 0, 0, [])
 
 
 def test_a_failure_is_a_result(tmp_path: Path) -> None:
@@ -83,7 +83,7 @@ def test_files_are_matched_by_id_whatever_the_spelling(tmp_path: Path) -> None:
     (batch.given / "K7.yaml").write_text("seconds: 0", encoding="utf-8")
     done = batch.run()
     assert len(batch.students("done")) == 2
-    assert done.notes == (f"no student of the roster has this assignment file: {batch.given / 'K7.yaml'}",)
+    assert done.notes == [f"no student of the roster has this assignment file: {batch.given / 'K7.yaml'}"]
     assert done.exit_code == 0
 
 

@@ -42,7 +42,7 @@ def test_a_killed_worker_takes_nothing_along(scheduler: Any, tmp_path: Path) -> 
         yield from results
 
     done = batch.run(pool=with_a_death)
-    assert (done.made, done.failures) == (8, ())
+    assert (done.made, done.failures) == (8, [])
     plain = Batch(tmp_path, {f"K{k}": f"seconds: 0.{k}" for k in range(8)}, "plain")
     plain.run()
     assert tree(batch.out) == tree(plain.out)
