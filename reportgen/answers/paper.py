@@ -11,7 +11,8 @@ from reportgen.answers.key import Key, Role, Row, shown_number, words_of
 from reportgen.answers.sheet import asked_positions, info_rows, open_cells
 from reportgen.case import Case
 from reportgen.document.numbering import number
-from reportgen.document.report import PLATES_UP_TO, Report
+from reportgen.document.outline import open_report
+from reportgen.document.report import PLATES_UP_TO
 from reportgen.document.tree import (
     TEXT_WIDTH,
     BlankLine,
@@ -118,7 +119,7 @@ def task(case: Case, key: Key) -> Document:
 
     Raises `TemplateError`.
     """
-    report = Report(case)
+    report = open_report(case)
     prose, names, words, machine = report.prose, report.names(), case.words, case.analysis.machine
     every = range(1, machine.positions + 1)
     asked = asked_positions(key)

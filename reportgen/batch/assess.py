@@ -144,7 +144,9 @@ def put(
 def summary(graded: Graded, language: Language | None) -> Iterator[str]:
     """A line for each student marked, and how many handed nothing in."""
     for marking in graded.markings:
-        yield word("graded", language).format(
+        yield word(
+            "graded",
+            language,
             id=marking.key.id,
             points=f"{marking.points:g}",
             out_of=f"{marking.out_of:g}",

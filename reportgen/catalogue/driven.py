@@ -32,7 +32,7 @@ from reportgen.mechanism.motion import solve_motion
 from reportgen.mechanism.structure import Inertia, Linkage, LinkPoint
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import PI, Number, Operand, Ref, Symbol
-from reportgen.notation.sheet import Sheet, whole_hundredths
+from reportgen.notation.sheet import Sheet
 from reportgen.notation.symbols import drawn_length
 from reportgen.units import Given
 
@@ -43,7 +43,6 @@ CRANK_DRAWN = 0.04
 MIDDLE = 0.5
 """Where the mass centre of a uniform bar lies."""
 FULL_TURN = 2 * np.pi
-ROUND = 1e-12
 
 Unevenness = Annotated[Given, Ratio(Interval(above=0, most=0.5))]
 
@@ -110,11 +109,6 @@ class Driven(Part):
         """δ of the flywheel, None if none is asked for."""
         return None if self.flywheel is None else self.flywheel.delta.si
 
-    def typed(self, letter: str, link: int) -> Given | None:
-        """What the file gives for a link: its `G`, `m`, `J` or `s`."""
-        given: Given | None = getattr(self, f"{letter}{link}", None)
-        return given
-
     @classmethod
     def checks(cls) -> tuple[Check, ...]:
         """One speed, one of weight and mass, something for a flywheel to even out."""
@@ -143,85 +137,105 @@ def needs_loads(keys: Iterable[str]) -> Check:
 # --- on the sheet -----------------------------------------------------------------------------------
 
 
-def datum(q: Sheet, id: str, given: Given, symbol: Symbol | str = "", kind: str = "") -> Ref:
-    """Enter a quantity as typed; a ratio `1/3.6` is worked out on the page."""
-    top, slash, bottom = given.text.partition("/")
-    if slash and not given.unit:
-        return q.define(id, Number(float(top)) / float(bottom), symbol, kind)
-    return q.give(id, given.si, symbol, kind)
+class GivenSheet(Sheet):
+    """The sheet that a machine opens: its given data as typed, and what the file gives for its links."""
 
+    def __init__(self, given: Driven | None = None) -> None:
+        super().__init__()
+        self.given = given
 
-def enter_speed(q: Sheet, n: Given | None, omega1: Given | None, flywheel: Flywheel | None = None) -> None:
-    """ω₁ (its size) as given, or ω₁ = 2πn/60 from the speed in rpm; δ if a flywheel is asked for.
+    def datum(self, id: str, given: Given, symbol: Symbol | str = "", kind: str = "") -> Ref:
+        """Enter a quantity as typed; a ratio `1/3.6` is worked out on the page."""
+        top, slash, bottom = given.text.partition("/")
+        if slash and not given.unit:
+            return self.define(id, Number(float(top)) / float(bottom), symbol, kind)
+        return self.give(id, given.si, symbol, kind)
 
-    A file with neither is refused by the kind's checks.
-    """
-    if n is not None:
-        rpm = n.value if n.unit == "rpm" else n.si * 30 / np.pi
-        q.define("omega.1", 2 * PI * q.give("n", rpm) / 60)
-    elif omega1 is not None:
-        q.give("omega.1", omega1.si)
-    if flywheel is not None:
-        datum(q, "unevenness", flywheel.delta, Symbol("δ", "ω"), "ratio")
+    def speed(self, n: Given | None = None, omega1: Given | None = None, flywheel: Flywheel | None = None) -> None:
+        """ω₁ (its size) as given, or ω₁ = 2πn/60 from the speed in rpm; δ if a flywheel is asked for.
 
+        A file with neither is refused by the kind's checks.
+        """
+        if self.given is not None:
+            n, omega1, flywheel = self.given.n, self.given.omega1, self.given.flywheel
+        if n is not None:
+            rpm = n.value if n.unit == "rpm" else n.si * 30 / np.pi
+            self.define("omega.1", 2 * PI * self.give("n", rpm) / 60)
+        elif omega1 is not None:
+            self.give("omega.1", omega1.si)
+        if flywheel is not None:
+            self.datum("unevenness", flywheel.delta, Symbol("δ", "ω"), "ratio")
 
-def enter_drawn(q: Sheet, start: str, end: str, asked: Given | None, default: float = CRANK_DRAWN) -> None:
-    """The crank's drawn length: as asked for, else `default` (m on paper)."""
-    q.give(f"drawn.{start}{end}", asked.si if asked else default, drawn_length(start, end))
+    def drawn(self, start: str, end: str, asked: Given | None, default: float = CRANK_DRAWN) -> None:
+        """The crank's drawn length: as asked for, else `default` (m on paper)."""
+        self.give(f"drawn.{start}{end}", asked.si if asked else default, drawn_length(start, end))
 
+    def drawn_by(self, scale: float, start: str, end: str, crank: Ref) -> None:
+        """The crank's drawn length by a round scale of the drawing."""
+        μ = self.give("scale", scale, Symbol("μ", "l"), "length scale")
+        self.define(f"drawn.{start}{end}", crank / μ, drawn_length(start, end))
 
-def enter_mass(q: Sheet, link: int, weight: Given | None, mass: Given | None) -> None:
-    """Weight and mass of a link: one as typed, the other from it; none of a link without mass."""
-    if weight is not None:
-        q.define(f"m.{link}", q.give(f"G{link}", weight.si) / q["g"])
-    elif mass is not None:
-        q.define(f"G{link}", q.give(f"m.{link}", mass.si) * q["g"])
+    # --- links
 
+    def typed(self, letter: str, link: int) -> Given | None:
+        """What the file gives for a link: its `G`, `m`, `J` or `s`."""
+        given: Given | None = getattr(self.given, f"{letter}{link}", None)
+        return given
 
-def enter_moment(q: Sheet, link: int, given: Given | None, default: Operand | None) -> None:
-    """J about the mass centre: as given, else its `default`, such as m l²/12; none where there is no default."""
-    if given is not None:
-        q.give(f"J.{link}", given.si)
-    elif default is not None:
-        q.define(f"J.{link}", default)
+    def gravity(self, letters: str = "Gm") -> None:
+        """g, if one of these letters is given for any link."""
+        assert self.given is not None, "a sheet without parameters has no links"
+        if any(self.typed(letter, link) for letter in letters for link in self.given.links[letter]):
+            self.datum("g", self.given.g)
 
+    def mass(self, link: int, weight: Given | None = None, mass: Given | None = None, like: int = 0) -> None:
+        """Weight and mass of a link: one as typed, or as that of the link `like`, the other from it; else none."""
+        weight, mass = weight or self.typed("G", link), mass or self.typed("m", link)
+        G, m = f"G{link}", f"m.{link}"
+        if weight is not None:
+            self.define(m, self.give(G, weight.si) / self["g"])
+        elif mass is not None:
+            self.define(G, self.give(m, mass.si) * self["g"])
+        elif like and self.families[f"G{like}"].definition is None:
+            self.define(m, self.define(G, self[f"G{like}"]) / self["g"])
+        elif like:
+            self.define(G, self.define(m, self[f"m.{like}"]) * self["g"])
 
-def enter_bar(q: Sheet, given: Driven, link: int, start: str, end: str, always: bool = False) -> None:
-    """A straight link from pin `start` to pin `end`: the place of its mass centre, s and l_AS = s·l, its mass, its J.
+    def moment(self, link: int, default: Operand | None) -> None:
+        """J about the mass centre: as given, else its `default`, such as m l²/12; none where there is no default."""
+        given = self.typed("J", link)
+        if given is not None:
+            self.give(f"J.{link}", given.si)
+        elif default is not None:
+            self.define(f"J.{link}", default)
 
-    The centre of a link without mass is entered only if its place is given, or `always`.
-    """
-    share, weight, mass, moment = (given.typed(letter, link) for letter in "sGmJ")
-    if not (always or any((share, weight, mass, moment))):
-        return
-    length, centre = q[f"l.{start}{end}"], f"S{link}"
-    s = q.give(f"s.{link}", MIDDLE if share is None else share.si, kind="ratio")
-    q.define(f"l.{start}{centre}", s * length)
-    enter_mass(q, link, weight, mass)
-    massive = weight is not None or mass is not None
-    enter_moment(q, link, moment, q[f"m.{link}"] * length**2 / 12 if massive else None)
+    def bar(self, link: int, start: str, end: str, always: bool = False) -> None:
+        """A straight link from pin `start` to pin `end`: the place of its mass centre, l_AS = s·l, its mass, its J.
 
+        The centre of a link without mass is entered only if its place is given, or `always`.
+        """
+        if not (always or any(self.typed(letter, link) for letter in "sGmJ")):
+            return
+        length, share = self[f"l.{start}{end}"], self.typed("s", link)
+        s = self.give(f"s.{link}", MIDDLE if share is None else share.si, kind="ratio")
+        self.define(f"l.{start}S{link}", s * length)
+        self.mass(link)
+        m = self.find(f"m.{link}")
+        self.moment(link, None if m is None else m * length**2 / 12)
 
-def centre_points(q: Sheet, pins: Mapping[int, str]) -> tuple[LinkPoint, ...]:
-    """The mass centres S2, … that the sheet places, by their links and the pins they are measured from."""
-    arms = {link: f"l.{pin}S{link}" for link, pin in pins.items()}
-    return tuple(LinkPoint(f"S{link}", link, complex(q.si(arm))) for link, arm in arms.items() if arm in q)
+    def centre_points(self, pins: Mapping[int, str]) -> tuple[LinkPoint, ...]:
+        """The mass centres S2, … that stand here, by their links and the pins they are measured from."""
+        arms = {link: self.find(f"l.{pin}S{link}") for link, pin in pins.items()}
+        return tuple(LinkPoint(f"S{link}", link, complex(self.si(arm))) for link, arm in arms.items() if arm)
 
+    def inertias(self, centres: Mapping[int, str]) -> tuple[Inertia, ...]:
+        """The links with a mass or a moment of inertia, by their mass centres."""
 
-def inertias(q: Sheet, centres: Mapping[int, str]) -> tuple[Inertia, ...]:
-    """The links with a mass or a moment of inertia on the sheet, by their mass centres."""
+        def size(id: str) -> float:
+            return self.si(id) if id in self else 0.0
 
-    def size(id: str) -> float:
-        return q.si(id) if id in q else 0.0
-
-    every = (Inertia(link, centre, size(f"m.{link}"), size(f"J.{link}")) for link, centre in centres.items())
-    return tuple(one for one in every if one.mass or one.moment)
-
-
-def give_angle(q: Sheet, id: str, angle: np.ndarray, symbol: Symbol | str = "") -> Ref:
-    """Enter an angle at every position [N], within one turn; whole hundredths of a degree print as they are."""
-    turned = np.mod(angle + ROUND, FULL_TURN) - ROUND
-    return q.give(id, turned, symbol, "angle", exact=whole_hundredths(turned), scale=1.0)
+        every = (Inertia(link, centre, size(f"m.{link}"), size(f"J.{link}")) for link, centre in centres.items())
+        return tuple(one for one in every if one.mass or one.moment)
 
 
 def even_angles(positions: Positions, turns: int = 1) -> np.ndarray:

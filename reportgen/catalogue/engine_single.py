@@ -18,17 +18,7 @@ from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Acceleration, Interval, Length, Ratio, Share, quantity
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import (
-    CRANK_DRAWN,
-    Driven,
-    datum,
-    driven,
-    enter_drawn,
-    enter_mass,
-    enter_moment,
-    enter_speed,
-    inertias,
-)
+from reportgen.catalogue.driven import CRANK_DRAWN, Driven, GivenSheet, driven
 from reportgen.catalogue.loads import Piston, gas_forces
 from reportgen.catalogue.machine import Machine, lettered
 from reportgen.catalogue.sliders import (
@@ -40,8 +30,6 @@ from reportgen.catalogue.sliders import (
     offset_slider,
 )
 from reportgen.notation.expressions import PI, Number, Ref, Symbol, sqrt, tan
-from reportgen.notation.sheet import Sheet
-from reportgen.notation.symbols import drawn_length
 from reportgen.units import Given
 
 TURNS = 2
@@ -144,21 +132,21 @@ CHECKS = (
 # --- the machine ----------------------------------------------------------------------------------
 
 
-def _enter_lengths(q: Sheet, given: Parameters) -> tuple[Ref, Ref]:
+def _enter_lengths(q: GivenSheet, given: Parameters) -> tuple[Ref, Ref]:
     """Crank R and rod L, from the triangle that A makes with the dead centres, or as given, then with the stroke.
 
     The triangle has the sides L + R, L − R and H, at A the angle θ = 180°(K − 1)/(K + 1) and the height e, whence
     4R² = H² − q₁ and 4L² = H² + q₂ with q₁ = 2He tan(θ/2), q₂ = 2He/tan(θ/2).
     """
-    e = datum(q, "e", given.e) if given.e.si else None
+    e = q.datum("e", given.e) if given.e.si else None
     if given.R is not None and given.L is not None:
-        R, L = datum(q, "R", given.R), datum(q, "L", given.L)
+        R, L = q.datum("R", given.R), q.datum("L", given.L)
         q.define("H", 2 * R if e is None else sqrt((L + R) ** 2 - e**2) - sqrt((L - R) ** 2 - e**2))
         return R, L
     assert given.H is not None
     assert given.K is not None
     assert e is not None, "H and K without e are refused by the kind's checks"
-    H, K = datum(q, "H", given.H), datum(q, "K", given.K)
+    H, K = q.datum("H", given.H), q.datum("K", given.K)
     θ = q.define("theta", Number(180.0, unit="°") * (K - 1) / (K + 1))
     q1 = q.define("q.1", 2 * H * e * tan(θ / 2), Symbol("q", "1"), "product of lengths")
     q2 = q.define("q.2", 2 * H * e / tan(θ / 2), Symbol("q", "2"), "product of lengths")
@@ -167,7 +155,7 @@ def _enter_lengths(q: Sheet, given: Parameters) -> tuple[Ref, Ref]:
 
 def _geometry(given: Parameters, positions: Positions) -> OffsetSlider:
     """The mechanism in the axes that turn with the rotation, the cylinder on their positive side."""
-    q = Sheet()
+    q = GivenSheet(given)
     R, L = _enter_lengths(q, given)
     return OffsetSlider(q.si(R), q.si(L), given.e.si, UP, positions.sign)
 
@@ -176,30 +164,29 @@ def machine(assignment: Assignment) -> Machine:
     """The engine of an assignment: synthesis of crank and rod, linkage, gas, closed formulas."""
     given: Parameters = assignment.parameters
     positions, crank = assignment.positions, assignment.drawing.crank
-    q = Sheet()
+    q = GivenSheet(given)
     R, L = _enter_lengths(q, given)
-    D, s = datum(q, "D", given.D), datum(q, "s", given.s)
-    datum(q, "g", given.g)
-    enter_speed(q, given.n, given.omega1, given.flywheel)
+    D, s = q.datum("D", given.D), q.datum("s", given.s)
+    q.datum("g", given.g)
+    q.speed()
     r = q.define("l.AB", R)
     q.define("l.BC", L)
     q.define("l.BS2", s * L)
     if crank is not None:
-        enter_drawn(q, "A", "B", crank)
+        q.drawn("A", "B", crank)
     else:  # by a scale of two figures
-        μ = q.give("scale", float(f"{q.si(R) / CRANK_DRAWN:.1e}"), Symbol("μ", "l"), "length scale")
-        q.define("drawn.AB", r / μ, drawn_length("A", "B"))
+        q.drawn_by(float(f"{q.si(R) / CRANK_DRAWN:.1e}"), "A", "B", r)
     q.define("F", PI * D**2 / 4)
     for link in (1, 2, 3):
-        enter_mass(q, link, given.typed("G", link), given.typed("m", link))
+        q.mass(link)
     m2 = q["m.2"]
-    ρ = None if given.rho is None or given.typed("J", 2) else q.give("rho", given.rho.si, "ρ", "ratio")
-    enter_moment(q, 2, given.typed("J", 2), m2 * L**2 / 12 if ρ is None else m2 * (ρ * L) ** 2)
+    ρ = None if given.rho is None or q.typed("J", 2) else q.give("rho", given.rho.si, "ρ", "ratio")
+    q.moment(2, m2 * L**2 / 12 if ρ is None else m2 * (ρ * L) ** 2)
 
     geometry = _geometry(given, positions)
     start = _start(geometry, positions)
     places, labels = lettered(positions.count, TURNS, _special(geometry, start))
-    linkage = geometry.linkage(inertias(q, {1: "A", 2: "S2", 3: "C"}), given.g.si, q.si("l.BS2"))
+    linkage = geometry.linkage(q.inertias({1: "A", 2: "S2", 3: "C"}), given.g.si, q.si("l.BS2"))
     piston = Piston.on(geometry.course(start, TURNS), given.D.si, assignment.indicator.table)
     angles, offset = start + np.tile(places, TURNS), q["e"] if given.e.si else None
     return driven(

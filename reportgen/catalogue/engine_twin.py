@@ -16,17 +16,7 @@ from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Angle, Length, RodRatio, Share
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import (
-    Driven,
-    datum,
-    driven,
-    enter_drawn,
-    enter_mass,
-    enter_moment,
-    enter_speed,
-    even_angles,
-    inertias,
-)
+from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.loads import Piston, gas_forces
 from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.sliders import centred_slider, compared
@@ -114,22 +104,22 @@ def machine(assignment: Assignment) -> Machine:
     """The engine of an assignment: synthesis R = H/2, L = R/λ, linkage, gas, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
-    q = Sheet()
-    H, λ = datum(q, "H", given.H), datum(q, "lambda", given.lambda_)
-    D, s = datum(q, "D", given.D), datum(q, "s", given.s)
-    datum(q, "g", given.g)
-    datum(q, "crank.angle", given.crank_angle, "δ", "angle")
-    enter_speed(q, given.n, given.omega1, given.flywheel)
+    q = GivenSheet(given)
+    H, λ = q.datum("H", given.H), q.datum("lambda", given.lambda_)
+    D, s = q.datum("D", given.D), q.datum("s", given.s)
+    q.datum("g", given.g)
+    q.datum("crank.angle", given.crank_angle, "δ", "angle")
+    q.speed()
     R = q.define("R", H / 2)
     L = q.define("L", R / λ)
     for id, length in {"O1A": R, "O1C": R, "AB": L, "CD": L, "AS2": s * L, "CS4": s * L}.items():
         q.define(f"l.{id}", length)
-    enter_drawn(q, "O1", "A", assignment.drawing.crank, CRANK_DRAWN)
+    q.drawn("O1", "A", assignment.drawing.crank, CRANK_DRAWN)
     q.define("F", PI * D**2 / 4)
     for link in (2, 3, 4, 5):
-        _enter_mass(q, given, link)
-    enter_moment(q, 2, given.typed("J", 2), q["m.2"] * L**2 / 12)
-    enter_moment(q, 4, given.typed("J", 4), q["J.2"] if given.typed("J", 2) else q["m.4"] * L**2 / 12)
+        q.mass(link, like=link - 2)
+    q.moment(2, q["m.2"] * L**2 / 12)
+    q.moment(4, q["J.2"] if q.typed("J", 2) else q["m.4"] * L**2 / 12)
 
     radius, rod, centre, guide = q.si(R), q.si(L), complex(q.si("l.AS2")), Guide(0j, UP)
     second_pin = radius * cmath.exp(1j * turn * given.crank_angle.si)
@@ -141,32 +131,21 @@ def machine(assignment: Assignment) -> Machine:
             Dyad("RRP", (4, 5), "C", "D", guide, (rod, 0.0)),
         ),
         points=(LinkPoint("C", 1, second_pin), LinkPoint("S2", 2, centre), LinkPoint("S4", 4, centre)),
-        inertias=inertias(q, {2: "S2", 3: "B", 4: "S4", 5: "D"}),
+        inertias=q.inertias({2: "S2", 3: "B", 4: "S4", 5: "D"}),
         gravity=-1j * given.g.si,
     )
     indicator, possible = assignment.indicator, possible_phases(given.crank_angle.si, positions)
     phases = next(iter(possible.values())) if indicator.firing is None else possible[indicator.firing]
-    first, second = (
-        Piston(
-            link,
-            link - 1,
-            pin,
-            crank_pin,
-            top=1j * (rod + radius),
-            bottom=1j * (rod - radius),
-            top_angle=0.0,
-            bottom_angle=math.pi,
-            phase=phase,
-            bore=given.D.si,
-            indicator=indicator.table,
-        )
+    top, bottom = 1j * (rod + radius), 1j * (rod - radius)
+    pistons = tuple(
+        Piston(link, link - 1, pin, crank_pin, top, bottom, 0.0, math.pi, phase, given.D.si, indicator.table)
         for link, pin, crank_pin, phase in zip((3, 5), "BD", "AC", phases, strict=True)
     )
     steps = even_angles(positions, TURNS)
 
     def formulas(q: Sheet) -> None:
-        centred_slider(q, 2, 3, "B", first.phase + steps, "l.AS2", "S2")
-        centred_slider(q, 4, 5, "D", second.phase + steps, "l.CS4", "S4")
+        centred_slider(q, 2, 3, "B", phases[0] + steps, "l.AS2", "S2")
+        centred_slider(q, 4, 5, "D", phases[1] + steps, "l.CS4", "S4")
 
     plans = ("v.B", "omega.2", "v.S2", "a.B", "eps.2", "a.S2", "v.D", "omega.4", "v.S4", "a.D", "eps.4", "a.S4")
     return driven(
@@ -176,20 +155,9 @@ def machine(assignment: Assignment) -> Machine:
         UP if positions.start is None else positions.start.si,
         {"sizes": "synthesis", "load": "cycle"},
         formulas=formulas,
-        pistons=(first, second),
-        applied=gas_forces((first, second)),
-        sliders=(first, second),
+        pistons=pistons,
+        applied=gas_forces(pistons),
+        sliders=pistons,
         paths=("S2", "S4"),
         compared=compared(plans),
     )
-
-
-def _enter_mass(q: Sheet, given: Parameters, link: int) -> None:
-    """Weight and mass of a link, as typed or as those of the same link of the other cylinder."""
-    weight, mass = given.typed("G", link), given.typed("m", link)
-    if weight or mass:
-        enter_mass(q, link, weight, mass)
-    elif given.typed("G", link - 2):
-        q.define(f"m.{link}", q.define(f"G{link}", q[f"G{link - 2}"]) / q["g"])
-    else:
-        q.define(f"G{link}", q.define(f"m.{link}", q[f"m.{link - 2}"]) * q["g"])

@@ -16,18 +16,7 @@ from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Angle, Length, Whole, quantity
 from reportgen.catalogue import given_loads, reach
-from reportgen.catalogue.driven import (
-    Driven,
-    centre_points,
-    crank_motion,
-    datum,
-    driven,
-    enter_bar,
-    enter_drawn,
-    enter_mass,
-    enter_speed,
-    inertias,
-)
+from reportgen.catalogue.driven import Driven, GivenSheet, crank_motion, driven
 from reportgen.catalogue.loads import Applied, Constant, Piston, course, gas_forces
 from reportgen.catalogue.machine import Machine, lettered
 from reportgen.catalogue.reach import Member
@@ -129,33 +118,32 @@ CHECKS = (*given_loads.DIAGRAM_CHECKS, _check_loads, _check_assembly)
 # --- the machine ----------------------------------------------------------------------------------
 
 
-def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> Sheet:
+def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> GivenSheet:
     """Given data, λ = R/L, the angle between the cylinders, masses and moments of inertia, the area of a piston."""
-    q, rod = Sheet(), f"{given.joint}E"
+    q, rod = GivenSheet(given), f"{given.joint}E"
     for id, length in {"AB": given.AB, "BC": given.BC, "BD": given.BD, rod: given.DE}.items():
         if length.si:
-            datum(q, f"l.{id}", length)
-    datum(q, "alpha", given.alpha, "α", "angle")
-    datum(q, "beta", given.beta, "β", "angle")
-    enter_speed(q, given.n, given.omega1, given.flywheel)
-    enter_drawn(q, "A", "B", crank)
+            q.datum(f"l.{id}", length)
+    q.datum("alpha", given.alpha, "α", "angle")
+    q.datum("beta", given.beta, "β", "angle")
+    q.speed()
+    q.drawn("A", "B", crank)
     q.define("lambda", q.define("R", q["l.AB"]) / q.define("L", q["l.BC"]))
     q.give("delta", turn * (given.beta.si - given.alpha.si), "δ", "angle")
     for force, pin in ((given.PC, "C"), (given.PE, "E")):
         if force is not None:
-            datum(q, f"P{pin}.given", force, Symbol("P", pin), "force")
+            q.datum(f"P{pin}.given", force, Symbol("P", pin), "force")
     if given.D is not None:
-        q.define("F", PI * datum(q, "D", given.D) ** 2 / 4)
-    if any(given.typed(letter, link) for letter in "Gm" for link in (2, 3, 4, 5)):
-        datum(q, "g", given.g)
-    enter_bar(q, given, 2, "B", "C")
-    enter_bar(q, given, 4, given.joint, "E")
+        q.define("F", PI * q.datum("D", given.D) ** 2 / 4)
+    q.gravity()
+    q.bar(2, "B", "C")
+    q.bar(4, given.joint, "E")
     for piston in (3, 5):
-        enter_mass(q, piston, given.typed("G", piston), given.typed("m", piston))
+        q.mass(piston)
     return q
 
 
-def _linkage(given: Parameters, q: Sheet) -> Linkage:
+def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
     articulation = (LinkPoint("D", 2, complex(given.BD.si)),) if given.BD.si else ()
     first, second = (Guide(0j, axis.si) for axis in (given.alpha, given.beta))
     return Linkage(
@@ -165,8 +153,8 @@ def _linkage(given: Parameters, q: Sheet) -> Linkage:
             Dyad("RRP", (2, 3), "B", "C", first, (q.si("L"), 0.0)),
             Dyad("RRP", (4, 5), given.joint, "E", second, (given.DE.si, 0.0)),
         ),
-        points=(*articulation, *centre_points(q, {2: "B", 4: given.joint})),
-        inertias=inertias(q, {2: "S2", 3: "C", 4: "S4", 5: "E"}),
+        points=(*articulation, *q.centre_points({2: "B", 4: given.joint})),
+        inertias=q.inertias({2: "S2", 3: "C", 4: "S4", 5: "E"}),
         gravity=-1j * given.g.si,
     )
 

@@ -13,17 +13,7 @@ from reportgen.assignment.common import Assignment, Draft, Part
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Angle, Length, quantity
 from reportgen.catalogue import reach
-from reportgen.catalogue.driven import (
-    Driven,
-    centre_points,
-    datum,
-    driven,
-    enter_bar,
-    enter_drawn,
-    enter_speed,
-    even_angles,
-    inertias,
-)
+from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.four_bar_formulas import FourBar, analytic_method, equations, proportions, triangle
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
 from reportgen.catalogue.loads import Applied, Constant
@@ -31,7 +21,6 @@ from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.sliders import compared
 from reportgen.mechanism.structure import Crank, Dyad, Linkage, LinkPoint
 from reportgen.notation.expressions import Symbol
-from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
 
 TURNS = 1
@@ -78,35 +67,34 @@ class Parameters(
         return 1 if self.branch == "open" else -1
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> Sheet:
+def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     """Given data, coupler points, mass centres, masses and moments of inertia, Grashof's sums."""
-    q = Sheet()
+    q = GivenSheet(given)
     for id, length in {"AB": given.AB, "BC": given.BC, "DC": given.CD, "AD": given.AD}.items():
-        datum(q, f"l.{id}", length, Symbol("l", "CD" if id == "DC" else id))
+        q.datum(f"l.{id}", length, Symbol("l", "CD" if id == "DC" else id))
     if given.frame.si:
-        datum(q, "frame", given.frame, "α", "angle")
-    enter_speed(q, given.n, given.omega1, given.flywheel)
-    enter_drawn(q, "A", "B", crank)
+        q.datum("frame", given.frame, "α", "angle")
+    q.speed()
+    q.drawn("A", "B", crank)
     if given.E is not None:
-        datum(q, "E.along", given.E.along, Symbol("x", "E"), "length")
-        datum(q, "E.across", given.E.across, Symbol("y", "E"), "length")
+        q.datum("E.along", given.E.along, Symbol("x", "E"), "length")
+        q.datum("E.across", given.E.across, Symbol("y", "E"), "length")
         triangle(q, "E")
     if given.BF is not None:
-        datum(q, "l.BF", given.BF)
-    if any(given.typed(letter, link) for letter in "GmJ" for link in LINKS):
-        datum(q, "g", given.g)
+        q.datum("l.BF", given.BF)
+    q.gravity("GmJ")
     for link, (start, end) in LINKS.items():
-        enter_bar(q, given, link, start, end)
+        q.bar(link, start, end)
     if given.torque is not None:
-        datum(q, "M.given", given.torque.M, Symbol("M", "3"))
+        q.datum("M.given", given.torque.M, Symbol("M", "3"))
     if given.force is not None:
-        datum(q, "P.given", given.force.P, Symbol("P", "3"), "force")
-        datum(q, "P.angle", given.force.angle, Symbol("α", "P"), "angle")
+        q.datum("P.given", given.force.P, Symbol("P", "3"), "force")
+        q.datum("P.angle", given.force.angle, Symbol("α", "P"), "angle")
     proportions(q)
     return q
 
 
-def _linkage(given: Parameters, q: Sheet) -> Linkage:
+def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
     """The mechanism with A in the origin."""
     e = () if given.E is None else (LinkPoint("E", 2, complex(given.E.along.si, given.E.across.si)),)
     f = () if given.BF is None else (LinkPoint("F", 2, complex(given.BF.si)),)
@@ -115,8 +103,8 @@ def _linkage(given: Parameters, q: Sheet) -> Linkage:
         ground={"A": 0j, "D": cmath.rect(q.si("l.AD"), given.frame.si)},
         driver=Crank("A", "B", q.si("l.AB")),
         dyads=(Dyad("RRR", (2, 3), "B", "C", "D", lengths, given.side),),
-        points=(*e, *f, *centre_points(q, {link: start for link, (start, _) in LINKS.items()})),
-        inertias=inertias(q, {link: f"S{link}" for link in LINKS}),
+        points=(*e, *f, *q.centre_points({link: start for link, (start, _) in LINKS.items()})),
+        inertias=q.inertias({link: f"S{link}" for link in LINKS}),
         gravity=-1j * given.g.si,
     )
 

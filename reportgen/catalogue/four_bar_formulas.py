@@ -12,7 +12,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 
-from reportgen.catalogue.driven import give_angle
 from reportgen.catalogue.loads import Floats
 from reportgen.catalogue.sliders import components
 from reportgen.mechanism.structure import LinkPoint
@@ -125,7 +124,7 @@ def analytic_method(q: Sheet, bar: FourBar) -> None:
 def _positions(q: Sheet, bar: FourBar) -> tuple[Ref, Ref, Ref]:
     """BD, then φ₂ = sβ − δ and φ₃ = 180° − δ − sγ, each from BD at once: sums of rounded angles lose a digit."""
     AB, BC, CD, AD = q["l.AB"], q["l.BC"], q["l.DC"], q["l.AD"]
-    φ1 = give_angle(q, "f.phi.1", bar.φ1)
+    φ1 = q.angle("f.phi.1", bar.φ1)
     across, along = AB * sin(φ1), AD - AB * cos(φ1)
     δ = atan(across / along) if _rocks(q) else atan2(across, along)
     BD = q.define("l.BD", sqrt(AB**2 + AD**2 - 2 * AB * AD * cos(φ1)))

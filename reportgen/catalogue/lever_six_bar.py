@@ -17,20 +17,14 @@ from reportgen.catalogue.driven import (
     Coordinate,
     Driven,
     FixedPoint,
-    centre_points,
+    GivenSheet,
     crank_motion,
-    datum,
     driven,
-    enter_bar,
-    enter_mass,
-    enter_speed,
-    inertias,
 )
 from reportgen.catalogue.loads import Applied, Constant, Law, opposing
 from reportgen.catalogue.machine import Machine
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.notation.expressions import Symbol
-from reportgen.notation.sheet import Sheet
 from reportgen.notation.symbols import drawn_length
 from reportgen.units import Given
 
@@ -64,31 +58,30 @@ class Parameters(
     force: SliderForce | None = None
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> Sheet:
+def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     """Given data, the place of E, mass centres, masses and moments of inertia."""
-    q = Sheet()
-    datum(q, "l.BA", given.AB, Symbol("l", "AB"))
-    datum(q, "l.AC", given.AC)
-    datum(q, "l.DC", given.CD, Symbol("l", "CD"))
-    datum(q, "l.CE", given.CE)
-    datum(q, "l.EF", given.EF)
-    datum(q, "D.x", given.D.x, Symbol("x", "D"), "length")
-    datum(q, "D.y", given.D.y, Symbol("y", "D"), "length")
-    datum(q, "F.y", given.guide, Symbol("y", "F"), "length")
-    enter_speed(q, given.n, given.omega1, given.flywheel)
+    q = GivenSheet(given)
+    q.datum("l.BA", given.AB, Symbol("l", "AB"))
+    q.datum("l.AC", given.AC)
+    q.datum("l.DC", given.CD, Symbol("l", "CD"))
+    q.datum("l.CE", given.CE)
+    q.datum("l.EF", given.EF)
+    q.datum("D.x", given.D.x, Symbol("x", "D"), "length")
+    q.datum("D.y", given.D.y, Symbol("y", "D"), "length")
+    q.datum("F.y", given.guide, Symbol("y", "F"), "length")
+    q.speed()
     q.give("drawn.BA", crank.si if crank else CRANK_DRAWN, drawn_length("A", "B"))
     q.define("l.AE", q["l.AC"] - q["l.CE"])
-    if any(given.typed(letter, link) for letter in "GmJ" for link in (*BARS, 5)):
-        datum(q, "g", given.g)
+    q.gravity("GmJ")
     for link, (start, end) in BARS.items():
-        enter_bar(q, given, link, start, end, always=True)
-    enter_mass(q, 5, given.typed("G", 5), given.typed("m", 5))
+        q.bar(link, start, end, always=True)
+    q.mass(5)
     if given.force is not None:
-        datum(q, "P.given", given.force.P, Symbol("P", "5"), "force")
+        q.datum("P.given", given.force.P, Symbol("P", "5"), "force")
     return q
 
 
-def _linkage(given: Parameters, q: Sheet) -> Linkage:
+def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
     """The mechanism with B in the origin."""
     left, right = (1 if side else -1 for side in (given.C == "left", given.F == "right"))
     return Linkage(
@@ -100,9 +93,9 @@ def _linkage(given: Parameters, q: Sheet) -> Linkage:
         ),
         points=(
             LinkPoint("E", 2, complex(q.si("l.AE"))),
-            *centre_points(q, {link: start for link, (start, _) in BARS.items()}),
+            *q.centre_points({link: start for link, (start, _) in BARS.items()}),
         ),
-        inertias=inertias(q, {**{link: f"S{link}" for link in BARS}, 5: "F"}),
+        inertias=q.inertias({**{link: f"S{link}" for link in BARS}, 5: "F"}),
         gravity=-1j * given.g.si,
     )
 

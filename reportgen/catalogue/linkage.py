@@ -16,7 +16,7 @@ from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.catalogue import linkage_checks, linkage_words
 from reportgen.catalogue import linkage_file as file
-from reportgen.catalogue.driven import datum, enter_mass, enter_speed, needs_loads, outline
+from reportgen.catalogue.driven import GivenSheet, needs_loads, outline
 from reportgen.catalogue.linkage_file import Parameters
 from reportgen.catalogue.loads import (
     FULL_TURN,
@@ -147,34 +147,34 @@ def _motion_at(machine: Machine) -> MotionAt:
     return motion_at
 
 
-def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | None) -> Sheet:
+def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | None) -> GivenSheet:
     """Fixed points, lengths, speed, drawn length, masses and moments of inertia."""
-    q, driver = Sheet(), given.driver
+    q, driver = GivenSheet(), given.driver
     for name, place in linkage.ground.items():
         for axis, value in (("x", place.real), ("y", place.imag)):
             q.give(f"frame.{axis}.{name}", value, Symbol(axis, name), "length")
     if isinstance(driver, file.CrankDriver):
-        datum(q, f"l.{driver.centre}{driver.pin}", driver.length)
-        enter_speed(q, driver.n, driver.omega1, given.flywheel)
+        q.datum(f"l.{driver.centre}{driver.pin}", driver.length)
+        q.speed(driver.n, driver.omega1, given.flywheel)
         paper = _drawn(built, driver.length.si) if drawn is None else drawn
         q.give(f"drawn.{driver.centre}{driver.pin}", paper, drawn_length(driver.centre, driver.pin))
     else:
-        datum(q, f"v.{driver.pin}", driver.speed)
+        q.datum(f"v.{driver.pin}", driver.speed)
         q.give("span", built.span, Symbol("H", "1"), "length")
     for group in given.groups:
         if isinstance(group, file.RRR):
             first, middle, last = group.joints
             for outer, length in zip((first, last), group.lengths, strict=True):
-                datum(q, f"l.{outer}{middle}", length)
+                q.datum(f"l.{outer}{middle}", length)
         elif isinstance(group, file.RRP):
-            datum(q, "l." + "".join(group.joints), group.length)
+            q.datum("l." + "".join(group.joints), group.length)
     if any(body.mass for body in linkage.inertias):
-        datum(q, "g", given.g)
+        q.datum("g", given.g)
     for body in given.masses:
-        enter_mass(q, body.link, body.G, body.m)
+        q.mass(body.link, body.G, body.m)
         if body.J is not None:
             at = body.at if body.at[0] == "S" else f"{body.at}{body.link}"
-            datum(q, f"J.{body.link}", body.J, Symbol("J", at))
+            q.datum(f"J.{body.link}", body.J, Symbol("J", at))
     return q
 
 

@@ -12,18 +12,7 @@ import math
 from reportgen.assignment.common import Assignment
 from reportgen.assignment.fields import Angle, Length
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import (
-    Driven,
-    datum,
-    driven,
-    enter_drawn,
-    enter_mass,
-    enter_speed,
-    even_angles,
-    give_angle,
-    inertias,
-    natural_lines,
-)
+from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles, natural_lines
 from reportgen.catalogue.loads import FULL_TURN, Applied, Course, TableLaw
 from reportgen.catalogue.machine import Machine
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage
@@ -48,18 +37,17 @@ def machine(assignment: Assignment) -> Machine:
     """The Scotch yoke of an assignment: linkage, force on the yoke, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
-    q = Sheet()
-    r = datum(q, "l.OA", given.r)
+    q = GivenSheet(given)
+    r = q.datum("l.OA", given.r)
     if given.guide.si:
-        datum(q, "guide.angle", given.guide, "α", "angle")
-    enter_speed(q, given.n, given.omega1, given.flywheel)
-    enter_drawn(q, "O", "A", assignment.drawing.crank)
+        q.datum("guide.angle", given.guide, "α", "angle")
+    q.speed()
+    q.drawn("O", "A", assignment.drawing.crank)
     if isinstance(given.force, given_loads.ConstantForce):
-        datum(q, "P.given", given.force.F, "P", "force")
-    if any(given.typed(letter, link) for letter in "Gm" for link in (2, 3)):
-        datum(q, "g", given.g)
+        q.datum("P.given", given.force.F, "P", "force")
+    q.gravity()
     for link in (2, 3):
-        enter_mass(q, link, given.typed("G", link), given.typed("m", link))
+        q.mass(link)
 
     axis, radius = given.guide.si, q.si(r)
     along = cmath.rect(1.0, axis)
@@ -68,7 +56,7 @@ def machine(assignment: Assignment) -> Machine:
         ground={"O": 0j},
         driver=Crank("O", "A", radius),
         dyads=(Dyad("RPP", (2, 3), "A", "B", Guide(0j, axis), slide_angle=math.pi / 2),),
-        inertias=inertias(q, {2: "A", 3: "B"}),
+        inertias=q.inertias({2: "A", 3: "B"}),
         gravity=-1j * given.g.si,
     )
     phase = (start + ROUND) % FULL_TURN - ROUND
@@ -77,7 +65,7 @@ def machine(assignment: Assignment) -> Machine:
 
     def formulas(q: Sheet) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
-        φ = give_angle(q, "phi.3", start + even_angles(positions), "φ")
+        φ = q.angle("phi.3", start + even_angles(positions), "φ")
         line("f.x.B", r * cos(φ))
         line("f.v.B", -ω1 * r * sin(φ))
         line("f.v.r", ω1 * r * cos(φ))

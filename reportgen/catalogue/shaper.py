@@ -13,18 +13,7 @@ from reportgen.assignment.common import Assignment, Draft, Part
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Interval, Length, Ratio, Share, quantity
 from reportgen.catalogue import reach, slotted
-from reportgen.catalogue.driven import (
-    Driven,
-    centre_points,
-    datum,
-    driven,
-    enter_drawn,
-    enter_mass,
-    enter_moment,
-    enter_speed,
-    even_angles,
-    inertias,
-)
+from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.loads import Applied, CuttingLaw
 from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.reach import Member
@@ -65,38 +54,36 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(3, 4), loads=("cutting",)
     s4: Share = Given(0.5, 0.5, "", "0.5")
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> Sheet:
+def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     """Given data and the synthesis l₁ = aH/(2 l₃); mass centres, masses, moments of inertia; the drawn crank."""
-    q = Sheet()
-    a, b = datum(q, "a", given.a, "a", "length"), datum(q, "b", given.b, "b", "length")
-    l3 = datum(q, "l.CD", given.l3, Symbol("l", "3"))
-    datum(q, "l.DE", given.l4, Symbol("l", "4"))
-    H = datum(q, "H", given.H)
-    enter_speed(q, given.n, given.omega1, given.flywheel)
+    q = GivenSheet(given)
+    a, b = q.datum("a", given.a, "a", "length"), q.datum("b", given.b, "b", "length")
+    l3 = q.datum("l.CD", given.l3, Symbol("l", "3"))
+    q.datum("l.DE", given.l4, Symbol("l", "4"))
+    H = q.datum("H", given.H)
+    q.speed()
     l1 = q.define("l.AB", a * H / (2 * l3), Symbol("l", "1"))
     if given.cutting is not None:
-        datum(q, "P.given", given.cutting.F, "P", "force")
+        q.datum("P.given", given.cutting.F, "P", "force")
         if given.cutting.free.si:
-            datum(q, "free", given.cutting.free, "k", "ratio")
-    if any(given.typed(letter, link) for letter in "Gm" for link in CENTRES):
-        datum(q, "g", given.g)
+            q.datum("free", given.cutting.free, "k", "ratio")
+    q.gravity()
     for link in CENTRES:
-        enter_mass(q, link, given.typed("G", link), given.typed("m", link))
+        q.mass(link)
     for link, rod in RODS.items():
-        l, m, share, moment = q[f"l.{rod}"], f"m.{link}", getattr(given, f"s{link}"), given.typed("J", link)  # noqa: E741
+        l, m, share, moment = q[f"l.{rod}"], f"m.{link}", getattr(given, f"s{link}"), q.typed("J", link)  # noqa: E741
         if m in q or moment:
             q.define(f"l.{rod[0]}S{link}", q.give(f"s.{link}", share.si, kind="ratio") * l)
-            enter_moment(q, link, moment, q[m] * l**2 / 12 if m in q else None)
+            q.moment(link, q[m] * l**2 / 12 if m in q else None)
     if crank is not None:
-        enter_drawn(q, "A", "B", crank)
+        q.drawn("A", "B", crank)
     else:  # by the finest round scale at which all stays on the page
         highest = max(q.si(b), q.si(l3))
-        μ = q.give("scale", nice_up(highest / HIGHEST / 1e3) * 1e3, Symbol("μ", "l"), "length scale")
-        q.define("drawn.AB", l1 / μ, drawn_length("A", "B"))
+        q.drawn_by(nice_up(highest / HIGHEST / 1e3) * 1e3, "A", "B", l1)
     return q
 
 
-def _geometry(given: Parameters, q: Sheet, turn: int) -> Ram:
+def _geometry(given: Parameters, q: GivenSheet, turn: int) -> Ram:
     """The mechanism in the axes that turn with the rotation."""
     crank = SlottedCrank(q.si("l.AB"), q.si("a"), math.pi / 2, turn)
     return Ram(crank, q.si("l.CD"), q.si("l.DE"), q.si("b"))
@@ -134,7 +121,7 @@ def machine(assignment: Assignment) -> Machine:
     geometry = _geometry(given, q, positions.sign)
     start = 0.0 if positions.start is None else geometry.crank.phi(positions.start.si)
     course = geometry.course(start)
-    points = centre_points(q, {link: rod[0] for link, rod in RODS.items()})
+    points = q.centre_points({link: rod[0] for link, rod in RODS.items()})
 
     def formulas(q: Sheet) -> None:
         q.define("drawn.AC", q["a"] / q["mu.l"], drawn_length("A", "C"))
@@ -149,7 +136,7 @@ def machine(assignment: Assignment) -> Machine:
     return driven(
         assignment,
         q,
-        geometry.linkage(points, inertias(q, CENTRES), given.g.si),
+        geometry.linkage(points, q.inertias(CENTRES), given.g.si),
         geometry.crank.crank_angle(start),
         {"sizes": "synthesis", "course": ("course",)},
         formulas=formulas,

@@ -13,18 +13,7 @@ from reportgen.assignment.common import Assignment, Draft
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Angle, Length, Share, quantity
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import (
-    MIDDLE,
-    Driven,
-    datum,
-    driven,
-    enter_drawn,
-    enter_mass,
-    enter_moment,
-    enter_speed,
-    even_angles,
-    inertias,
-)
+from reportgen.catalogue.driven import MIDDLE, Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.loads import Applied, TableLaw
 from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.sliders import (
@@ -35,7 +24,6 @@ from reportgen.catalogue.sliders import (
     loop_equations,
     offset_slider,
 )
-from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
 
 TURNS = 1
@@ -68,29 +56,28 @@ def machine(assignment: Assignment) -> Machine:
     """The slider-crank of an assignment: linkage, working force, closed formulas."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
-    weight, mass, moment = (given.typed(letter, 2) for letter in "GmJ")
-    massive, has_centre = bool(weight or mass), any((given.s, weight, mass, moment))
-    q = Sheet()
-    r, l = datum(q, "l.AB", given.r), datum(q, "l.BC", given.l)  # noqa: E741
-    e = datum(q, "e", given.e) if given.e.si else None
+    q = GivenSheet(given)
+    has_centre = given.s is not None or any(q.typed(letter, 2) for letter in "GmJ")
+    r, l = q.datum("l.AB", given.r), q.datum("l.BC", given.l)  # noqa: E741
+    e = q.datum("e", given.e) if given.e.si else None
     if given.guide.si:
-        datum(q, "guide.angle", given.guide, "α", "angle")
-    enter_speed(q, given.n, given.omega1, given.flywheel)
-    enter_drawn(q, "A", "B", assignment.drawing.crank)
+        q.datum("guide.angle", given.guide, "α", "angle")
+    q.speed()
+    q.drawn("A", "B", assignment.drawing.crank)
     if has_centre:
         q.define("l.BS2", q.give("s", MIDDLE if given.s is None else given.s.si) * l)
     if isinstance(given.force, given_loads.ConstantForce):
-        datum(q, "P.given", given.force.F, "P", "force")
-    if massive or given.typed("G", 3) or given.typed("m", 3):
-        datum(q, "g", given.g)
-    enter_mass(q, 2, weight, mass)
-    enter_moment(q, 2, moment, q["m.2"] * l**2 / 12 if massive else None)
-    enter_mass(q, 3, given.typed("G", 3), given.typed("m", 3))
+        q.datum("P.given", given.force.F, "P", "force")
+    q.gravity()
+    q.mass(2)
+    m2 = q.find("m.2")
+    q.moment(2, None if m2 is None else m2 * l**2 / 12)
+    q.mass(3)
 
     geometry = OffsetSlider(q.si(r), q.si(l), turn * given.e.si, given.guide.si, turn)
     start = geometry.stretched if positions.start is None else geometry.phi(positions.start.si)
     centre = q.si("l.BS2") if has_centre else None
-    linkage = geometry.linkage(inertias(q, {2: "S2", 3: "C"}), given.g.si, centre)
+    linkage = geometry.linkage(q.inertias({2: "S2", 3: "C"}), given.g.si, centre)
     course = geometry.course(start, TURNS)
     offset = None if e is None else e if turn > 0 else -e
     return driven(

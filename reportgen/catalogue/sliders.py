@@ -20,7 +20,6 @@ from functools import partial
 
 import numpy as np
 
-from reportgen.catalogue.driven import give_angle
 from reportgen.catalogue.loads import FULL_TURN, Course, Floats
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol, asin, cos, sin, sqrt, tan
@@ -49,7 +48,7 @@ def centred_slider(
     """
     R, L, λ, ω1 = q["R"], q["L"], q["lambda"], q["omega.1"]
     line = partial(q.define, scale=1.0)
-    φ = give_angle(q, f"phi.{slider}", angle)
+    φ = q.angle(f"phi.{slider}", angle)
     β = line(f"beta.{rod}", asin(λ * sin(φ)))
     q.define(f"x.{slider}", R * (1 - cos(φ)) + L * (1 - cos(β)), Symbol("x", joint), "length", scale=0.01)
     line(f"f.v.{joint}", ω1 * R * sin(φ + β) / cos(β))
@@ -204,7 +203,7 @@ def offset_slider(q: Sheet, angle: Floats, offset: Expression | None, centre: bo
     """
     r, l, ω1 = q["l.AB"], q["l.BC"], q["omega.1"]  # noqa: E741 - the length's own letter
     line = partial(q.define, scale=1.0)
-    φ = give_angle(q, "phi.3", angle, "φ")
+    φ = q.angle("phi.3", angle, "φ")
     β = line("beta.2", asin(-r * sin(φ) / l if offset is None else (offset - r * sin(φ)) / l), "β")
     line("x.C", r * cos(φ) + l * cos(β), Symbol("x", "C"), "length")
     ω2 = line("f.omega.2", -ω1 * r * cos(φ) / (l * cos(β)))

@@ -13,7 +13,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from reportgen.catalogue.driven import give_angle, natural_lines
+from reportgen.catalogue.driven import natural_lines
 from reportgen.catalogue.loads import FULL_TURN, Course, Floats
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import (
@@ -151,7 +151,7 @@ def lever_formulas(q: Sheet, angle: Floats, crank: str, centres: str) -> None:
     S² = d² + r² + 2dr sin φ;  ω₃ = ω₁r(r + d sin φ)/S²;  v_r = ω₁dr cos φ/S;  ε₃ = ω₁²dr(d² − r²) cos φ/S⁴.
     """
     line = natural_lines(q, crank)
-    φ = give_angle(q, "phi.A", angle, Symbol("φ", "1"))
+    φ = q.angle("phi.A", angle, Symbol("φ", "1"))
     r, d, ω1 = q[crank], q[centres], q["omega.1"]
     square = d**2 + r**2 + 2 * d * r * sin(φ)
     S = line("f.S", sqrt(square), "S", "length")

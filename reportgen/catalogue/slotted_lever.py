@@ -12,18 +12,7 @@ from reportgen.assignment.common import Assignment, Draft
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Angle, Length
 from reportgen.catalogue import slotted
-from reportgen.catalogue.driven import (
-    Driven,
-    centre_points,
-    datum,
-    driven,
-    enter_bar,
-    enter_drawn,
-    enter_mass,
-    enter_speed,
-    even_angles,
-    inertias,
-)
+from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
 from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.slotted import SlottedCrank
@@ -77,19 +66,18 @@ def machine(assignment: Assignment) -> Machine:
     """The slotted lever of an assignment: linkage, torque, closed formulas."""
     given: Parameters = assignment.parameters
     positions, crank = assignment.positions, assignment.drawing.crank
-    q = Sheet()
-    r, d, l = datum(q, "l.AB", given.AB), datum(q, "l.AC", given.AC), datum(q, "l.CD", given.CD)  # noqa: E741
+    q = GivenSheet(given)
+    r, d, l = q.datum("l.AB", given.AB), q.datum("l.AC", given.AC), q.datum("l.CD", given.CD)  # noqa: E741
     if given.axis.value != 90.0:
-        datum(q, "axis.CA", given.axis, "α", "angle")
-    enter_speed(q, given.n, given.omega1, given.flywheel)
+        q.datum("axis.CA", given.axis, "α", "angle")
+    q.speed()
     height = max(q.si(l), q.si(d) + q.si(r)) + max(q.si(r) - q.si(d), 0.0)
-    enter_drawn(q, "A", "B", crank, slotted.drawn_crank(q.si(r), height))
-    if any((given.typed(letter, link)) for letter in "sGmJ" for link in (2, 3)):
-        datum(q, "g", given.g)
-    enter_mass(q, 2, given.typed("G", 2), given.typed("m", 2))
-    enter_bar(q, given, 3, "C", "D")
+    q.drawn("A", "B", crank, slotted.drawn_crank(q.si(r), height))
+    q.gravity("sGmJ")
+    q.mass(2)
+    q.bar(3, "C", "D")
     if given.torque is not None:
-        datum(q, "M.given", given.torque.M, Symbol("M", "3"))
+        q.datum("M.given", given.torque.M, Symbol("M", "3"))
 
     geometry = SlottedCrank(q.si(r), q.si(d), given.axis.si, positions.sign)
     start = math.pi / 2 if positions.start is None else geometry.phi(positions.start.si)
@@ -97,8 +85,8 @@ def machine(assignment: Assignment) -> Machine:
         ground=geometry.ground,
         driver=geometry.driver,
         dyads=(geometry.group,),
-        points=(LinkPoint("D", 3, complex(q.si(l))), *centre_points(q, {3: "C"})),
-        inertias=inertias(q, {2: "B", 3: "S3"}),
+        points=(LinkPoint("D", 3, complex(q.si(l))), *q.centre_points({3: "C"})),
+        inertias=q.inertias({2: "B", 3: "S3"}),
         gravity=-1j * given.g.si,
     )
 

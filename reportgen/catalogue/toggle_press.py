@@ -14,9 +14,16 @@ from typing import Literal
 from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Length
-from reportgen.catalogue import driven as shared
 from reportgen.catalogue import given_loads, reach
-from reportgen.catalogue.driven import Driven, FixedPoint, datum, driven, enter_bar, natural_lines
+from reportgen.catalogue.driven import (
+    Driven,
+    FixedPoint,
+    GivenSheet,
+    crank_motion,
+    driven,
+    even_angles,
+    natural_lines,
+)
 from reportgen.catalogue.loads import Applied, TableLaw, course
 from reportgen.catalogue.machine import Machine
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage
@@ -44,24 +51,23 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 3, 4), shares=(2, 3, 4
         return 1 if self.B == "left" else -1
 
 
-def _sheet(given: Parameters, crank: Given | None = None) -> Sheet:
+def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     """Given data, mass centres, masses and moments of inertia."""
-    q = Sheet()
+    q = GivenSheet(given)
     for id, length in {"OA": given.OA, "AB": given.AB, "DB": given.BD, "BC": given.BD}.items():
-        datum(q, f"l.{id}", length, Symbol("l", "BD" if id == "DB" else id))
-    datum(q, "D.x", given.D.x, Symbol("x", "D"), "length")
-    datum(q, "D.y", given.D.y, Symbol("y", "D"), "length")
-    shared.enter_speed(q, given.n, given.omega1, given.flywheel)
-    shared.enter_drawn(q, "O", "A", crank)
-    if any(given.typed(letter, link) for letter in "GmJ" for link in (*BARS, 5)):
-        datum(q, "g", given.g)
+        q.datum(f"l.{id}", length, Symbol("l", "BD" if id == "DB" else id))
+    q.datum("D.x", given.D.x, Symbol("x", "D"), "length")
+    q.datum("D.y", given.D.y, Symbol("y", "D"), "length")
+    q.speed()
+    q.drawn("O", "A", crank)
+    q.gravity("GmJ")
     for link, pins in BARS.items():
-        enter_bar(q, given, link, *pins)
-    shared.enter_mass(q, 5, given.typed("G", 5), given.typed("m", 5))
+        q.bar(link, *pins)
+    q.mass(5)
     return q
 
 
-def _linkage(given: Parameters, q: Sheet) -> Linkage:
+def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
     pivot, link = complex(q.si("D.x"), q.si("D.y")), q.si("l.BC")
     return Linkage(
         ground={"O": 0j, "D": pivot},
@@ -70,8 +76,8 @@ def _linkage(given: Parameters, q: Sheet) -> Linkage:
             Dyad("RRR", (2, 3), "A", "B", "D", (q.si("l.AB"), link), given.side),
             Dyad("RRP", (4, 5), "B", "C", Guide(pivot, math.pi / 2), (link, 0.0), -1),
         ),
-        points=shared.centre_points(q, {link: start for link, (start, _) in BARS.items()}),
-        inertias=shared.inertias(q, {2: "S2", 3: "S3", 4: "S4", 5: "C"}),
+        points=q.centre_points({link: start for link, (start, _) in BARS.items()}),
+        inertias=q.inertias({2: "S2", 3: "S3", 4: "S4", 5: "C"}),
         gravity=-1j * given.g.si,
     )
 
@@ -89,7 +95,7 @@ def _check_turning(draft: Draft) -> Iterator[Finding]:
     found = list(reach.findings(linkage, members))
     yield from found
     if not found and given.press is not None:
-        yield from reach.to_and_fro(linkage, 5, shared.crank_motion(linkage, Positions(), 0.0), ("parameters", "press"))
+        yield from reach.to_and_fro(linkage, 5, crank_motion(linkage, Positions(), 0.0), ("parameters", "press"))
 
 
 CHECKS = (*given_loads.PRESS_CHECKS, _check_turning)
@@ -101,14 +107,14 @@ def machine(assignment: Assignment) -> Machine:
     positions, turn, press = assignment.positions, assignment.positions.sign, given.press
     q = _sheet(given, assignment.drawing.crank)
     linkage, start = _linkage(given, q), 0.0 if positions.start is None else positions.start.si
-    motion_at = shared.crank_motion(linkage, positions, start, given.speed)
+    motion_at = crank_motion(linkage, positions, start, given.speed)
     sliders = () if press is None else (course(linkage, 5, motion_at),)
 
     def formulas(q: Sheet) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
         r, b, l, x_D = q["l.OA"], q["l.AB"], q["l.DB"], q["D.x"]  # noqa: E741 - the length's own letter
         y_D = q["D.y"] if turn > 0 else -q["D.y"]
-        φ1 = shared.give_angle(q, "f.phi.1", turn * start + shared.even_angles(positions))
+        φ1 = q.angle("f.phi.1", turn * start + even_angles(positions))
         x = line("f.x.DA", r * cos(φ1) - x_D, Symbol("x", "DA"))
         y = line("f.y.DA", r * sin(φ1) - y_D, Symbol("y", "DA"))
         s = line("f.s", sqrt(x**2 + y**2), "s", "length")

@@ -14,9 +14,14 @@ from reportgen.document.report import Report
 from reportgen.document.tree import Block, Contents, Cover, Document, PageBreak, Words
 
 
+def open_report(case: Case) -> Report:
+    """The report of a case with all figures, tables and functions that its templates may call."""
+    return Report(case)
+
+
 def compose(case: Case) -> Document:
     """The finished, numbered document of a report; raises `TemplateError` for a fault in its words."""
-    report = Report(case)
+    report = open_report(case)
     words, names = report.words, report.names()
     blocks: list[Block] = [_cover(report)]
     for section in _sections(report):

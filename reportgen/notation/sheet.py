@@ -25,6 +25,9 @@ from reportgen.notation.vocabulary import Chapter
 ZERO = 1e-9
 """A value below this share of its own scale is nothing: it prints as 0."""
 
+ROUND = 1e-12
+"""An angle this little below a whole turn (rad) is one."""
+
 CONSTRUCTIONS = frozenset(
     {"meet", "circle_line", "circle_circle", "abs", "cis", "turned", "arg", "re", "im", "cross", "dot"}
     | {"mean", "quotient", "if_zero", "sign", "heading"}
@@ -161,6 +164,13 @@ class Sheet:
             values = np.atleast_1d(np.asarray(evaluate(expression, self._values)))
         return self._enter(id, symbol, kind, values, expression, **traits)
 
+    def angle(self, id: str, values: np.ndarray, symbol: Symbol | str = "") -> Ref:
+        """Enter an angle at every position [N], within one turn; whole hundredths of a degree print as they are."""
+        turned = np.mod(values + ROUND, 2 * np.pi) - ROUND
+        hundredths = np.degrees(turned) * 100
+        whole = bool(np.allclose(hundredths, np.round(hundredths), rtol=0, atol=1e-7))
+        return self.give(id, turned, symbol, "angle", exact=whole, scale=1.0)
+
     def construct(self, id: str, definition: Operand, of: str = "") -> Ref:
         """Enter a point or vector of a drawing, which has no printed symbol of its own."""
         return self.define(id, definition, Symbol(id), "ratio", hidden=True, of=of)
@@ -197,9 +207,3 @@ def is_short(values: np.ndarray | float) -> bool:
     return all(
         abs(float(f"{value:.{MAX_DIGITS - 1}g}") - value) <= 1e-12 * abs(value) for value in np.atleast_1d(values)
     )
-
-
-def whole_hundredths(angle: np.ndarray) -> bool:
-    """Whether all angles (rad) are whole hundredths of a degree, to be printed as they are."""
-    hundredths = np.degrees(angle) * 100
-    return bool(np.allclose(hundredths, np.round(hundredths), rtol=0, atol=1e-7))

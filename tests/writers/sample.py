@@ -54,17 +54,13 @@ from reportgen.notation.expressions import (
     Number,
     Power,
     Product,
-    Root,
     Sum,
     Symbol,
     Term,
     VectorEquation,
-    add,
-    call,
-    divide,
-    multiply,
-    power,
-    subtract,
+    cos,
+    sin,
+    sqrt,
 )
 
 HOSTILE = (
@@ -114,36 +110,36 @@ def expressions() -> tuple[Expression, ...]:
         Number(6.0e-3, None, "kg·m²"),
         Sum((a, b, Negative(c))),
         Sum((a, Number(-2.5, 1))),
-        subtract(a, add(b, c)),
-        multiply(2, add(a, b), c),
+        a - (b + c),
+        2 * (a + b) * c,
         Product((a, Negative(b), Number(-1.5, 1))),
-        Negative(add(a, b)),
+        -(a + b),
         Negative(Negative(a)),
-        divide(add(a, b), subtract(a, c)),
+        (a + b) / (a - c),
         Fraction(PI, Number(30)),
-        power(add(a, b), 2),
-        power(Negative(a), 2),
-        power(OMEGA, 2),
-        power(power(a, 2), 3),
-        power(divide(a, b), 2),
-        power(call("sin", Symbol("φ", "1")), 2),
+        (a + b) ** 2,
+        Negative(a) ** 2,
+        OMEGA**2,
+        (a**2) ** 3,
+        (a / b) ** 2,
+        sin(Symbol("φ", "1")) ** 2,
         Power(Number(-3.0, 1), Number(2)),
         Power(Number(230.4, 1, "rad/s"), Number(2)),
         Power(a, Negative(Number(1))),
-        Root(add(power(a, 2), power(b, 2))),
+        sqrt(a**2 + b**2),
         Call("sin", (Symbol("φ", "1"),)),
-        Call("cos", (add(a, b),)),
+        cos(a + b),
         Call("sin", (Number(35.26, 2, "°"),)),
         Call("arctan2", (a, b)),
         Call("abs", (Symbol("ε", "2"),)),
-        multiply(a, call("sin", b), call("cos", c)),
-        multiply(divide(a, b), c),
-        divide(multiply(a, b), multiply(c, Negative(a))),
+        a * sin(b) * cos(c),
+        (a / b) * c,
+        (a * b) / (c * Negative(a)),
         Chain(
             (
                 V_A,
-                multiply(OMEGA, Symbol("R")),
-                multiply(Number(230.3835, 4), Number(0.0475, 4)),
+                OMEGA * Symbol("R"),
+                Number(230.3835, 4) * Number(0.0475, 4),
                 Number(10.943, 3, "m/s"),
             )
         ),
@@ -153,7 +149,7 @@ def expressions() -> tuple[Expression, ...]:
 def wide_chain() -> Chain:
     """A chain about three text blocks wide."""
     products = tuple(
-        multiply(Number(0.1234 + index, 4), Number(-12.75, 2), call("cos", Number(35.26, 2, "°")))
+        Number(0.1234 + index, 4) * Number(-12.75, 2) * cos(Number(35.26, 2, "°"))
         for index in range(4)
     )
     return Chain((Symbol("M", "cb"), Sum(products), Sum(products), Number(-57.31, 2, "N·m")))
@@ -164,7 +160,7 @@ def velocity_equation() -> VectorEquation:
         (
             (Term(vector("v", "B"), ("∥ x", None, None)),),
             (
-                Term(vector("v", "A"), ("⟂ OA", "→", multiply(OMEGA, Symbol("R")))),
+                Term(vector("v", "A"), ("⟂ OA", "→", OMEGA * Symbol("R"))),
                 Term(vector("v", "BA"), ("⟂ AB", None, None)),
             ),
         ),

@@ -10,16 +10,12 @@ from reportgen.errors import TypesetterError
 from reportgen.notation.expressions import (
     Chain,
     Expression,
+    Negative,
     Number,
     Product,
     Ref,
     Sum,
     Symbol,
-    divide,
-    multiply,
-    negative,
-    power,
-    subtract,
 )
 from reportgen.writers.latex_math import LatexFormulas
 
@@ -35,15 +31,15 @@ def plain(source: str) -> str:
 @pytest.mark.parametrize(
     ("expression", "expected"),
     [
-        (subtract(A, Sum((B, C))), "a-(b+c)"),
-        (multiply(Sum((A, B)), C), r"(a+b)\cdotc"),
+        (A - (B + C), "a-(b+c)"),
+        ((A + B) * C, r"(a+b)\cdotc"),
         (Product((A, Number(-1.5, 1))), r"a\cdot(-1{,}5)"),
         (Sum((A, Number(-1.5, 1))), "a+(-1{,}5)"),
-        (negative(negative(A)), "-(-a)"),
-        (power(negative(A), 2), "(-a)^{2}"),
-        (power(power(A, 2), 3), "(a^{2})^{3}"),
-        (power(divide(A, B), 2), r"\left(\frac{a}{b}\right)^{2}"),
-        (divide(Sum((A, B)), C), r"\frac{a+b}{c}"),
+        (Negative(Negative(A)), "-(-a)"),
+        ((-A) ** 2, "(-a)^{2}"),
+        ((A**2) ** 3, "(a^{2})^{3}"),
+        ((A / B) ** 2, r"\left(\frac{a}{b}\right)^{2}"),
+        ((A + B) / C, r"\frac{a+b}{c}"),
         (Symbol("a", "BA", "n", "vector"), r"\vec{a}_{\mathrm{BA}}^{\mathrm{n}}"),
         (Symbol("pb", over="segment"), r"\overline{\mathit{pb}}"),
         (Symbol("p", "3", "′"), r"p_{3}^{\prime}"),

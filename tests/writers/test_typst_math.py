@@ -91,9 +91,9 @@ def test_a_written_expression_means_what_it_evaluates_to(node: Expression) -> No
 @pytest.mark.parametrize(
     ("node", "printed"),
     [
-        (sample.multiply(2, sample.add(Symbol("a"), Symbol("b"))), "2 · (a + b)"),
+        (2 * (Symbol("a") + Symbol("b")), "2 · (a + b)"),
         (Product((Symbol("a"), Number(-1.5, 1))), "a · (−1,5)"),
-        (sample.subtract(Symbol("a"), sample.add(Symbol("b"), Symbol("c"))), "a − (b + c)"),
+        (Symbol("a") - (Symbol("b") + Symbol("c")), "a − (b + c)"),
         (Negative(Negative(Symbol("a"))), "−(−a)"),
         (Power(Number(-3.0, 1), Number(2)), "(−3,0)2"),
         (Number(-0.2189, 4, "m/s"), "−0,2189 m/s"),
