@@ -100,7 +100,7 @@ def test_a_written_expression_means_what_it_evaluates_to(node: Expression) -> No
         (Number(60, None, "°"), "60°"),
         (Number(-0.00001, 2), "0,00"),
         (Call("sin", (Number(35.26, 2, "°"),)), "sin 35,26°"),
-        (Call("cos", (sample.add(Symbol("a"), Symbol("b")),)), "cos(a + b)"),
+        (Call("cos", (Symbol("a") + Symbol("b"),)), "cos(a + b)"),
         (sample.expressions()[-1], "vA = ω1 · R = 230,3835 · 0,0475 = 10,943 m/s"),
     ],
 )
@@ -117,7 +117,7 @@ def test_decimal_mark_follows_the_language() -> None:
 
 def test_a_reference_without_substitute_is_refused() -> None:
     with pytest.raises(TypesetterError, match="v_a"):
-        VIETNAMESE.math(sample.add(Ref("v_a"), 1.0))
+        VIETNAMESE.math(Ref("v_a") + 1.0)
 
 
 def long_sum(count: int) -> Expression:
