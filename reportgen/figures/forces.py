@@ -18,8 +18,7 @@ from reportgen.figures.geometry import clusters, polar, unit
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.plan import CROWDED, Plan, point_names
 from reportgen.figures.scene import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene
-from reportgen.figures.scheme import Looks, mechanism
-from reportgen.figures.skeleton import skeleton
+from reportgen.figures.scheme import Looks, mechanism, skeleton
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import Linkage
 from reportgen.notation.expressions import Symbol

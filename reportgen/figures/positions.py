@@ -15,8 +15,7 @@ from reportgen.figures.draft import Draft, finish
 from reportgen.figures.geometry import clusters
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.scene import Circle, Content, Item, Line, Polyline, Scene, Stroke
-from reportgen.figures.scheme import Looks, driver_marks, mechanism
-from reportgen.figures.skeleton import Skeleton, skeleton
+from reportgen.figures.scheme import Looks, Skeleton, driver_marks, mechanism, skeleton
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import GROUND, Crank, Linkage
 from reportgen.notation import symbols

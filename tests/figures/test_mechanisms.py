@@ -15,8 +15,7 @@ from reportgen.figures.geometry import Complexes
 from reportgen.figures.indicator import Branch, Frame, Reading, beside, indicator
 from reportgen.figures.positions import PositionPlan, position_plan
 from reportgen.figures.scene import Circle, Hatch, Label, Line, Polyline
-from reportgen.figures.scheme import Looks, groups, scheme
-from reportgen.figures.skeleton import skeleton
+from reportgen.figures.scheme import Looks, groups, scheme, skeleton
 from reportgen.mechanism.structure import Linkage
 from reportgen.notation.expressions import Symbol
 from tests.figures.machines import (
