@@ -91,7 +91,7 @@ def bodies(
     arms: Sequence[ArmOf] = (),
     turning: Sequence[Couple] = (),
     extra: Draft | None = None,
-    looks: Looks | None = None,
+    looks: Looks,
     title: str = "",
 ) -> Scene:
     """The chosen links at position `index`, true to `scale` (mm per m), with all that acts on them.
@@ -99,7 +99,6 @@ def bodies(
     `extra` is drawn with them.  Points of forces, couples and moments are in mm of the drawing: metres times
     `scale`, from the mechanism's origin.
     """
-    looks = looks or Looks()
     bones = skeleton(linkage, motion, index, scale)
     joints = [[bones.points[name] for name in bones.bars.get(link, ())] for link in links]
     bars = [bar for ends in joints for bar in combinations(ends, 2)]

@@ -57,7 +57,7 @@ def position_plan(
     dense: Motion,
     scale: float,
     shows: PositionPlan,
-    looks: Looks | None = None,
+    notes: Sequence[Content] = (),
     *,
     beside: Draft | None = None,
 ) -> Scene:
@@ -89,7 +89,7 @@ def position_plan(
         requests.append(label(reached[0].points[name], symbols.point(name), gap=style.JOINT + 0.4))
     numbers = range(count) if count <= CROWDED else [k for k in (shows.emphasised,) if k is not None]
     draft = Draft(tuple(items), tuple(requests)) + _numbers(every, numbers, shows)
-    return finish(draft + beside if beside else draft, notes=looks.notes if looks else ())
+    return finish(draft + beside if beside else draft, notes=notes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,13 +106,12 @@ def centre_plan(
     motion: Motion,
     index: int,
     scale: float,
-    links: Sequence[int],
     centres: Sequence[Centre],
     looks: Looks,
 ) -> Scene:
     """The mechanism at position `index` of `motion` with its links' instant centres and the normals to them."""
     bones = skeleton(linkage, motion, index, scale)
-    draft = mechanism(bones, links, looks) + driver_marks(linkage, motion, bones)
+    draft = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
     normals: list[Item] = []
     marks: list[Item] = []
     names: list[Request] = []

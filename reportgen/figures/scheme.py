@@ -15,12 +15,9 @@ from reportgen.figures.geometry import Complexes, Floats, clusters, polar
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.scene import Arc, Circle, Content, Item, Line, Scene, Stroke
 from reportgen.mechanism.motion import Motion
-from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, Guide, Linkage, SlidingDriver
+from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Symbol
-
-Axis = tuple[Floats, Complexes]
-"""A line at all positions: its direction (radians) and a point of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,35 +61,33 @@ def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skel
     points = {name: complex(point.p[index]) * scale for name, point in motion.points.items()}
     bars: dict[int, list[str]] = {link: [] for link in linkage.links}
     slides: list[Slide] = []
-    pivots: list[str] = []
     joints: list[str] = []
     owners = {point.name: point.link for point in linkage.points}
 
     def pin(name: str, link: int) -> None:
         """A revolute joint of `link` at a point that another link carries."""
-        if name in linkage.ground and name not in pivots:
-            pivots.append(name)
         for number in (link, owners.get(name, GROUND)):
             if number in bars and name not in bars[number]:
                 bars[number].append(name)
         if name not in joints:
             joints.append(name)
 
-    def slide(link: int, name: str, guide: Guide, turns: bool) -> None:
-        line = _of_guide(motion, guide)
-        slides.append(_slide(motion, index, scale, link, name, guide.link, turns, line))
-
-    def slide_on_link(dyad: Dyad, name: str) -> None:
-        line = _of_link(motion, dyad)
-        slides.append(_slide(motion, index, scale, dyad.links[0], name, dyad.links[1], True, line))
+    def slide(link: int, name: str, guide: Guide | Dyad, turns: bool = True) -> None:
+        """The block of a link on a guide, or on the other link of its dyad, from end to end of its way there."""
+        on, angle, base = _axis(motion, guide)
+        p, direction = motion.points[name].p, np.exp(1j * angle)
+        along = ((p - base) * direction.conj()).real
+        along = along[np.isfinite(along)] * scale
+        low, high = (float(along.min()), float(along.max())) if along.size else (0.0, 0.0)
+        foot, u = complex(base[index]) * scale, complex(direction[index])
+        slides.append(Slide(link, name, on, points[name], float(angle[index]), foot + low * u, foot + high * u, turns))
 
     driver = linkage.driver
     if isinstance(driver, Crank):
         pin(driver.centre, DRIVER)
-        pin(driver.pin, DRIVER)
-    elif isinstance(driver, SlidingDriver):
-        slide(DRIVER, driver.pin, driver.guide, True)
-        pin(driver.pin, DRIVER)
+    else:
+        slide(DRIVER, driver.pin, driver.guide)
+    pin(driver.pin, DRIVER)
     for dyad in linkage.dyads:
         i, j = dyad.links
         if isinstance(dyad.start, str):
@@ -101,58 +96,41 @@ def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skel
             pin(dyad.end, j)
         if dyad.kind in ("RRR", "RRP"):
             pin(dyad.middle, i)
-        match dyad.kind, dyad.start, dyad.end:
-            case "RRR", _, _:
-                pin(dyad.middle, j)
-            case "RRP", _, Guide() as guide:
-                slide(j, dyad.middle, guide, True)
-            case "RPR", str(start), _:
-                slide_on_link(dyad, start)
-            case "PRP", Guide() as first, Guide() as second:
-                slide(i, dyad.middle, first, True)
-                slide(j, dyad.middle, second, True)
-                joints.append(dyad.middle)
-            case "RPP", str(start), Guide() as guide:
-                slide_on_link(dyad, start)
-                slide(j, dyad.middle, guide, False)
+        if dyad.kind == "RRR":
+            pin(dyad.middle, j)
+        if dyad.kind in ("RPR", "RPP"):
+            slide(i, str(dyad.start), dyad)
+        for link, end in ((i, dyad.start), (j, dyad.end)):
+            if isinstance(end, Guide):
+                slide(link, dyad.middle, end, turns=dyad.kind != "RPP")
+        if dyad.kind == "PRP":
+            joints.append(dyad.middle)
     return Skeleton(
         points,
         {link: tuple(names) for link, names in bars.items()},
         tuple(slides),
-        tuple(pivots),
+        tuple(name for name in joints if name in linkage.ground),
         tuple(joints),
         owners,
         bool(motion.reachable[index]),
     )
 
 
-def _slide(
-    motion: Motion, index: int, scale: float, link: int, name: str, on: int, turns: bool, line: Axis
-) -> Slide:
-    """The block of a link at a point on a line of link `on`, between the ends of the point's way on it."""
-    angle, base = line
-    p, direction = motion.points[name].p, np.exp(1j * angle)
-    along = ((p - base) * direction.conj()).real
-    along = along[np.isfinite(along)] * scale
-    low, high = (float(along.min()), float(along.max())) if along.size else (0.0, 0.0)
-    foot, u = complex(base[index]) * scale, complex(direction[index])
-    return Slide(link, name, on, complex(p[index]) * scale, float(angle[index]), foot + low * u, foot + high * u, turns)
+def _axis(motion: Motion, guide: Guide | Dyad) -> tuple[int, Floats, Complexes]:
+    """The link that carries a guide, and its axis at all positions: direction (radians) and a point of it.
 
-
-def _of_guide(motion: Motion, guide: Guide) -> Axis:
-    if guide.link == GROUND:
-        return np.full(motion.driver.shape, guide.angle), np.full(motion.driver.shape, guide.at)
-    carrier = motion.links[guide.link].angle
-    return carrier + guide.angle, motion.origins[guide.link].p + guide.at * np.exp(1j * carrier)
-
-
-def _of_link(motion: Motion, dyad: Dyad) -> Axis:
-    """The line of link j on which the block i slides at its pin P (RPR through the side of T, RPP through Q)."""
-    link = dyad.links[1]
-    if dyad.kind == "RPP":
-        return motion.links[link].angle + dyad.slide_angle, motion.origins[link].p
-    angle = motion.links[link].angle
-    return angle, motion.origins[link].p + 1j * dyad.lengths[1] * np.exp(1j * angle)
+    A dyad's own guide is the line of link j on which the block i slides at its pin P: of an RPR beside T at
+    the distance e, of an RPP through Q.
+    """
+    if isinstance(guide, Guide) and guide.link == GROUND:
+        return GROUND, np.full(motion.driver.shape, guide.angle), np.full(motion.driver.shape, guide.at)
+    link = guide.link if isinstance(guide, Guide) else guide.links[1]
+    angle, origin = motion.links[link].angle, motion.origins[link].p
+    if isinstance(guide, Guide):
+        return link, angle + guide.angle, origin + guide.at * np.exp(1j * angle)
+    if guide.kind == "RPP":
+        return link, angle + guide.slide_angle, origin
+    return link, angle, origin + 1j * guide.lengths[1] * np.exp(1j * angle)
 
 
 # --- drawings -------------------------------------------------------------------------------------
@@ -179,9 +157,8 @@ class Looks:
         return self.blocks.get(link, style.BLOCK)
 
 
-def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks | None = None) -> Scene:
+def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks) -> Scene:
     """The kinematic scheme at position `index`, `scale` mm of paper per m."""
-    looks = looks or Looks()
     bones = skeleton(linkage, motion, index, scale)
     draft = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
     return finish(draft, notes=looks.notes)
@@ -192,11 +169,10 @@ def groups(
     motion: Motion,
     index: int,
     scale: float,
-    looks: Looks | None = None,
+    looks: Looks,
     titles: Sequence[str] = (),
 ) -> tuple[Scene, ...]:
     """The driver with the ground, then each Assur group alone, a scene each."""
-    looks = looks or Looks()
     bones = skeleton(linkage, motion, index, scale)
     parts = [mechanism(bones, (GROUND, DRIVER), looks) + driver_marks(linkage, motion, bones)]
     parts += [mechanism(bones, dyad.links, looks) for dyad in linkage.dyads]
