@@ -124,7 +124,7 @@ def lever(
     # The pole is the fixed pivot.
     items += [Circle(point.at, 0.7, style.VISIBLE, style.PAPER) for point in rigid.points[1:]]
     items += [Circle(point.at, 1.1, style.VISIBLE, style.PAPER) for point in rigid.points[:1]]
-    groups = [[rigid.points[i] for i in group] for group in clusters([p.at for p in rigid.points], CROWDED)]
+    groups = clusters(rigid.points, CROWDED, lambda point: point.at)
     names = tuple(label(group[0].at, *point_names(group), gap=1.3) for group in groups)
     return finish(Draft(tuple(items), names) + draw_forces(forces, arms), notes=notes)
 

@@ -108,8 +108,7 @@ class Plan:
 
     @property
     def last_stage(self) -> int:
-        numbers = [v.stage for v in self.vectors] + [p.stage for p in self.points]
-        return max(numbers + [k.stage for k in self.lines], default=0)
+        return max((part.stage for part in (*self.vectors, *self.points, *self.lines)), default=0)
 
     def drawn(self) -> tuple[PlanVector, ...]:
         """The vectors that are not zero."""
@@ -215,11 +214,10 @@ def _marks(drawing: Plan) -> list[Item]:
 def _labels(drawing: Plan, vectors: Sequence[PlanVector], size: float) -> tuple[Request, ...]:
     """One label for points that nearly coincide, and those of the vectors beside their middles."""
     requests = []
-    for group in clusters([p.at for p in drawing.points], CROWDED):
-        members = [drawing.points[i] for i in group]
-        at = members[0].at
-        gap = 1.1 if drawing.pole and 0 in group else 0.7
-        requests.append(label(at, *point_names(members), prefer=_outward(at, vectors), gap=gap, size=size))
+    for group in clusters(drawing.points, CROWDED, lambda point: point.at):
+        at = group[0].at
+        gap = 1.1 if drawing.pole and drawing.points[0] in group else 0.7
+        requests.append(label(at, *point_names(group), prefer=_outward(at, vectors), gap=gap, size=size))
     for vector in vectors:
         way = vector.end - vector.start
         if vector.label is None or abs(way) < TINY:
@@ -291,8 +289,7 @@ def _groups(tiny: Sequence[PlanVector]) -> list[list[PlanVector]]:
     A vector that would still be short, or too far off, at the ratio of the longest one goes to another inset.
     """
     result: list[list[PlanVector]] = []
-    for indices in clusters([vector.middle for vector in tiny], NEIGHBOUR):
-        rest = [tiny[i] for i in indices]
+    for rest in clusters(tiny, NEIGHBOUR, lambda vector: vector.middle):
         while rest:
             longest = max(rest, key=lambda vector: vector.length)
             ratio = enlargement(longest.length)

@@ -163,16 +163,19 @@ def _links(bones: Skeleton, pen: Stroke, further: Sequence[str] = ()) -> list[It
 
 def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionPlan) -> Draft:
     """Dots at the numbered positions and their names, one label for points that coincide."""
-    shown = [(name, k) for name in shows.numbered for k in numbers if every[k].reached]
-    where = [every[k].points[name] for name, k in shown]
-    names = [Symbol(symbols.point(name).base, shows.label(k)) for name, k in shown]
-    middle = sum(where) / len(where) if where else 0j
+    shown = [
+        (every[k].points[name], Symbol(symbols.point(name).base, shows.label(k)))
+        for name in shows.numbered
+        for k in numbers
+        if every[k].reached
+    ]
+    middle = sum(at for at, _ in shown) / len(shown) if shown else 0j
     items: list[Item] = []
     requests: list[Request] = []
-    for group in clusters(where, TOGETHER):
-        at = where[group[0]]
+    for group in clusters(shown, TOGETHER, lambda one: one[0]):
+        at = group[0][0]
         items.append(Circle(at, DOT, Stroke(0.2), style.PAPER))
         out = (float(np.angle(at - middle)),) if abs(at - middle) > 1 else ()
         size = style.LABEL if len(group) < 3 else style.SMALL
-        requests.append(label(at, *joined(names[i] for i in group), prefer=out, gap=DOT + 0.5, size=size))
+        requests.append(label(at, *joined(name for _, name in group), prefer=out, gap=DOT + 0.5, size=size))
     return Draft(tuple(items), tuple(requests))

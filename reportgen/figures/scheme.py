@@ -290,9 +290,7 @@ def _number(bones: Skeleton, link: int, looks: Looks) -> list[Request]:
 
 def _names(names: Sequence[str], bones: Skeleton) -> list[Request]:
     """One label for points that coincide."""
-    shown = list(dict.fromkeys(names))
-    requests = []
-    for group in clusters([bones.points[name] for name in shown], 0.3):
-        parts = joined((symbols.point(shown[i]) for i in group), " ≡ ")
-        requests.append(label(bones.points[shown[group[0]]], *parts, gap=style.JOINT + 0.5))
-    return requests
+    return [
+        label(bones.points[group[0]], *joined(map(symbols.point, group), " ≡ "), gap=style.JOINT + 0.5)
+        for group in clusters(dict.fromkeys(names), 0.3, bones.points.__getitem__)
+    ]
