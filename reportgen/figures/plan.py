@@ -108,7 +108,8 @@ class Plan:
 
     @property
     def last_stage(self) -> int:
-        return max((part.stage for part in (*self.vectors, *self.points, *self.lines)), default=0)
+        numbers = [v.stage for v in self.vectors] + [p.stage for p in self.points]
+        return max(numbers + [k.stage for k in self.lines], default=0)
 
     def drawn(self) -> tuple[PlanVector, ...]:
         """The vectors that are not zero."""
