@@ -12,9 +12,8 @@ from reportgen.catalogue.loads import Applied, Piston, Torque
 from reportgen.catalogue.machine import Machine
 from reportgen.cycle.applied import indicated_work, stroke_at
 from reportgen.mechanism.forces import Forces, solve_forces
-from reportgen.mechanism.loads import Load, inertia_loads, weights
+from reportgen.mechanism.loads import Load, inertia_loads, mean_over, virtual_work_torque, weights
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.power import mean_over, virtual_work_torque
 
 FULL_TURN = 2 * np.pi
 

@@ -9,8 +9,8 @@ import numpy as np
 from reportgen.analysis import FULL_TURN, Analysis, analyse, breaks
 from reportgen.catalogue.machine import Machine
 from reportgen.cycle.flywheel import Flywheel, accumulated, regulate
+from reportgen.mechanism.loads import virtual_work_torque
 from reportgen.mechanism.motion import Motion
-from reportgen.mechanism.power import virtual_work_torque
 
 SAMPLES = 1440
 """Angles of a turn at which the extremes of energy are looked for: a quarter degree misses less than 1e-5."""

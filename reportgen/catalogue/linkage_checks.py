@@ -16,9 +16,8 @@ from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue import reach
 from reportgen.catalogue.driven import crank_motion
 from reportgen.catalogue.reach import Member
-from reportgen.mechanism.mobility import mobility
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Linkage
+from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Linkage, mobility
 from reportgen.units import Given
 
 TOP: Where = ("parameters",)

@@ -13,8 +13,8 @@ import numpy as np
 
 from reportgen.assignment.faults import Finding, Where
 from reportgen.catalogue.loads import FULL_TURN, MotionAt, NotToAndFro, course
+from reportgen.mechanism.dyads import SINGULAR, Complexes, Floats, cross, unit
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.plane import SINGULAR, Complexes, Floats, cross, unit
 from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
 
 STEPS = 720

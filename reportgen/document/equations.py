@@ -13,7 +13,7 @@ from reportgen.document.parts import SideView
 from reportgen.document.report import Report, function, listed, lower_digits
 from reportgen.document.tree import Equation, InlineMath, Inlines, Reference, Text, Value
 from reportgen.ledger.forces.polygon import Side as PolygonSide
-from reportgen.mechanism.mobility import mobility
+from reportgen.mechanism.structure import mobility
 from reportgen.notation import symbols
 from reportgen.notation.expressions import (
     Chain,

@@ -36,7 +36,6 @@ from reportgen.figures.positions import Centre, PositionPlan, centre_plan, posit
 from reportgen.figures.scene import Scene
 from reportgen.ledger.kinematics.centres import PREFIX, centre_symbol
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import DRIVER, GROUND
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Chain, Number, Symbol
 
@@ -109,8 +108,8 @@ def _position_plan(
 ) -> Scene:
     dense = _motion(report.machine, np.linspace(0.0, FULL_TURN, DENSE))
     scale = drawing_scale(report)
-    look = replace(looks(report, scale), blocks={}, centres=())
-    return position_plan(report.machine.linkage, motion, dense, scale, shows, look, beside=beside)
+    notes = looks(report, scale).notes
+    return position_plan(report.machine.linkage, motion, dense, scale, shows, notes, beside=beside)
 
 
 def _motion(machine: Machine, cycle_angle: np.ndarray) -> Motion:
@@ -256,6 +255,5 @@ def centres(report: Report, k: int) -> Drawn:
         Centre(centre_symbol(link.link), _place(report, link, k), (link.base, link.point))
         for link in centres_drawn(report, k)
     ]
-    links = (GROUND, DRIVER, *(link for link in linkage.links if link != DRIVER))
     motion = report.analysis.motion
-    return on_paper(centre_plan(linkage, motion, k - 1, scale, links, marks, looks(report, scale)))
+    return on_paper(centre_plan(linkage, motion, k - 1, scale, marks, looks(report, scale)))

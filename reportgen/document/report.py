@@ -28,7 +28,7 @@ from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics.centres import links_in_plane_motion
 from reportgen.ledger.kinematics.sides import scheme
-from reportgen.mechanism.mobility import Mobility, mobility
+from reportgen.mechanism.structure import Mobility, mobility
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Symbol
 

@@ -278,12 +278,11 @@ def _marked(series: Series, vertices: Vertices, pen: Stroke, items: list[Item]) 
     where = [complex(*vertices[i]) for i in series.marks]
     solid = Stroke(0.25, pen.colour)
     items += [Circle(at, MARK, solid, style.PAPER) for at in where if np.isfinite(at)]
-    requests = []
-    named = [i for i in range(len(series.names)) if np.isfinite(where[i])]
-    for group in clusters([where[i] for i in named], 0.6):
-        names = joined(series.names[named[i]] for i in group)
-        requests.append(label(where[named[group[0]]], *names, gap=MARK + 0.4, size=style.SMALL))
-    return requests
+    named = [(at, name) for at, name in zip(where, series.names, strict=False) if np.isfinite(at)]
+    return [
+        label(group[0][0], *joined(name for _, name in group), gap=MARK + 0.4, size=style.SMALL)
+        for group in clusters(named, 0.6, lambda mark: mark[0])
+    ]
 
 
 def _places(vertices: Vertices) -> list[complex]:

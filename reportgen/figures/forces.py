@@ -18,8 +18,7 @@ from reportgen.figures.geometry import clusters, polar, unit
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.plan import CROWDED, Plan, point_names
 from reportgen.figures.scene import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene
-from reportgen.figures.scheme import Looks, mechanism
-from reportgen.figures.skeleton import skeleton
+from reportgen.figures.scheme import Looks, mechanism, skeleton
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import Linkage
 from reportgen.notation.expressions import Symbol
@@ -92,7 +91,7 @@ def bodies(
     arms: Sequence[ArmOf] = (),
     turning: Sequence[Couple] = (),
     extra: Draft | None = None,
-    looks: Looks | None = None,
+    looks: Looks,
     title: str = "",
 ) -> Scene:
     """The chosen links at position `index`, true to `scale` (mm per m), with all that acts on them.
@@ -100,7 +99,6 @@ def bodies(
     `extra` is drawn with them.  Points of forces, couples and moments are in mm of the drawing: metres times
     `scale`, from the mechanism's origin.
     """
-    looks = looks or Looks()
     bones = skeleton(linkage, motion, index, scale)
     joints = [[bones.points[name] for name in bones.bars.get(link, ())] for link in links]
     bars = [bar for ends in joints for bar in combinations(ends, 2)]
@@ -126,7 +124,7 @@ def lever(
     # The pole is the fixed pivot.
     items += [Circle(point.at, 0.7, style.VISIBLE, style.PAPER) for point in rigid.points[1:]]
     items += [Circle(point.at, 1.1, style.VISIBLE, style.PAPER) for point in rigid.points[:1]]
-    groups = [[rigid.points[i] for i in group] for group in clusters([p.at for p in rigid.points], CROWDED)]
+    groups = clusters(rigid.points, CROWDED, lambda point: point.at)
     names = tuple(label(group[0].at, *point_names(group), gap=1.3) for group in groups)
     return finish(Draft(tuple(items), names) + draw_forces(forces, arms), notes=notes)
 

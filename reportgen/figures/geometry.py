@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from reportgen.figures.scene import Arc, Arrow, Circle, Hatch, Item, Label, Line
 Complexes = NDArray[np.complex128]
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+Part = TypeVar("Part")
 
 CIRCLE_SIDES = 24
 
@@ -126,15 +128,17 @@ def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[
     return (start + enter * d, start + leave * d) if enter < leave else None
 
 
-def clusters(points: Sequence[complex], reach: float) -> list[list[int]]:
-    """Indices of points grouped so that neighbours within `reach` mm share a group, in order."""
+def clusters(parts: Iterable[Part], reach: float, at: Callable[[Part], complex]) -> list[list[Part]]:
+    """Parts of a figure grouped, in order, so that those with places `at` within `reach` mm share a group."""
+    parts = list(parts)
+    points = list(map(at, parts))
     group = list(range(len(points)))
     for i, p in enumerate(points):
         for j in range(i):
             if abs(p - points[j]) <= reach and group[i] != group[j]:
                 old, new = max(group[i], group[j]), min(group[i], group[j])
                 group = [new if g == old else g for g in group]
-    return [[i for i, g in enumerate(group) if g == key] for key in sorted(set(group))]
+    return [[part for part, g in zip(parts, group, strict=True) if g == key] for key in sorted(set(group))]
 
 
 def unit(vector: complex) -> complex:

@@ -92,12 +92,12 @@ def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Readi
         points = tuple(frame.at(x, p) for x, p in zip(branch.fraction, branch.pressure, strict=True))
         items.append(Polyline(points, STROKES[n % len(STROKES)]))
         requests.append(label(_along(points), branch.label, size=style.SMALL))
-    points_read = [frame.at(reading.fraction, reading.pressure) for reading in readings]
-    items += [Circle(at, 0.5, Stroke(0.2), style.PAPER) for at in points_read]
-    for group in clusters(points_read, 0.3):
-        numbers = joined(readings[i].label for i in group)
+    read = [(frame.at(reading.fraction, reading.pressure), reading.label) for reading in readings]
+    items += [Circle(at, 0.5, Stroke(0.2), style.PAPER) for at, _ in read]
+    for group in clusters(read, 0.3, lambda one: one[0]):
+        numbers = joined(number for _, number in group)
         outward = (cmath.phase(unit(frame.side)),)
-        requests.append(label(points_read[group[0]], *numbers, prefer=outward, gap=0.9, size=style.SMALL))
+        requests.append(label(group[0][0], *numbers, prefer=outward, gap=0.9, size=style.SMALL))
     if frame.axis:
         tip = frame.at(0.0, highest) + 12 * unit(frame.side)
         requests.append(label(tip, frame.axis, prefer=(cmath.phase(frame.top - frame.bottom),), gap=1.0))

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, reduce
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,7 +83,7 @@ def joined(contents: Iterable[Content], by: str = ", ") -> list[Content]:
 def _row(at: complex, parts: Sequence[Content], size: float) -> tuple[Label, ...]:
     """Labels side by side on one baseline, their common box centred on `at`."""
     boxes = [box(part, size) for part in parts]
-    total = _around(boxes)
+    total = reduce(Box.beside, boxes)
     x = at.real - total.width / 2
     base = at.imag - (total.height - total.depth) / 2
     result = []
@@ -92,10 +92,6 @@ def _row(at: complex, parts: Sequence[Content], size: float) -> tuple[Label, ...
         result.append(Label(centre, part, "center", size))
         x += own.width
     return tuple(result)
-
-
-def _around(boxes: Sequence[Box]) -> Box:
-    return Box(sum(b.width for b in boxes), max(b.height for b in boxes), max(b.depth for b in boxes))
 
 
 class _Ink:
@@ -224,7 +220,7 @@ def _place_in(
 
 
 def _half(request: Request) -> complex:
-    total = _around([box(part, request.size) for part in request.parts])
+    total = reduce(Box.beside, (box(part, request.size) for part in request.parts))
     half = complex(total.width, total.height + total.depth) / 2
     return (abs(half) + 0.4) * (1 + 1j) if request.ring else half
 

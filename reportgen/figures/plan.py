@@ -1,6 +1,7 @@
 """Velocity, acceleration and force plans: vectors in mm, true to scale, and the stages of their construction.
 
-A plan is plain data whose lengths are already divided by the scale μ.
+A plan is plain data whose lengths are already divided by the scale μ.  Vectors too short to measure are
+drawn again in enlarged insets beside it, at a printed ratio.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from reportgen.figures import style
-from reportgen.figures.draft import Draft, finish
-from reportgen.figures.geometry import bounds, clusters, unit
-from reportgen.figures.inset import INVISIBLE, TINY, Tiny, insets
+from reportgen.figures.draft import Draft, finish, settle
+from reportgen.figures.geometry import bounds, clipped, clusters, corners_of, unit
 from reportgen.figures.labels import Request, label
-from reportgen.figures.scene import Arrow, Circle, Content, Item, Line, Scene, Stroke
+from reportgen.figures.scene import Arrow, Circle, Content, Item, Label, Line, Polyline, Scene, Stroke
+from reportgen.notation.numbers import SERIES
 
 Style = Literal["known", "relative", "found"]
 PENS: dict[Style, Stroke] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
@@ -31,6 +32,23 @@ CROWDED = 1.2
 BEYOND = 6.0
 """How far (mm) an auxiliary direction goes on beyond its ends."""
 
+TINY = 3.0
+"""Vectors drawn shorter than this (mm) get an enlarged inset."""
+INVISIBLE = 0.001
+"""What is drawn shorter than this (mm) is a point on any paper and gets no inset."""
+TARGET = 20.0
+"""The longest vector of an inset is enlarged to at most this (mm)."""
+SPACE = 8.0
+"""White between the figure and its insets, mm."""
+LABELS = 5.0
+"""How far labels stand out to the right of what they name, mm."""
+ROOM = 6.0
+"""White inside an inset's frame around the enlarged vectors, mm."""
+NEIGHBOUR = 3.0
+"""Tiny vectors nearer than this (mm) share an inset."""
+APART = 30.0
+"""Unless their middles would be farther apart than this in the inset (mm)."""
+
 
 @dataclass(frozen=True, slots=True)
 class PlanVector:
@@ -42,6 +60,14 @@ class PlanVector:
     style: Style = "known"
     label: Content | None = None
     stage: int = 0
+
+    @property
+    def middle(self) -> complex:
+        return (self.start + self.end) / 2
+
+    @property
+    def length(self) -> float:
+        return abs(self.end - self.start)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +104,7 @@ class Plan:
     @property
     def size(self) -> float:
         """The longest vector, mm."""
-        return max((abs(v.end - v.start) for v in self.vectors), default=0.0)
+        return max((vector.length for vector in self.vectors), default=0.0)
 
     @property
     def last_stage(self) -> int:
@@ -87,7 +113,7 @@ class Plan:
 
     def drawn(self) -> tuple[PlanVector, ...]:
         """The vectors that are not zero."""
-        return tuple(v for v in self.vectors if abs(v.end - v.start) > NOTHING * self.size)
+        return tuple(v for v in self.vectors if v.length > NOTHING * self.size)
 
     def scaled(self, factor: complex) -> Plan:
         """The plan enlarged or reduced; a complex factor also turns it."""
@@ -112,7 +138,7 @@ def plan(drawing: Plan, *, title: str = "") -> Scene:
     """The scene of a plan in true size, vectors under 3 mm repeated in enlarged insets."""
     vectors = drawing.drawn()
     draft = Draft((*_lines(drawing), *_arrows(vectors), *_marks(drawing)), _labels(drawing, vectors, style.LABEL))
-    draft += insets(_tiny(drawing, vectors), [(v.start, v.end) for v in vectors], draft)
+    draft += insets(drawing, draft)
     return finish(draft, notes=() if drawing.scale is None else (drawing.scale,), title=title)
 
 
@@ -189,11 +215,10 @@ def _marks(drawing: Plan) -> list[Item]:
 def _labels(drawing: Plan, vectors: Sequence[PlanVector], size: float) -> tuple[Request, ...]:
     """One label for points that nearly coincide, and those of the vectors beside their middles."""
     requests = []
-    for group in clusters([p.at for p in drawing.points], CROWDED):
-        members = [drawing.points[i] for i in group]
-        at = members[0].at
-        gap = 1.1 if drawing.pole and 0 in group else 0.7
-        requests.append(label(at, *point_names(members), prefer=_outward(at, vectors), gap=gap, size=size))
+    for group in clusters(drawing.points, CROWDED, lambda point: point.at):
+        at = group[0].at
+        gap = 1.1 if drawing.pole and drawing.points[0] in group else 0.7
+        requests.append(label(at, *point_names(group), prefer=_outward(at, vectors), gap=gap, size=size))
     for vector in vectors:
         way = vector.end - vector.start
         if vector.label is None or abs(way) < TINY:
@@ -226,14 +251,96 @@ def _outward(at: complex, vectors: Sequence[PlanVector]) -> tuple[float, ...]:
     return (cmath.phase(-pull),) if abs(pull) > 0.2 else ()
 
 
-def _tiny(drawing: Plan, vectors: Sequence[PlanVector]) -> list[Tiny]:
-    """The vectors under 3 mm that are worth enlarging, with the names of their ends."""
+# --- insets ---------------------------------------------------------------------------------------
 
-    def names(at: complex) -> tuple[Content, ...]:
-        return tuple(point_names([p for p in drawing.points if abs(p.at - at) < SAME]))
 
-    return [
-        Tiny(v.start, v.end, PENS[v.style], v.name, v.label, names(v.start), names(v.end))
-        for v in vectors
-        if INVISIBLE < abs(v.end - v.start) < TINY
-    ]
+def insets(drawing: Plan, figure: Draft) -> Draft:
+    """Insets for groups of short vectors, stacked to the right of the plan's `figure`; empty if there are none.
+
+    Each prints its ratio (e.g. 10:1) and shows what passes through its frame of the plan's other vectors; a
+    thin circle in the figure marks what it enlarges.
+    """
+    tiny = [vector for vector in drawing.drawn() if INVISIBLE < vector.length < TINY]
+    if not tiny:
+        return Draft()
+    # The figure's own labels are placed later; they seldom stand out further than LABELS.
+    high = bounds(figure.items)[1]
+    top = complex(high.real + LABELS + SPACE, high.imag)
+    result = Draft()
+    for group in _groups(tiny):
+        part = _inset(group, drawing)
+        floor, ceiling = bounds(part.items)
+        result += part.moved(top - complex(floor.real, ceiling.imag)) + Draft((_mark(group),))
+        top -= 1j * ((ceiling - floor).imag + SPACE / 2)
+    return result
+
+
+def enlargement(longest: float) -> float:
+    """The printed ratio of an inset: the largest of the series that draws `longest` mm within the target."""
+    most = TARGET / longest
+    decade = math.floor(math.log10(most) + 1e-12)
+    ratios = (float(f"{step}e{power}") for power in (decade, decade - 1) for step in reversed(SERIES))
+    # A ratio that exceeds the target in its last binary digits only still counts.
+    return next(ratio for ratio in ratios if ratio <= most * (1 + 1e-12))
+
+
+def _groups(tiny: Sequence[PlanVector]) -> list[list[PlanVector]]:
+    """Vectors with neighbouring middles in groups, an inset each.
+
+    A vector that would still be short, or too far off, at the ratio of the longest one goes to another inset.
+    """
+    result: list[list[PlanVector]] = []
+    for rest in clusters(tiny, NEIGHBOUR, lambda vector: vector.middle):
+        while rest:
+            longest = max(rest, key=lambda vector: vector.length)
+            ratio = enlargement(longest.length)
+            group = [
+                vector
+                for vector in rest
+                if vector.length * ratio >= TINY and abs(vector.middle - longest.middle) * ratio <= APART
+            ]
+            result.append(group)
+            rest = [vector for vector in rest if vector not in group]
+    return result
+
+
+def _mark(group: Sequence[PlanVector]) -> Item:
+    ends = [end for vector in group for end in (vector.start, vector.end)]
+    low, high = corners_of(ends)
+    centre = (low + high) / 2
+    return Circle(centre, max(abs(end - centre) for end in ends) + 1.2, Stroke(0.1, style.GRAY), None)
+
+
+def _inset(group: Sequence[PlanVector], drawing: Plan) -> Draft:
+    """One inset with its labels placed, in coordinates about its own middle."""
+    ratio = enlargement(max(vector.length for vector in group))
+    low, high = corners_of([end for vector in group for end in (vector.start, vector.end)])
+    middle = (low + high) / 2
+    half = (high - low) / 2 * ratio + complex(ROOM, ROOM)
+
+    def enlarged(p: complex) -> complex:
+        return (p - middle) * ratio
+
+    own = {(vector.start, vector.end) for vector in group}
+    others = (v for v in drawing.drawn() if (v.start, v.end) not in own)
+    parts = (clipped(enlarged(v.start), enlarged(v.end), -half, half) for v in others)
+    items: list[Item] = [Line(*part, Stroke(0.15, style.PALE)) for part in parts if part]
+    items += (
+        Arrow(enlarged(v.start), enlarged(v.end), PENS[v.style], style.HEAD, f"{v.name} ×{ratio:g}") for v in group
+    )
+    items.append(Polyline((-half, half.conjugate(), half, -half.conjugate()), style.THIN, closed=True))
+    items.append(Label(half.imag * 1j + 1.2j, f"{ratio:g}:1", "bottom", style.SMALL))
+    requests: list[Request] = []
+    seen: list[list[Content]] = []
+    for vector in group:
+        way = vector.end - vector.start
+        for at, side in ((vector.start, -1), (vector.end, 1)):
+            names = point_names([point for point in drawing.points if abs(point.at - at) < SAME])
+            if names and names not in seen:
+                seen.append(names)
+                requests.append(label(enlarged(at), *names, prefer=(cmath.phase(side * way),), size=style.SMALL))
+        if vector.label is not None:
+            across = cmath.phase(way) + math.pi / 2
+            sides = (across, across - math.pi)
+            requests.append(label(enlarged(vector.middle), vector.label, prefer=sides, size=style.SMALL))
+    return settle(Draft(tuple(items), tuple(requests)))

@@ -15,8 +15,7 @@ from reportgen.figures.draft import Draft, finish
 from reportgen.figures.geometry import clusters
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.scene import Circle, Content, Item, Line, Polyline, Scene, Stroke
-from reportgen.figures.scheme import Looks, driver_marks, mechanism
-from reportgen.figures.skeleton import Skeleton, skeleton
+from reportgen.figures.scheme import Looks, Skeleton, driver_marks, mechanism, skeleton
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import GROUND, Crank, Linkage
 from reportgen.notation import symbols
@@ -58,7 +57,7 @@ def position_plan(
     dense: Motion,
     scale: float,
     shows: PositionPlan,
-    looks: Looks | None = None,
+    notes: Sequence[Content] = (),
     *,
     beside: Draft | None = None,
 ) -> Scene:
@@ -90,7 +89,7 @@ def position_plan(
         requests.append(label(reached[0].points[name], symbols.point(name), gap=style.JOINT + 0.4))
     numbers = range(count) if count <= CROWDED else [k for k in (shows.emphasised,) if k is not None]
     draft = Draft(tuple(items), tuple(requests)) + _numbers(every, numbers, shows)
-    return finish(draft + beside if beside else draft, notes=looks.notes if looks else ())
+    return finish(draft + beside if beside else draft, notes=notes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,13 +106,12 @@ def centre_plan(
     motion: Motion,
     index: int,
     scale: float,
-    links: Sequence[int],
     centres: Sequence[Centre],
     looks: Looks,
 ) -> Scene:
     """The mechanism at position `index` of `motion` with its links' instant centres and the normals to them."""
     bones = skeleton(linkage, motion, index, scale)
-    draft = mechanism(bones, links, looks) + driver_marks(linkage, motion, bones)
+    draft = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
     normals: list[Item] = []
     marks: list[Item] = []
     names: list[Request] = []
@@ -165,16 +163,19 @@ def _links(bones: Skeleton, pen: Stroke, further: Sequence[str] = ()) -> list[It
 
 def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionPlan) -> Draft:
     """Dots at the numbered positions and their names, one label for points that coincide."""
-    shown = [(name, k) for name in shows.numbered for k in numbers if every[k].reached]
-    where = [every[k].points[name] for name, k in shown]
-    names = [Symbol(symbols.point(name).base, shows.label(k)) for name, k in shown]
-    middle = sum(where) / len(where) if where else 0j
+    shown = [
+        (every[k].points[name], Symbol(symbols.point(name).base, shows.label(k)))
+        for name in shows.numbered
+        for k in numbers
+        if every[k].reached
+    ]
+    middle = sum(at for at, _ in shown) / len(shown) if shown else 0j
     items: list[Item] = []
     requests: list[Request] = []
-    for group in clusters(where, TOGETHER):
-        at = where[group[0]]
+    for group in clusters(shown, TOGETHER, lambda one: one[0]):
+        at = group[0][0]
         items.append(Circle(at, DOT, Stroke(0.2), style.PAPER))
         out = (float(np.angle(at - middle)),) if abs(at - middle) > 1 else ()
         size = style.LABEL if len(group) < 3 else style.SMALL
-        requests.append(label(at, *joined(names[i] for i in group), prefer=out, gap=DOT + 0.5, size=size))
+        requests.append(label(at, *joined(name for _, name in group), prefer=out, gap=DOT + 0.5, size=size))
     return Draft(tuple(items), tuple(requests))

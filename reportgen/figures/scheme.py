@@ -1,4 +1,4 @@
-"""The kinematic scheme of any linkage, and its driver and Assur groups taken apart."""
+"""Any linkage at one position as plain geometry in mm, its scheme, and its driver and Assur groups taken apart."""
 
 from __future__ import annotations
 
@@ -7,16 +7,133 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
-from reportgen.figures.geometry import clusters, polar
+from reportgen.figures.geometry import Complexes, Floats, clusters, polar
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.scene import Arc, Circle, Content, Item, Line, Scene, Stroke
-from reportgen.figures.skeleton import Skeleton, Slide, skeleton
 from reportgen.mechanism.motion import Motion
-from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Linkage
+from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Symbol
+
+
+@dataclass(frozen=True, slots=True)
+class Slide:
+    """A block of `link` at its point `name` on a guide of link `on`, along `angle` from `low` to `high`."""
+
+    link: int
+    name: str
+    on: int
+    at: complex
+    angle: float
+    low: complex
+    high: complex
+    turns: bool
+    """Whether the block is a link of its own, pinned at its middle, and not an end of a longer one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Skeleton:
+    """Points in mm by name, joints of each moving link, slides, ground pivots.
+
+    `owners` gives the link of each further point (mass centres, coupler points); `reached` is false where the
+    mechanism cannot take the position.
+    """
+
+    points: Mapping[str, complex]
+    bars: Mapping[int, tuple[str, ...]]
+    slides: tuple[Slide, ...]
+    pivots: tuple[str, ...]
+    joints: tuple[str, ...]
+    owners: Mapping[str, int]
+    reached: bool
+
+    def slide_of(self, link: int) -> Slide | None:
+        """The slide whose block is the link."""
+        return next((slide for slide in self.slides if slide.link == link), None)
+
+
+def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skeleton:
+    """The mechanism at position `index`, `scale` mm of paper per m; guides as long as the motion needs."""
+    points = {name: complex(point.p[index]) * scale for name, point in motion.points.items()}
+    bars: dict[int, list[str]] = {link: [] for link in linkage.links}
+    slides: list[Slide] = []
+    joints: list[str] = []
+    owners = {point.name: point.link for point in linkage.points}
+
+    def pin(name: str, link: int) -> None:
+        """A revolute joint of `link` at a point that another link carries."""
+        for number in (link, owners.get(name, GROUND)):
+            if number in bars and name not in bars[number]:
+                bars[number].append(name)
+        if name not in joints:
+            joints.append(name)
+
+    def slide(link: int, name: str, guide: Guide | Dyad, turns: bool = True) -> None:
+        """The block of a link on a guide, or on the other link of its dyad, from end to end of its way there."""
+        on, angle, base = _axis(motion, guide)
+        p, direction = motion.points[name].p, np.exp(1j * angle)
+        along = ((p - base) * direction.conj()).real
+        along = along[np.isfinite(along)] * scale
+        low, high = (float(along.min()), float(along.max())) if along.size else (0.0, 0.0)
+        foot, u = complex(base[index]) * scale, complex(direction[index])
+        slides.append(Slide(link, name, on, points[name], float(angle[index]), foot + low * u, foot + high * u, turns))
+
+    driver = linkage.driver
+    if isinstance(driver, Crank):
+        pin(driver.centre, DRIVER)
+    else:
+        slide(DRIVER, driver.pin, driver.guide)
+    pin(driver.pin, DRIVER)
+    for dyad in linkage.dyads:
+        i, j = dyad.links
+        if isinstance(dyad.start, str):
+            pin(dyad.start, i)
+        if isinstance(dyad.end, str):
+            pin(dyad.end, j)
+        if dyad.kind in ("RRR", "RRP"):
+            pin(dyad.middle, i)
+        if dyad.kind == "RRR":
+            pin(dyad.middle, j)
+        if dyad.kind in ("RPR", "RPP"):
+            slide(i, str(dyad.start), dyad)
+        for link, end in ((i, dyad.start), (j, dyad.end)):
+            if isinstance(end, Guide):
+                slide(link, dyad.middle, end, turns=dyad.kind != "RPP")
+        if dyad.kind == "PRP":
+            joints.append(dyad.middle)
+    return Skeleton(
+        points,
+        {link: tuple(names) for link, names in bars.items()},
+        tuple(slides),
+        tuple(name for name in joints if name in linkage.ground),
+        tuple(joints),
+        owners,
+        bool(motion.reachable[index]),
+    )
+
+
+def _axis(motion: Motion, guide: Guide | Dyad) -> tuple[int, Floats, Complexes]:
+    """The link that carries a guide, and its axis at all positions: direction (radians) and a point of it.
+
+    A dyad's own guide is the line of link j on which the block i slides at its pin P: of an RPR beside T at
+    the distance e, of an RPP through Q.
+    """
+    if isinstance(guide, Guide) and guide.link == GROUND:
+        return GROUND, np.full(motion.driver.shape, guide.angle), np.full(motion.driver.shape, guide.at)
+    link = guide.link if isinstance(guide, Guide) else guide.links[1]
+    angle, origin = motion.links[link].angle, motion.origins[link].p
+    if isinstance(guide, Guide):
+        return link, angle + guide.angle, origin + guide.at * np.exp(1j * angle)
+    if guide.kind == "RPP":
+        return link, angle + guide.slide_angle, origin
+    return link, angle, origin + 1j * guide.lengths[1] * np.exp(1j * angle)
+
+
+# --- drawings -------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,9 +157,8 @@ class Looks:
         return self.blocks.get(link, style.BLOCK)
 
 
-def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks | None = None) -> Scene:
+def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks) -> Scene:
     """The kinematic scheme at position `index`, `scale` mm of paper per m."""
-    looks = looks or Looks()
     bones = skeleton(linkage, motion, index, scale)
     draft = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
     return finish(draft, notes=looks.notes)
@@ -53,11 +169,10 @@ def groups(
     motion: Motion,
     index: int,
     scale: float,
-    looks: Looks | None = None,
+    looks: Looks,
     titles: Sequence[str] = (),
 ) -> tuple[Scene, ...]:
     """The driver with the ground, then each Assur group alone, a scene each."""
-    looks = looks or Looks()
     bones = skeleton(linkage, motion, index, scale)
     parts = [mechanism(bones, (GROUND, DRIVER), looks) + driver_marks(linkage, motion, bones)]
     parts += [mechanism(bones, dyad.links, looks) for dyad in linkage.dyads]
@@ -175,9 +290,7 @@ def _number(bones: Skeleton, link: int, looks: Looks) -> list[Request]:
 
 def _names(names: Sequence[str], bones: Skeleton) -> list[Request]:
     """One label for points that coincide."""
-    shown = list(dict.fromkeys(names))
-    requests = []
-    for group in clusters([bones.points[name] for name in shown], 0.3):
-        parts = joined((symbols.point(shown[i]) for i in group), " ≡ ")
-        requests.append(label(bones.points[shown[group[0]]], *parts, gap=style.JOINT + 0.5))
-    return requests
+    return [
+        label(bones.points[group[0]], *joined(map(symbols.point, group), " ≡ "), gap=style.JOINT + 0.5)
+        for group in clusters(dict.fromkeys(names), 0.3, bones.points.__getitem__)
+    ]

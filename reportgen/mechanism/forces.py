@@ -14,11 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from reportgen.mechanism.dyads import Complexes, Floats, cross, dot
 from reportgen.mechanism.loads import Load
-from reportgen.mechanism.mobility import Joint, joints
 from reportgen.mechanism.motion import Motion
-from reportgen.mechanism.plane import Complexes, Floats, cross, dot
-from reportgen.mechanism.structure import DRIVER, GROUND, Dyad, Linkage
+from reportgen.mechanism.structure import DRIVER, GROUND, Dyad, Joint, Linkage, joints
 
 NOTHING = 1e-12
 """A force across a guide below this part of the group's largest is rounding."""

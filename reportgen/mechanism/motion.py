@@ -11,15 +11,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from reportgen.mechanism.dyads import (
     Assembled,
+    Complexes,
     End,
+    Flags,
+    Floats,
     LinkMotion,
     PointMotion,
     Rail,
     SlideMotion,
     assemble,
     carried,
+    unit,
 )
-from reportgen.mechanism.plane import Complexes, Flags, Floats, unit
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
 
 __all__ = ["LinkMotion", "Motion", "PointMotion", "SlideMotion", "Unreachable", "solve_motion"]

@@ -19,9 +19,8 @@ from reportgen.document import tree
 from reportgen.figures.scene import Scene
 from reportgen.notation.expressions import Symbol
 from reportgen.writers import layout
-from reportgen.writers.latex_drawing import paint
-from reportgen.writers.latex_math import aligned, mathematics
-from reportgen.writers.latex_text import declarations, escape, hexadecimal
+from reportgen.writers.drawing import paint_latex
+from reportgen.writers.latex_math import LatexFormulas, declarations, escape, hexadecimal
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -82,6 +81,7 @@ class _Writer:
     def __init__(self, document: tree.Document) -> None:
         self.document = document
         self.language = document.language
+        self.formulas = LatexFormulas(document.language)
         self.entries = {id(entry.section): entry for entry in _entries(document.blocks)}
         self.places: Mapping[str, str] = {
             **{key: f"k{index}" for index, key in enumerate(_keys(document.blocks))},
@@ -118,7 +118,7 @@ class _Writer:
                 return self.figure(block)
             case tree.Plate(scene, (width, height)):
                 caption = self.caption(self.document.words.figure, block)
-                painted = paint(scene, self.language)
+                painted = paint_latex(scene, self.formulas)
                 return _command("plate", f"{width:g}mm", f"{height:g}mm", painted, caption)
             case tree.Cover():
                 return self.cover(block)
@@ -142,10 +142,8 @@ class _Writer:
                 return rf"\emph{{{self.inlines(of)}}}"
             case tree.Strong(of):
                 return rf"\textbf{{{self.inlines(of)}}}"
-            case tree.InlineMath(expression):
-                return f"${mathematics(expression, self.language)}$"
-            case tree.Value(number):
-                return f"${mathematics(number, self.language)}$"
+            case tree.InlineMath(expression) | tree.Value(expression):
+                return self.formulas.content(expression)
             case tree.Reference(key, text):
                 place = self.places.get(key)
                 return rf"\link{{{place}}}{{{escape(text)}}}" if place else escape(text)
@@ -225,7 +223,7 @@ class _Writer:
         rows = []
         for index, row in enumerate(equation.rows):
             macro = "L" if index == len(equation.rows) - 1 else "R"
-            left, rest = aligned(row, self.language)
+            left, rest = self.formulas.aligned(row)
             rows.append(rf"\{macro}{{{left}}}{{{rest}}}")
         return f"\\EQ{{{number}}}{{%\n" + "%\n".join(rows) + "}"
 
@@ -247,7 +245,7 @@ class _Writer:
         return "\n".join([r"\begin{scenes}", rows, caption, r"\end{scenes}"])
 
     def scene(self, scene: Scene) -> str:
-        painted = paint(scene, self.language)
+        painted = paint_latex(scene, self.formulas)
         return _command("titledscene", painted, escape(scene.title)) if scene.title else painted
 
     def table(self, block: tree.Table) -> str:

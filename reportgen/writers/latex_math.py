@@ -1,32 +1,30 @@
-"""Expressions → LaTeX mathematics, without the dollar signs."""
+"""Words and formulas → LaTeX source, so that they appear on the page exactly as typed.
+
+T5 fonts hold the Vietnamese letters, T1 the other Latin ones; symbols and Greek letters come from the
+mathematical fonts.  A character that none of them has is refused before TeX runs.
+"""
 
 from __future__ import annotations
 
+import re
+import unicodedata
 from collections.abc import Sequence
 from typing import Literal
 
 from reportgen.errors import TypesetterError
 from reportgen.notation.expressions import (
-    Call,
     Chain,
     Expression,
     Fraction,
-    Matrix,
-    Negative,
     Number,
-    Power,
-    Product,
-    Ref,
     Root,
-    Sum,
     Symbol,
     Term,
     VectorEquation,
     walk,
 )
-from reportgen.notation.numbers import MINUS, Language, write
-from reportgen.writers import layout
-from reportgen.writers.latex_text import MATHEMATICAL, escape
+from reportgen.notation.numbers import MINUS, write
+from reportgen.writers.layout import NAMED, PRIMES, UNSPACED, Formulas, short_end
 
 SignedTerm = tuple[str, Term]
 """A term of a vector equation with the sign or relation printed before it."""
@@ -34,84 +32,207 @@ SignedTerm = tuple[str, Term]
 NARROW_TERMS = 5
 """A vector equation of at most so many terms fits any line."""
 
+SPECIAL = {
+    "\\": r"\textbackslash{}",
+    "{": r"\{",
+    "}": r"\}",
+    "$": r"\$",
+    "&": r"\&",
+    "#": r"\#",
+    "%": r"\%",
+    "_": r"\_",
+    "^": r"\textasciicircum{}",
+    "~": r"\textasciitilde{}",
+    "<": r"\textless{}",
+    ">": r"\textgreater{}",
+    "|": r"\textbar{}",
+    '"': r"\textquotedbl{}",
+    "'": r"\textquotesingle{}",
+    "`": r"\textasciigrave{}",
+}
+"""ASCII marks that TeX would take for commands or for other signs."""
 
-def mathematics(node: Expression, language: Language) -> str:
-    """The formula of an expression; sums and chains carry the places where a line may break.
+_LIGATURES = re.compile(r"([-,])(?=\1)")
+"""Marks that fonts would join into one sign: -- ,,"""
 
-    Raises `TypesetterError` for a reference nobody substituted or a character the fonts do not have.
+MATHEMATICAL = {
+    "α": r"\alpha", "β": r"\beta", "γ": r"\gamma", "δ": r"\delta", "ε": r"\varepsilon", "ζ": r"\zeta",
+    "η": r"\eta", "θ": r"\theta", "ι": r"\iota", "κ": r"\kappa", "λ": r"\lambda", "μ": r"\mu",
+    "ν": r"\nu", "ξ": r"\xi", "π": r"\pi", "ρ": r"\rho", "σ": r"\sigma", "τ": r"\tau", "υ": r"\upsilon",
+    "φ": r"\varphi", "χ": r"\chi", "ψ": r"\psi", "ω": r"\omega", "Γ": r"\Gamma", "Δ": r"\Delta",
+    "Θ": r"\Theta", "Λ": r"\Lambda", "Ξ": r"\Xi", "Π": r"\Pi", "Σ": r"\Sigma", "Υ": r"\Upsilon",
+    "Φ": r"\Phi", "Ψ": r"\Psi", "Ω": r"\Omega", "ϕ": r"\phi", "ϑ": r"\vartheta", "ϵ": r"\epsilon",
+    "ς": r"\varsigma", "∂": r"\partial", "∇": r"\nabla", "∞": r"\infty", "∑": r"\sum", "∏": r"\prod",
+    "∫": r"\int", "≤": r"\le", "≥": r"\ge", "≠": r"\mathrel{\reportactual{2260}{\ne}}", "≈": r"\approx",
+    "≡": r"\equiv", "∼": r"\sim", "∈": r"\in", "∝": r"\propto", "≪": r"\ll", "≫": r"\gg", "⊥": r"\perp",
+    "⟂": r"\perp", "∥": r"\parallel", "∠": r"\reportactual{2220}{\angle}", "△": r"\triangle",
+    "∘": r"\circ", "←": r"\leftarrow", "→": r"\rightarrow", "↑": r"\uparrow", "↓": r"\downarrow",
+    "↔": r"\leftrightarrow", "↗": r"\nearrow", "↘": r"\searrow", "↙": r"\swarrow", "↖": r"\nwarrow",
+    "⇒": r"\Rightarrow", "⇔": r"\Leftrightarrow", "⋅": r"\cdot", "′": r"{}^{\prime}",
+    "″": r"{}^{\prime\prime}", "₀": "{}_0", "₁": "{}_1", "₂": "{}_2", "₃": "{}_3", "₄": "{}_4",
+    "₅": "{}_5", "₆": "{}_6", "₇": "{}_7", "₈": "{}_8", "₉": "{}_9", "⁻": "{}^{-}", "⁴": "{}^4",
+    "ⁿ": "{}^n", "ȧ": r"\reportactual{0227}{\dot{a}}", "Ȧ": r"\reportactual{0226}{\dot{A}}",
+    "ḃ": r"\reportactual{1E03}{\dot{b}}", "Ḃ": r"\reportactual{1E02}{\dot{B}}",
+}
+"""Characters that the frame declares as this mathematics, in text and in formulas alike."""
+
+TEXTUAL = {
+    "°": r"\textdegree", "·": r"\reportdot", "×": r"\texttimes", "÷": r"\textdiv",
+    "±": r"\textpm", "¹": r"\textonesuperior", "²": r"\texttwosuperior", "³": r"\textthreesuperior",
+    "½": r"\textonehalf", "¼": r"\textonequarter", "¾": r"\textthreequarters", "µ": r"\textmu",
+    "§": r"\textsection", "¶": r"\textparagraph", "©": r"\textcopyright", "®": r"\textregistered",
+    "™": r"\texttrademark", "€": r"\texteuro", "£": r"\textsterling", "¥": r"\textyen",
+    "₫": r"\textdong", "•": r"\textbullet", "‰": r"\UseTextSymbol{TS1}{\textperthousand}",
+    "№": r"\textnumero", "…": r"\reportellipsis", "\u00a0": "~", "\u2009": r"\,", "\u202f": r"\,",
+    "\u2011": "-", "−": r"\textminus",
+}
+"""Characters that the frame declares as these text commands, in text and in formulas alike."""
+
+_VIETNAMESE = frozenset(
+    "ÀÁÂÃÈÉÊÌÍÒÓÔÕÙÚÝàáâãèéêìíòóôõùúýĂăĐđĨĩŨũƠơƯưẠạẢảẤấẦầẨẩẪẫẬậẮắẰằẲẳẴẵẶặẸẹẺẻẼẽẾếỀềỂểỄễỆệỈỉỊịỌọỎỏỐốỒồỔổỖỗỘộ"
+    "ỚớỜờỞởỠỡỢợỤụỦủỨứỪừỬửỮữỰựỲỳỴỵỶỷỸỹ–—‘’‚“”„‹›«»"
+)
+_OTHER_LATIN = frozenset(
+    "ÄÅÆÇËÎÏÐÑÖØÛÜÞßäåæçëîïðñöøûüþÿĄąĆćČčĎďĘęĚěĞğİıĹĺĽľŁłŃńŇňŐőŒœŔŕŘřŚśŞşŠšŤťŮůŰűŸŹźŻżŽžȘșȚț¡¿"
+)
+_DECLARED = frozenset(MATHEMATICAL) | frozenset(TEXTUAL)
+
+
+def declarations() -> tuple[tuple[str, str], ...]:
+    """(code point in hex, definition) of every character that the frame declares."""
+    mathematics = ((char, rf"\ensuremath{{{code}}}") for char, code in MATHEMATICAL.items())
+    words = ((char, rf"\reporttextual{{{code}}}") for char, code in TEXTUAL.items())
+    return tuple((f"{ord(char):04X}", code) for char, code in (*mathematics, *words))
+
+
+def escape(text: str) -> str:
+    """The LaTeX source that prints `text` as typed.
+
+    Raises `TypesetterError` naming the first character that the fonts do not have.
     """
-    match node:
-        case Symbol():
-            return _symbol(node)
-        case Number(value, decimals, unit):
-            return _digits(write(value, decimals, language)) + _unit(unit)
-        case Ref(id):
-            raise TypesetterError(f"quantity {id!r} came to the page without its symbol or value")
-        case Sum(terms):
-            return _sum(terms, language)
-        case Product(factors):
-            return r" \dotbreak\cdot ".join(_tight(factor, layout.PRODUCT, language) for factor in factors)
-        case Negative(of):
-            return f"-{_tight(of, layout.PRODUCT, language)}"
-        case Fraction(top, bottom):
-            return rf"\frac{{{mathematics(top, language)}}}{{{mathematics(bottom, language)}}}"
-        case Power(base, exponent):
-            return _power(base, mathematics(exponent, language), language)
-        case Root(of):
-            return rf"\sqrt{{{mathematics(of, language)}}}"
-        case Call():
-            return _call(node, "", language)
-        case Matrix(rows):
-            lines = (" & ".join(mathematics(entry, language) for entry in row) for row in rows)
-            return _bracketed(r"\begin{matrix}" + r" \\ ".join(lines) + r"\end{matrix}")
-        case Chain(parts, note):
-            printed = mathematics(parts[0], language)
-            for index, part in enumerate(parts[1:], 2):
-                unparted = index == len(parts) and layout.short_end(node)
-                printed += (" = " if unparted else r" \relbreak= ") + mathematics(part, language)
-            return printed + (rf" \relbreak\quad\text{{({escape(note)})}}" if note else "")
-        case VectorEquation():
-            return " ".join(f"{_sign(sign)} {_symbol(term.symbol)}" for sign, term in layout.signed(node))
+    source = "".join(map(_character, unicodedata.normalize("NFC", text)))
+    return _LIGATURES.sub(r"\1{}", source)
 
 
-def _bracketed(inner: str) -> str:
-    """Square brackets as tall as what they hold; copied from the page they are single characters."""
-    strut = rf"\vphantom{{{inner}}}"
-    opening = rf"\mathopen{{\reportactual{{005B}}{{\left[{strut}\right.\kern-\nulldelimiterspace}}}}"
-    closing = rf"\mathclose{{\reportactual{{005D}}{{\kern-\nulldelimiterspace\left.{strut}\right]}}}}"
-    return opening + inner + closing
+def _character(char: str) -> str:
+    if char in SPECIAL:
+        return SPECIAL[char]
+    if char.isspace() and char not in TEXTUAL:
+        return " "
+    if " " < char <= "~" or char in _DECLARED or char in _VIETNAMESE:
+        return char
+    if char in _OTHER_LATIN:
+        return rf"\reportlatin{{{char}}}"
+    raise TypesetterError(
+        f"the LaTeX engine has no character {char!r} (U+{ord(char):04X}, "
+        f"{unicodedata.name(char, 'without a name')}); use the engine typst, or write it otherwise"
+    )
 
 
-def aligned(node: Expression, language: Language) -> tuple[str, str]:
-    """A displayed line cut at its first relation: what stands left of it, and the rest.
-
-    A vector equation is a grid and not cut.  Raises `TypesetterError` as `mathematics` does.
-    """
-    if isinstance(node, VectorEquation):
-        return "", _vector_equation(list(layout.signed(node)), node.rows, language)
-    if isinstance(node, Chain) and len(node.parts) > 1:
-        relation = " = " if len(node.parts) == 2 and layout.short_end(node) else r" \relbreak= "
-        return (
-            mathematics(node.parts[0], language),
-            relation + mathematics(Chain(node.parts[1:], node.note), language),
-        )
-    return "", mathematics(node, language)
+def hexadecimal(text: str) -> str:
+    """A text as a PDF string's content in UTF-16, in hexadecimal digits."""
+    return "FEFF" + unicodedata.normalize("NFC", text).encode("utf-16-be").hex().upper()
 
 
-# --- atoms ----------------------------------------------------------------------------------------
+# --- formulas -------------------------------------------------------------------------------------
 
 
-def _symbol(symbol: Symbol) -> str:
-    letters = symbol.base.rstrip("".join(layout.PRIMES))
-    primes = symbol.base[len(letters) :]
-    base = letters if len(letters) == 1 and _is_mathematical(letters) else _word(letters, "it")
-    if symbol.over == "vector":
-        base = rf"\vec{{{base}}}" if len(letters) == 1 else rf"\overrightarrow{{{base}}}"
-    elif symbol.over == "segment":
-        base = rf"\overline{{{base}}}"
-    below = f"_{{{_word(symbol.sub)}}}" if symbol.sub else ""
-    above = f"^{{{_word(primes + symbol.sup)}}}" if primes or symbol.sup else ""
-    return base + below + above
+class LatexFormulas(Formulas):
+    r"""Formulas with the places where a line may break: \relbreak, \binbreak, \dotbreak."""
+
+    PLUS, MINUS, NEGATIVE = r"\binbreak+", r"\binbreak-", "-"
+    TIMES, DOT, CROSS = r"\dotbreak\cdot", r"\cdot", r"\times"
+    FRACTION, RAISED, ROOT, ABSOLUTE = r"\frac{%s}{%s}", "^{%s}", r"\sqrt{%s}", r"\left|%s\right|"
+
+    def text(self, text: str) -> str:
+        return escape(text)
+
+    def number(self, node: Number) -> str:
+        """Digits without a gap after the decimal comma and with a true minus sign, and the unit."""
+        digits = write(node.value, node.decimals, self.language)
+        if any(char.isdigit() for char in digits):
+            digits = digits.replace(",", "{,}").replace(MINUS, "-")
+        else:
+            digits = rf"\text{{{escape(digits)}}}"
+        gap = "" if node.unit in UNSPACED else r"\,"
+        return digits + (rf"{gap}\text{{{escape(node.unit)}}}" if node.unit else "")
+
+    def symbol(self, node: Symbol) -> str:
+        letters = node.base.rstrip("".join(PRIMES))
+        above = node.base[len(letters) :] + node.sup
+        base = letters if len(letters) == 1 and _is_mathematical(letters) else _word(letters, "it")
+        if node.over == "vector":
+            base = rf"\vec{{{base}}}" if len(letters) == 1 else rf"\overrightarrow{{{base}}}"
+        elif node.over == "segment":
+            base = rf"\overline{{{base}}}"
+        below = f"_{{{_word(node.sub)}}}" if node.sub else ""
+        return base + below + (self.RAISED % _word(above) if above else "")
+
+    def parentheses(self, node: Expression) -> str:
+        inner = self.math(node)
+        if any(isinstance(part, (Fraction, Root)) for part in walk(node)):
+            return rf"\mathopen{{}}\left({inner}\right)"
+        return f"({inner})"
+
+    def function(self, name: str) -> str:
+        return rf"\{name}" if name in NAMED else rf"\operatorname{{{escape(name)}}}"
+
+    def arguments(self, nodes: Sequence[Expression]) -> str:
+        if len(nodes) == 1:
+            return self.parentheses(nodes[0])
+        # A comma is the decimal mark in Vietnamese.
+        return f"({('; ' if self.language == 'vi' else ', ').join(map(self.math, nodes))})"
+
+    def matrix(self, rows: Sequence[Sequence[str]]) -> str:
+        """Square brackets as tall as what they hold; copied from the page they are single characters."""
+        inner = r"\begin{matrix}" + r" \\ ".join(map(" & ".join, rows)) + r"\end{matrix}"
+        strut = rf"\vphantom{{{inner}}}"
+        opening = rf"\mathopen{{\reportactual{{005B}}{{\left[{strut}\right.\kern-\nulldelimiterspace}}}}"
+        closing = rf"\mathclose{{\reportactual{{005D}}{{\kern-\nulldelimiterspace\left.{strut}\right]}}}}"
+        return opening + inner + closing
+
+    def chain(self, node: Chain) -> str:
+        return "".join(self.aligned(node))
+
+    def aligned(self, node: Expression) -> tuple[str, str]:
+        """A displayed line cut at its first relation: what stands left of it, and the rest.
+
+        A vector equation is a grid and not cut.
+        """
+        match node:
+            case VectorEquation(rows=rows):
+                return "", self._vector_equation(list(self.signed(node)), rows)
+            case Chain((first, *others), note):
+                rest = [r" \relbreak= " + self.math(part) for part in others]
+                if rest and short_end(node):
+                    rest[-1] = f" = {self.math(others[-1])}"
+                if note:
+                    rest.append(rf" \relbreak\quad\text{{({escape(note)})}}")
+                return (self.math(first), "".join(rest)) if others else ("", self.math(first) + "".join(rest))
+        return "", self.math(node)
+
+    # --- vector equations -------------------------------------------------------------------------
+
+    def _vector_equation(self, terms: Sequence[SignedTerm], rows: Sequence[str]) -> str:
+        """A grid; if it is too wide for the line, two grids of half the terms, one below the other."""
+        whole = self._grid(terms, rows)
+        if len(terms) <= NARROW_TERMS:
+            return whole
+        half = (len(terms) + 1) // 2
+        upper, lower = (self._vector_equation(part, rows) for part in (terms[:half], terms[half:]))
+        return rf"\fitting{{{whole}}}{{\storeys{{{upper}}}{{{lower}}}}}"
+
+    def _grid(self, terms: Sequence[SignedTerm], rows: Sequence[str]) -> str:
+        """Terms on top, below each what is known of it; "?" marks an unknown."""
+        lines = ["&" + "&".join(f"{sign}&{self.symbol(term.symbol)}" for sign, term in terms)]
+        for row, name in enumerate(rows):
+            entries = (term.known[row] if row < len(term.known) else "" for _, term in terms)
+            known = "&".join(rf"&\known{{{self.content('?' if e is None else e)}}}" for e in entries)
+            lines.append(rf"\rowname{{{escape(name)}}}&{known}")
+        if rows:
+            lines[1] = rf"\cline{{2-{2 * len(terms) + 1}}}{lines[1]}"
+        body = r"\\".join(lines)
+        return rf"\begin{{vectorgrid}}{{{len(terms)}}}{body}\end{{vectorgrid}}"
 
 
 def _is_mathematical(text: str) -> bool:
@@ -128,104 +249,3 @@ def _word(text: str, shape: Literal["rm", "it"] = "rm") -> str:
     if _is_mathematical(text):
         return rf"\math{shape}{{{text}}}"
     return rf"\text{{\text{'it' if shape == 'it' else 'up'}{{{escape(text)}}}}}"
-
-
-def _digits(text: str) -> str:
-    """Digits in mathematics: no gap after the decimal comma, a true minus sign."""
-    if not any(char.isdigit() for char in text):
-        return rf"\text{{{escape(text)}}}"
-    return text.replace(",", "{,}").replace(MINUS, "-")
-
-
-def _unit(unit: str) -> str:
-    gap = "" if unit in layout.UNSPACED else r"\,"
-    return rf"{gap}\text{{{escape(unit)}}}" if unit else ""
-
-
-# --- operations -----------------------------------------------------------------------------------
-
-
-def _tight(node: Expression, least: int, language: Language) -> str:
-    """The node, in parentheses if it binds less tightly than `least`."""
-    return mathematics(node, language) if layout.level(node) >= least else _parentheses(node, language)
-
-
-def _parentheses(node: Expression, language: Language) -> str:
-    inner = mathematics(node, language)
-    if any(isinstance(part, (Fraction, Root)) for part in walk(node)):
-        return rf"\mathopen{{}}\left({inner}\right)"
-    return f"({inner})"
-
-
-def _sum(terms: tuple[Expression, ...], language: Language) -> str:
-    printed = [mathematics(terms[0], language)] if terms else []
-    for term in terms[1:]:
-        if isinstance(term, Negative):
-            printed.append(r"\binbreak- " + _tight(term.of, layout.PRODUCT, language))
-        else:
-            printed.append(r"\binbreak+ " + _tight(term, layout.PRODUCT, language))
-    return " ".join(printed)
-
-
-def _power(base: Expression, exponent: str, language: Language) -> str:
-    if isinstance(base, Call) and base.name in layout.NAMED:
-        return _call(base, f"^{{{exponent}}}", language)
-    return f"{_tight(base, layout.ATOM, language)}^{{{exponent}}}"
-
-
-def _call(node: Call, exponent: str, language: Language) -> str:
-    match node.name, node.arguments:
-        case "abs", (argument,):
-            return rf"\left|{mathematics(argument, language)}\right|"
-        case ("cross" | "dot") as product, (left, right):
-            sign = r"\times" if product == "cross" else r"\cdot"
-            return f"{_tight(left, layout.QUOTIENT, language)} {sign} {_tight(right, layout.QUOTIENT, language)}"
-        case name, (argument,) if name in layout.NAMED and layout.level(argument) >= layout.MARKED:
-            return f"{_function(name)}{exponent} {mathematics(argument, language)}"
-        case name, (argument,):
-            return f"{_function(name)}{exponent}{_parentheses(argument, language)}"
-        case name, arguments:
-            mark = "; " if language == "vi" else ", "
-            inner = mark.join(mathematics(argument, language) for argument in arguments)
-            return f"{_function(name)}{exponent}({inner})"
-
-
-def _function(name: str) -> str:
-    return rf"\{name}" if name in layout.NAMED else rf"\operatorname{{{escape(name)}}}"
-
-
-# --- vector equations -----------------------------------------------------------------------------
-
-
-def _vector_equation(terms: Sequence[SignedTerm], rows: Sequence[str], language: Language) -> str:
-    """A grid; if it is too wide for the line, two grids of half the terms, one below the other."""
-    whole = _grid(terms, rows, language)
-    if len(terms) <= NARROW_TERMS:
-        return whole
-    half = (len(terms) + 1) // 2
-    upper, lower = (_vector_equation(part, rows, language) for part in (terms[:half], terms[half:]))
-    return rf"\fitting{{{whole}}}{{\storeys{{{upper}}}{{{lower}}}}}"
-
-
-def _grid(terms: Sequence[SignedTerm], rows: Sequence[str], language: Language) -> str:
-    """Terms on top, below each what is known of it; "?" marks an unknown."""
-    lines = ["&" + "&".join(f"{_sign(sign)}&{_symbol(term.symbol)}" for sign, term in terms)]
-    for row, name in enumerate(rows):
-        entries = (term.known[row] if row < len(term.known) else "" for _, term in terms)
-        known = "&".join(f"&{_known(entry, language)}" for entry in entries)
-        lines.append(rf"\rowname{{{escape(name)}}}&{known}")
-    if rows:
-        lines[1] = rf"\cline{{2-{2 * len(terms) + 1}}}{lines[1]}"
-    body = r"\\".join(lines)
-    return rf"\begin{{vectorgrid}}{{{len(terms)}}}{body}\end{{vectorgrid}}"
-
-
-def _sign(sign: str) -> str:
-    return sign.replace(MINUS, "-")
-
-
-def _known(entry: Expression | str | None, language: Language) -> str:
-    if entry is None:
-        return r"\known{?}"
-    inner = escape(entry) if isinstance(entry, str) else f"${mathematics(entry, language)}$"
-    return rf"\known{{{inner}}}"

@@ -1,30 +1,35 @@
-"""Decisions that all writers share: parentheses, signs, and what a page or line break must not separate."""
+"""Decisions that all writers share: how formulas are put together, and what breaks must not separate."""
 
 from __future__ import annotations
 
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import ClassVar
 
 from reportgen.document.plain import plain
 from reportgen.document.tree import Block, Equation, List, PageBreak, Paragraph, Plate, Table
+from reportgen.errors import TypesetterError
 from reportgen.figures.scene import Scene
 from reportgen.notation.expressions import (
     Call,
     Chain,
     Expression,
     Fraction,
+    Matrix,
     Negative,
     Number,
     Power,
     Product,
+    Ref,
     Root,
     Sum,
     Symbol,
     Term,
     VectorEquation,
 )
-from reportgen.notation.numbers import MINUS, Language
+from reportgen.notation.numbers import Language
 
 TEXT_WIDTH = 160.0
 """Of the A4 text block, mm."""
@@ -49,6 +54,131 @@ UNSPACED = ("", "°", "%")
 """Units that follow their number without a space."""
 
 
+class Formulas(ABC):
+    """Expressions as the mathematics of one typesetter, in one language.
+
+    What operations look like stands in the constants of a subclass, operands in the places of "%s".
+    """
+
+    PLUS: ClassVar[str]
+    MINUS: ClassVar[str]
+    NEGATIVE: ClassVar[str]
+    """The sign of a single negative; `MINUS` stands between two terms and may carry a line break."""
+    TIMES: ClassVar[str]
+    DOT: ClassVar[str]
+    CROSS: ClassVar[str]
+    FRACTION: ClassVar[str]
+    RAISED: ClassVar[str]
+    ROOT: ClassVar[str]
+    ABSOLUTE: ClassVar[str]
+
+    def __init__(self, language: Language) -> None:
+        self.language: Language = language
+
+    def content(self, content: Expression | str) -> str:
+        """A formula in dollar signs, or a plain text."""
+        return self.text(content) if isinstance(content, str) else f"${self.math(content)}$"
+
+    def math(self, node: Expression) -> str:
+        """The formula of an expression, without dollar signs.
+
+        Raises `TypesetterError` for a reference that nobody has substituted, or a character without a glyph.
+        """
+        match node:
+            case Symbol():
+                return self.symbol(node)
+            case Number():
+                return self.number(node)
+            case Ref(id):
+                raise TypesetterError(f"quantity {id!r} came to the page without its symbol or value")
+            case Sum() | Product():
+                return " ".join(self.pieces(node))
+            case Negative(of):
+                return self.NEGATIVE + self.tight(of, PRODUCT)
+            case Fraction(top, bottom):
+                return self.FRACTION % (self.math(top), self.math(bottom))
+            case Power(Call(name) as base, exponent) if name in NAMED:
+                return self.call(base, self.RAISED % self.math(exponent))
+            case Power(base, exponent):
+                return self.tight(base, ATOM) + self.RAISED % self.math(exponent)
+            case Root(of):
+                return self.ROOT % self.math(of)
+            case Call():
+                return self.call(node)
+            case Matrix(rows):
+                return self.matrix([[self.math(entry) for entry in row] for row in rows])
+            case Chain():
+                return self.chain(node)
+            case VectorEquation():
+                return " ".join(f"{sign} {self.symbol(term.symbol)}" for sign, term in self.signed(node))
+
+    def pieces(self, node: Expression) -> list[str]:
+        """A formula's pieces, between which a displayed line may break: terms of a sum, factors of a product."""
+        match node:
+            case Sum(terms):
+                return [self.math(term) if index == 0 else self._term(term) for index, term in enumerate(terms)]
+            case Product(factors):
+                first, *others = (self.tight(factor, PRODUCT) for factor in factors)
+                return [first, *(f"{self.TIMES} {factor}" for factor in others)]
+            case Negative(Product() as of):
+                first, *others = self.pieces(of)
+                return [self.NEGATIVE + first, *others]
+            case _:
+                return [self.math(node)]
+
+    def _term(self, term: Expression) -> str:
+        if isinstance(term, Negative):
+            return f"{self.MINUS} {self.tight(term.of, PRODUCT)}"
+        return f"{self.PLUS} {self.tight(term, PRODUCT)}"
+
+    def tight(self, node: Expression, least: int) -> str:
+        """The node, in parentheses if it binds less tightly than `least`."""
+        return self.math(node) if level(node) >= least else self.parentheses(node)
+
+    def call(self, node: Call, exponent: str = "") -> str:
+        match node.name, node.arguments:
+            case "abs", (argument,):
+                return self.ABSOLUTE % self.math(argument)
+            case ("cross" | "dot") as product, (left, right):
+                sign = self.CROSS if product == "cross" else self.DOT
+                return f"{self.tight(left, QUOTIENT)} {sign} {self.tight(right, QUOTIENT)}"
+            case name, (argument,) if name in NAMED and level(argument) >= MARKED:
+                return f"{self.function(name)}{exponent} {self.math(argument)}"
+            case name, arguments:
+                return f"{self.function(name)}{exponent}{self.arguments(arguments)}"
+
+    def signed(self, equation: VectorEquation) -> Iterator[tuple[str, Term]]:
+        """Each term with what is printed before it: "=" at the head of a later side, then its sign."""
+        for side, terms in enumerate(equation.sides):
+            for index, term in enumerate(terms):
+                sign = self.NEGATIVE if term.sign < 0 else "+" if index else ""
+                yield ("=" + sign if side and not index else sign), term
+
+    @abstractmethod
+    def text(self, text: str) -> str: ...
+
+    @abstractmethod
+    def symbol(self, node: Symbol) -> str: ...
+
+    @abstractmethod
+    def number(self, node: Number) -> str: ...
+
+    @abstractmethod
+    def parentheses(self, node: Expression) -> str: ...
+
+    @abstractmethod
+    def function(self, name: str) -> str: ...
+
+    @abstractmethod
+    def arguments(self, nodes: Sequence[Expression]) -> str: ...
+
+    @abstractmethod
+    def matrix(self, rows: Sequence[Sequence[str]]) -> str: ...
+
+    @abstractmethod
+    def chain(self, node: Chain) -> str: ...
+
+
 def level(node: Expression) -> int:
     """How tightly a node binds; a parent that needs a higher level puts it in parentheses."""
     match node:
@@ -66,14 +196,6 @@ def level(node: Expression) -> int:
             return MARKED if node.sup or node.base.endswith(PRIMES) else ATOM
         case _:
             return ATOM
-
-
-def signed(equation: VectorEquation) -> Iterator[tuple[str, Term]]:
-    """Each term with what is printed before it: "=" at the head of a later side, then its sign."""
-    for side, terms in enumerate(equation.sides):
-        for index, term in enumerate(terms):
-            sign = MINUS if term.sign < 0 else "+" if index else ""
-            yield ("=" + sign if side and not index else sign), term
 
 
 def short_end(row: Expression) -> bool:

@@ -16,8 +16,8 @@ from reportgen.figures.scene import Scene
 from reportgen.notation.expressions import Chain, Expression, Product, Sum, VectorEquation, walk
 from reportgen.notation.numbers import Language
 from reportgen.writers import layout
-from reportgen.writers.typst_drawing import paint
-from reportgen.writers.typst_math import literal, math, note, pieces, quantity, symbol
+from reportgen.writers.drawing import paint_typst
+from reportgen.writers.typst_math import TypstFormulas, literal
 
 LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
@@ -78,6 +78,7 @@ class _Blocks:
 
     def __init__(self, language: Language, words: tree.Words, room: float = layout.TEXT_WIDTH) -> None:
         self.language = language
+        self.formulas = TypstFormulas(language)
         self.words = words
         self.room = room
 
@@ -126,7 +127,7 @@ class _Blocks:
                 return f"#place.flush()#F({literal(key)},{label},{floating},\n{drawings})"
             case tree.Plate(scene, (width, height), _, key):
                 label = self.caption(self.words.figure, block)
-                drawing = paint(scene, self.language)
+                drawing = paint_typst(scene, self.formulas)
                 return f"#plate({width:g},{height:g},{scene.height:g},{label},\n{drawing})" + _label(key)
             case tree.Cover(institution, title, subtitle, fields, foot):
                 lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
@@ -158,7 +159,7 @@ class _Blocks:
             case tree.InlineMath(expression):
                 return self.formula(expression)
             case tree.Value(number):
-                shown = literal(quantity(number, self.language))
+                shown = literal(self.formulas.quantity(number))
                 return f"#box({shown})" if "/" in number.unit else f"#{shown}"
             case tree.Reference(key, text):
                 return f"#link(label({literal(key)}),{literal(text)})"
@@ -168,11 +169,10 @@ class _Blocks:
     def formula(self, expression: Expression) -> str:
         """A formula in a line, which may break before "=" and between the terms of a sum only."""
         if not any(isinstance(node, Product) for node in walk(expression)) or isinstance(expression, Sum):
-            return f"${math(expression, self.language)}$"
+            return self.formulas.content(expression)
         parts = expression.parts if isinstance(expression, Chain) else (expression,)
-        printed = [math(part, self.language) for part in parts]
-        if isinstance(expression, Chain):
-            printed[-1] += note(expression)
+        printed = [self.formulas.math(part) for part in parts]
+        printed[-1] += self.formulas.note(expression)
         return " ".join(f"#box(${'= ' if index else ''}{part}$)" for index, part in enumerate(printed))
 
     def run_in(self, section: tree.Section) -> str:
@@ -209,26 +209,20 @@ class _Blocks:
     def row(self, row: Expression) -> list[str]:
         """A displayed row: the parts between "=", each in the pieces between which it may break."""
         parts = row.parts if isinstance(row, Chain) else (row,)
-        printed = [pieces(part, self.language) for part in parts]
-        if isinstance(row, Chain):
-            if layout.short_end(row) and len(printed) > 1:
-                end = printed.pop()
-                printed[-1][-1] += f" = {' '.join(end)}"
-            printed[-1][-1] += note(row)
+        printed = [self.formulas.pieces(part) for part in parts]
+        if layout.short_end(row) and len(printed) > 1:
+            end = printed.pop()
+            printed[-1][-1] += f" = {' '.join(end)}"
+        printed[-1][-1] += self.formulas.note(row)
         return [_array(f"${piece}$" for piece in part) for part in printed]
 
     def vector_equation(self, equation: VectorEquation) -> str:
         terms = []
-        for sign, term in layout.signed(equation):
+        for sign, term in self.formulas.signed(equation):
             known = (*term.known, *("",) * (len(equation.rows) - len(term.known)))
-            entries = map(self.known, known[: len(equation.rows)])
-            terms.append(_array((f"${sign}$", f"${symbol(term.symbol)}$", *entries)))
+            entries = (self.formulas.content("?" if e is None else e) for e in known[: len(equation.rows)])
+            terms.append(_array((f"${sign}$", self.formulas.content(term.symbol), *entries)))
         return ",".join((_array(map(literal, equation.rows)), *terms))
-
-    def known(self, entry: Expression | str | None) -> str:
-        if entry is None:
-            return literal("?")
-        return literal(entry) if isinstance(entry, str) else f"${math(entry, self.language)}$"
 
     def table(self, table: tree.Table) -> str:
         label = self.caption(self.words.table, table) if table.caption or table.number else "none,none"
@@ -244,7 +238,7 @@ class _Blocks:
         return f"{spanned}({cell.span},{body})" if cell.span > 1 else body
 
     def scene(self, scene: Scene) -> str:
-        return f"({paint(scene, self.language)},{literal(scene.title)})"
+        return f"({paint_typst(scene, self.formulas)},{literal(scene.title)})"
 
     def caption(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         """The two arguments of a caption: its label, and what it says."""

@@ -15,8 +15,7 @@ from reportgen.figures.geometry import Complexes
 from reportgen.figures.indicator import Branch, Frame, Reading, beside, indicator
 from reportgen.figures.positions import PositionPlan, position_plan
 from reportgen.figures.scene import Circle, Hatch, Label, Line, Polyline
-from reportgen.figures.scheme import Looks, groups, scheme
-from reportgen.figures.skeleton import skeleton
+from reportgen.figures.scheme import Looks, groups, scheme, skeleton
 from reportgen.mechanism.structure import Linkage
 from reportgen.notation.expressions import Symbol
 from tests.figures.machines import (
@@ -60,7 +59,7 @@ def test_schemes_and_groups_are_clear_at_every_position(machine: Machine) -> Non
 @every_machine
 def test_a_scheme_shows_every_link_and_joint_once(machine: Machine) -> None:
     linkage = machine()
-    scene = scheme(linkage, at_positions(linkage), 1, 300)
+    scene = scheme(linkage, at_positions(linkage), 1, 300, Looks())
     numbers = sorted(
         item.content
         for item in scene.items
@@ -75,7 +74,7 @@ def test_position_plans_are_clear_and_true_to_scale(machine: Machine) -> None:
     linkage = machine()
     motion = at_positions(linkage)
     scale, looks, shows = MACHINES[machine]
-    scene = position_plan(linkage, motion, dense(linkage), scale, shows, looks)
+    scene = position_plan(linkage, motion, dense(linkage), scale, shows, looks.notes)
     assert overlaps(scene) == []
     lines = [abs(item.end - item.start) for item in scene.items if isinstance(item, Line)]
     drawn = abs(motion.points["A"].p[0] - motion.points["O1"].p[0]) * scale
@@ -87,7 +86,7 @@ def test_position_plans_are_clear_and_true_to_scale(machine: Machine) -> None:
 def test_coinciding_positions_share_one_label() -> None:
     linkage = twin_engine()
     scale, looks, shows = MACHINES[twin_engine]
-    scene = position_plan(linkage, at_positions(linkage), dense(linkage), scale, shows, looks)
+    scene = position_plan(linkage, at_positions(linkage), dense(linkage), scale, shows, looks.notes)
     contents = [item.content for item in scene.items if isinstance(item, Label)]
     place = contents.index(Symbol("B", "1"))
     assert contents[place : place + 3] == [Symbol("B", "1"), ", ", Symbol("D", "5")]
@@ -141,7 +140,7 @@ def test_the_indicator_diagram_stands_in_line_with_the_piston(side: complex) -> 
     curves = [item for item in draft.items if isinstance(item, Polyline)]
     assert len(curves) == len(branches)
     _, looks, shows = MACHINES[twin_engine]
-    scene = position_plan(linkage, at_positions(linkage), dense(linkage), scale, shows, looks, beside=draft)
+    scene = position_plan(linkage, at_positions(linkage), dense(linkage), scale, shows, looks.notes, beside=draft)
     assert overlaps(scene) == []
 
 

@@ -9,7 +9,7 @@ import typst
 from reportgen.figures.labels import CLEAR
 from reportgen.figures.metrics import box
 from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Symbol
-from reportgen.writers.typst_math import math
+from reportgen.writers.typst_math import TypstFormulas
 
 LABELS: tuple[Expression | str, ...] = (
     Symbol("p"),
@@ -31,7 +31,7 @@ LABELS: tuple[Expression | str, ...] = (
 
 def test_boxes_agree_with_the_typesetter() -> None:
     pages = [
-        f'#page(text("{label}"))' if isinstance(label, str) else f"#page(${math(label, 'en')}$)"
+        f'#page(text("{label}"))' if isinstance(label, str) else f"#page(${TypstFormulas('en').math(label)}$)"
         for label in LABELS
     ]
     source = (

@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reportgen.figures.inset import TARGET, TINY, enlargement
-from reportgen.figures.plan import Plan, PlanPoint, PlanVector, plan, stages
+from reportgen.figures.plan import TARGET, TINY, Plan, PlanPoint, PlanVector, enlargement, plan, stages
 from reportgen.figures.scene import Arrow, Circle, Label, Line, Scene
 from reportgen.mechanism.motion import Motion
 from reportgen.notation.expressions import Symbol

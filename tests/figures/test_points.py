@@ -30,7 +30,7 @@ def dots(scene: Scene) -> list[complex]:
 @pytest.mark.parametrize("k", range(8))
 def test_each_point_is_drawn_where_the_motion_has_it_and_named(k: int) -> None:
     motion = at_positions(LINKAGE)
-    drawn = scheme(LINKAGE, motion, k, PER_METRE)
+    drawn = scheme(LINKAGE, motion, k, PER_METRE, Looks())
     places = [complex(motion.points[name].p[k]) * PER_METRE for name in "EFK"]
     # The sheet's origin is anywhere: distances between the points tell.
     assert [abs(a - b) for a in dots(drawn) for b in dots(drawn)] == pytest.approx(
@@ -42,7 +42,7 @@ def test_each_point_is_drawn_where_the_motion_has_it_and_named(k: int) -> None:
 
 
 def test_a_point_off_its_link_makes_it_a_plate_and_one_beyond_its_end_makes_it_longer() -> None:
-    _, group = groups(LINKAGE, at_positions(LINKAGE), 1, PER_METRE)
+    _, group = groups(LINKAGE, at_positions(LINKAGE), 1, PER_METRE, Looks())
     plate = next(item for item in group.items if isinstance(item, Polyline) and item.closed and item.fill)
     sides = sorted(abs(plate.points[n] - plate.points[n - 1]) for n in range(len(plate.points)))
     wanted = sorted((0.34, abs(COUPLER), abs(COUPLER - 0.34)))

@@ -12,9 +12,8 @@ from reportgen.ledger.forces import enter_forces
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics import enter_kinematics
 from reportgen.mechanism.forces import Forces, solve_forces
-from reportgen.mechanism.loads import Load, inertia_loads, weights
+from reportgen.mechanism.loads import Load, inertia_loads, virtual_work_torque, weights
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.power import virtual_work_torque
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.sheet import Sheet
 

@@ -13,9 +13,9 @@ import newton_euler as ne
 import numpy as np
 from hypothesis import strategies as st
 
+from reportgen.mechanism.dyads import cross, dot
 from reportgen.mechanism.loads import Load
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.plane import cross, dot
 from reportgen.mechanism.structure import (
     Crank,
     Dyad,

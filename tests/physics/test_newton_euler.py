@@ -14,9 +14,8 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from reportgen.mechanism.forces import Forces, solve_forces
-from reportgen.mechanism.loads import Load, inertia_loads, weights
+from reportgen.mechanism.loads import Load, inertia_loads, virtual_work_torque, weights
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.power import virtual_work_torque
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 
 AGREEMENT = 1e-9

@@ -8,20 +8,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from reportgen.mechanism.dyads import cross
 from reportgen.mechanism.forces import solve_forces
 from reportgen.mechanism.loads import (
     Load,
     as_single_force,
     inertia_loads,
+    mean_over,
     percussion_centre,
     percussion_meeting,
+    virtual_work_torque,
     weights,
 )
-from reportgen.mechanism.mobility import joints, mobility
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.plane import cross
-from reportgen.mechanism.power import mean_over, virtual_work_torque
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints, mobility
 
 COUNT = 256
 """Positions of a turn: the machines' spectra fall below rounding long before the 128th harmonic."""

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from reportgen.mechanism.forces import solve_forces
-from reportgen.mechanism.loads import Load, inertia_loads, weights
+from reportgen.mechanism.loads import Load, inertia_loads, virtual_work_torque, weights
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.power import virtual_work_torque
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 
 DRAWN = 0.005

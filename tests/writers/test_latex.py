@@ -33,7 +33,7 @@ from reportgen.notation.expressions import (
     VectorEquation,
 )
 from reportgen.writers import latex, pdflatex
-from reportgen.writers.latex_text import MATHEMATICAL, TEXTUAL, escape
+from reportgen.writers.latex_math import MATHEMATICAL, TEXTUAL, escape
 from tests.writers import sample
 from tests.writers.pages import MM, by_latex, document, needs_tex, opened
 

@@ -11,7 +11,8 @@ from reportgen.document.tree import (
     Figure,
 )
 from reportgen.figures.scene import Arc, Arrow, Circle, Hatch, Label, Line, Polyline, Scene, Stroke
-from reportgen.writers.latex_drawing import paint
+from reportgen.writers.drawing import paint_latex
+from reportgen.writers.latex_math import LatexFormulas
 from tests.writers import sample
 from tests.writers.pages import MM, by_latex, needs_tex
 
@@ -97,7 +98,8 @@ def test_pens_are_as_wide_and_coloured_as_said() -> None:
 
 
 def test_a_painted_scene_is_ascii_operators_and_labels() -> None:
-    source = paint(Scene(10, 10, (Line(0j, 10 + 10j), Label(5 + 5j, "a_b", background=True))), "vi")
+    scene = Scene(10, 10, (Line(0j, 10 + 10j), Label(5 + 5j, "a_b", background=True)))
+    source = paint_latex(scene, LatexFormulas("vi"))
     assert source.startswith(r"\scene{10}{10}{")
     assert "0 0 m 10 10 l S" in source
     assert r"\lb{5}{5}{.5}{.5}{\lbpaper{a\_b}}" in source

@@ -17,9 +17,10 @@ from reportgen.notation.expressions import (
     Sum,
     Symbol,
 )
-from reportgen.writers.latex_math import aligned, mathematics
+from reportgen.writers.latex_math import LatexFormulas
 
 A, B, C = Symbol("a"), Symbol("b"), Symbol("c")
+VIETNAMESE = LatexFormulas("vi")
 
 
 def plain(source: str) -> str:
@@ -48,18 +49,18 @@ def plain(source: str) -> str:
     ],
 )
 def test_formulas(expression: Expression, expected: str) -> None:
-    assert plain(mathematics(expression, "vi")) == expected
+    assert plain(VIETNAMESE.math(expression)) == expected
 
 
 def test_english_numbers_have_a_point() -> None:
-    assert mathematics(Number(1.5, 1), "en") == "1.5"
+    assert LatexFormulas("en").math(Number(1.5, 1)) == "1.5"
 
 
 def test_a_chain_is_cut_at_its_first_relation() -> None:
-    left, rest = aligned(Chain((A, B, C)), "vi")
+    left, rest = VIETNAMESE.aligned(Chain((A, B, C)))
     assert (plain(left), plain(rest)) == ("a", "=b=c")
 
 
 def test_a_reference_nobody_substituted_is_refused() -> None:
     with pytest.raises(TypesetterError, match="v_A"):
-        mathematics(Ref("v_A"), "vi")
+        VIETNAMESE.math(Ref("v_A"))

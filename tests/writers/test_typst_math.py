@@ -33,10 +33,11 @@ from reportgen.notation.expressions import (
     Term,
     VectorEquation,
 )
-from reportgen.writers.typst_math import math as formula
+from reportgen.writers.typst_math import TypstFormulas
 from tests.writers import sample
 from tests.writers.pages import MM, body_of, by_typst, plain, text_of
 
+VIETNAMESE = TypstFormulas("vi")
 NUMBERS = st.builds(
     Number, st.integers(-99, 99).map(lambda n: n / 4), st.just(2), st.sampled_from(["", "mm"])
 )
@@ -75,13 +76,13 @@ def reread(source: str) -> float:
 
 def nested_call_powers(node: Expression) -> bool:
     """sin²(…) with inner parentheses, which the simple reader above does not follow."""
-    return "sin^" in formula(node, "vi") or "cos^" in formula(node, "vi")
+    return "sin^" in VIETNAMESE.math(node) or "cos^" in VIETNAMESE.math(node)
 
 
 @settings(max_examples=200, deadline=None)
 @given(EXPRESSIONS)
 def test_a_written_expression_means_what_it_evaluates_to(node: Expression) -> None:
-    source = formula(node, "vi")
+    source = VIETNAMESE.math(node)
     assert not re.search(r'(dot\.c|[+−]) ("?−)', source), "two signs in a row"
     if not nested_call_powers(node):
         assert reread(source) == pytest.approx(float(evaluate(node)), rel=1e-9, abs=1e-9)
@@ -110,13 +111,13 @@ def test_formulas_read_in_order(node: Expression, printed: str) -> None:
 
 
 def test_decimal_mark_follows_the_language() -> None:
-    assert formula(Number(1.5, 1), "vi") == '"1,5"'
-    assert formula(Number(1.5, 1), "en") == '"1.5"'
+    assert VIETNAMESE.math(Number(1.5, 1)) == '"1,5"'
+    assert TypstFormulas("en").math(Number(1.5, 1)) == '"1.5"'
 
 
 def test_a_reference_without_substitute_is_refused() -> None:
     with pytest.raises(TypesetterError, match="v_a"):
-        formula(Ref("v_a") + 1.0, "vi")
+        VIETNAMESE.math(Ref("v_a") + 1.0)
 
 
 def long_sum(count: int) -> Expression:

@@ -23,8 +23,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
-from reportgen.mechanism.mobility import owners
-from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage
+from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage, owners
 
 
 def image(name: str) -> str:

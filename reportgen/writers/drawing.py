@@ -1,0 +1,301 @@
+"""Scene → the source of either typesetter, in true size; labels are set in the report's fonts.
+
+First the geometry that both need; then a drawing as calls of Typst's own primitives, whose short names
+(`S`, `L`, `A`, …) the frame defines; then as a TeX box of PDF operators, which run under one matrix that
+makes the millimetre their unit.  Coordinates are those of the scene to 0.001 mm.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
+
+from reportgen.figures.scene import (
+    Anchor,
+    Arc,
+    Arrow,
+    Circle,
+    Hatch,
+    Item,
+    Label,
+    Line,
+    Polyline,
+    Scene,
+    Stroke,
+)
+from reportgen.writers.layout import Formulas
+
+Segment = tuple[complex, complex]
+Bezier = tuple[complex, complex, complex, complex]
+Triangle = tuple[complex, complex, complex]
+
+HEAD_SLENDERNESS = 0.32
+"""Width of an arrow head over its length."""
+HEAD_SHARE = 0.75
+"""The largest share of a short arrow that its head may take."""
+
+ANCHORS: dict[Anchor, tuple[str, float, float]] = {
+    "center": ("center+horizon", 0.5, 0.5),
+    "left": ("left+horizon", 0.0, 0.5),
+    "right": ("right+horizon", 1.0, 0.5),
+    "top": ("center+top", 0.5, 0.0),
+    "bottom": ("center+bottom", 0.5, 1.0),
+    "top-left": ("left+top", 0.0, 0.0),
+    "top-right": ("right+top", 1.0, 0.0),
+    "bottom-left": ("left+bottom", 0.0, 1.0),
+    "bottom-right": ("right+bottom", 1.0, 1.0),
+}
+"""Typst's alignment, and the share of the sheet's width and height (from the top) that it measures from."""
+LABEL_SIZE = 9.0
+"""The size of labels, in points, that LaTeX's `\\scene` sets; any other is written at the label."""
+
+
+# --- geometry -------------------------------------------------------------------------------------
+
+
+def arrow_head(start: complex, end: complex, length: float) -> tuple[complex, Triangle | None]:
+    """(where the shaft ends, the head's triangle tip first) of an arrow whose tip lies on `end`.
+
+    The shaft ends inside the head, so that no square pen end shows beside the tip; the head shrinks
+    on an arrow shorter than itself.  An arrow of no length has no head.
+    """
+    span = abs(end - start)
+    if span == 0 or length <= 0:
+        return end, None
+    head = min(length, HEAD_SHARE * span)
+    along = (end - start) / span
+    back = end - head * along
+    side = 0.5 * HEAD_SLENDERNESS * head * along * 1j
+    return end - 0.7 * head * along, (end, back + side, back - side)
+
+
+def arc_to_beziers(centre: complex, radius: float, start: float, stop: float) -> list[Bezier]:
+    """Cubic Bézier pieces of an arc from `start` to `stop` (radians), each of at most 45°.
+
+    The handles are (4/3) tan(Δ/4) of the radius; the error stays below 5e-6 of the radius.
+    """
+    count = max(1, math.ceil(abs(stop - start) / (math.pi / 4) - 1e-9))
+    step = (stop - start) / count
+    handle = 4 / 3 * math.tan(step / 4)
+    pieces = []
+    for index in range(count):
+        first = cmath.rect(radius, start + index * step)
+        last = cmath.rect(radius, start + (index + 1) * step)
+        handles = centre + first * (1 + 1j * handle), centre + last * (1 - 1j * handle)
+        pieces.append((centre + first, *handles, centre + last))
+    return pieces
+
+
+def arc_with_head(arc: Arc) -> tuple[list[Bezier], Triangle | None]:
+    """(pieces of the arc, its head's triangle or None): the head is a chord whose tip is the arc's stop."""
+    sweep = arc.stop - arc.start
+    if arc.head <= 0 or arc.radius <= 0 or sweep == 0:
+        return arc_to_beziers(arc.centre, arc.radius, arc.start, arc.stop), None
+    # The chord of the head spans this angle; no more than the arc itself has to give.
+    chord = min(arc.head / arc.radius, HEAD_SHARE * abs(sweep), 1.0)
+    angle = math.copysign(2 * math.asin(chord / 2), sweep)
+    tip = arc.centre + cmath.rect(arc.radius, arc.stop)
+    tail = arc.centre + cmath.rect(arc.radius, arc.stop - angle)
+    _, triangle = arrow_head(tip + (tail - tip) / HEAD_SHARE, tip, abs(tip - tail))
+    return arc_to_beziers(arc.centre, arc.radius, arc.start, arc.stop - 0.7 * angle), triangle
+
+
+def clip_hatch(points: Sequence[complex], spacing: float) -> list[Segment]:
+    """Strokes at 45° inside a convex polygon, `spacing` mm apart, counted from the sheet's origin.
+
+    Neighbouring hatches thus run into each other.  Raises `ValueError` for a spacing that is not positive.
+    """
+    if spacing <= 0:
+        raise ValueError("the spacing of a hatch must be positive")
+    turned = [point * cmath.exp(-0.25j * math.pi) for point in points]
+    heights = [point.imag for point in turned]
+    if not turned:
+        return []
+    strokes = []
+    for index in range(math.ceil(min(heights) / spacing), math.floor(max(heights) / spacing) + 1):
+        height = index * spacing
+        crossings = [
+            a.real + (b.real - a.real) * (height - a.imag) / (b.imag - a.imag)
+            for a, b in zip(turned, turned[1:] + turned[:1], strict=True)
+            if (a.imag <= height) != (b.imag <= height)
+        ]
+        if len(crossings) == 2 and abs(crossings[0] - crossings[1]) > 1e-6:
+            left, right = sorted(crossings)
+            back = cmath.exp(0.25j * math.pi)
+            strokes.append((complex(left, height) * back, complex(right, height) * back))
+    return strokes
+
+
+def decimal(value: float) -> str:
+    """A length to a thousandth of a millimetre, without trailing zeros and without a negative zero."""
+    return f"{round(value, 3) + 0.0:.3f}".rstrip("0").rstrip(".")
+
+
+# --- Typst ----------------------------------------------------------------------------------------
+
+
+def paint_typst(scene: Scene, formulas: Formulas) -> str:
+    """A Typst code expression that draws the scene in a box of `scene.width` × `scene.height` mm."""
+    strokes = dict.fromkeys(
+        item.stroke for item in scene.items if not isinstance(item, Label) and item.stroke is not None
+    )
+    lines = [f"let p{index}={_typst_pen(stroke)}" for index, stroke in enumerate(strokes)]
+    pens: dict[Stroke | None, str] = {stroke: f"p{index}" for index, stroke in enumerate(strokes)}
+    pens[None] = "none"
+    lines += [line for item in scene.items for line in _calls(item, scene, pens, formulas)]
+    return f"S({decimal(scene.width)},{decimal(scene.height)},{{" + "\n".join(lines) + "})"
+
+
+def _calls(item: Item, scene: Scene, pens: Mapping[Stroke | None, str], formulas: Formulas) -> list[str]:
+    """The calls that draw an item; y is turned over here, once for all."""
+
+    def at(*points: complex) -> str:
+        return ",".join(f"{decimal(point.real)},{decimal(scene.height - point.imag)}" for point in points)
+
+    def head(triangle: Triangle | None, stroke: Stroke) -> list[str]:
+        return [f"G({_rgb(stroke.colour)},{at(*triangle)})"] if triangle else []
+
+    match item:
+        case Line(start, end, stroke):
+            return [f"L({pens[stroke]},{at(start, end)})"]
+        case Arrow(start, end, stroke, length):
+            shaft_end, triangle = arrow_head(start, end, length)
+            return [f"L({pens[stroke]},{at(start, shaft_end)})", *head(triangle, stroke)]
+        case Circle(centre, radius, outline, fill):
+            corner = at(complex(centre.real - radius, centre.imag + radius))
+            return [f"O({pens[outline]},{_rgb(fill)},{corner},{decimal(radius)})"]
+        case Arc(stroke=stroke):
+            curves, triangle = arc_with_head(item)
+            cubics = ",".join(at(*curve[1:]) for curve in curves)
+            return [f"B({pens[stroke]},{at(curves[0][0])},{cubics})", *head(triangle, stroke)]
+        case Polyline(points, outline, closed, fill):
+            name = "C" if closed else "Y"
+            return [f"{name}({pens[outline]},{_rgb(fill)},{at(*points)})"] if points else []
+        case Hatch(points, spacing, stroke):
+            strokes = clip_hatch(points, spacing)
+            ends = ",".join(at(*segment) for segment in strokes)
+            return [f"H({pens[stroke]},{ends})"] if strokes else []
+        case Label():
+            return [_call_of_label(item, scene, formulas)]
+
+
+def _call_of_label(label: Label, scene: Scene, formulas: Formulas) -> str:
+    options = (",turn:true" if label.turn else "") + (",paper:true" if label.background else "")
+    anchor, across, down = ANCHORS[label.anchor]
+    x = decimal(label.at.real - across * scene.width)
+    y = decimal((1 - down) * scene.height - label.at.imag)
+    return f"T({anchor},{x},{y},{label.size:g}pt,{formulas.content(label.content)}{options})"
+
+
+def _typst_pen(stroke: Stroke) -> str:
+    dash = "".join(f"{decimal(length)}mm," for length in stroke.dash)
+    return f"P({decimal(stroke.width)},{_rgb(stroke.colour)},{f'({dash})' if dash else 'none'})"
+
+
+def _rgb(colour: str | None) -> str:
+    return "none" if colour is None else f'rgb("{colour}")'
+
+
+# --- LaTeX ----------------------------------------------------------------------------------------
+
+
+def paint_latex(scene: Scene, formulas: Formulas) -> str:
+    """The TeX source of one box, `scene.width` × `scene.height` mm, its reference point at the lower left.
+
+    Raises `TypesetterError` for a label with a character the fonts do not have.
+    """
+    runs: list[str] = []
+    for labels, items in groupby(scene.items, key=lambda item: isinstance(item, Label)):
+        if labels:
+            runs += (_box_of_label(item, formulas) for item in items if isinstance(item, Label))
+        else:
+            runs.append("\\strokes{" + "\n".join(_operators(items)) + "}%")
+    body = "\n".join(runs)
+    return f"\\scene{{{decimal(scene.width)}}}{{{decimal(scene.height)}}}{{%\n{body}\n}}"
+
+
+def _box_of_label(label: Label, formulas: Formulas) -> str:
+    content = formulas.content(label.content)
+    if label.size != LABEL_SIZE:
+        content = rf"\fontsize{{{decimal(label.size)}}}{{{decimal(1.2 * label.size)}}}\selectfont {content}"
+    if label.turn % 360 == 90:
+        content = rf"\lbturned{{{content}}}"
+    if label.background:
+        content = rf"\lbpaper{{{content}}}"
+    # Which part of the box's width and height lies left of and below the anchor.
+    along = "0" if "left" in label.anchor else "1" if "right" in label.anchor else ".5"
+    up = "0" if "bottom" in label.anchor else "1" if "top" in label.anchor else ".5"
+    return rf"\lb{{{decimal(label.at.real)}}}{{{decimal(label.at.imag)}}}{{{along}}}{{{up}}}{{{content}}}%"
+
+
+def _operators(items: Iterable[Item]) -> Iterator[str]:
+    """PDF operators of items that are not labels; a pen is written only where it changes."""
+    pen: Stroke | None = None
+    paper: str | None = None
+    for item in items:
+        stroke, fill, path = _shape(item)
+        if stroke and stroke != pen:
+            yield _pen(stroke)
+            pen = stroke
+        if fill and fill != paper:
+            yield f"{_colour(fill)} rg"
+            paper = fill
+        yield path
+
+
+def _shape(item: Item) -> tuple[Stroke | None, str | None, str]:
+    """(pen, fill colour, path with its painting operators) of an item."""
+    match item:
+        case Line(start, end, stroke):
+            return stroke, None, _path((start, end), "S")
+        case Arrow(start, end, stroke, head):
+            shaft, triangle = arrow_head(start, end, head)
+            return stroke, stroke.colour, _path((start, shaft), "S") + _head(triangle)
+        case Circle(centre, radius, pen, fill):
+            pieces = arc_to_beziers(centre, radius, 0.0, math.tau)
+            return pen, fill, _curve(pieces) + " h" + _paint(pen, fill)
+        case Arc(stroke=stroke):
+            pieces, triangle = arc_with_head(item)
+            return stroke, stroke.colour if triangle else None, _curve(pieces) + " S" + _head(triangle)
+        case Polyline(points, pen, closed, fill):
+            return pen, fill, _path(points, "h" if closed else "") + _paint(pen, fill)
+        case Hatch(points, spacing, stroke):
+            return stroke, None, "\n".join(_path(pair, "S") for pair in clip_hatch(points, spacing))
+        case _:
+            return None, None, ""
+
+
+def _path(points: Sequence[complex], end: str) -> str:
+    """The operators of a broken line, then `end`."""
+    if len(points) < 2:
+        return "n"
+    first, *others = (_point(point) for point in points)
+    return " ".join([f"{first} m", *(f"{point} l" for point in others), end]).rstrip()
+
+
+def _curve(pieces: Sequence[Bezier]) -> str:
+    later = " ".join(f"{_point(b)} {_point(c)} {_point(d)} c" for _, b, c, d in pieces)
+    return f"{_point(pieces[0][0])} m {later}"
+
+
+def _head(triangle: Triangle | None) -> str:
+    return "\n" + _path(triangle, "h f") if triangle else ""
+
+
+def _paint(pen: Stroke | None, fill: str | None) -> str:
+    return " B" if pen and fill else " f" if fill else " S" if pen else " n"
+
+
+def _pen(stroke: Stroke) -> str:
+    dash = " ".join(map(decimal, stroke.dash))
+    return f"{decimal(stroke.width)} w {_colour(stroke.colour)} RG [{dash}] 0 d"
+
+
+def _colour(colour: str) -> str:
+    return " ".join(decimal(int(colour[at : at + 2], 16) / 255) for at in (1, 3, 5))
+
+
+def _point(point: complex) -> str:
+    return f"{decimal(point.real)} {decimal(point.imag)}"
