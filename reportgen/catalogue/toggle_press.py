@@ -112,7 +112,7 @@ def machine(assignment: Assignment) -> Machine:
         x = line("f.x.DA", r * cos(φ1) - x_D, Symbol("x", "DA"))
         y = line("f.y.DA", r * sin(φ1) - y_D, Symbol("y", "DA"))
         s = line("f.s", sqrt(x**2 + y**2), "s", "length")
-        δ = line("f.delta", acos((s**2 + l**2 - b**2) / (2 * s * l)), "δ", "angle")
+        δ = acos((s**2 + l**2 - b**2) / (2 * s * l))
         φ3 = line("f.phi.3", atan2(y, x) - δ if turn * given.side > 0 else atan2(y, x) + δ)
         φ2 = line("f.phi.2", atan2(l * sin(φ3) - y, l * cos(φ3) - x))
         line("f.y.C", y_D + 2 * l * sin(φ3))
@@ -132,5 +132,6 @@ def machine(assignment: Assignment) -> Machine:
         applied=tuple(Applied("P5", 5, "C", 1j, TableLaw(way, press.table, turns=1)) for way in sliders if press),
         sliders=sliders,
         paths=("B",),
+        facts={"minus": turn * given.side > 0},
         compared=tuple((plan, f"f.{plan}") for plan in ("omega.2", "omega.3", "v.C", "eps.3", "a.C")),
     )
