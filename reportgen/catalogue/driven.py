@@ -202,6 +202,23 @@ def enter_bar(q: Sheet, given: Driven, link: int, start: str, end: str, always: 
     enter_moment(q, link, moment, q[f"m.{link}"] * length**2 / 12 if massive else None)
 
 
+def enter_point(q: Sheet, name: str, point: FixedPoint) -> None:
+    """The coordinates of a fixed point as typed."""
+    datum(q, f"{name}.x", point.x, Symbol("x", name), "length")
+    datum(q, f"{name}.y", point.y, Symbol("y", name), "length")
+
+
+def enter_bodies(
+    q: Sheet, given: Driven, bars: Mapping[int, tuple[str, str]], slider: int, always: bool = False
+) -> None:
+    """Gravity if anything has mass; the bars by the pins at their ends, as `enter_bar` does; the slider's mass."""
+    if any(given.typed(letter, link) for letter in "GmJ" for link in (*bars, slider)):
+        datum(q, "g", given.g)
+    for link, (start, end) in bars.items():
+        enter_bar(q, given, link, start, end, always)
+    enter_mass(q, slider, given.typed("G", slider), given.typed("m", slider))
+
+
 def centre_points(q: Sheet, pins: Mapping[int, str]) -> tuple[LinkPoint, ...]:
     """The mass centres S2, … that the sheet places, by their links and the pins they are measured from."""
     arms = {link: f"l.{pin}S{link}" for link, pin in pins.items()}

@@ -21,8 +21,8 @@ from reportgen.catalogue.driven import (
     crank_motion,
     datum,
     driven,
-    enter_bar,
-    enter_mass,
+    enter_bodies,
+    enter_point,
     enter_speed,
     inertias,
 )
@@ -72,17 +72,12 @@ def _sheet(given: Parameters, crank: Given | None = None) -> Sheet:
     datum(q, "l.DC", given.CD, Symbol("l", "CD"))
     datum(q, "l.CE", given.CE)
     datum(q, "l.EF", given.EF)
-    datum(q, "D.x", given.D.x, Symbol("x", "D"), "length")
-    datum(q, "D.y", given.D.y, Symbol("y", "D"), "length")
+    enter_point(q, "D", given.D)
     datum(q, "F.y", given.guide, Symbol("y", "F"), "length")
     enter_speed(q, given.n, given.omega1, given.flywheel)
     q.give("drawn.BA", crank.si if crank else CRANK_DRAWN, drawn_length("A", "B"))
     q.define("l.AE", q["l.AC"] - q["l.CE"])
-    if any(given.typed(letter, link) for letter in "GmJ" for link in (*BARS, 5)):
-        datum(q, "g", given.g)
-    for link, (start, end) in BARS.items():
-        enter_bar(q, given, link, start, end, always=True)
-    enter_mass(q, 5, given.typed("G", 5), given.typed("m", 5))
+    enter_bodies(q, given, BARS, 5, always=True)
     if given.force is not None:
         datum(q, "P.given", given.force.P, Symbol("P", "5"), "force")
     return q

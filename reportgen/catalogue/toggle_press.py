@@ -16,7 +16,7 @@ from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Length
 from reportgen.catalogue import driven as shared
 from reportgen.catalogue import given_loads, reach
-from reportgen.catalogue.driven import Driven, FixedPoint, datum, driven, enter_bar, natural_lines
+from reportgen.catalogue.driven import Driven, FixedPoint, datum, driven, natural_lines
 from reportgen.catalogue.loads import Applied, TableLaw, course
 from reportgen.catalogue.machine import Machine
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage
@@ -38,26 +38,16 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 3, 4), shares=(2, 3, 4
     B: Literal["left", "right"] = "left"
     press: given_loads.PressingForce | None = None
 
-    @property
-    def side(self) -> int:
-        """+1 where B lies to the left of the way from A to D."""
-        return 1 if self.B == "left" else -1
-
 
 def _sheet(given: Parameters, crank: Given | None = None) -> Sheet:
     """Given data, mass centres, masses and moments of inertia."""
     q = Sheet()
     for id, length in {"OA": given.OA, "AB": given.AB, "DB": given.BD, "BC": given.BD}.items():
         datum(q, f"l.{id}", length, Symbol("l", "BD" if id == "DB" else id))
-    datum(q, "D.x", given.D.x, Symbol("x", "D"), "length")
-    datum(q, "D.y", given.D.y, Symbol("y", "D"), "length")
+    shared.enter_point(q, "D", given.D)
     shared.enter_speed(q, given.n, given.omega1, given.flywheel)
     shared.enter_drawn(q, "O", "A", crank)
-    if any(given.typed(letter, link) for letter in "GmJ" for link in (*BARS, 5)):
-        datum(q, "g", given.g)
-    for link, pins in BARS.items():
-        enter_bar(q, given, link, *pins)
-    shared.enter_mass(q, 5, given.typed("G", 5), given.typed("m", 5))
+    shared.enter_bodies(q, given, BARS, 5)
     return q
 
 
@@ -67,7 +57,7 @@ def _linkage(given: Parameters, q: Sheet) -> Linkage:
         ground={"O": 0j, "D": pivot},
         driver=Crank("O", "A", q.si("l.OA")),
         dyads=(
-            Dyad("RRR", (2, 3), "A", "B", "D", (q.si("l.AB"), link), given.side),
+            Dyad("RRR", (2, 3), "A", "B", "D", (q.si("l.AB"), link), 1 if given.B == "left" else -1),
             Dyad("RRP", (4, 5), "B", "C", Guide(pivot, math.pi / 2), (link, 0.0), -1),
         ),
         points=shared.centre_points(q, {link: start for link, (start, _) in BARS.items()}),
@@ -77,7 +67,7 @@ def _linkage(given: Parameters, q: Sheet) -> Linkage:
 
 
 def _check_turning(draft: Draft) -> Iterator[Finding]:
-    """The crank turns fully, without dead points, and the slider goes once down and up."""
+    """The crank turns fully, without dead points, B stays below D, and the slider goes once down and up."""
     given: Parameters | None = draft.sections.get("parameters")
     if given is None:
         return
@@ -86,10 +76,13 @@ def _check_turning(draft: Draft) -> Iterator[Finding]:
         (2, 3): reach.Member("AB, BD", ("parameters", "AB")),
         (4, 5): reach.Member("BC", ("parameters", "BD")),
     }
-    found = list(reach.findings(linkage, members))
-    yield from found
-    if not found and given.press is not None:
-        yield from reach.to_and_fro(linkage, 5, shared.crank_motion(linkage, Positions(), 0.0), ("parameters", "press"))
+    motion_at = shared.crank_motion(linkage, Positions(), 0.0)
+    if found := list(reach.findings(linkage, members)):
+        yield from found
+    elif motion_at(shared.even_angles(Positions())).points["B"].p.imag.max() > given.D.y.si:
+        yield Finding("out-of-range", ("parameters", "D", "y"), {"text": given.D.y.text, "range": "y_D > y_B"})
+    elif given.press is not None:
+        yield from reach.to_and_fro(linkage, 5, motion_at, ("parameters", "press"))
 
 
 CHECKS = (*given_loads.PRESS_CHECKS, _check_turning)
@@ -101,19 +94,19 @@ def machine(assignment: Assignment) -> Machine:
     positions, turn, press = assignment.positions, assignment.positions.sign, given.press
     q = _sheet(given, assignment.drawing.crank)
     linkage, start = _linkage(given, q), 0.0 if positions.start is None else positions.start.si
-    motion_at = shared.crank_motion(linkage, positions, start, given.speed)
-    sliders = () if press is None else (course(linkage, 5, motion_at),)
+    minus = (given.B == "left") == (turn > 0)
+    sliders = () if press is None else (course(linkage, 5, shared.crank_motion(linkage, positions, start)),)
 
     def formulas(q: Sheet) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
         r, b, l, x_D = q["l.OA"], q["l.AB"], q["l.DB"], q["D.x"]  # noqa: E741 - the length's own letter
         y_D = q["D.y"] if turn > 0 else -q["D.y"]
         φ1 = shared.give_angle(q, "f.phi.1", turn * start + shared.even_angles(positions))
-        x = line("f.x.DA", r * cos(φ1) - x_D, Symbol("x", "DA"))
-        y = line("f.y.DA", r * sin(φ1) - y_D, Symbol("y", "DA"))
+        x = line("f.x.DA", r * cos(φ1) - x_D)
+        y = line("f.y.DA", r * sin(φ1) - y_D)
         s = line("f.s", sqrt(x**2 + y**2), "s", "length")
         δ = acos((s**2 + l**2 - b**2) / (2 * s * l))
-        φ3 = line("f.phi.3", atan2(y, x) - δ if turn * given.side > 0 else atan2(y, x) + δ)
+        φ3 = line("f.phi.3", atan2(y, x) - δ if minus else atan2(y, x) + δ)
         φ2 = line("f.phi.2", atan2(l * sin(φ3) - y, l * cos(φ3) - x))
         line("f.y.C", y_D + 2 * l * sin(φ3))
         ω2 = line("f.omega.2", ω1 * r * sin(φ1 - φ3) / (b * sin(φ3 - φ2)))
@@ -132,6 +125,6 @@ def machine(assignment: Assignment) -> Machine:
         applied=tuple(Applied("P5", 5, "C", 1j, TableLaw(way, press.table, turns=1)) for way in sliders if press),
         sliders=sliders,
         paths=("B",),
-        facts={"minus": turn * given.side > 0},
+        facts={"minus": minus},
         compared=tuple((plan, f"f.{plan}") for plan in ("omega.2", "omega.3", "v.C", "eps.3", "a.C")),
     )
