@@ -76,6 +76,46 @@ parameters:
     - {{by: constant, link: 5, at: F, F: 400 N, against: motion}}
 """
 
+TOGGLE_PRESS = f"""
+positions: {{count: 12}}
+parameters:
+  frame: {{O: [0 mm, 0 mm], D: [-300 mm, 220 mm]}}
+  driver: {{type: crank, centre: O, pin: A, length: 60 mm, n: 150 rpm}}
+  groups:
+    - {{type: RRR, links: [2, 3], joints: [A, B, D], lengths: [232 mm, 250 mm], side: left}}
+    - type: RRP
+      links: [4, 5]
+      joints: [B, C]
+      length: 250 mm
+      guide: {{at: [-300 mm, 0 mm], angle: 90 deg}}
+      end: near
+  points:
+    S2: {{link: 2, at: [116 mm, 0 mm]}}
+    S3: {{link: 3, at: [100 mm, 0 mm]}}
+    S4: {{link: 4, at: [125 mm, 0 mm]}}
+  masses:
+    - {{link: 2, at: S2, G: 45 N, J: {45 / 9.81 * 0.232**2 / 12!r} kg m2}}
+    - {{link: 3, at: S3, G: 60 N, J: {60 / 9.81 * 0.25**2 / 12!r} kg m2}}
+    - {{link: 4, at: S4, G: 60 N, J: {60 / 9.81 * 0.25**2 / 12!r} kg m2}}
+    - {{link: 5, at: C, G: 400 N}}
+  loads:
+    - {{by: stroke, link: 5, unit: N, s: [0, 0.4, 1], inward: [0, 500, 4000], outward: [0, 0, 0]}}
+"""
+
+SCOTCH_YOKE = """
+positions: {count: 12, direction: clockwise, start: 20 deg}
+parameters:
+  frame: {O: [0 mm, 0 mm]}
+  driver: {type: crank, centre: O, pin: A, length: 50 mm, n: 240 rpm}
+  groups:
+    - {type: RPP, links: [2, 3], joints: [A, B], guide: {at: [0 mm, 0 mm], angle: 20 deg}, across: 90 deg}
+  masses:
+    - {link: 2, at: A, G: 8 N}
+    - {link: 3, at: B, G: 60 N}
+  loads:
+    - {by: constant, link: 3, at: B, F: -900 N, direction: 20 deg}
+"""
+
 SLOTTED_LEVER = """
 positions: {count: 12, start: 90 deg}
 parameters:
@@ -203,6 +243,17 @@ PAIRS = {
         "  guide: -73 mm, C: left, F: left, omega1: 89 rad/s, G2: 9 N, G3: 6 N, G4: 11 N, G5: 20 N,\n"
         "  force: {P: 400 N, sense: opposing}}",
         LEVER,
+    ),
+    "toggle-press": (
+        "positions: {count: 12, start: 0 deg}\n"
+        "parameters: {OA: 60 mm, AB: 232 mm, BD: 250 mm, D: {x: -300 mm, y: 220 mm}, n: 150 rpm, s3: 0.4, G2: 45 N,\n"
+        "  G3: 60 N, G4: 60 N, G5: 400 N, press: {unit: N, s: [0, 0.4, 1], P: [0, 500, 4000]}}",
+        TOGGLE_PRESS,
+    ),
+    "scotch-yoke": (
+        "positions: {count: 12, direction: clockwise}\n"
+        "parameters: {r: 50 mm, guide: 20 deg, n: 240 rpm, G2: 8 N, G3: 60 N, force: {by: constant, F: -900 N}}",
+        SCOTCH_YOKE,
     ),
     "slotted-lever": (
         "positions: {count: 12, start: 90 deg}\n"

@@ -223,6 +223,18 @@ class GivenSheet(Sheet):
         m = self.find(f"m.{link}")
         self.moment(link, None if m is None else m * length**2 / 12)
 
+    def point(self, name: str, place: FixedPoint) -> None:
+        """The coordinates of a fixed point as typed."""
+        self.datum(f"{name}.x", place.x, Symbol("x", name), "length")
+        self.datum(f"{name}.y", place.y, Symbol("y", name), "length")
+
+    def bodies(self, bars: Mapping[int, tuple[str, str]], slider: int, always: bool = False) -> None:
+        """Gravity if anything has mass; the bars by the pins at their ends, as `bar` does; the slider's mass."""
+        self.gravity("GmJ")
+        for link, (start, end) in bars.items():
+            self.bar(link, start, end, always)
+        self.mass(slider)
+
     def centre_points(self, pins: Mapping[int, str]) -> tuple[LinkPoint, ...]:
         """The mass centres S2, … that stand here, by their links and the pins they are measured from."""
         arms = {link: self.find(f"l.{pin}S{link}") for link, pin in pins.items()}

@@ -66,16 +66,12 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     q.datum("l.DC", given.CD, Symbol("l", "CD"))
     q.datum("l.CE", given.CE)
     q.datum("l.EF", given.EF)
-    q.datum("D.x", given.D.x, Symbol("x", "D"), "length")
-    q.datum("D.y", given.D.y, Symbol("y", "D"), "length")
+    q.point("D", given.D)
     q.datum("F.y", given.guide, Symbol("y", "F"), "length")
     q.speed()
     q.give("drawn.BA", crank.si if crank else CRANK_DRAWN, drawn_length("A", "B"))
     q.define("l.AE", q["l.AC"] - q["l.CE"])
-    q.gravity("GmJ")
-    for link, (start, end) in BARS.items():
-        q.bar(link, start, end, always=True)
-    q.mass(5)
+    q.bodies(BARS, 5, always=True)
     if given.force is not None:
         q.datum("P.given", given.force.P, Symbol("P", "5"), "force")
     return q

@@ -45,25 +45,16 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 3, 4), shares=(2, 3, 4
     B: Literal["left", "right"] = "left"
     press: given_loads.PressingForce | None = None
 
-    @property
-    def side(self) -> int:
-        """+1 where B lies to the left of the way from A to D."""
-        return 1 if self.B == "left" else -1
-
 
 def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     """Given data, mass centres, masses and moments of inertia."""
     q = GivenSheet(given)
     for id, length in {"OA": given.OA, "AB": given.AB, "DB": given.BD, "BC": given.BD}.items():
         q.datum(f"l.{id}", length, Symbol("l", "BD" if id == "DB" else id))
-    q.datum("D.x", given.D.x, Symbol("x", "D"), "length")
-    q.datum("D.y", given.D.y, Symbol("y", "D"), "length")
+    q.point("D", given.D)
     q.speed()
     q.drawn("O", "A", crank)
-    q.gravity("GmJ")
-    for link, pins in BARS.items():
-        q.bar(link, *pins)
-    q.mass(5)
+    q.bodies(BARS, 5)
     return q
 
 
@@ -73,7 +64,7 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
         ground={"O": 0j, "D": pivot},
         driver=Crank("O", "A", q.si("l.OA")),
         dyads=(
-            Dyad("RRR", (2, 3), "A", "B", "D", (q.si("l.AB"), link), given.side),
+            Dyad("RRR", (2, 3), "A", "B", "D", (q.si("l.AB"), link), 1 if given.B == "left" else -1),
             Dyad("RRP", (4, 5), "B", "C", Guide(pivot, math.pi / 2), (link, 0.0), -1),
         ),
         points=q.centre_points({link: start for link, (start, _) in BARS.items()}),
@@ -83,7 +74,7 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
 
 
 def _check_turning(draft: Draft) -> Iterator[Finding]:
-    """The crank turns fully, without dead points, and the slider goes once down and up."""
+    """The crank turns fully, without dead points, B stays below D, and the slider goes once down and up."""
     given: Parameters | None = draft.sections.get("parameters")
     if given is None:
         return
@@ -92,10 +83,13 @@ def _check_turning(draft: Draft) -> Iterator[Finding]:
         (2, 3): reach.Member("AB, BD", ("parameters", "AB")),
         (4, 5): reach.Member("BC", ("parameters", "BD")),
     }
-    found = list(reach.findings(linkage, members))
-    yield from found
-    if not found and given.press is not None:
-        yield from reach.to_and_fro(linkage, 5, crank_motion(linkage, Positions(), 0.0), ("parameters", "press"))
+    motion_at = crank_motion(linkage, Positions(), 0.0)
+    if found := list(reach.findings(linkage, members)):
+        yield from found
+    elif motion_at(even_angles(Positions())).points["B"].p.imag.max() > given.D.y.si:
+        yield Finding("out-of-range", ("parameters", "D", "y"), {"text": given.D.y.text, "range": "y_D > y_B"})
+    elif given.press is not None:
+        yield from reach.to_and_fro(linkage, 5, motion_at, ("parameters", "press"))
 
 
 CHECKS = (*given_loads.PRESS_CHECKS, _check_turning)
@@ -107,19 +101,19 @@ def machine(assignment: Assignment) -> Machine:
     positions, turn, press = assignment.positions, assignment.positions.sign, given.press
     q = _sheet(given, assignment.drawing.crank)
     linkage, start = _linkage(given, q), 0.0 if positions.start is None else positions.start.si
-    motion_at = crank_motion(linkage, positions, start, given.speed)
-    sliders = () if press is None else (course(linkage, 5, motion_at),)
+    minus = (given.B == "left") == (turn > 0)
+    sliders = () if press is None else (course(linkage, 5, crank_motion(linkage, positions, start)),)
 
     def formulas(q: Sheet) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
         r, b, l, x_D = q["l.OA"], q["l.AB"], q["l.DB"], q["D.x"]  # noqa: E741 - the length's own letter
         y_D = q["D.y"] if turn > 0 else -q["D.y"]
         φ1 = q.angle("f.phi.1", turn * start + even_angles(positions))
-        x = line("f.x.DA", r * cos(φ1) - x_D, Symbol("x", "DA"))
-        y = line("f.y.DA", r * sin(φ1) - y_D, Symbol("y", "DA"))
+        x = line("f.x.DA", r * cos(φ1) - x_D)
+        y = line("f.y.DA", r * sin(φ1) - y_D)
         s = line("f.s", sqrt(x**2 + y**2), "s", "length")
-        δ = line("f.delta", acos((s**2 + l**2 - b**2) / (2 * s * l)), "δ", "angle")
-        φ3 = line("f.phi.3", atan2(y, x) - δ if turn * given.side > 0 else atan2(y, x) + δ)
+        δ = acos((s**2 + l**2 - b**2) / (2 * s * l))
+        φ3 = line("f.phi.3", atan2(y, x) - δ if minus else atan2(y, x) + δ)
         φ2 = line("f.phi.2", atan2(l * sin(φ3) - y, l * cos(φ3) - x))
         line("f.y.C", y_D + 2 * l * sin(φ3))
         ω2 = line("f.omega.2", ω1 * r * sin(φ1 - φ3) / (b * sin(φ3 - φ2)))
@@ -138,5 +132,6 @@ def machine(assignment: Assignment) -> Machine:
         applied=tuple(Applied("P5", 5, "C", 1j, TableLaw(way, press.table, turns=1)) for way in sliders if press),
         sliders=sliders,
         paths=("B",),
+        facts={"minus": minus},
         compared=tuple((plan, f"f.{plan}") for plan in ("omega.2", "omega.3", "v.C", "eps.3", "a.C")),
     )

@@ -62,9 +62,9 @@ def displacement(report: Report) -> Drawn:
 
 
 def _sliding(report: Report) -> tuple[GroupView, ...]:
-    """Groups whose inner pin runs along a fixed guide."""
+    """Groups whose last link slides along a fixed guide."""
     on_ground = {slider for carrier, slider in report.analysis.motion.slides if carrier == GROUND}
-    return tuple(group for group in report.groups if group.kind == "RRP" and group.j in on_ground)
+    return tuple(group for group in report.groups if group.kind in ("RRP", "RPP") and group.j in on_ground)
 
 
 def _marks(report: Report) -> tuple[int, ...]:

@@ -263,6 +263,11 @@ class Report:
         return bool(self.analysis.loads)
 
     @property
+    def has_turning_links(self) -> bool:
+        """Whether any link of the groups turns, rather than all being in translation."""
+        return any(f"turn.omega.{link}" in self.ledger for link in self.machine.linkage.links)
+
+    @property
     def has_formulas(self) -> bool:
         """Whether closed formulas check the plans."""
         return bool(self.machine.compared)

@@ -22,6 +22,7 @@ from reportgen.document.tree import (
     Text,
     Value,
 )
+from reportgen.mechanism.structure import Crank
 from reportgen.notation.expressions import Chain, Number, Power, Symbol
 
 MM = 1e3
@@ -323,7 +324,7 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
 
 
 def _closure(report: Report) -> float:
-    """How far a distance of two points of one link is from its length at any position (m)."""
+    """How far a distance of two points of one link is from its length at any position (m); 0 where there is none."""
     motion, families = report.analysis.motion, report.ledger.families
     pairs = [(group.P, group.Q) for group in report.groups]
     pairs += [(group.T, group.Q) for group in report.groups if group.kind == "RRR"]
@@ -333,7 +334,10 @@ def _closure(report: Report) -> float:
         np.abs(motion.points[point.name].p - motion.origins[point.link].p) - abs(point.local)
         for point in report.machine.linkage.points
     ]
-    return max(float(np.nanmax(np.abs(difference))) for difference in differences)
+    if isinstance(driver := report.machine.linkage.driver, Crank):
+        arm = motion.points[driver.pin].p - motion.points[driver.centre].p
+        differences.append(np.abs(arm) - driver.length)
+    return max((float(np.nanmax(np.abs(difference))) for difference in differences), default=0.0)
 
 
 def _power_of_ten(value: float) -> Inlines:

@@ -206,6 +206,8 @@ def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Draft:
         if link != GROUND:
             requests += _number(bones, link, looks)
     names += [name for name in bones.joints if name not in names and _on_block(bones, name, shown)]
+    # A block that does not turn has no joint in its middle, only a point.
+    marked += [s.name for s in bones.slides if s.link in shown and not s.turns and s.name not in names]
     standing = [name for name in bones.pivots if GROUND in shown and (len(shown) > 2 or name in names)]
     names += [name for name in standing if name not in names]
     pins: list[Item] = []
