@@ -17,8 +17,7 @@ from reportgen.document.drawing import (
     looks,
     on_paper,
 )
-from reportgen.document.groups import GroupView
-from reportgen.document.parts import BodyView
+from reportgen.document.groups import BodyView, GroupView
 from reportgen.document.plans import force_plan, velocity_plan
 from reportgen.document.report import Report
 from reportgen.figures.draft import Draft

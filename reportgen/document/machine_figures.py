@@ -24,8 +24,7 @@ from reportgen.document.drawing import (
     on_paper,
     short,
 )
-from reportgen.document.groups import GroupView
-from reportgen.document.parts import PlaneLink, SideView
+from reportgen.document.groups import GroupView, PlaneLink
 from reportgen.document.report import DENSE, SAME, Report, function
 from reportgen.figures import indicator as indicator_figure
 from reportgen.figures import scheme as scheme_figure
@@ -35,6 +34,7 @@ from reportgen.figures.forces import coriolis as coriolis_figure
 from reportgen.figures.positions import Centre, PositionPlan, centre_plan, position_plan
 from reportgen.figures.scene import Scene
 from reportgen.ledger.kinematics.centres import PREFIX, centre_symbol
+from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import DRIVER, GROUND
 from reportgen.notation import symbols
@@ -198,7 +198,7 @@ def _branches(
 
 
 @figure("coriolis")
-def coriolis(report: Report, k: int, group: GroupView, side: SideView) -> Drawn:
+def coriolis(report: Report, k: int, group: GroupView, side: Side) -> Drawn:
     """The relative velocity in a turning guide, turned by 90° in the sense of its ω."""
     ledger, points = report.ledger, report.analysis.motion.points
     omega = float(ledger[f"turn.omega.{side.turning}"].at(k).real)

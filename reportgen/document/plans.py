@@ -10,12 +10,12 @@ from dataclasses import replace
 
 from reportgen.document.drawing import A3_ACROSS, HALF, MM, TEXT_BLOCK, Drawn, figure, on_paper
 from reportgen.document.groups import GroupView
-from reportgen.document.parts import SideView
 from reportgen.document.report import Report
 from reportgen.figures.draft import sheets
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.polygon import Polygon
+from reportgen.ledger.kinematics.sides import Side
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Chain, Symbol
 
@@ -67,9 +67,7 @@ def acceleration_plan(report: Report, k: int) -> Plan:
 
 def _motion_plan(report: Report, what: str, pole: str, k: int) -> Plan:
     sketch = _Sketch(report.ledger, what, k)
-    driver = report.driver
-    places = [driver.pin, *(place.name for place in driver.others)]
-    carried = {name: sketch.at(name) for name in places}
+    carried: dict[str, complex] = {name: sketch.at(name) for name in report.driver.names}
     stage = 0
     drawn: set[str] = set()
     for group in report.groups:
@@ -172,7 +170,7 @@ class _Sketch:
                 self.vector(name, 0j, self.at(name), "found", self.what, name, stage)
         return stage
 
-    def _known(self, side: SideView, stage: int) -> tuple[int, complex]:
+    def _known(self, side: Side, stage: int) -> tuple[int, complex]:
         """Enter the relative acceleration that is known; gives the stage and where the sought part starts."""
         start = 0j if side.still else self.at(side.base)
         part = side.part

@@ -20,8 +20,7 @@ from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.catalogue.loads import Piston
 from reportgen.catalogue.machine import Machine, Position
 from reportgen.cycle.flywheel import Flywheel
-from reportgen.document.groups import GroupView, driver, groups
-from reportgen.document.parts import BodyView, DriverView, PlaneLink
+from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink
 from reportgen.document.prose import PointName, Prose
 from reportgen.document.tree import Block, InlineMath, Inlines, Paragraph, Text
 from reportgen.ledger.core import Ledger
@@ -88,11 +87,13 @@ class Report:
     @cached_property
     def groups(self) -> tuple[GroupView, ...]:
         """The groups in the order of assembly."""
-        return groups(self.analysis, self.case.polygons, self.ledger)
+        plan, polygons = scheme(self.machine.linkage), self.case.polygons
+        dyads = self.machine.linkage.dyads
+        return tuple(GroupView(dyad, plan, self.driver, polygons, self.ledger) for dyad in dyads)
 
     @cached_property
     def driver(self) -> DriverView:
-        return driver(self.analysis, self.ledger)
+        return DriverView(self.machine.linkage, self.ledger)
 
     @cached_property
     def dense_cycle(self) -> Analysis:
@@ -294,9 +295,7 @@ class Report:
         """The links that turn about no fixed point and are no mere sliders, in the order of assembly."""
         owner = {link: group.name for group in self.groups for link in (group.i, group.j)}
         turns = links_in_plane_motion(scheme(self.machine.linkage))
-        return tuple(PlaneLink(
-                turn.link, PointName(turn.base), PointName(turn.point), turn.rod, owner[turn.link]
-            ) for turn in turns)
+        return tuple(PlaneLink(turn, owner[turn.link]) for turn in turns)
 
     # --- forces
 
@@ -322,18 +321,15 @@ class Report:
     @cached_property
     def couples(self) -> tuple[BodyView, ...]:
         """Links whose inertia is a force and a couple, replaced by one force off the mass centre."""
-        found = []
+        ground, found = self.machine.linkage.ground, []
+        # A block turns about no base of a plan: the pin it sits on is its first joint.
+        starts = {group.i: group.P for group in self.groups}
+        starts |= {side.link: PointName(side.base) for group in self.groups for side in group.sides if side.turns}
         for body in self.machine.linkage.inertias:
             ids = self.known((f"e.Pqt{body.link}", f"l.{body.centre}K{body.link}"))
-            # A block turns about no base of a plan: the pin it sits on is its first joint.
-            start = next(
-                (side.base for group in self.groups for side in group.sides if side.turns and side.link == body.link),
-                next((group.P for group in self.groups if group.i == body.link), PointName("")),
-            )
             if len(ids) == 2:
-                found.append(
-                    BodyView(body.link, PointName(body.centre), start, tuple(ids), start in self.machine.linkage.ground)
-                )
+                start = starts[body.link]
+                found.append(BodyView(body.link, PointName(body.centre), start, ids, start in ground))
         return tuple(found)
 
     @property

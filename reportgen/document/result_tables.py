@@ -8,7 +8,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from reportgen.document.groups import GroupView
-from reportgen.document.parts import SideView
 from reportgen.document.report import Report, function
 from reportgen.document.tables import cell, columns, list_table, table, tables
 from reportgen.document.tree import (
@@ -22,6 +21,7 @@ from reportgen.document.tree import (
     Text,
     Value,
 )
+from reportgen.ledger.kinematics.sides import Side, image
 from reportgen.notation.expressions import Chain, Number, Power, Symbol
 
 MM = 1e3
@@ -158,7 +158,7 @@ def summary(report: Report, key: str, caption: str, head: Sequence[str], k: int)
 def velocity_segments(report: Report) -> list[str]:
     ids: list[str] = []
     for group in report.groups:
-        ids += [f"seg.v.p{group.m}", *(f"seg.v.{side.base.lower()}{group.m}" for side in group.moving)]
+        ids += [f"seg.v.p{image(group.M)}", *(f"seg.v.{image(side.base)}{image(group.M)}" for side in group.moving)]
         ids += _images("v", group)
     return report.known(ids)
 
@@ -177,7 +177,7 @@ def velocities(report: Report) -> list[str]:
 def acceleration_segments(report: Report) -> list[str]:
     ids: list[str] = []
     for group in report.groups:
-        ids.append(f"seg.a.p{group.m}")
+        ids.append(f"seg.a.p{image(group.M)}")
         ids += [f"seg.a.{part}.{side.relative}" for side in group.sides for part in _parts(side)]
         ids += _images("a", group)
     return report.known(ids)
@@ -199,10 +199,10 @@ def _of_links(report: Report, prefix: str) -> list[str]:
 
 
 def _images(what: str, group: GroupView) -> list[str]:
-    return [f"seg.{what}.p{place}" for place in (group.q, *(place.image for place in group.points))]
+    return [f"seg.{what}.p{image(place)}" for place in (group.Q, *(place.name for place in group.points))]
 
 
-def _parts(side: SideView) -> list[str]:
+def _parts(side: Side) -> list[str]:
     """Suffixes of a side's relative accelerations, the known one first."""
     return [part for part in (side.part, side.sought) if part]
 

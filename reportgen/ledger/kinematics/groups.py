@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 
 from reportgen.ledger.kinematics import points, rates
 from reportgen.ledger.kinematics.linkage import Kinematics, What
-from reportgen.ledger.kinematics.sides import Turn, image, sides, under
+from reportgen.ledger.kinematics.sides import Side, image, sides, under
 from reportgen.mechanism.structure import Dyad, DyadKind, Guide
 from reportgen.notation.constructions import circle_circle, circle_line, meet, turned
 from reportgen.notation.expressions import Expression, Ref, call, sqrt
@@ -26,7 +26,7 @@ def group(k: Kinematics, dyad: Dyad) -> None:
 
 
 def _motion(
-    k: Kinematics, dyad: Dyad, what: What, turns: Mapping[int, Turn | None], solve: Callable[[], None]
+    k: Kinematics, dyad: Dyad, what: What, turns: Mapping[int, Side | None], solve: Callable[[], None]
 ) -> None:
     solve()
     for link in dyad.links:
