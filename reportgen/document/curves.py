@@ -8,7 +8,7 @@ import numpy as np
 
 from reportgen.analysis import FULL_TURN
 from reportgen.cycle.flywheel import Flywheel
-from reportgen.document.drawing import MM, Drawn, figure
+from reportgen.document.figures import MM, Drawn, figure
 from reportgen.document.groups import GroupView
 from reportgen.document.report import SAME, Report
 from reportgen.figures import charts

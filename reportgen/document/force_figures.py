@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.document.drawing import (
+from reportgen.document.figures import (
     HALF,
     MM,
     Drawn,
@@ -18,7 +18,7 @@ from reportgen.document.drawing import (
     on_paper,
 )
 from reportgen.document.groups import BodyView, GroupView
-from reportgen.document.plans import force_plan, velocity_plan
+from reportgen.document.plans import force_plan, motion_plan
 from reportgen.document.report import Report
 from reportgen.figures.draft import Draft
 from reportgen.figures.forces import ArmOf, Couple, Force
@@ -301,5 +301,5 @@ def lever(report: Report, k: int) -> Drawn:
         forces.append(Force(shown, image, complex(ledger["F.Rcb"].at(k)), "reaction", "Rcb"))
         arms.append(ArmOf(ledger.symbol(report.driver.velocity_segment), 0j, "Rcb"))
     scale = Chain((ledger.symbol("mu.v"), ledger.number("mu.v")))
-    drawing = velocity_plan(report, k)
+    drawing = motion_plan(report, "v", k)
     return on_paper(lever_figure(drawing, forces, arms, sense=-machine.turn, notes=(scale,)))
