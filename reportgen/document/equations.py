@@ -354,8 +354,8 @@ def _force(report: Report, group: GroupView, side: PolygonSide) -> Term:
     words = report.words["vector"]
     way = group.one if side.link == group.i else group.two
     shown = report.force_vector(side.name)
-    if side.name.endswith((".n", ".t")) and way.turns:
-        normal = side.name.endswith(".n")
+    if side.part and way.turns:
+        normal = side.part == "n"
         along = f"{'∥' if normal else '⊥'} {lower_digits(way.rod)}"
         return Term(shown, (along, None if normal else words["computed"]))
     if side.unknown:

@@ -166,7 +166,7 @@ def force_stages(report: Report, k: int, group: GroupView) -> Drawn:
     drawing = force_plan(report, group.polygon, k)
     sides = group.polygon.sides
     known = sum(not side.unknown for side in sides)
-    by_moments = [not side.unknown and side.name.endswith(".t") for side in sides]
+    by_moments = [not side.unknown and side.part == "t" for side in sides]
 
     def step(stage: int) -> int:
         return 2 + stage - known if stage >= known else int(by_moments[stage])

@@ -356,10 +356,13 @@ class Report:
         """The groups that hang on the driver."""
         return [group for group in self.groups if group.carrier == 1]
 
+    def arms_about(self, point: str) -> list[str]:
+        return [id for id, family in self.ledger.families.items() if family.arm and family.about == point]
+
     @property
     def crank_arms(self) -> list[str]:
         """Arms of the forces on the driver about its centre."""
-        return [id for id in self.ledger.families if id.startswith("h.") and id.endswith(f".{self.driver.centre}")]
+        return self.arms_about(self.driver.centre)
 
     @property
     def crank_lines(self) -> list[str]:
@@ -394,8 +397,8 @@ class Report:
     # --- quantities and points by name
 
     def force_symbol(self, name: str) -> Symbol:
-        """The symbol of a force of a plan: of a load by its own id, of a reaction R12, R12.t by its joint."""
-        return self.ledger.symbol(name if name in self.ledger else f"R.{name.removeprefix('R')}")
+        """The symbol of a force of a plan: of a load, or of a reaction R12, R12.t."""
+        return self.ledger.symbol(self.ledger[f"F.{name}"].of)
 
     def force_vector(self, name: str) -> Symbol:
         return symbols.vector(self.force_symbol(name))

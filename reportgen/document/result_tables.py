@@ -23,6 +23,7 @@ from reportgen.document.tree import (
 )
 from reportgen.ledger.kinematics.sides import Side, image
 from reportgen.notation.expressions import Chain, Number, Power, Symbol
+from reportgen.notation.vocabulary import Chapter
 
 MM = 1e3
 MOST_COORDINATES, MOST_WIDE = 10, 8
@@ -261,7 +262,7 @@ def reaction_angles(report: Report) -> list[str]:
 def lever_table(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> Table:
     """Loads on the turned velocity plan: size, arm, moment about the pole by μ_l, anticlockwise positive."""
     ledger = report.ledger
-    loads = [id.split(".")[1] for id in ledger.families if id.startswith("h.") and id.endswith(".p")]
+    loads = [ledger[id].of for id in report.arms_about("p")]
     rows = []
     for load in loads:
         numbers = ledger.number(load, k), ledger.number(f"h.{load}.p", k, size=True), ledger.number(f"M.{load}.p", k)
@@ -300,12 +301,12 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
     """The largest residual of each check and its unit: closure, formulas, reactions, torques, energy."""
     analysis, values = report.analysis, report.ledger.families
     found = {"closure": (_closure(report), "m")}
-    for name, prefix in (("formulas", ("v.", "omega.")), ("formulas_a", ("a.", "eps."))):
+    for name, chapter in (("formulas", Chapter.velocity), ("formulas_a", Chapter.acceleration)):
         differences = [
             float(np.max(np.abs(np.abs(values[one].values) - np.abs(values[other].values))))
             / float(np.max(np.abs(values[one].values)))
             for one, other in analysis.machine.compared
-            if one.startswith(prefix)
+            if values[one].chapter is chapter
         ]
         if differences:
             found[name] = (max(differences), "")

@@ -100,19 +100,11 @@ def _inlines(content: object) -> Inlines:
 
 def bare(report: Report, id: str, position: int | None) -> Inlines:
     """A number without its unit, a dash for what does not exist."""
-    number = report.ledger.number(id, position, size=report.ledger[id].arm)
-    if number.value != number.value or _is_direction_of_zero(report, id, position):
+    family = report.ledger[id]
+    number = report.ledger.number(id, position, size=family.arm)
+    if math.isnan(number.value) or (family.is_direction and report.is_zero(family.of, position)):
         return (Text("–"),)
     return (Value(Number(number.value, number.decimals, "")),)
-
-
-def _is_direction_of_zero(report: Report, id: str, position: int | None) -> bool:
-    """Whether an angle `dir.R05`, `dir.v.B` is that of a vector which is zero."""
-    if not id.startswith("dir."):
-        return False
-    name = id.removeprefix("dir.")
-    size = f"R.{name[1:]}" if name.startswith("R") else name
-    return size in report.ledger and report.is_zero(size, position)
 
 
 def _columns(report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]) -> Table:
