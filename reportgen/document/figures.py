@@ -75,8 +75,9 @@ def figure(name: str, key: str = "") -> Callable[[Callable[..., Drawn]], Callabl
     return register
 
 
-def insert_figure(report: Report, name: str, *arguments: Any) -> tuple[Figure | Plate, ...]:
-    """A registered figure: `figure(name, …)`, or `figure(name, key, caption, …)` with words of its own.
+def insert_figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple[Figure | Plate, ...]:
+    """A registered figure: `figure(name, …)`, or `figure(name, key, caption, …)` with words of its own;
+    `words` names other ones of `words.yaml`.
 
     A figure on plates is a block for each of them, and the key names the first.  Raises `KeyError` for a
     name that nobody draws.
@@ -89,7 +90,7 @@ def insert_figure(report: Report, name: str, *arguments: Any) -> tuple[Figure | 
         group = next((one for one in shown if isinstance(one, GroupView)), None)
         position = next((one for one in shown if isinstance(one, Position)), None)
         key = ".".join(str(part) for part in (key, group, position) if part is not None)
-        caption = report.words["captions"][name].format(k=position, g=group)
+        caption = report.words["captions"][words or name].format(k=position, g=group)
     drawn = draw(report, *shown)
     inlines = report.prose.inlines(caption)
     if drawn.note is not None:

@@ -382,7 +382,7 @@ class Report:
     @property
     def inertia_parts(self) -> list[str]:
         """The shares of the links in the reduced moment of inertia, and their sum."""
-        return [id for id in self.ledger.families if id.startswith("J.r.") and id in self.computed] + ["J.r"]
+        return self.known([*(f"J.r.{link}" for link in self.machine.linkage.links), "J.r"])
 
     @property
     def has_reduced_inertia(self) -> bool:
