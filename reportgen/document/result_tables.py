@@ -9,15 +9,8 @@ import numpy as np
 
 from reportgen.document.groups import GroupView
 from reportgen.document.report import Report
-from reportgen.document.tables import at_positions, bare, columns, list_table, rows, table, tables
-from reportgen.document.tree import (
-    TEXT_WIDTH,
-    InlineMath,
-    Inlines,
-    Table,
-    Text,
-    Value,
-)
+from reportgen.document.tables import bare, columns, list_table, rows, side_by_side, table, tables
+from reportgen.document.tree import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Table, Text, Value
 from reportgen.ledger.kinematics.sides import Side, image
 from reportgen.notation.expressions import Chain, Number, Power, Symbol
 from reportgen.notation.vocabulary import Chapter
@@ -49,19 +42,20 @@ def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> 
     ]
     kept = [(shown, values) for shown, values in courses if np.abs(values).max() > 1e-12]
     wide = any(values.min() <= WIDE for _, values in kept)
-    columns = [((shown,), [_coordinate(value * MM) for value in values]) for shown, values in kept]
-    most = MOST_WIDE if wide else MOST_COORDINATES
-    return at_positions(report, key, caption, columns, report.positions, most, 22.0, together=2)
+    columns = [(shown, *(_coordinate(value * MM) for value in values)) for shown, values in kept]
+    titles = [report.words["table"]["position"], *map(str, report.positions)]
+    first, most = Column(FIRST_COLUMN), MOST_WIDE if wide else MOST_COORDINATES
+    return side_by_side(report, key, caption, first, titles, columns, most, widest=22.0, together=2)
 
 
-def _coordinate(value: float) -> Inlines:
-    return (Value(Number(0.0 if abs(value) < 1e-9 else value, 2)),)
+def _coordinate(value: float) -> Number:
+    return Number(0.0 if abs(value) < 1e-9 else value, 2)
 
 
-def _two_decimals(value: float) -> Inlines:
+def _two_decimals(value: float) -> Number:
     """A number to two decimals, or as it is when it has no more than two."""
     short = abs(value * 100 - round(value * 100)) < 1e-7
-    return (Value(Number(float(f"{value:.10g}")) if short else Number(value, 2)),)
+    return Number(float(f"{value:.10g}")) if short else Number(value, 2)
 
 
 @rows("dead", 20.0, 46.0, 44.0, 46.0)

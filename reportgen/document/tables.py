@@ -158,62 +158,49 @@ def tables(
     report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]
 ) -> tuple[Table, ...]:
     """Quantities at positions: one table, or several below one another where the columns are too many."""
-    ledger, rows = report.ledger, list(positions)
-    units = (ledger[id].how.unit for id in ids)
-    heads = [(ledger.symbol(id), ledger.units.get(unit, unit)) for id, unit in zip(ids, units, strict=True)]
-    columns = [(head, [bare(report, id, k) for k in rows]) for head, id in zip(heads, ids, strict=True)]
-    return at_positions(report, key, caption, columns, rows, MOST_COLUMNS - 1, WIDEST_COLUMN)
+    at, columns = list(positions), []
+    for id in ids:
+        unit = report.ledger[id].how.unit
+        unit = report.ledger.units.get(unit, unit)
+        columns.append([report.ledger.symbol(id), unit, *(bare(report, id, k) for k in at)])
+    titles = [report.words["table"]["position"], "", *map(str, at)]
+    return side_by_side(report, key, caption, Column(FIRST_COLUMN), titles, columns, MOST_COLUMNS - 1, heads=2)
 
 
-NumberColumn = tuple[tuple[Symbol | str, ...], Sequence[Inlines]]
-"""The rows of its head, and its numbers."""
-
-
-def at_positions(
+def side_by_side(
     report: Report,
     key: str,
     caption: str,
-    columns: Sequence[NumberColumn],
-    positions: Sequence[int],
+    first: Column,
+    titles: Sequence[object],
+    columns: Sequence[Sequence[object]],
     most: int,
-    widest: float,
+    heads: int = 1,
+    widest: float = WIDEST_COLUMN,
     together: int = 1,
 ) -> tuple[Table, ...]:
-    """Columns over positions (rows), `together` and at most so many in a table, none wider than `widest` (mm)."""
+    """Columns beside one of titles, each with its `heads` on top; several tables where there are too many.
 
-    def part(key: str, caption: str, columns: Sequence[NumberColumn]) -> Table:
-        width = min((TEXT_WIDTH - FIRST_COLUMN) / len(columns), widest)
-        names = report.words["table"]["position"], ""
-        heads = zip(names, *(head for head, _ in columns), strict=False)
-        rows = zip(map(str, positions), *(numbers for _, numbers in columns), strict=True)
-        body = [tuple(map(cell, row)) for row in rows]
-        widths = (Column(FIRST_COLUMN), *(Column(width),) * len(columns))
-        head = tuple(tuple(map(cell, row)) for row in heads)
-        return Table(widths, head, tuple(body), report.prose.inlines(caption), key)
-
-    return _parts(key, caption, columns, most, part, together)
-
-
-def _parts(
-    key: str,
-    caption: str,
-    columns: Sequence[Any],
-    most: int,
-    make: Callable[[str, str, Sequence[Any]], Table],
-    together: int = 1,
-) -> tuple[Table, ...]:
-    """A table, or as many of even width as keep to `most` columns; the key names the first."""
+    Each table has at most so many columns, and keeps so many `together`; the key names the first.
+    """
     count = max(-(-len(columns) // most), 1)
     size = together * -(-len(columns) // (together * count))
     parts = [columns[start : start + size] for start in range(0, len(columns), size or 1)]
-    return tuple(
-        make(
-            f"{key}.{number}" if number > 1 else key,
-            f"{caption} ({number}/{len(parts)})" if len(parts) > 1 else caption,
-            part,
+    found = []
+    for number, part in enumerate(parts, start=1):
+        width = min((TEXT_WIDTH - first.width) / len(part), widest)
+        rows = [tuple(map(cell, row)) for row in zip(titles, *part, strict=True)]
+        title = f"{caption} ({number}/{len(parts)})" if len(parts) > 1 else caption
+        found.append(
+            Table(
+                (first, *(Column(width),) * len(part)),
+                tuple(rows[:heads]),
+                tuple(rows[heads:]),
+                report.prose.inlines(title),
+                f"{key}.{number}" if number > 1 else key,
+            )
         )
-        for number, part in enumerate(parts, start=1)
-    )
+    return tuple(found)
 
 
 @function
@@ -400,17 +387,12 @@ def lengths(
     report: Report, key: str, caption: str, head: Sequence[str], arms: Sequence[str]
 ) -> tuple[Table, ...]:
     """Real and drawn lengths, one column a length; many lengths in several tables below one another."""
-
-    def part(key: str, caption: str, arms: Sequence[str]) -> Table:
-        columns = (Column(46.0, "left"), *(Column(min((TEXT_WIDTH - 46) / len(arms), 22.0)),) * len(arms))
-        rows = tuple(
-            (cell(title), *(Cell(bare(report, f"{prefix}.{arm}", None)) for arm in arms))
-            for title, prefix in zip(head[1:], ("l", "drawn"), strict=True)
-        )
-        heads = (cell(head[0]), *(cell(lower_digits(arm)) for arm in arms))
-        return Table(columns, (heads,), rows, report.prose.inlines(caption), key)
-
-    return _parts(key, caption, [arm for arm in arms if f"l.{arm}" in report.ledger], MOST_LENGTHS, part)
+    columns = [
+        (lower_digits(arm), *(bare(report, f"{prefix}.{arm}", None) for prefix in ("l", "drawn")))
+        for arm in arms
+        if f"l.{arm}" in report.ledger
+    ]
+    return side_by_side(report, key, caption, Column(46.0, "left"), head, columns, MOST_LENGTHS, widest=22.0)
 
 
 # --- a declared linkage
