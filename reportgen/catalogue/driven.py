@@ -26,9 +26,7 @@ from reportgen.assignment.fields import (
     Weight,
     quantity,
 )
-from reportgen.catalogue.loads import MotionAt
 from reportgen.catalogue.machine import Machine
-from reportgen.mechanism.motion import solve_motion
 from reportgen.mechanism.structure import Inertia, Linkage, LinkPoint
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import PI, Number, Operand, Ref, Symbol
@@ -253,12 +251,6 @@ class GivenSheet(Sheet):
 def even_angles(positions: Positions, turns: int = 1) -> np.ndarray:
     """Cycle angles of evenly spaced positions [count·turns]."""
     return np.arange(positions.count * turns) * (FULL_TURN / positions.count)
-
-
-def crank_motion(linkage: Linkage, positions: Positions, start: float, speed: float = 1.0) -> MotionAt:
-    """The motion at cycle angles [N] of a linkage whose crank stands at the angle `start` in position 1."""
-    turn = positions.sign
-    return lambda angle: solve_motion(linkage, start + turn * angle, turn * speed)
 
 
 def natural_lines(q: Sheet, crank: str) -> Callable[..., Ref]:

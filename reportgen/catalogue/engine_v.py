@@ -16,8 +16,8 @@ from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Angle, Length, Whole, quantity
 from reportgen.catalogue import given_loads, reach
-from reportgen.catalogue.driven import Driven, GivenSheet, crank_motion, driven
-from reportgen.catalogue.loads import Applied, Constant, Piston, course, gas_forces
+from reportgen.catalogue.driven import Driven, GivenSheet, driven
+from reportgen.catalogue.loads import Applied, Constant, Piston, course, crank_motion, gas_forces
 from reportgen.catalogue.machine import Machine, lettered
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.sliders import centred_slider, compared, second_cylinder

@@ -23,8 +23,7 @@ from reportgen.assignment.fields import (
     UnitOf,
     quantity,
 )
-from reportgen.catalogue.driven import crank_motion
-from reportgen.catalogue.loads import Constant, Law, Torque, by_angle, by_stroke, opposing
+from reportgen.catalogue.loads import Constant, Law, Torque, by_angle, by_stroke, crank_motion, opposing
 from reportgen.cycle.applied import STROKES, AngleIndicator, Indicator, StrokeIndicator
 from reportgen.mechanism.structure import Linkage
 from reportgen.units import Given

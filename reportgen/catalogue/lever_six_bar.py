@@ -18,10 +18,9 @@ from reportgen.catalogue.driven import (
     Driven,
     FixedPoint,
     GivenSheet,
-    crank_motion,
     driven,
 )
-from reportgen.catalogue.loads import Applied, Constant, Law, opposing
+from reportgen.catalogue.loads import Applied, Constant, Law, crank_motion, opposing
 from reportgen.catalogue.machine import Machine
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.notation.expressions import Symbol

@@ -14,7 +14,7 @@ from reportgen.assignment.common import Draft, Positions
 from reportgen.assignment.faults import Finding, Where
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue import reach
-from reportgen.catalogue.driven import crank_motion
+from reportgen.catalogue.loads import crank_motion
 from reportgen.catalogue.reach import Member
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Linkage, mobility

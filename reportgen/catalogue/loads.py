@@ -16,8 +16,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.assignment.common import Positions
 from reportgen.cycle.applied import AngleIndicator, Cutting, Indicator, StrokeIndicator
-from reportgen.mechanism.motion import Motion
+from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
 
 Floats = NDArray[np.float64]
@@ -246,6 +247,12 @@ def _around(signs: Floats) -> tuple[np.ndarray, np.ndarray]:
 
 
 # --- sliders of a linkage ---------------------------------------------------------------------------
+
+
+def crank_motion(linkage: Linkage, positions: Positions, start: float, speed: float = 1.0) -> MotionAt:
+    """The motion at cycle angles [N] of a linkage whose crank stands at the angle `start` in position 1."""
+    turn = positions.sign
+    return lambda angle: solve_motion(linkage, start + turn * angle, turn * speed)
 
 
 class NotToAndFro(ValueError):

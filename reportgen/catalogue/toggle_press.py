@@ -19,12 +19,11 @@ from reportgen.catalogue.driven import (
     Driven,
     FixedPoint,
     GivenSheet,
-    crank_motion,
     driven,
     even_angles,
     natural_lines,
 )
-from reportgen.catalogue.loads import Applied, TableLaw, course
+from reportgen.catalogue.loads import Applied, TableLaw, course, crank_motion
 from reportgen.catalogue.machine import Machine
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage
 from reportgen.notation.expressions import Symbol, acos, atan2, cos, sin, sqrt

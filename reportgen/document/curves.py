@@ -8,14 +8,13 @@ import numpy as np
 
 from reportgen.analysis import FULL_TURN
 from reportgen.cycle.flywheel import Flywheel
-from reportgen.document.drawing import MM, Drawn, figure
+from reportgen.document.figures import MM, Drawn, figure
 from reportgen.document.groups import GroupView
 from reportgen.document.report import SAME, Report
 from reportgen.figures import charts
 from reportgen.figures.scene import Scene
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import DRIVER, GROUND
-from reportgen.notation import symbols
 from reportgen.notation.expressions import Symbol
 
 THINNED = 4
@@ -109,13 +108,13 @@ def polar(report: Report) -> Drawn:
     assert report.driver_polygon is not None
     scenes = []
     for side in report.driver_polygon.sides:
-        if side.unknown or not side.name.startswith("R"):
+        if side.unknown or not side.is_reaction:
             continue
         pin = next(group.P for group in report.groups if side.name == f"R{group.i}{DRIVER}")
         radius = fine.motion.points[pin].p - fine.motion.points[report.driver.centre].p
         load = fine.forces.reactions[side.name].force * np.conj(radius / np.abs(radius)) * 1j
         series = charts.Series(
-            symbols.vector(report.ledger.symbol(f"R.{side.name[1:]}")), load.real, load.imag, _marks(report), numbers
+            report.force_vector(side.name), load.real, load.imag, _marks(report), numbers
         )
         scenes.append(charts.polar(series, "N", title=f"{report.words['figure']['pin']} {pin}"))
     return Drawn(tuple(scenes))

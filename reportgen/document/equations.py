@@ -9,10 +9,10 @@ import re
 from collections.abc import Iterable, Sequence
 
 from reportgen.document.groups import GroupView
-from reportgen.document.parts import SideView
 from reportgen.document.report import Report, function, listed, lower_digits
 from reportgen.document.tree import Equation, InlineMath, Inlines, Reference, Text, Value
 from reportgen.ledger.forces.polygon import Side as PolygonSide
+from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.structure import mobility
 from reportgen.notation import symbols
 from reportgen.notation.expressions import (
@@ -111,13 +111,13 @@ def vector(report: Report, base: str, sub: str | int = "", sup: str = "") -> Sym
 
 
 @function
-def v(report: Report, of: str | SideView) -> Symbol:
+def v(report: Report, of: str | Side) -> Symbol:
     """The velocity of a point as a vector; of a side, the relative one."""
     return Symbol("v", of if isinstance(of, str) else of.pair, over="vector")
 
 
 @function
-def a(report: Report, of: str | SideView, part: str = "") -> Symbol:
+def a(report: Report, of: str | Side, part: str = "") -> Symbol:
     """The acceleration of a point, or a part of it, as a vector; of a side, the relative one."""
     return Symbol("a", of if isinstance(of, str) else of.pair, part, "vector")
 
@@ -257,19 +257,19 @@ def _term(base: str, sub: str, sup: str, *known: Expression | str | None) -> Ter
     return Term(Symbol(base, sub, sup, "vector"), known)
 
 
-def _unknown(report: Report, base: str, sub: str, sup: str, side: SideView | None) -> Term:
+def _unknown(report: Report, base: str, sub: str, sup: str, side: Side | None) -> Term:
     """A vector of which only the direction is known, that of what is sought on a side."""
     return _term(base, sub, sup, None if side is None else _direction(report, side), None, None)
 
 
-def _direction(report: Report, side: SideView) -> str:
+def _direction(report: Report, side: Side) -> str:
     """The direction of what is sought on a side."""
     if side.turns:
         return f"⊥ {lower_digits(side.rod)}"
     return str(report.words["vector"]["along_slot" if side.carrier is None else "along_guide"])
 
 
-def _relative(report: Report, side: SideView) -> tuple[Term, ...]:
+def _relative(report: Report, side: Side) -> tuple[Term, ...]:
     """aⁿ and aᵗ of a turning side, aᵏ and aʳ of a sliding one."""
     words, ledger = report.words["vector"], report.ledger
     sought = _unknown(report, "a", side.pair, "τ" if side.turns else "r", side)
@@ -284,7 +284,7 @@ def _relative(report: Report, side: SideView) -> tuple[Term, ...]:
     return _term("a", side.pair, "k", across, words["turned"], twice), sought
 
 
-def _base(report: Report, side: SideView, what: str) -> Term:
+def _base(report: Report, side: Side, what: str) -> Term:
     """The vector of a side's base: on the crank with its direction and size, else known from before."""
     words, ledger = report.words["vector"], report.ledger
     arm = f"{report.driver.centre}{side.base}"
@@ -354,8 +354,8 @@ def _force(report: Report, group: GroupView, side: PolygonSide) -> Term:
     words = report.words["vector"]
     way = group.one if side.link == group.i else group.two
     shown = report.force_vector(side.name)
-    if side.name.endswith((".n", ".t")) and way.turns:
-        normal = side.name.endswith(".n")
+    if side.part and way.turns:
+        normal = side.part == "n"
         along = f"{'∥' if normal else '⊥'} {lower_digits(way.rod)}"
         return Term(shown, (along, None if normal else words["computed"]))
     if side.unknown:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from reportgen.document.drawing import (
+from reportgen.document.figures import (
     HALF,
     MM,
     Drawn,
@@ -17,9 +18,8 @@ from reportgen.document.drawing import (
     looks,
     on_paper,
 )
-from reportgen.document.groups import GroupView
-from reportgen.document.parts import BodyView
-from reportgen.document.plans import force_plan, velocity_plan
+from reportgen.document.groups import BodyView, GroupView
+from reportgen.document.plans import force_plan, motion_plan
 from reportgen.document.report import Report
 from reportgen.figures.draft import Draft
 from reportgen.figures.forces import ArmOf, Couple, Force
@@ -35,53 +35,124 @@ from reportgen.mechanism.structure import DRIVER
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Chain, Symbol
 
-# --- groups
+
+@dataclass(frozen=True, slots=True)
+class _Bodies:
+    """Links of a machine at a position, to a share of μ_l, with what acts on them."""
+
+    report: Report
+    k: int
+    links: tuple[int, ...]
+    share: float = 1.0
+
+    @property
+    def scale(self) -> float:
+        """mm of paper for a metre."""
+        return drawing_scale(self.report) * self.share
+
+    def at(self, name: str) -> complex:
+        """Where a point stands on paper."""
+        return complex(self.report.analysis.motion.points[name].p[self.k - 1]) * self.scale
+
+    def scene(self, forces: Sequence[Force], **more: Any) -> Scene:
+        report, look = self.report, looks(self.report, self.scale, self.share)
+        machine, motion = report.machine.linkage, report.analysis.motion
+        return bodies_figure(machine, motion, self.k - 1, self.scale, self.links, forces, looks=look, **more)
+
+    def loads(self) -> list[Force]:
+        """Loads on the links; a force with a couple acts at the one point where it alone does both."""
+        return [
+            Force(
+                self.report.force_vector(load.name),
+                _acts_at(self.report, load, self.k) * self.scale,
+                complex(load.force[self.k - 1]),
+                "load",
+                load.name,
+            )
+            for load in self.report.analysis.loads
+            if load.link in self.links and _has_force(self.report, load, self.k)
+        ]
+
+    def couples(self) -> list[Couple]:
+        """Torques, and couples whose force is zero."""
+        report, index, result = self.report, self.k - 1, []
+        for load in report.analysis.loads:
+            if load.link not in self.links or load.couple[index] == 0:
+                continue
+            torque = _is_torque(report, load)
+            if torque or report.is_zero(load.name, self.k):
+                shown = report.ledger.symbol(load.name if torque else f"M.{load.name}")
+                result.append(Couple(shown, complex(load.point[index]) * self.scale, float(load.couple[index])))
+        return result
+
+    def arms(self, ids: Sequence[str], pin: str) -> list[ArmOf]:
+        """The arms about a pin that are not zero."""
+        ledger, about = self.report.ledger, self.at(pin)
+        return [ArmOf(ledger.symbol(id), about, ledger[id].of) for id in ids if not self.report.is_zero(id, self.k)]
+
+    # --- reactions
+
+    def reaction(self, name: str, at: complex) -> Force:
+        """A reaction R12, or a component of it R12.t."""
+        vector = self.report.ledger[f"F.{name}"]
+        direction = 0j if self.report.is_zero(vector.of, self.k) else complex(vector.at(self.k))
+        return Force(self.report.force_vector(name), at, direction, "reaction", name)
+
+    def found_before(self, polygon: Polygon) -> list[Force]:
+        """Reactions of other groups on the links of a force plan, found before."""
+        found = []
+        for side in polygon.sides:
+            if side.is_reaction and side.link in self.links and not side.unknown and side.part != "t":
+                at = complex(self.report.analysis.forces.reactions[side.name].point[self.k - 1]) * self.scale
+                force = self.reaction(side.name, at)
+                found.append(force if force.direction and np.isfinite(at) else replace(force, at=0j, direction=0j))
+        return found
+
+    def outer(self, group: GroupView, link: int) -> list[Force]:
+        """The reaction in the outer joint of a group's link, by components where moments gave one of them."""
+        first = link == group.i
+        digits = group.outer if first else group.guide
+        pin = group.P if first else group.T or group.Q
+        parts = (".t", ".n") if f"R.{digits}.t" in self.report.ledger else ("",)
+        return [self.reaction(f"R{digits}{part}", self.at(pin)) for part in parts]
+
+    def inner(self, group: GroupView, link: int) -> Force:
+        """The reaction in the inner joint on one link of the group, as it is read from the plan."""
+        read = self.reaction(f"R{group.inner}", self.at(group.Q))
+        if link == group.i:
+            return read
+        opposite = Symbol("R", group.across, over="vector")
+        return replace(read, label=opposite, direction=-read.direction, id=f"R{group.across}")
+
+
+# --- groups and the driver
 
 
 @figure("bodies")
 def bodies(report: Report, k: int, group: GroupView) -> Drawn:
     """The group with all its forces, at half size; then each link that moments are taken of, with the arms."""
-    half, links = drawing_scale(report) * HALF, (group.i, group.j)
+    assert group.polygon is not None
+    both = _Bodies(report, k, (group.i, group.j), HALF)
     forces = [
-        *_loads(report, links, k, half),
-        *_found_before(report, group.polygon, links, k, half),
-        *_outer(report, group, group.i, k, half),
-        *_outer(report, group, group.j, k, half),
+        *both.loads(),
+        *both.found_before(group.polygon),
+        *both.outer(group, group.i),
+        *both.outer(group, group.j),
     ]
-    whole = _scene(
-        report,
-        k,
-        half,
-        links,
-        forces,
-        turning=_couples(report, links, k, half),
-        looks=looks(report, half, HALF),
-        title=report.words["figure"]["group"].format(i=group.i, j=group.j),
-    )
-    return beside_one_another(whole, *(_one_link(report, k, group, *moments) for moments in _moments(group)))
-
-
-def _one_link(report: Report, k: int, group: GroupView, link: int, pin: str) -> Scene:
-    """One link of a group with all that acts on it and the arms about a pin."""
-    scale = drawing_scale(report)
-    forces = [
-        *_loads(report, (link,), k, scale),
-        *_found_before(report, group.polygon, (link,), k, scale),
-        *_outer(report, group, link, k, scale),
-        _inner(report, group, link, k, scale),
-    ]
-    return _scene(
-        report,
-        k,
-        scale,
-        (link,),
-        forces,
-        arms=_arms(report, group.arms(pin, link), pin, k),
-        turning=_couples(report, (link,), k, scale),
-        extra=_percussion(report, link, k),
-        looks=looks(report, scale),
-        title=f"{report.words['figure']['link']} {link}",
-    )
+    title = report.words["figure"]["group"].format(i=group.i, j=group.j)
+    scenes = [both.scene(forces, turning=both.couples(), title=title)]
+    for link, pin in _moments(group):
+        one = _Bodies(report, k, (link,))
+        forces = [
+            *one.loads(),
+            *one.found_before(group.polygon),
+            *one.outer(group, link),
+            one.inner(group, link),
+        ]
+        arms, title = one.arms(group.arms(pin, link), pin), f"{report.words['figure']['link']} {link}"
+        extra = _percussion(report, link, k)
+        scenes.append(one.scene(forces, arms=arms, turning=one.couples(), extra=extra, title=title))
+    return beside_one_another(*scenes)
 
 
 def _moments(group: GroupView) -> tuple[tuple[int, str], ...]:
@@ -96,126 +167,24 @@ def _moments(group: GroupView) -> tuple[tuple[int, str], ...]:
     return ()
 
 
-def _scene(
-    report: Report, k: int, scale: float, links: Sequence[int], forces: Sequence[Force], **more: Any
-) -> Scene:
-    return bodies_figure(report.machine.linkage, report.analysis.motion, k - 1, scale, links, forces, **more)
-
-
-def _at(report: Report, name: str, k: int, scale: float) -> complex:
-    """Where a point stands on paper."""
-    return complex(report.analysis.motion.points[name].p[k - 1]) * scale
-
-
-def _arms(report: Report, ids: Sequence[str], pin: str, k: int) -> list[ArmOf]:
-    """The arms about a pin that are not zero; an arm's id names its force: h.G2.B."""
-    about = _at(report, pin, k, drawing_scale(report))
-    return [ArmOf(report.ledger.symbol(id), about, id.split(".")[1]) for id in ids if not report.is_zero(id, k)]
-
-
-# --- reactions
-
-
-def _outer(report: Report, group: GroupView, link: int, k: int, scale: float) -> list[Force]:
-    """The reaction in the outer joint of a group's link, by components where moments gave one of them."""
-    first = link == group.i
-    digits = group.outer if first else group.guide
-    pin = group.P if first else group.T or group.Q
-    parts = (".t", ".n") if f"R.{digits}.t" in report.ledger else ("",)
-    return [_reaction(report, f"{digits}{part}", pin, k, scale) for part in parts]
-
-
-def _inner(report: Report, group: GroupView, link: int, k: int, scale: float) -> Force:
-    """The reaction in the inner joint on one link of the group, as it is read from the plan."""
-    read = _reaction(report, group.inner, group.Q, k, scale)
-    if link == group.i:
-        return read
-    opposite = Symbol("R", group.across, over="vector")
-    return Force(opposite, read.at, -read.direction, "reaction", f"R{group.across}")
-
-
-def _reaction(report: Report, name: str, pin: str, k: int, scale: float) -> Force:
-    """A reaction, or a component of it as in 12.t, at a pin."""
-    shown = symbols.vector(report.ledger.symbol(f"R.{name}"))
-    direction = 0j if report.is_zero(f"R.{name}", k) else complex(report.ledger[f"F.R{name}"].at(k))
-    return Force(shown, _at(report, pin, k, scale), direction, "reaction", f"R{name}")
-
-
-def _found_before(
-    report: Report, polygon: Polygon | None, links: Sequence[int], k: int, scale: float
-) -> list[Force]:
-    """Reactions of other groups, found before, on some links of a force plan."""
-    assert polygon is not None
-    result = []
-    for side in polygon.sides:
-        if side.unknown or side.link not in links or side.name.endswith(".t") or side.name[0] != "R":
-            continue
-        id = f"R.{side.name[1:]}"
-        at = complex(report.analysis.forces.reactions[side.name].point[k - 1]) * scale
-        known = np.isfinite(at) and not report.is_zero(id, k)
-        direction = complex(report.ledger[f"F.{side.name}"].at(k)) if known else 0j
-        shown = symbols.vector(report.ledger.symbol(id))
-        result.append(Force(shown, at if known else 0j, direction, "reaction", side.name))
-    return result
-
-
-# --- the driver
-
-
 @figure("crank")
-def crank(report: Report, k: int) -> Drawn:
-    """The crank with the reactions on it and their arms about its centre, and their polygon."""
-    polygon, scale, centre = report.driver_polygon, drawing_scale(report), report.driver.centre
-    assert polygon is not None
-    forces = [
-        *_loads(report, (DRIVER,), k, scale),
-        *_found_before(report, polygon, (DRIVER,), k, scale),
-        _reaction(report, "01", centre, k, scale),
-    ]
-    sense = float(np.sign(report.ledger.number("M.eq", k).value))
-    drawing = _scene(
-        report,
-        k,
-        scale,
-        (DRIVER,),
-        forces,
-        arms=_arms(report, report.crank_arms, centre, k),
-        turning=(Couple(report.ledger.symbol("M.eq"), _at(report, centre, k, scale), sense),),
-        looks=looks(report, scale),
-    )
-    return beside_one_another(drawing, plan(force_plan(report, polygon, k)))
-
-
 @figure("slide")
-def slide(report: Report, k: int) -> Drawn:
-    """A sliding driver with the reactions on it and the force that balances it, and their polygon."""
-    polygon, scale, pin = report.driver_polygon, drawing_scale(report), report.driver.pin
+def driver(report: Report, k: int) -> Drawn:
+    """The driver with the reactions on it and what balances it, of a crank with arms about its centre; their plan."""
+    polygon, centre, body = report.driver_polygon, report.driver.centre, _Bodies(report, k, (DRIVER,))
     assert polygon is not None
-    forces = [
-        *_loads(report, (DRIVER,), k, scale),
-        *_found_before(report, polygon, (DRIVER,), k, scale),
-        *(_reaction(report, name, pin, k, scale) for name in ("01", "cb")),
-    ]
-    drawing = _scene(report, k, scale, (DRIVER,), forces, looks=looks(report, scale))
+    pin = body.at(centre or report.driver.pin)
+    closing = (body.reaction(side.name, pin) for side in polygon.sides if side.unknown)
+    forces = [*body.loads(), *body.found_before(polygon), *closing]
+    if centre:
+        balance = Couple(report.ledger.symbol("M.eq"), pin, float(np.sign(report.ledger.number("M.eq", k).value)))
+        drawing = body.scene(forces, arms=body.arms(report.crank_arms, centre), turning=(balance,))
+    else:
+        drawing = body.scene(forces)
     return beside_one_another(drawing, plan(force_plan(report, polygon, k)))
 
 
 # --- loads
-
-
-def _loads(report: Report, links: Sequence[int], k: int, scale: float) -> list[Force]:
-    """Loads on links; a force with a couple acts at the one point where it alone does both."""
-    return [
-        Force(
-            symbols.vector(report.ledger.symbol(load.name)),
-            _acts_at(report, load, k) * scale,
-            complex(load.force[k - 1]),
-            "load",
-            load.name,
-        )
-        for load in report.analysis.loads
-        if load.link in links and _has_force(report, load, k)
-    ]
 
 
 def _has_force(report: Report, load: Load, k: int) -> bool:
@@ -255,26 +224,13 @@ def _percussion(report: Report, link: int, k: int) -> Draft:
     scale, number = drawing_scale(report), str(link)
     known, meeting = (point * scale for point in points)
     marks: tuple[Item, ...] = (
-        Line(_at(report, body.centre, k, scale), meeting, CONSTRUCTION),
+        Line(complex(report.analysis.motion.points[body.centre].p[k - 1]) * scale, meeting, CONSTRUCTION),
         Line(known, meeting, CONSTRUCTION),
         Circle(known, 0.6, VISIBLE, PAPER),
         Circle(meeting, 0.6, VISIBLE, PAPER),
     )
     labels = label(known, Symbol("K", number), gap=1.2), label(meeting, Symbol("Q", number), gap=1.2)
     return Draft(marks, labels)
-
-
-def _couples(report: Report, links: Sequence[int], k: int, scale: float) -> list[Couple]:
-    """Torques, and couples whose force is zero."""
-    result = []
-    for load in report.analysis.loads:
-        if load.link not in links or load.couple[k - 1] == 0:
-            continue
-        torque = _is_torque(report, load)
-        if torque or report.is_zero(load.name, k):
-            shown = report.ledger.symbol(load.name if torque else f"M.{load.name}")
-            result.append(Couple(shown, complex(load.point[k - 1]) * scale, float(load.couple[k - 1])))
-    return result
 
 
 # --- Zhukovsky's lever
@@ -291,7 +247,7 @@ def lever(report: Report, k: int) -> Drawn:
             continue
         at = np.full(motion.driver.shape, _acts_at(report, load, k))
         image = complex(motion.of(load.link, at).v[index]) * per
-        shown = symbols.vector(ledger.symbol(load.name))
+        shown = report.force_vector(load.name)
         forces.append(Force(shown, image, complex(load.force[index]), "load", load.name))
         if not report.is_zero(f"h.{load.name}.p", k):
             arms.append(ArmOf(ledger.symbol(f"h.{load.name}.p"), 0j, load.name))
@@ -302,5 +258,5 @@ def lever(report: Report, k: int) -> Drawn:
         forces.append(Force(shown, image, complex(ledger["F.Rcb"].at(k)), "reaction", "Rcb"))
         arms.append(ArmOf(ledger.symbol(report.driver.velocity_segment), 0j, "Rcb"))
     scale = Chain((ledger.symbol("mu.v"), ledger.number("mu.v")))
-    drawing = velocity_plan(report, k)
+    drawing = motion_plan(report, "v", k)
     return on_paper(lever_figure(drawing, forces, arms, sense=-machine.turn, notes=(scale,)))

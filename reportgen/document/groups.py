@@ -1,88 +1,153 @@
-"""An Assur group as templates, tables and figures see it, with the ids of its quantities in their order."""
+"""The moving parts of a machine as templates, tables and figures see them, with the ids of their quantities.
+
+Names of points are `PointName`s, which templates print as symbols.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-from reportgen.analysis import Analysis
-from reportgen.document.parts import CarriedPoint, Contact, DriverView, PointView, SideView, side_view
 from reportgen.document.prose import PointName
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.loads import joint
 from reportgen.ledger.forces.polygon import Polygon
-from reportgen.ledger.kinematics.sides import image, scheme, sides
-from reportgen.mechanism.structure import DRIVER, Crank, Dyad, Guide
+from reportgen.ledger.kinematics.sides import Scheme, Side, image, sides
+from reportgen.mechanism.structure import DRIVER, Crank, Dyad, Guide, Linkage
 from reportgen.notation.expressions import refs
 
 
 @dataclass(frozen=True, slots=True)
-class GroupView:
-    """An Assur group as templates name it.
+class PointView:
+    """A named point on a link, e.g. a mass centre."""
 
-    `i`, `j` are its links; `P`, `Q` the outer and the inner pin (A, B), `T` the outer pin of j ("" on a guide),
-    `M` the point whose motion is written in two ways, and `p`, `q`, `m` their plan letters; `one` and `two`
-    those ways; `relative` is MP as in v_BA and `rod` PQ; `outer`, `inner`, `guide` the joints' digits as in
-    R12, R32, R03, `across` those of R23; `points_i` and `points_j` the named points of links i and j.
-    """
-
-    kind: str
-    i: int
-    j: int
-    P: PointName
-    Q: PointName
-    T: PointName
-    M: PointName
-    p: str
-    q: str
-    m: str
-    relative: str
-    rod: str
-    one: SideView
-    two: SideView
-    carrier: int
-    outer: str
-    inner: str
-    across: str
-    guide: str
-    offset: bool
-    points_i: tuple[PointView, ...]
-    points_j: tuple[PointView, ...]
-    polygon: Polygon | None
-    fixed: frozenset[str] = field(repr=False)
-    """The points of the frame."""
-    on_driver: frozenset[str] = field(repr=False)
-    ledger: Ledger = field(repr=False)
+    name: PointName
+    link: int
 
     def __str__(self) -> str:
         return self.name
 
-    @property
-    def name(self) -> str:
-        return joint(self.i, self.j)
+
+def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
+    """The named points of a link."""
+    return tuple(PointView(PointName(place.name), link) for place in linkage.points if place.link == link)
+
+
+class DriverView:
+    """The driver as templates name it: its centre O1 and pin A, its `arm` O1A, further points on it.
+
+    A sliding driver has neither centre nor arm.  `velocity_lines` and `acceleration_lines` are those of its
+    points; `drawn`, `velocity`, `velocity_segment` and `acceleration_segment` the ids of the arm's drawn
+    length, of the pin's velocity and of the segments that stand for the pin's velocity and acceleration.
+    """
+
+    def __init__(self, linkage: Linkage, ledger: Ledger) -> None:
+        moved = linkage.driver
+        self.centre = PointName(moved.centre if isinstance(moved, Crank) else "")
+        self.pin = PointName(moved.pin)
+        self.others = points_on(linkage, DRIVER)
+        self.names = (self.pin, *(place.name for place in self.others))
+        self.arm = f"{self.centre}{self.pin}" if self.centre else ""
+        self.drawn, self.velocity = f"drawn.{self.arm}", f"v.{self.pin}"
+        self.velocity_segment, self.acceleration_segment = (f"seg.{what}.p{image(self.pin)}" for what in "va")
+        self.velocity_lines, self.acceleration_lines = (
+            [id for name in self.names if (id := f"{what}.{name}") in ledger] for what in "va"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class CarriedPoint:
+    """A point of a link that turns about `origin` without a segment of its own on the plan.
+
+    `relative` is its name with the origin's, e.g. S2B; `still` says whether the origin is fixed to the
+    frame, `swings` whether the link has an angular acceleration.
+    """
+
+    name: PointName
+    link: int
+    origin: PointName
+    relative: str
+    still: bool
+    swings: bool
 
     @property
-    def sides(self) -> tuple[SideView, SideView]:
-        return self.one, self.two
+    def omega(self) -> str:
+        return f"omega.{self.link}"
 
     @property
-    def points(self) -> tuple[PointView, ...]:
-        return (*self.points_i, *self.points_j)
+    def epsilon(self) -> str:
+        return f"eps.{self.link}"
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """The reaction `digits` of a slide on `link`: `moment` and `place` are the ids of its moment about the
+    pin and of its distance from the pin, `moments` the lines that give this moment.
+    """
+
+    digits: str
+    pin: PointName
+    link: int
+    moment: str
+    place: str
+    moments: list[str]
+    displaced: bool
+    """Whether other forces have a moment about the pin, so that the reaction may act beside it."""
+
+    @property
+    def lines(self) -> list[str]:
+        """What is worked out for the moment and for the place."""
+        return [*self.moments, self.place]
+
+
+class GroupView:
+    """An Assur group as templates name it.
+
+    `i`, `j` are its links; `P`, `Q` the outer and the inner pin (A, B), `T` the outer pin of j ("" on a guide),
+    `M` the point whose motion is written in two ways; `one` and `two` those ways; `relative` is MP as in v_BA
+    and `rod` PQ; `outer`, `inner`, `guide` the joints' digits as in R12, R32, R03, `across` those of R23;
+    `points_i` and `points_j` the named points of links i and j; `carrier` is the link that i hangs on, and
+    `scale` the scale of the force plan.
+    """
+
+    def __init__(self, dyad: Dyad, plan: Scheme, driver: DriverView, polygons: Iterable[Polygon], ledger: Ledger):
+        self.kind, (self.i, self.j), self.ledger = dyad.kind, dyad.links, ledger
+        i, j = dyad.links
+        self.one, self.two = self.sides = sides(plan, dyad)
+        self.P = PointName(dyad.start if isinstance(dyad.start, str) else dyad.middle)
+        self.Q = PointName(dyad.middle)
+        self.T = PointName(dyad.end if isinstance(dyad.end, str) else "")
+        self.M, self.relative, self.rod = PointName(self.one.point), self.one.relative, self.one.rod
+        self.carrier, last = (
+            end.link if isinstance(end, Guide) else plan.owner[end] for end in (dyad.start, dyad.end)
+        )
+        self.outer, self.inner = joint(self.carrier, i), joint(j, i)
+        self.guide, self.across = joint(last, j), joint(i, j)
+        self.name = joint(i, j)
+        self.scale = f"mu.R{self.name}"
+        self.offset = dyad.kind == "RPR" and bool(dyad.lengths[1])
+        self.points_i, self.points_j = (points_on(plan.linkage, link) for link in dyad.links)
+        self.points = (*self.points_i, *self.points_j)
+        self.polygon = next((one for one in polygons if one.name == self.name), None)
+        self.fixed, self.on_driver = frozenset(plan.linkage.ground), frozenset(driver.names)
+
+    def __str__(self) -> str:
+        return self.name
 
     # --- plans of velocity and acceleration
 
     @property
-    def moving(self) -> tuple[SideView, ...]:
+    def moving(self) -> tuple[Side, ...]:
         """The ways whose base moves."""
         return tuple(side for side in self.sides if not side.still)
 
     @property
-    def under(self) -> tuple[SideView, ...]:
+    def under(self) -> tuple[Side, ...]:
         """The ways over a moving guide: their base is the guide's point under M."""
         return tuple(side for side in self.moving if side.guided)
 
     @property
-    def turning(self) -> tuple[SideView, ...]:
+    def turning(self) -> tuple[Side, ...]:
         """The ways with a Coriolis acceleration."""
         return tuple(side for side in self.sides if side.turning)
 
@@ -164,7 +229,7 @@ class GroupView:
             relative = f"{place.name}{origin}"
             if f"v.{relative}" in self.ledger:
                 swings, still = f"a.{relative}.t" in self.ledger, origin in self.fixed
-                found.append(CarriedPoint(place.name, place.image, place.link, origin, relative, still, swings))
+                found.append(CarriedPoint(place.name, place.link, origin, relative, still, swings))
         return found
 
     def similar(self, what: str) -> list[str]:
@@ -173,19 +238,19 @@ class GroupView:
         for place in self.points:
             for side in self.sides:
                 if side.turns and side.link == place.link:
-                    base = "p" if side.still else side.base.lower()
-                    ids += [f"seg.{what}.{base}{place.image}", f"seg.{what}.{self.m}{place.image}"]
+                    ends = "p" if side.still else image(side.base), image(self.M)
+                    ids += [f"seg.{what}.{end}{image(place.name)}" for end in ends]
         return self.ledger_ids(ids)
 
-    def base(self, what: str, side: SideView, k: int) -> str:
+    def base(self, what: str, side: Side, k: int) -> str:
         """How the end of a base's vector comes on the plan: at the "pole", "drawn" before, or "new"."""
         if self.ledger.number(self.base_segment(what, side), k).value == 0:
             return "pole"
         return "new" if side.guided or side.base in self.on_driver else "drawn"
 
-    def base_segment(self, what: str, side: SideView) -> str:
+    def base_segment(self, what: str, side: Side) -> str:
         """The segment of a plan that stands for the velocity or acceleration of a side's base."""
-        return f"seg.{what}.p{side.base.lower()}"
+        return f"seg.{what}.p{image(side.base)}"
 
     @property
     def drawn(self) -> str:
@@ -195,7 +260,7 @@ class GroupView:
     @property
     def relative_segment(self) -> str:
         """The segment of the velocity plan that stands for the relative velocity of the rod's ends."""
-        return f"seg.v.{self.p}{self.q}"
+        return f"seg.v.{image(self.P)}{image(self.Q)}"
 
     # --- forces
 
@@ -206,11 +271,6 @@ class GroupView:
         known = [(side.name, side.link) for side in self.polygon.sides if not side.unknown]
         known.append((f"R{self.across}", self.j))
         return self.ledger_ids(f"h.{name}.{about}" for name, carrier in known if carrier == link)
-
-    @property
-    def scale(self) -> str:
-        """The scale of the force plan."""
-        return f"mu.R{self.name}"
 
     @property
     def outer_lines(self) -> list[str]:
@@ -248,10 +308,10 @@ class GroupView:
         return [self._contact(*slide) for slide in found.get(self.kind, [])]
 
     def _contact(self, digits: str, pin: PointName, link: int) -> Contact:
-        moment, place = f"M.{digits}", f"x.{digits}"
-        family = self.ledger.families.get(moment)
-        displaced = family is not None and family.definition is not None
-        return Contact(digits, pin, link, moment, place, self.arms(pin, link), displaced)
+        moment, arms = f"M.{digits}", self.arms(pin, link)
+        displaced = moment in self.ledger and self.ledger[moment].definition is not None
+        moments = [*arms, moment] if displaced else arms
+        return Contact(digits, pin, link, moment, f"x.{digits}", moments, displaced)
 
     def reversed(self, k: int) -> bool:
         """Whether the component found by moments has the sense opposite to the one assumed."""
@@ -275,65 +335,38 @@ class GroupView:
         assert self.polygon is not None
         return self.polygon.reads[-1].end
 
-def driver(analysis: Analysis, ledger: Ledger) -> DriverView:
-    """The driver of a machine."""
-    linkage = analysis.machine.linkage
-    moved = linkage.driver
-    centre = PointName(moved.centre if isinstance(moved, Crank) else "")
-    others = tuple(
-        PointView(PointName(place.name), image(place.name), DRIVER) for place in linkage.points if place.link == DRIVER
-    )
-    return DriverView(
-        centre, PointName(moved.pin), image(moved.pin), f"{centre}{moved.pin}" if centre else "", others, ledger
-    )
+
+@dataclass(frozen=True, slots=True)
+class BodyView:
+    """A link with an inertia couple: its number, mass centre, the pin it is measured from, the ids to show."""
+
+    link: int
+    centre: PointName
+    start: PointName
+    ids: list[str]
+    still: bool
+    """Whether that pin is fixed to the frame."""
+
+    @property
+    def force(self) -> str:
+        return f"Pqt{self.link}"
+
+    @property
+    def couple(self) -> str:
+        return f"M.{self.force}"
 
 
-def groups(analysis: Analysis, polygons: tuple[Polygon, ...], ledger: Ledger) -> tuple[GroupView, ...]:
-    """The groups of a machine in the order of assembly."""
-    linkage = analysis.machine.linkage
-    plan = scheme(linkage)
-    plans = {polygon.name: polygon for polygon in polygons}
-    moved = driver(analysis, ledger)
-    on_driver = frozenset((moved.pin, *(place.name for place in moved.others)))
+class PlaneLink:
+    """A link in plane motion: its number, two points with drawn velocities, their `rod` and their `group`.
 
-    def on(link: int) -> tuple[PointView, ...]:
-        places = (place.name for place in linkage.points if place.link == link)
-        return tuple(PointView(PointName(name), image(name), link) for name in places)
+    The other members are the ids that the section on instant centres works out for it.
+    """
 
-    def view(dyad: Dyad) -> GroupView:
-        i, j = dyad.links
-        start = dyad.start if isinstance(dyad.start, str) else dyad.middle
-        first, last = (
-            end.link if isinstance(end, Guide) else plan.owner[end] for end in (dyad.start, dyad.end)
+    def __init__(self, turn: Side, group: str) -> None:
+        self.link, self.rod, self.group = turn.link, turn.rod, group
+        self.base, self.point = PointName(turn.base), PointName(turn.point)
+        self.omega = f"omega.{self.link}"
+        self.rates = [f"ic.omega.{self.link}", f"ic.v.{self.link}"]
+        self.distances, self.angles, self.projections = (
+            [f"ic.{what}.{self.link}.{name}" for name in (self.base, self.point)] for what in ("seg", "angle", "along")
         )
-        one, two = map(side_view, sides(plan, dyad))
-        return GroupView(
-            kind=dyad.kind,
-            i=i,
-            j=j,
-            P=PointName(start),
-            Q=PointName(dyad.middle),
-            T=PointName(dyad.end if isinstance(dyad.end, str) else ""),
-            M=one.point,
-            p=image(start),
-            q=image(dyad.middle),
-            m=image(one.point),
-            relative=one.relative,
-            rod=one.rod,
-            one=one,
-            two=two,
-            carrier=first,
-            outer=joint(first, i),
-            inner=joint(j, i),
-            across=joint(i, j),
-            guide=joint(last, j),
-            offset=dyad.kind == "RPR" and bool(dyad.lengths[1]),
-            points_i=on(i),
-            points_j=on(j),
-            polygon=plans.get(joint(i, j)),
-            fixed=frozenset(linkage.ground),
-            on_driver=on_driver,
-            ledger=ledger,
-        )
-
-    return tuple(view(dyad) for dyad in linkage.dyads)

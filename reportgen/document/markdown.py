@@ -16,19 +16,7 @@ from typing import cast, get_args
 from markdown_it import MarkdownIt
 from markdown_it.tree import SyntaxTreeNode
 
-from reportgen.document.tree import (
-    Block,
-    Emph,
-    Inline,
-    Inlines,
-    LineBreak,
-    List,
-    PageBreak,
-    Paragraph,
-    Section,
-    Strong,
-    Text,
-)
+from reportgen.document import tree
 from reportgen.errors import TemplateError
 
 SECRET = str(secrets.randbelow(10**18)).zfill(18)
@@ -49,7 +37,7 @@ class Unnumbered:
     """Keeps the section whose heading it ends out of the count."""
 
 
-Emitted = Inline | Block | Key | Unnumbered
+Emitted = tree.Inline | tree.Block | Key | Unnumbered
 Place = tuple[str, int]
 
 
@@ -63,7 +51,7 @@ class Rendered:
     lines: Sequence[Place]
 
 
-_BLOCKS = get_args(Block)
+_BLOCKS = get_args(tree.Block)
 _DEEPEST = 4
 
 _UNKNOWN = {
@@ -85,22 +73,22 @@ class _Piece:
     index: int
 
 
-_Item = str | Inline | _Piece
+_Item = str | tree.Inline | _Piece
 """Of a line being read: static text, an inline made of markup, or what a token stands for."""
 
 
-def blocks(rendered: Rendered) -> tuple[Block, ...]:
+def blocks(rendered: Rendered) -> tuple[tree.Block, ...]:
     """The blocks of a rendered template; raises `TemplateError` for what is not in the vocabulary."""
     root = SyntaxTreeNode(_parser().parse(rendered.text))
     return tuple(_Reader(rendered).blocks(root))
 
 
-def inlines(rendered: Rendered) -> Inlines:
+def inlines(rendered: Rendered) -> tree.Inlines:
     """The inlines of a rendered piece of one paragraph; raises `TemplateError` for anything else."""
     match blocks(rendered):
         case ():
             return ()
-        case (Paragraph(inlines=line),):
+        case (tree.Paragraph(inlines=line),):
             return line
     file, line_number = rendered.lines[0]
     raise TemplateError(f"{file}:{line_number}: one line of words is wanted here")
@@ -120,7 +108,7 @@ class _Reader:
 
     # --- blocks
 
-    def blocks(self, parent: SyntaxTreeNode) -> Iterator[Block]:
+    def blocks(self, parent: SyntaxTreeNode) -> Iterator[tree.Block]:
         for node in parent.children:
             match node.type:
                 case "paragraph":
@@ -129,21 +117,21 @@ class _Reader:
                     yield self.section(node)
                 case "bullet_list" | "ordered_list":
                     items = tuple(tuple(self.blocks(item)) for item in node.children)
-                    yield List(items, node.type == "ordered_list", int(node.attrs.get("start", 1)))
+                    yield tree.List(items, node.type == "ordered_list", int(node.attrs.get("start", 1)))
                 case "hr":
-                    yield PageBreak()
+                    yield tree.PageBreak()
                 case other:
                     raise self.fault(node, f"{_UNKNOWN.get(other, other)} is not in the vocabulary")
 
-    def paragraph(self, node: SyntaxTreeNode) -> Iterator[Block]:
+    def paragraph(self, node: SyntaxTreeNode) -> Iterator[tree.Block]:
         items = self.items(node)
         solid = [item for item in items if not (isinstance(item, str) and item.isspace())]
         if solid and all(isinstance(item, _Piece) and isinstance(item.value, _BLOCKS) for item in solid):
-            yield from (cast(Block, item.value) for item in solid if isinstance(item, _Piece))
+            yield from (cast(tree.Block, item.value) for item in solid if isinstance(item, _Piece))
         else:
-            yield Paragraph(self.inlines(items))
+            yield tree.Paragraph(self.inlines(items))
 
-    def section(self, node: SyntaxTreeNode) -> Section:
+    def section(self, node: SyntaxTreeNode) -> tree.Section:
         level = int(node.tag[1:])
         if level > _DEEPEST:
             raise self.fault(node, f"a heading of level {level}; the deepest is {_DEEPEST}")
@@ -161,24 +149,24 @@ class _Reader:
             items.pop()
         if items and isinstance(items[-1], str):
             items[-1] = items[-1].rstrip()
-        return Section(level, self.inlines(items), key, numbered)
+        return tree.Section(level, self.inlines(items), key, numbered)
 
     # --- inlines
 
-    def inlines(self, items: list[_Item]) -> Inlines:
+    def inlines(self, items: list[_Item]) -> tree.Inlines:
         return tuple(self.inline(item) for item in items)
 
-    def inline(self, item: _Item) -> Inline:
+    def inline(self, item: _Item) -> tree.Inline:
         match item:
             case str(text):
-                return Text(text)
+                return tree.Text(text)
             case _Piece(Key() | Unnumbered() as marker, index):
                 name = type(marker).__name__.lower()
                 raise self.fault_at(index, f"{name}(…) belongs at the end of a heading")
             case _Piece(value, index):
                 if isinstance(value, _BLOCKS):
                     raise self.fault_at(index, f"a {type(value).__name__} stands within running text")
-                return cast(Inline, value)
+                return cast(tree.Inline, value)
         return item
 
     def items(self, node: SyntaxTreeNode) -> list[_Item]:
@@ -197,11 +185,11 @@ class _Reader:
             text = ""
             match child.type:
                 case "em":
-                    result.append(Emph(self.inlines(self.items(child))))
+                    result.append(tree.Emph(self.inlines(self.items(child))))
                 case "strong":
-                    result.append(Strong(self.inlines(self.items(child))))
+                    result.append(tree.Strong(self.inlines(self.items(child))))
                 case "hardbreak":
-                    result.append(LineBreak())
+                    result.append(tree.LineBreak())
                 case other:
                     raise self.fault(child, f"{_UNKNOWN.get(other, other)} is not in the vocabulary")
         return result + self.pieces(text)

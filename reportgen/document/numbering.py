@@ -12,28 +12,15 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from reportgen.document import tree
 from reportgen.document.plain import plain
-from reportgen.document.tree import (
-    Block,
-    Cell,
-    Document,
-    Emph,
-    Equation,
-    Figure,
-    Inlines,
-    List,
-    Paragraph,
-    Plate,
-    Reference,
-    Section,
-    Strong,
-    Table,
-)
 from reportgen.errors import ReportgenError
 
 _COUNTED_LEVELS = 3
 
 _Kind = Literal["equation", "table", "figure"]
+Blocks = tuple[tree.Block, ...]
+Change = Callable[[tree.Inlines], tree.Inlines]
 
 
 class DocumentError(ReportgenError):
@@ -44,7 +31,7 @@ class DocumentError(ReportgenError):
         super().__init__("\n".join(faults))
 
 
-def number(document: Document) -> Document:
+def number(document: tree.Document) -> tree.Document:
     """The document with every number and reference filled in.
 
     An equation's number is "1.2", a reference to it "(1.2)"; a reference to a section without a number
@@ -69,11 +56,12 @@ def number(document: Document) -> Document:
     return replace(document, blocks=_each(numbered, lambda line: _filled(line, shown)))
 
 
-def unreferenced(document: Document) -> tuple[str, ...]:
+def unreferenced(document: tree.Document) -> tuple[str, ...]:
     """Keys of the figures, plates and tables that no text refers to, in order."""
     used = set(_references(document.blocks))
-    keyed = (block for block in _walk(document.blocks) if isinstance(block, (Table, Figure, Plate)))
-    return tuple(block.key for block in keyed if block.key and block.key not in used)
+    kinds = tree.Table, tree.Figure, tree.Plate
+    keys = (block.key for block in _walk(document.blocks) if isinstance(block, kinds))
+    return tuple(key for key in keys if key and key not in used)
 
 
 # --- counting -------------------------------------------------------------------------------------
@@ -91,29 +79,29 @@ class _Count:
     times: Counter[str] = field(default_factory=Counter)
     shown: dict[str, str] = field(default_factory=dict)
     """What a reference to a key prints."""
-    titles: dict[str, Inlines] = field(default_factory=dict)
+    titles: dict[str, tree.Inlines] = field(default_factory=dict)
     """Of sections without a number, by key."""
     equations: list[str] = field(default_factory=list)
     faults: list[str] = field(default_factory=list)
 
-    def block(self, block: Block) -> Block:
+    def block(self, block: tree.Block) -> tree.Block:
         match block:
-            case Section():
+            case tree.Section():
                 return self.section(block)
-            case Equation(key=key) if key:
+            case tree.Equation(key=key) if key:
                 self.equations.append(key)
                 value = self.next("equation")
                 self.name(key, f"({value})")
                 return replace(block, number=value)
-            case Table() | Figure() | Plate() if block.key or block.caption:
-                value = self.next("table" if isinstance(block, Table) else "figure")
+            case tree.Table() | tree.Figure() | tree.Plate() if block.key or block.caption:
+                value = self.next("table" if isinstance(block, tree.Table) else "figure")
                 self.name(block.key, value)
                 return replace(block, number=value)
-            case List(items):
+            case tree.List(items):
                 return replace(block, items=tuple(tuple(map(self.block, item)) for item in items))
         return block
 
-    def section(self, section: Section) -> Section:
+    def section(self, section: tree.Section) -> tree.Section:
         level = section.level
         if level > _COUNTED_LEVELS:
             value = ""
@@ -152,30 +140,30 @@ def _dotted(numbers: tuple[int, ...]) -> str:
 # --- walking --------------------------------------------------------------------------------------
 
 
-def _walk(blocks: tuple[Block, ...]) -> Iterator[Block]:
+def _walk(blocks: tuple[tree.Block, ...]) -> Iterator[tree.Block]:
     for block in blocks:
         yield block
-        if isinstance(block, List):
+        if isinstance(block, tree.List):
             for item in block.items:
                 yield from _walk(item)
 
 
-def _each(blocks: tuple[Block, ...], change: Callable[[Inlines], Inlines]) -> tuple[Block, ...]:
+def _each(blocks: Blocks, change: Change) -> Blocks:
     """The blocks with `change` applied to every line of text in them."""
     return tuple(_changed(block, change) for block in blocks)
 
 
-def _changed(block: Block, change: Callable[[Inlines], Inlines]) -> Block:
+def _changed(block: tree.Block, change: Change) -> tree.Block:
     match block:
-        case Section(_, title):
+        case tree.Section(_, title):
             return replace(block, title=change(title))
-        case Paragraph(inlines):
+        case tree.Paragraph(inlines):
             return replace(block, inlines=change(inlines))
-        case List(items):
+        case tree.List(items):
             return replace(block, items=tuple(_each(item, change) for item in items))
-        case Table():
+        case tree.Table():
 
-            def cells(rows: tuple[tuple[Cell, ...], ...]) -> tuple[tuple[Cell, ...], ...]:
+            def cells(rows: tuple[tuple[tree.Cell, ...], ...]) -> tuple[tuple[tree.Cell, ...], ...]:
                 return tuple(
                     tuple(replace(cell, inlines=change(cell.inlines)) for cell in row) for row in rows
                 )
@@ -183,32 +171,32 @@ def _changed(block: Block, change: Callable[[Inlines], Inlines]) -> Block:
             return replace(
                 block, head=cells(block.head), rows=cells(block.rows), caption=change(block.caption)
             )
-        case Figure() | Plate():
+        case tree.Figure() | tree.Plate():
             return replace(block, caption=change(block.caption))
     return block
 
 
-def _filled(inlines: Inlines, shown: dict[str, str]) -> Inlines:
+def _filled(inlines: tree.Inlines, shown: dict[str, str]) -> tree.Inlines:
     """Inlines with the text of every reference."""
     return tuple(
         replace(inline, text=shown[inline.key])
-        if isinstance(inline, Reference)
+        if isinstance(inline, tree.Reference)
         else replace(inline, of=_filled(inline.of, shown))
-        if isinstance(inline, (Emph, Strong))
+        if isinstance(inline, (tree.Emph, tree.Strong))
         else inline
         for inline in inlines
     )
 
 
-def _references(blocks: tuple[Block, ...]) -> list[str]:
+def _references(blocks: tuple[tree.Block, ...]) -> list[str]:
     """Keys referred to, in order."""
     keys: list[str] = []
 
-    def note(inlines: Inlines) -> Inlines:
+    def note(inlines: tree.Inlines) -> tree.Inlines:
         for inline in inlines:
-            if isinstance(inline, Reference):
+            if isinstance(inline, tree.Reference):
                 keys.append(inline.key)
-            elif isinstance(inline, (Emph, Strong)):
+            elif isinstance(inline, (tree.Emph, tree.Strong)):
                 note(inline.of)
         return inlines
 

@@ -8,14 +8,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from reportgen.document.drawing import A3_ACROSS, HALF, MM, TEXT_BLOCK, Drawn, figure, on_paper
+from reportgen.document.figures import A3_ACROSS, HALF, MM, TEXT_BLOCK, Drawn, figure, in_text, on_paper
 from reportgen.document.groups import GroupView
-from reportgen.document.parts import SideView
 from reportgen.document.report import Report
 from reportgen.figures.draft import sheets
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
-from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.polygon import Polygon
+from reportgen.ledger.forces.polygon import Side as Force
+from reportgen.ledger.kinematics.linkage import POLES, What
+from reportgen.ledger.kinematics.sides import Side, image
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Chain, Symbol
 
@@ -25,62 +26,44 @@ SHEET = (385.0, 232.0)
 # --- velocity and acceleration
 
 
-@figure("velocity", "fig.v")
-def velocity(report: Report, k: int) -> Drawn:
-    return Drawn((plan(velocity_plan(report, k)),))
+def _register(name: str, what: What) -> None:
+    """Register the figures of the velocity or acceleration plan: the plan, its stages, the plates of one turn."""
+
+    def drawing(report: Report, k: int) -> Plan:
+        return motion_plan(report, what, k)
+
+    def whole(report: Report, k: int) -> Drawn:
+        return Drawn((plan(drawing(report, k)),))
+
+    def in_stages(report: Report, k: int) -> Drawn:
+        return _stages(report, drawing(report, k), f"mu.{what}")
+
+    def on_plates(report: Report) -> Drawn:
+        one_turn = sorted({(k - 1) % report.count + 1 for k in report.plates})
+        return _plates(report, drawing, one_turn, f"mu.{what}")
+
+    figure(name, f"fig.{what}")(whole)
+    figure(f"{name}-stages", f"fig.{what}.stages")(in_stages)
+    figure(f"{name}-plates", f"fig.{what}.plates")(on_plates)
 
 
-@figure("acceleration", "fig.a")
-def acceleration(report: Report, k: int) -> Drawn:
-    return Drawn((plan(acceleration_plan(report, k)),))
+_register("velocity", "v")
+_register("acceleration", "a")
 
 
-@figure("velocity-stages", "fig.v.stages")
-def velocity_stages(report: Report, k: int) -> Drawn:
-    return _stages(report, velocity_plan(report, k), "mu.v")
-
-
-@figure("acceleration-stages", "fig.a.stages")
-def acceleration_stages(report: Report, k: int) -> Drawn:
-    return _stages(report, acceleration_plan(report, k), "mu.a")
-
-
-@figure("velocity-plates", "fig.v.plates")
-def velocity_plates(report: Report) -> Drawn:
-    return _plates(report, velocity_plan, _plates_of_one_turn(report), "mu.v")
-
-
-@figure("acceleration-plates", "fig.a.plates")
-def acceleration_plates(report: Report) -> Drawn:
-    return _plates(report, acceleration_plan, _plates_of_one_turn(report), "mu.a")
-
-
-def velocity_plan(report: Report, k: int) -> Plan:
-    """The velocity plan at a position, in mm, its stages in the order of construction."""
-    return _motion_plan(report, "v", "p", k)
-
-
-def acceleration_plan(report: Report, k: int) -> Plan:
-    """The acceleration plan at a position, in mm."""
-    return _motion_plan(report, "a", "π", k)
-
-
-def _motion_plan(report: Report, what: str, pole: str, k: int) -> Plan:
-    sketch = _Sketch(report.ledger, what, k)
-    driver = report.driver
-    places = [driver.pin, *(place.name for place in driver.others)]
-    carried = {name: sketch.at(name) for name in places}
+def motion_plan(report: Report, what: What, k: int) -> Plan:
+    """The plan of velocities (v) or accelerations (a) at a position, in mm, its stages in the order of construction."""
+    sketch = _Sketch(report, what, k)
     stage = 0
     drawn: set[str] = set()
     for group in report.groups:
         for side in group.moving:
-            if side.base in carried and side.base not in drawn:
-                sketch.vector(side.base, 0j, carried[side.base], "known", what, side.base, stage)
+            if side.base in report.driver.names and side.base not in drawn:
+                sketch.absolute(side.base, "known", stage)
                 drawn.add(side.base)
         stage = sketch.group(group, stage) + 1
-    first = PlanPoint(Symbol(pole), 0j)
-    scale = _scale(report, f"mu.{what}")
-    return Plan(tuple(sketch.vectors), (first, *sketch.points), tuple(sketch.lines), scale)
+    points = (PlanPoint(Symbol(POLES[what]), 0j), *sketch.points)
+    return Plan(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, f"mu.{what}"))
 
 
 def _scale(report: Report, id: str) -> Chain:
@@ -95,11 +78,6 @@ def _stages(report: Report, drawing: Plan, scale: str) -> Drawn:
     return Drawn(stages(drawing, HALF), note=Chain((report.ledger.symbol(scale), doubled)))
 
 
-def _plates_of_one_turn(report: Report) -> list[int]:
-    """The positions of one turn that stand for the cycle's positions on the plates."""
-    return sorted({(k - 1) % report.count + 1 for k in report.plates})
-
-
 def _plates(
     report: Report, drawing: Callable[[Report, int], Plan], positions: Sequence[int], scale: str
 ) -> Drawn:
@@ -111,45 +89,38 @@ def _plates(
     ]
     note = _scale(report, scale)
     on_page = sheets(scenes, *TEXT_BLOCK, note)
-    if len(on_page) == 1 and on_page[0].width <= TEXT_BLOCK[0] and on_page[0].height <= TEXT_BLOCK[1]:
-        return Drawn(on_page)
-    return Drawn(sheets(scenes, *SHEET, note), A3_ACROSS)
+    return Drawn(on_page) if in_text(*on_page) else Drawn(sheets(scenes, *SHEET, note), A3_ACROSS)
 
 
 class _Sketch:
     """A velocity or acceleration plan while its vectors are collected."""
 
-    def __init__(self, ledger: Ledger, what: str, position: int) -> None:
-        self.ledger, self.what, self.k = ledger, what, position
+    def __init__(self, report: Report, what: What, position: int) -> None:
+        self.ledger, self.what, self.k = report.ledger, what, position
         self.vectors: list[PlanVector] = []
         self.points: list[PlanPoint] = []
         self.lines: list[PlanLine] = []
 
     def at(self, name: str) -> complex:
-        return complex(self.ledger[f"plan.{self.what}.{name.lower()}"].at(self.k)) * MM
+        return complex(self.ledger[f"plan.{self.what}.{name}"].at(self.k)) * MM
 
-    def vector(
-        self,
-        name: str,
-        start: complex,
-        end: complex,
-        style: Style,
-        base: str,
-        sub: str,
-        stage: int,
-        sup: str = "",
-    ) -> None:
-        label = Symbol(base, sub, sup, "vector")
-        self.vectors.append(PlanVector(name, start, end, style, label, stage))
-        if style != "relative":
-            self.points.append(PlanPoint(symbols.on_plan(name, self.what == "a"), end, stage))
+    def absolute(self, name: str, style: Style, stage: int) -> None:
+        """Enter the vector of a point's own velocity or acceleration, from the pole, with its end."""
+        end = self.at(image(name))
+        self.vectors.append(PlanVector(name, 0j, end, style, Symbol(self.what, name, over="vector"), stage))
+        self.points.append(PlanPoint(symbols.on_plan(name, self.what == "a"), end, stage))
+
+    def relative(self, side: Side, part: str, start: complex, end: complex, stage: int) -> None:
+        """Enter what a side adds to the velocity or acceleration of its base, or a part of it."""
+        label = Symbol(self.what, side.pair, part, "vector")
+        self.vectors.append(PlanVector(part + side.relative, start, end, "relative", label, stage))
 
     def group(self, group: GroupView, stage: int) -> int:
         """Enter a group's construction after the stage that shows its outer pins; gives its last stage."""
         for guide in group.under:
             stage += 1
-            self.vector(guide.base, 0j, self.at(guide.base), "known", self.what, guide.base, stage)
-        end = self.at(group.M)
+            self.absolute(guide.base, "known", stage)
+        end = self.at(image(group.M))
         starts = []
         for side in group.sides:
             stage, start = self._known(side, stage)
@@ -158,29 +129,24 @@ class _Sketch:
             stage += 1
             self.lines.append(PlanLine(start, end, stage))
         for side, start in zip(group.sides, starts, strict=True):
-            sought = not side.still if self.what == "v" else bool(side.sought)
-            if sought:
-                sup = "" if self.what == "v" else "τ" if side.turns else "r"
-                self.vector(side.relative, start, end, "relative", self.what, side.pair, stage, sup)
-        self.vector(group.M, 0j, end, "found", self.what, group.M, stage)
-        further = [place.name for place in group.points]
-        if group.M != group.Q:
-            further.insert(0, group.Q)
-        if further:
-            stage += 1
-            for name in further:
-                self.vector(name, 0j, self.at(name), "found", self.what, name, stage)
-        return stage
+            if self.what == "a" and side.sought:
+                self.relative(side, "τ" if side.turns else "r", start, end, stage)
+            elif self.what == "v" and not side.still:
+                self.relative(side, "", start, end, stage)
+        self.absolute(group.M, "found", stage)
+        further = [name for name in (group.Q, *(place.name for place in group.points)) if name != group.M]
+        for name in further:
+            self.absolute(name, "found", stage + 1)
+        return stage + bool(further)
 
-    def _known(self, side: SideView, stage: int) -> tuple[int, complex]:
+    def _known(self, side: Side, stage: int) -> tuple[int, complex]:
         """Enter the relative acceleration that is known; gives the stage and where the sought part starts."""
-        start = 0j if side.still else self.at(side.base)
-        part = side.part
-        if self.what == "v" or not part:
+        start = 0j if side.still else self.at(image(side.base))
+        if self.what == "v" or not side.part:
             return stage, start
-        end = complex(self.ledger[f"plan.a.{part}.{side.relative}"].at(self.k)) * MM
-        self.vector(f"{part}{side.relative}", start, end, "relative", "a", side.pair, stage + 1, part)
-        self.points.append(PlanPoint(Symbol(part, side.pair), end, stage + 1))
+        end = self.at(f"{side.part}.{side.relative}")
+        self.relative(side, side.part, start, end, stage + 1)
+        self.points.append(PlanPoint(Symbol(side.part, side.pair), end, stage + 1))
         return stage + 1, end
 
 
@@ -200,7 +166,7 @@ def force_stages(report: Report, k: int, group: GroupView) -> Drawn:
     drawing = force_plan(report, group.polygon, k)
     sides = group.polygon.sides
     known = sum(not side.unknown for side in sides)
-    by_moments = [not side.unknown and side.name.endswith(".t") for side in sides]
+    by_moments = [not side.unknown and side.part == "t" for side in sides]
 
     def step(stage: int) -> int:
         return 2 + stage - known if stage >= known else int(by_moments[stage])
@@ -231,27 +197,16 @@ def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
         return complex(report.ledger[f"plan.R{polygon.name}.{letter}"].at(k)) * MM
 
     known = sum(not side.unknown for side in polygon.sides)
-    first = polygon.sides[0].start
-    sides: list[tuple[int, Style]] = [
-        (known, "found") if side.unknown else (number, "known") for number, side in enumerate(polygon.sides)
+    drawn: list[tuple[Force, int, Style]] = [
+        (side, known, "found") if side.unknown else (side, number, "known")
+        for number, side in enumerate(polygon.sides)
     ]
-    drawn = [
-        *zip(polygon.sides, sides, strict=True),
-        *((read, (known + 1, "relative")) for read in polygon.reads),
-    ]
-    vectors = tuple(
-        PlanVector(
-            side.start + side.end,
-            corner(side.start),
-            corner(side.end),
-            style,
-            report.force_vector(side.name),
-            stage,
-        )
-        for side, (stage, style) in drawn
-    )
-    stage_of = {first: 0}
-    for side, (stage, _) in zip(polygon.sides, sides, strict=True):
+    drawn += [(read, known + 1, "relative") for read in polygon.reads]
+    vectors = []
+    stage_of = {polygon.sides[0].start: 0}
+    for side, stage, style in drawn:
+        start, end, label = corner(side.start), corner(side.end), report.force_vector(side.name)
+        vectors.append(PlanVector(side.start + side.end, start, end, style, label, stage))
         stage_of.setdefault(side.end, stage)
     points = tuple(PlanPoint(Symbol(letter), corner(letter), stage) for letter, stage in stage_of.items())
-    return Plan(vectors, points, (), _scale(report, f"mu.R{polygon.name}"), pole=False)
+    return Plan(tuple(vectors), points, (), _scale(report, f"mu.R{polygon.name}"), pole=False)

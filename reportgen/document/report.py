@@ -20,8 +20,7 @@ from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.catalogue.loads import Piston
 from reportgen.catalogue.machine import Machine, Position
 from reportgen.cycle.flywheel import Flywheel
-from reportgen.document.groups import GroupView, driver, groups
-from reportgen.document.parts import BodyView, DriverView, PlaneLink
+from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink
 from reportgen.document.prose import PointName, Prose
 from reportgen.document.tree import Block, InlineMath, Inlines, Paragraph, Text
 from reportgen.ledger.core import Ledger
@@ -88,11 +87,13 @@ class Report:
     @cached_property
     def groups(self) -> tuple[GroupView, ...]:
         """The groups in the order of assembly."""
-        return groups(self.analysis, self.case.polygons, self.ledger)
+        plan, polygons = scheme(self.machine.linkage), self.case.polygons
+        dyads = self.machine.linkage.dyads
+        return tuple(GroupView(dyad, plan, self.driver, polygons, self.ledger) for dyad in dyads)
 
     @cached_property
     def driver(self) -> DriverView:
-        return driver(self.analysis, self.ledger)
+        return DriverView(self.machine.linkage, self.ledger)
 
     @cached_property
     def dense_cycle(self) -> Analysis:
@@ -299,9 +300,7 @@ class Report:
         """The links that turn about no fixed point and are no mere sliders, in the order of assembly."""
         owner = {link: group.name for group in self.groups for link in (group.i, group.j)}
         turns = links_in_plane_motion(scheme(self.machine.linkage))
-        return tuple(PlaneLink(
-                turn.link, PointName(turn.base), PointName(turn.point), turn.rod, owner[turn.link]
-            ) for turn in turns)
+        return tuple(PlaneLink(turn, owner[turn.link]) for turn in turns)
 
     # --- forces
 
@@ -327,18 +326,15 @@ class Report:
     @cached_property
     def couples(self) -> tuple[BodyView, ...]:
         """Links whose inertia is a force and a couple, replaced by one force off the mass centre."""
-        found = []
+        ground, found = self.machine.linkage.ground, []
+        # A block turns about no base of a plan: the pin it sits on is its first joint.
+        starts = {group.i: group.P for group in self.groups}
+        starts |= {side.link: PointName(side.base) for group in self.groups for side in group.sides if side.turns}
         for body in self.machine.linkage.inertias:
             ids = self.known((f"e.Pqt{body.link}", f"l.{body.centre}K{body.link}"))
-            # A block turns about no base of a plan: the pin it sits on is its first joint.
-            start = next(
-                (side.base for group in self.groups for side in group.sides if side.turns and side.link == body.link),
-                next((group.P for group in self.groups if group.i == body.link), PointName("")),
-            )
             if len(ids) == 2:
-                found.append(
-                    BodyView(body.link, PointName(body.centre), start, tuple(ids), start in self.machine.linkage.ground)
-                )
+                start = starts[body.link]
+                found.append(BodyView(body.link, PointName(body.centre), start, ids, start in ground))
         return tuple(found)
 
     @property
@@ -365,10 +361,13 @@ class Report:
         """The groups that hang on the driver."""
         return [group for group in self.groups if group.carrier == 1]
 
+    def arms_about(self, point: str) -> list[str]:
+        return [id for id, family in self.ledger.families.items() if family.arm and family.about == point]
+
     @property
     def crank_arms(self) -> list[str]:
         """Arms of the forces on the driver about its centre."""
-        return [id for id in self.ledger.families if id.startswith("h.") and id.endswith(f".{self.driver.centre}")]
+        return self.arms_about(self.driver.centre)
 
     @property
     def crank_lines(self) -> list[str]:
@@ -388,7 +387,7 @@ class Report:
     @property
     def inertia_parts(self) -> list[str]:
         """The shares of the links in the reduced moment of inertia, and their sum."""
-        return [id for id in self.ledger.families if id.startswith("J.r.") and id in self.computed] + ["J.r"]
+        return self.known([*(f"J.r.{link}" for link in self.machine.linkage.links), "J.r"])
 
     @property
     def has_reduced_inertia(self) -> bool:
@@ -403,8 +402,8 @@ class Report:
     # --- quantities and points by name
 
     def force_symbol(self, name: str) -> Symbol:
-        """The symbol of a force of a plan: of a load by its own id, of a reaction R12, R12.t by its joint."""
-        return self.ledger.symbol(name if name in self.ledger else f"R.{name.removeprefix('R')}")
+        """The symbol of a force of a plan: of a load, or of a reaction R12, R12.t."""
+        return self.ledger.symbol(self.ledger[f"F.{name}"].of)
 
     def force_vector(self, name: str) -> Symbol:
         return symbols.vector(self.force_symbol(name))

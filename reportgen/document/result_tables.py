@@ -3,27 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from reportgen.document.groups import GroupView
-from reportgen.document.parts import SideView
-from reportgen.document.report import Report, function
-from reportgen.document.tables import cell, columns, list_table, table, tables
-from reportgen.document.tree import (
-    FIRST_COLUMN,
-    TEXT_WIDTH,
-    Cell,
-    Column,
-    InlineMath,
-    Inlines,
-    Table,
-    Text,
-    Value,
-)
+from reportgen.document.report import Report
+from reportgen.document.tables import bare, columns, list_table, rows, side_by_side, table, tables
+from reportgen.document.tree import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Table, Text, Value
+from reportgen.ledger.kinematics.sides import Side, image
 from reportgen.mechanism.structure import Crank
 from reportgen.notation.expressions import Chain, Number, Power, Symbol
+from reportgen.notation.vocabulary import Chapter
 
 MM = 1e3
 MOST_COORDINATES, MOST_WIDE = 10, 8
@@ -52,39 +43,26 @@ def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> 
     ]
     kept = [(shown, values) for shown, values in courses if np.abs(values).max() > 1e-12]
     wide = any(values.min() <= WIDE for _, values in kept)
-    blocks = -(-len(kept) // (MOST_WIDE if wide else MOST_COORDINATES))
-    size = 2 * -(-len(kept) // (2 * blocks))
-    parts = [kept[start : start + size] for start in range(0, len(kept), size)]
-
-    def part_table(number: int, part: Sequence[tuple[Symbol, np.ndarray]]) -> Table:
-        width = min((TEXT_WIDTH - FIRST_COLUMN) / len(part), 22.0)
-        heads = (cell(report.words["table"]["position"]), *(cell(shown) for shown, _ in part))
-        rows = tuple(
-            (cell(str(k)), *(Cell((Value(Number(_without_dust(values[k - 1] * MM), 2)),)) for _, values in part))
-            for k in report.positions
-        )
-        title = caption if len(parts) == 1 else f"{caption} ({number}/{len(parts)})"
-        columns = (Column(FIRST_COLUMN), *(Column(width),) * len(part))
-        part_key = key if number == 1 else f"{key}.{number}"
-        return Table(columns, (heads,), rows, report.prose.inlines(title), part_key)
-
-    return tuple(part_table(number, part) for number, part in enumerate(parts, start=1))
+    columns = [(shown, *(_coordinate(value * MM) for value in values)) for shown, values in kept]
+    titles = [report.words["table"]["position"], *map(str, report.positions)]
+    first, most = Column(FIRST_COLUMN), MOST_WIDE if wide else MOST_COORDINATES
+    return side_by_side(report, key, caption, first, titles, columns, most, widest=22.0, together=2)
 
 
-def _without_dust(value: float) -> float:
-    return 0.0 if abs(value) < 1e-9 else value
+def _coordinate(value: float) -> Number:
+    return Number(0.0 if abs(value) < 1e-9 else value, 2)
 
 
-def _two_decimals(value: float) -> Inlines:
+def _two_decimals(value: float) -> Number:
     """A number to two decimals, or as it is when it has no more than two."""
     short = abs(value * 100 - round(value * 100)) < 1e-7
-    return (Value(Number(float(f"{value:.10g}")) if short else Number(value, 2)),)
+    return Number(float(f"{value:.10g}")) if short else Number(value, 2)
 
 
-@table("dead")
-def dead_centres(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+@rows("dead", 20.0, 46.0, 44.0, 46.0)
+def dead_centres(report: Report) -> Iterator[Sequence[object]]:
     """Where each slider turns back: crank's turn from position 1, the pin's distance from the crank centre."""
-    words, rows = report.words["tables"]["dead"], []
+    words = report.words["tables"]["dead"]
     for piston in report.machine.sliders:
         for name, angle, place in (
             (words["top"], piston.top_angle, piston.top),
@@ -92,12 +70,11 @@ def dead_centres(report: Report, key: str, caption: str, head: Sequence[str]) ->
         ):
             turn = math.degrees((angle - piston.phase) % (2 * math.pi))
             turn = 0.0 if abs(turn - 360) < 1e-9 else turn
-            rows.append((str(piston.link), name, _two_decimals(turn), _two_decimals(abs(place) * MM)))
-    return list_table(report, key, caption, head, rows, (20.0, 46.0, 44.0, 46.0))
+            yield str(piston.link), name, _two_decimals(turn), _two_decimals(abs(place) * MM)
 
 
-@table("labels")
-def labels(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+@rows("labels", 24.0, 50.0, 50.0)
+def labels(report: Report) -> Iterator[Sequence[object]]:
     """The positions of one turn by their labels: the crank's turn, and what the first slider does there.
 
     It turns back at its "top" and "bottom", and is "fastest" where a = 0.
@@ -107,59 +84,44 @@ def labels(report: Report, key: str, caption: str, head: Sequence[str]) -> Table
     course = machine.sliders[0]
     pin, way = motion.points[course.pin], course.fraction(motion)
     still, steady = (np.abs(rate) < STILL * np.abs(rate).max() for rate in (pin.v, pin.a))
-    rows = []
     for k in range(machine.count):
         end = ("top" if way[k] < 0.5 else "bottom") if still[k] else "fastest" if steady[k] else ""
         angle = _two_decimals(math.degrees(machine.cycle_angles[k]))
-        rows.append((str(machine.position(k + 1)), angle, words.get(end, "")))
-    return list_table(report, key, caption, head, rows, (24.0, 50.0, 50.0))
+        yield str(machine.position(k + 1)), angle, words.get(end, "")
 
 
-@table("omega")
-def angular_velocities(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> Table:
-    driver = ["omega.1"] if report.driver.centre else []
-    return _rotations(report, key, caption, head, [*driver, *_of_links(report, "turn.omega.")], k)
+@rows("omega", 34.0, 40.0, 60.0)
+def angular_velocities(report: Report, k: int) -> Iterator[Sequence[object]]:
+    """The angular velocities with their sense in words."""
+    if report.driver.centre:
+        yield report.ledger.symbol("omega.1"), bare(report, "omega.1", k, size=True), report.turn_words
+    yield from _rotations(report, "turn.omega.", k)
 
 
-@table("eps")
-def angular_accelerations(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> Table:
-    return _rotations(report, key, caption, head, _of_links(report, "turn.eps."), k)
+@rows("eps", 34.0, 40.0, 60.0)
+def angular_accelerations(report: Report, k: int) -> Iterator[Sequence[object]]:
+    return _rotations(report, "turn.eps.", k)
 
 
-def _rotations(
-    report: Report, key: str, caption: str, head: Sequence[str], ids: Sequence[str], k: int
-) -> Table:
-    """Angular velocities or accelerations with their sense in words."""
-    ledger = report.ledger
-    rows = (
-        (
-            ledger.symbol(id),
-            _bare_size(report, id, k),
-            report.turn_words if id == "omega.1" else report.sense(ledger.number(id, k).value),
-        )
-        for id in ids
-    )
-    return list_table(report, key, caption, head, rows, (34.0, 40.0, 60.0))
+def _rotations(report: Report, prefix: str, k: int) -> Iterator[Sequence[object]]:
+    for id in _of_links(report, prefix):
+        sense = report.sense(report.ledger.number(id, k).value)
+        yield report.ledger.symbol(id), bare(report, id, k, size=True), sense
 
 
-def _bare_size(report: Report, id: str, k: int) -> Inlines:
-    number = report.ledger.number(id, k, size=True)
-    return (Value(Number(number.value, number.decimals)),)
-
-
-@table("summary")
-def summary(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> Table:
+@rows("summary", 46.0, 46.0, 46.0)
+def summary(report: Report, k: int) -> Iterator[Sequence[object]]:
     """Quantities at one position as "symbol = value", in rows of as many as there are heads."""
     ledger = report.ledger
-    rows = [[Chain((ledger.symbol(id), ledger.number(id, k))) for id in row] for row in report.own["summary"]]
-    return list_table(report, key, caption, head, rows, (46.0,) * len(head))
+    for row in report.own["summary"]:
+        yield [Chain((ledger.symbol(id), ledger.number(id, k))) for id in row]
 
 
 @columns("v.segments")
 def velocity_segments(report: Report) -> list[str]:
     ids: list[str] = []
     for group in report.groups:
-        ids += [f"seg.v.p{group.m}", *(f"seg.v.{side.base.lower()}{group.m}" for side in group.moving)]
+        ids += [f"seg.v.p{image(group.M)}", *(f"seg.v.{image(side.base)}{image(group.M)}" for side in group.moving)]
         ids += _images("v", group)
     return report.known(ids)
 
@@ -178,7 +140,7 @@ def velocities(report: Report) -> list[str]:
 def acceleration_segments(report: Report) -> list[str]:
     ids: list[str] = []
     for group in report.groups:
-        ids.append(f"seg.a.p{group.m}")
+        ids.append(f"seg.a.p{image(group.M)}")
         ids += [f"seg.a.{part}.{side.relative}" for side in group.sides for part in _parts(side)]
         ids += _images("a", group)
     return report.known(ids)
@@ -200,10 +162,10 @@ def _of_links(report: Report, prefix: str) -> list[str]:
 
 
 def _images(what: str, group: GroupView) -> list[str]:
-    return [f"seg.{what}.p{place}" for place in (group.q, *(place.image for place in group.points))]
+    return [f"seg.{what}.p{image(place)}" for place in (group.Q, *(place.name for place in group.points))]
 
 
-def _parts(side: SideView) -> list[str]:
+def _parts(side: Side) -> list[str]:
     """Suffixes of a side's relative accelerations, the known one first."""
     return [part for part in (side.part, side.sought) if part]
 
@@ -257,18 +219,12 @@ def reaction_angles(report: Report) -> list[str]:
     return report.known(f"dir.R{name}" for name in (*joints, "01"))
 
 
-@table("lever")
-@function
-def lever_table(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> Table:
+@rows("lever", 30.0, 36.0, 44.0, 44.0)
+def lever(report: Report, k: int) -> Iterator[Sequence[object]]:
     """Loads on the turned velocity plan: size, arm, moment about the pole by μ_l, anticlockwise positive."""
-    ledger = report.ledger
-    loads = [id.split(".")[1] for id in ledger.families if id.startswith("h.") and id.endswith(".p")]
-    rows = []
-    for load in loads:
-        numbers = ledger.number(load, k), ledger.number(f"h.{load}.p", k, size=True), ledger.number(f"M.{load}.p", k)
-        cells = ((Value(Number(number.value, number.decimals)),) for number in numbers)
-        rows.append((ledger.symbol(load), *cells))
-    return list_table(report, key, caption, head, rows, (30.0, 36.0, 44.0, 44.0))
+    for id in report.arms_about("p"):
+        load = report.ledger[id].of
+        yield report.ledger.symbol(load), *(bare(report, one, k) for one in (load, id, f"M.{load}.p"))
 
 
 @columns("M", cycle=True)
@@ -289,24 +245,26 @@ def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tup
 # --- checks
 
 
-@table("checks")
-def checks(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+@rows("checks", 95.0, 35.0, 20.0)
+def checks(report: Report) -> Iterator[Sequence[object]]:
     """Residuals of the independent checks, as powers of ten."""
-    found, names = residuals(report), report.words["tables"]["checks"]["rows"]
-    rows = [(name, _power_of_ten(found[id][0]), found[id][1]) for id, name in names.items() if id in found]
-    return list_table(report, key, caption, head, rows, (95.0, 35.0, 20.0))
+    found = residuals(report)
+    for id, name in report.words["tables"]["checks"]["rows"].items():
+        if id in found:
+            residual, unit = found[id]
+            yield name, _power_of_ten(residual), unit
 
 
 def residuals(report: Report) -> dict[str, tuple[float, str]]:
     """The largest residual of each check and its unit: closure, formulas, reactions, torques, energy."""
     analysis, values = report.analysis, report.ledger.families
     found = {"closure": (_closure(report), "m")}
-    for name, prefix in (("formulas", ("v.", "omega.")), ("formulas_a", ("a.", "eps."))):
+    for name, chapter in (("formulas", Chapter.velocity), ("formulas_a", Chapter.acceleration)):
         differences = [
             float(np.max(np.abs(np.abs(values[one].values) - np.abs(values[other].values))))
             / float(np.max(np.abs(values[one].values)))
             for one, other in analysis.machine.compared
-            if one.startswith(prefix)
+            if values[one].chapter is chapter
         ]
         if differences:
             found[name] = (max(differences), "")

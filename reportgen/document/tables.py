@@ -7,7 +7,7 @@ it is called as `table(name, …)`, with the words that `words.yaml` has for it 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from reportgen.catalogue.given_loads import ByOrdinates
@@ -66,11 +66,43 @@ def columns(name: str, cycle: bool = False) -> Callable[[Ids], Ids]:
     return register
 
 
-def insert_table(report: Report, name: str, *arguments: Any) -> Any:
-    """A registered table with its words; one of a position k has k in its key and its caption."""
-    words, position = report.words["tables"][name], next((k for k in arguments if isinstance(k, Position)), None)
-    key = f"tab.{name}" if position is None else f"tab.{name}.{position}"
-    return TABLES[name](report, key, words["caption"].format(k=position), words.get("head", ()), *arguments)
+Rows = Callable[..., Iterable[Sequence[object]]]
+
+
+def rows(name: str, *widths: float) -> Callable[[Rows], Rows]:
+    """Register a table of the rows that the function gives; `widths` (mm) are those of its columns."""
+
+    def register(listed: Rows) -> Rows:
+        def listing(report: Report, key: str, caption: str, head: Sequence[str], *shown: Any) -> Table:
+            return list_table(report, key, caption, head, listed(report, *shown), widths)
+
+        TABLES[name] = listing
+        return listed
+
+    return register
+
+
+def insert_table(report: Report, name: str, *arguments: Any, words: str = "") -> Any:
+    """A table with its words, or with others of `words.yaml`; one of a position k has k in its key and its caption.
+
+    A name that no function has is a table of the quantities whose ids are given, over the cycle or at positions.
+    """
+    texts = report.words["tables"][words or name]
+    position = next((k for k in arguments if isinstance(k, Position)), None)
+    caption = texts["caption"] if position is None else texts["caption"].format(k=position)
+    key = ".".join(["tab", name, *(str(one) for one in arguments if isinstance(one, (Position, str)))])
+    return TABLES.get(name, _quantities)(report, key, caption, texts.get("head", ()), *arguments)
+
+
+def _quantities(
+    report: Report,
+    key: str,
+    caption: str,
+    head: Sequence[str],
+    ids: Sequence[str],
+    positions: Iterable[int] | None = None,
+) -> tuple[Table, ...]:
+    return tables(report, key, caption, ids, positions or report.all_positions)
 
 
 FUNCTIONS["table"] = insert_table
@@ -98,21 +130,13 @@ def _inlines(content: object) -> Inlines:
     raise TypeError(f"a {type(content).__name__} has no place in a table")
 
 
-def bare(report: Report, id: str, position: int | None) -> Inlines:
-    """A number without its unit, a dash for what does not exist."""
-    number = report.ledger.number(id, position, size=report.ledger[id].arm)
-    if number.value != number.value or _is_direction_of_zero(report, id, position):
+def bare(report: Report, id: str, position: int | None, size: bool = False) -> Inlines:
+    """A number without its unit, a dash for what does not exist; that of an arm, or `size`, without its sign."""
+    family = report.ledger[id]
+    number = report.ledger.number(id, position, size=size or family.arm)
+    if math.isnan(number.value) or (family.is_direction and report.is_zero(family.of, position)):
         return (Text("–"),)
     return (Value(Number(number.value, number.decimals, "")),)
-
-
-def _is_direction_of_zero(report: Report, id: str, position: int | None) -> bool:
-    """Whether an angle `dir.R05`, `dir.v.B` is that of a vector which is zero."""
-    if not id.startswith("dir."):
-        return False
-    name = id.removeprefix("dir.")
-    size = f"R.{name[1:]}" if name.startswith("R") else name
-    return size in report.ledger and report.is_zero(size, position)
 
 
 def _columns(report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]) -> Table:
@@ -134,28 +158,49 @@ def tables(
     report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]
 ) -> tuple[Table, ...]:
     """Quantities at positions: one table, or several below one another where the columns are too many."""
-    rows = list(positions)
+    at, columns = list(positions), []
+    for id in ids:
+        unit = report.ledger[id].how.unit
+        unit = report.ledger.units.get(unit, unit)
+        columns.append([report.ledger.symbol(id), unit, *(bare(report, id, k) for k in at)])
+    titles = [report.words["table"]["position"], "", *map(str, at)]
+    return side_by_side(report, key, caption, Column(FIRST_COLUMN), titles, columns, MOST_COLUMNS - 1, heads=2)
 
-    def part(key: str, caption: str, ids: Sequence[str]) -> Table:
-        return _columns(report, key, caption, ids, rows)
 
-    return _parts(key, caption, ids, MOST_COLUMNS - 1, part)
-
-
-def _parts(
-    key: str, caption: str, columns: Sequence[str], most: int, make: Callable[[str, str, Sequence[str]], Table]
+def side_by_side(
+    report: Report,
+    key: str,
+    caption: str,
+    first: Column,
+    titles: Sequence[object],
+    columns: Sequence[Sequence[object]],
+    most: int,
+    heads: int = 1,
+    widest: float = WIDEST_COLUMN,
+    together: int = 1,
 ) -> tuple[Table, ...]:
-    """A table, or as many of even width as keep to `most` columns; the key names the first."""
+    """Columns beside one of titles, each with its `heads` on top; several tables where there are too many.
+
+    Each table has at most so many columns, and keeps so many `together`; the key names the first.
+    """
     count = max(-(-len(columns) // most), 1)
-    size = -(-len(columns) // count)
-    return tuple(
-        make(
-            f"{key}.{index + 1}" if index else key,
-            caption if count == 1 else f"{caption} ({index + 1}/{count})",
-            columns[index * size : (index + 1) * size],
+    size = together * -(-len(columns) // (together * count))
+    parts = [columns[start : start + size] for start in range(0, len(columns), size or 1)]
+    found = []
+    for number, part in enumerate(parts, start=1):
+        width = min((TEXT_WIDTH - first.width) / len(part), widest)
+        rows = [tuple(map(cell, row)) for row in zip(titles, *part, strict=True)]
+        title = f"{caption} ({number}/{len(parts)})" if len(parts) > 1 else caption
+        found.append(
+            Table(
+                (first, *(Column(width),) * len(part)),
+                tuple(rows[:heads]),
+                tuple(rows[heads:]),
+                report.prose.inlines(title),
+                f"{key}.{number}" if number > 1 else key,
+            )
         )
-        for index in range(count)
-    )
+    return tuple(found)
 
 
 @function
@@ -224,8 +269,7 @@ def _as_typed(report: Report, id: str) -> Inlines:
 
 
 @table("indicator")
-@function
-def indicator_table(report: Report, key: str, caption: str, head: Sequence[str] = ()) -> Table:
+def indicator(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """The indicator diagram as given, in gauge pressure: by stroke, or against the cycle angle."""
     diagram = report.assignment.indicator
     heights = diagram.height if isinstance(diagram, ByOrdinates) else ()
@@ -233,20 +277,21 @@ def indicator_table(report: Report, key: str, caption: str, head: Sequence[str] 
     return _law_table(report, law, key, caption, report.words["strokes"], Symbol("p"), 1e4, heights)
 
 
-@function
-def force_table(report: Report, key: str, caption: str, names: Sequence[str]) -> Table:
-    """A working force as given (N): a row for each of the strokes `names`, or against the crank angle."""
+@table("force")
+def working_force(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The working force as given (N): a row for each of the strokes of the head, or against the crank angle."""
     law = report.machine.applied[0].law
     assert isinstance(law, TableLaw)
-    return _law_table(report, law, key, caption, names, Symbol("P"))
+    return _law_table(report, law, key, caption, head, Symbol("P"))
 
 
-@function
-def load_table(report: Report, key: str, caption: str, name: str, strokes: Sequence[str]) -> Table:
-    """The load `name` as given (N, N·m): a row for each of the `strokes`, or against the driver's turn or way."""
+@table("law")
+def load_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
+    """The load `name` as given: a row for each of the strokes of the head, or against the driver's turn or way."""
     loads: tuple[Applied | Torque, ...] = (*report.machine.applied, *report.machine.torques)
-    law = next(load.law for load in loads if load.name == name)
-    shown = report.ledger.symbol(name)
+    load = next(load for load in loads if load.name == name)
+    law, shown = load.law, report.ledger.symbol(name)
+    caption = caption.format(link=load.link, unit=report.ledger[name].how.unit)
     if isinstance(law, AngleLaw):
         angles = [math.degrees(angle) for angle in law.angles]
         return _beside(report, key, caption, [(Symbol("φ"), angles), (shown, law.values)])
@@ -254,7 +299,7 @@ def load_table(report: Report, key: str, caption: str, name: str, strokes: Seque
         ways = [way * MM for way in law.ways]
         return _beside(report, key, caption, [(Symbol("s"), ways), (shown, law.values)])
     assert isinstance(law, TableLaw)
-    return _law_table(report, law, key, caption, strokes, shown)
+    return _law_table(report, law, key, caption, head, shown)
 
 
 def _law_table(
@@ -329,15 +374,12 @@ def _blocks(
     return Table(columns, ((head[0], *head[1 : count + 1]),), tuple(body), report.prose.inlines(caption), key)
 
 
-@table("joints")
-def joints(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+@rows("joints", 20.0, 30.0, 40.0, 50.0)
+def joints(report: Report) -> Iterator[Sequence[object]]:
     """All joints: number, place, links, type."""
-    kinds = report.words["joints"]
-    rows = (
-        (str(number), symbols.point(joint.point), f"{joint.links[0]} – {joint.links[1]}", kinds[joint.kind])
-        for number, joint in enumerate(report.mobility.joints, start=1)
-    )
-    return list_table(report, key, caption, head, rows, (20.0, 30.0, 40.0, 50.0))
+    for number, joint in enumerate(report.mobility.joints, start=1):
+        one, other = joint.links
+        yield str(number), symbols.point(joint.point), f"{one} – {other}", report.words["joints"][joint.kind]
 
 
 @table("lengths")
@@ -345,55 +387,40 @@ def lengths(
     report: Report, key: str, caption: str, head: Sequence[str], arms: Sequence[str]
 ) -> tuple[Table, ...]:
     """Real and drawn lengths, one column a length; many lengths in several tables below one another."""
-
-    def part(key: str, caption: str, arms: Sequence[str]) -> Table:
-        columns = (Column(46.0, "left"), *(Column(min((TEXT_WIDTH - 46) / len(arms), 22.0)),) * len(arms))
-        rows = tuple(
-            (cell(title), *(Cell(bare(report, f"{prefix}.{arm}", None)) for arm in arms))
-            for title, prefix in zip(head[1:], ("l", "drawn"), strict=True)
-        )
-        heads = (cell(head[0]), *(cell(lower_digits(arm)) for arm in arms))
-        return Table(columns, (heads,), rows, report.prose.inlines(caption), key)
-
-    return _parts(key, caption, [arm for arm in arms if f"l.{arm}" in report.ledger], MOST_LENGTHS, part)
+    columns = [
+        (lower_digits(arm), *(bare(report, f"{prefix}.{arm}", None) for prefix in ("l", "drawn")))
+        for arm in arms
+        if f"l.{arm}" in report.ledger
+    ]
+    return side_by_side(report, key, caption, Column(46.0, "left"), head, columns, MOST_LENGTHS, widest=22.0)
 
 
 # --- a declared linkage
 
 
-@table("frame")
-def frame(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+@rows("frame", 30.0, 50.0, 50.0)
+def frame(report: Report) -> Iterable[Sequence[object]]:
     """The fixed points."""
-    return list_table(report, key, caption, head, report.own["frame"], (30.0, 50.0, 50.0))
+    fixed: Iterable[Sequence[object]] = report.own["frame"]
+    return fixed
 
 
-@table("groups")
-def groups(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+@rows("groups", 20.0, 20.0, 30.0, 85.0)
+def groups(report: Report) -> Iterator[Sequence[object]]:
     """The groups in the order of assembly, with the way in which each is assembled."""
     choice = report.words["linkage"]["choice"]
-    rows = (
-        (
-            ", ".join(map(str, row.links)),
-            row.kind,
-            listed(InlineMath(symbols.point(name)) for name in row.joints),
-            choice[row.choice],
-        )
-        for row in report.own["groups"]
-    )
-    return list_table(report, key, caption, head, rows, (20.0, 20.0, 30.0, 85.0))
+    for row in report.own["groups"]:
+        joints = listed(InlineMath(symbols.point(name)) for name in row.joints)
+        yield ", ".join(map(str, row.links)), row.kind, joints, choice[row.choice]
 
 
-@table("guides")
-def guides(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+@rows("guides", 20.0, 40.0, 32.0, 32.0, 30.0)
+def guides(report: Report) -> Iterator[Sequence[object]]:
     """The guides: a point of the line and its direction."""
-    rows = ((str(row.slider), str(row.carrier), row.x, row.y, row.angle) for row in report.own["guides"])
-    return list_table(report, key, caption, head, rows, (20.0, 40.0, 32.0, 32.0, 30.0))
+    return ((str(row.slider), str(row.carrier), row.x, row.y, row.angle) for row in report.own["guides"])
 
 
-@table("points")
-def further_points(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+@rows("points", 24.0, 24.0, 40.0, 40.0)
+def further_points(report: Report) -> Iterator[Sequence[object]]:
     """Further points of the links by their distances."""
-    rows = (
-        (symbols.point(row.name), str(row.link), row.along, row.across) for row in report.own["points"]
-    )
-    return list_table(report, key, caption, head, rows, (24.0, 24.0, 40.0, 40.0))
+    return ((symbols.point(row.name), str(row.link), row.along, row.across) for row in report.own["points"])

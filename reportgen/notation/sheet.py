@@ -44,7 +44,8 @@ class Family:
     length printed by its size, its sign going to the term it stands in; an `optional` term is left out
     of a sum where it is nothing.  `scale` is the size below which, times 1e-9, a value is nothing.  A
     `hidden` family serves a construction and is never printed.  `of` is the id of the size whose direction,
-    signed value or vector this is, "" for any other quantity.
+    signed value or vector this is, of an arm the load, `about` the point an arm is measured from; both are ""
+    for any other quantity.
     """
 
     id: str
@@ -59,6 +60,7 @@ class Family:
     hidden: bool = False
     chapter: Chapter = Chapter.geometry
     of: str = ""
+    about: str = ""
 
     @property
     def how(self) -> Kind:

@@ -8,7 +8,7 @@ import pytest
 
 from reportgen.case import open_case
 from reportgen.document.groups import GroupView
-from reportgen.document.plans import acceleration_plan, force_stages, velocity_plan
+from reportgen.document.plans import force_stages, motion_plan
 from reportgen.document.report import Report
 from reportgen.figures.plan import Plan, merged, stages
 from reportgen.figures.scene import Arrow, Line
@@ -61,7 +61,7 @@ def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> Non
 def test_every_stage_adds_an_arrow_or_a_line(file: Path) -> None:
     report = Report(open_case(file))
     for k in range(1, report.count + 1):
-        for drawing in (velocity_plan(report, k), acceleration_plan(report, k)):
+        for drawing in (motion_plan(report, "v", k), motion_plan(report, "a", k)):
             parts = merged(drawing)
             assert all(additions(parts, stage) for stage in range(parts.last_stage + 1))
             # Nothing is lost or put before what it stands on.
@@ -70,6 +70,6 @@ def test_every_stage_adds_an_arrow_or_a_line(file: Path) -> None:
             after = [piece.stage for piece in (*parts.vectors, *parts.lines, *parts.points)]
             renumbered = [new for _, new in sorted(zip(order, after, strict=True))]
             assert renumbered == sorted(after)
-    for panel in stages(velocity_plan(report, report.worked[0]), 0.5):
+    for panel in stages(motion_plan(report, "v", report.worked[0]), 0.5):
         pens = [item.stroke.colour for item in panel.items if isinstance(item, Arrow | Line)]
         assert NEW.colour in pens

@@ -11,7 +11,7 @@ import pytest
 from reportgen import api
 from reportgen.analysis import Analysis
 from reportgen.ledger.kinematics.centres import links_in_plane_motion
-from reportgen.ledger.kinematics.sides import Turn, scheme
+from reportgen.ledger.kinematics.sides import Side, scheme
 from reportgen.ledger.report import Books, keep
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -24,7 +24,7 @@ WITH_CENTRES = (
 """At least one file of every kind but the slotted lever, none of whose links is in plane motion."""
 
 
-def solved(name: str) -> tuple[Analysis, Books, tuple[Turn, ...]]:
+def solved(name: str) -> tuple[Analysis, Books, tuple[Side, ...]]:
     analysis = api.analyse(api.load(ASSIGNMENTS / f"{name}.yaml"))
     return analysis, keep(analysis), links_in_plane_motion(scheme(analysis.machine.linkage))
 

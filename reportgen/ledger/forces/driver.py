@@ -85,6 +85,8 @@ def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
             statics.turn * quotient(work, load.size),
             Symbol("h", load.name, "′"),
             arm=True,
+            of=load.name,
+            about="p",
             scale=statics.span,
         )
         contribute(load.name, load.size * arm * per)

@@ -201,8 +201,8 @@ def arm(statics: Statics, load: LoadOn, centre: str) -> Ref:
     if couple is not None:
         moment = moment + couple
     drawn = quotient(moment, _divisor(statics, load)) / q["mu.l"]
-    id = f"h.{load.name}.{centre}"
-    return q.define(id, drawn, Symbol("h", load.letters), arm=True, scale=statics.span)
+    id, letters = f"h.{load.name}.{centre}", Symbol("h", load.letters)
+    return q.define(id, drawn, letters, arm=True, of=load.name, about=centre, scale=statics.span)
 
 
 def moments(statics: Statics, loads: Iterable[LoadOn], centre: str) -> Expression | None:

@@ -33,6 +33,15 @@ class Side:
     unknown: bool = False
     link: int = 0
 
+    @property
+    def is_reaction(self) -> bool:
+        return self.name.startswith("R")
+
+    @property
+    def part(self) -> str:
+        """The component of a reaction, n or t, "" for a whole force."""
+        return self.name.partition(".")[2]
+
 
 @dataclass(frozen=True, slots=True)
 class Polygon:

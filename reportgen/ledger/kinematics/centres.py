@@ -9,7 +9,7 @@ the velocities and BC, `ic.along.k.B` = v_B cos ψ_B, `ic.along.k.C` = v_C cos �
 from __future__ import annotations
 
 from reportgen.ledger.kinematics.linkage import Kinematics
-from reportgen.ledger.kinematics.sides import Scheme, Turn, image, sides
+from reportgen.ledger.kinematics.sides import Scheme, Side, image, sides
 from reportgen.mechanism.structure import DRIVER, Crank
 from reportgen.notation.expressions import Expression, Symbol, arg, call, cos, meet, quotient, turned
 from reportgen.notation.symbols import point, segment
@@ -19,10 +19,10 @@ NEAREST, FARTHEST = 0.002, 0.3
 """Distances from a centre (m on paper) that are measured: a shorter one has no exact length, a longer one no sheet."""
 
 
-def links_in_plane_motion(scheme: Scheme) -> tuple[Turn, ...]:
+def links_in_plane_motion(scheme: Scheme) -> tuple[Side, ...]:
     """The links with two points whose velocities are drawn, each as one point turning about another."""
     both = (side for dyad in scheme.linkage.dyads for side in sides(scheme, dyad))
-    return tuple(side for side in both if isinstance(side, Turn) and not side.still)
+    return tuple(side for side in both if side.turns and not side.still)
 
 
 def centre_symbol(link: int) -> Symbol:
@@ -36,7 +36,7 @@ def enter_centres(k: Kinematics) -> None:
         _enter_centre(k, turn)
 
 
-def _enter_centre(k: Kinematics, turn: Turn) -> None:
+def _enter_centre(k: Kinematics, turn: Side) -> None:
     q, link, base, end, sizes = k.q, turn.link, turn.base, turn.point, k.sizes
     normals = k.place(base), _normal(k, base), k.place(end), _normal(k, end)
     centre, μ_l = q.construct(f"ic.{link}", meet(*normals)), q["mu.l"]
@@ -67,7 +67,7 @@ def _normal(k: Kinematics, name: str) -> Expression:
             return k.place(name) - k.place(driver.centre)
         return turned(k.q["guide.1"])
     for side in (side for dyad in scheme.linkage.dyads for side in sides(scheme, dyad) if side.still):
-        if isinstance(side, Turn):
+        if side.turns:
             if side.point == name or side.link == owner:
                 return k.place(name) - k.place(side.base)
         elif side.point == name or (side.carrier is not None and side.along == f"guide.{owner}"):

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 
 from reportgen.ledger.kinematics import rates
 from reportgen.ledger.kinematics.linkage import NOWHERE, POLES, Kinematics, PlacedLink, What
-from reportgen.ledger.kinematics.sides import Side, Turn, image, sides, under
+from reportgen.ledger.kinematics.sides import Side, image, sides, under
 from reportgen.mechanism.structure import Dyad, DyadKind, Guide, LinkPoint
 from reportgen.notation.expressions import (
     Expression,
@@ -38,7 +38,7 @@ def group(k: Kinematics, dyad: Dyad) -> None:
 
 
 def _motion(
-    k: Kinematics, dyad: Dyad, what: What, turns: Mapping[int, Turn | None], solve: Callable[[], None]
+    k: Kinematics, dyad: Dyad, what: What, turns: Mapping[int, Side | None], solve: Callable[[], None]
 ) -> None:
     solve()
     for link in dyad.links:
@@ -160,12 +160,12 @@ def _off_line(point: LinkPoint) -> bool:
     return abs(point.local.imag) > OFF_LINE * abs(point.local)
 
 
-def _turn_of(link: int, sides: tuple[Side, Side]) -> Turn | None:
+def _turn_of(link: int, sides: tuple[Side, Side]) -> Side | None:
     """The side that a link turns on, None for one that slides."""
-    return next((side for side in sides if isinstance(side, Turn) and side.link == link), None)
+    return next((side for side in sides if side.turns and side.link == link), None)
 
 
-def places(k: Kinematics, link: int, turn: Turn | None) -> None:
+def places(k: Kinematics, link: int, turn: Side | None) -> None:
     """Enter the places of a link's points: on a rod by the ratio of lengths, else along the frame's axis."""
     q, placed = k.q, k.links[link]
     for point in _points(k, link):
@@ -182,7 +182,7 @@ def places(k: Kinematics, link: int, turn: Turn | None) -> None:
         k.drawn(placed.origin, point.name)
 
 
-def images(k: Kinematics, what: What, link: int, turn: Turn | None) -> None:
+def images(k: Kinematics, what: What, link: int, turn: Side | None) -> None:
     """Enter velocities or accelerations of a link's points."""
     placed = k.links[link]
     for point in _points(k, link):
@@ -194,7 +194,7 @@ def images(k: Kinematics, what: What, link: int, turn: Turn | None) -> None:
             _by_translation(k, what, point, placed)
 
 
-def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Turn) -> None:
+def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Side) -> None:
     """The similarity theorem: the plan's figure is similar to the link's and turned in the same way."""
     q, base, tip = k.q, turn.base, turn.point
     first, last, new = "p" if turn.still else image(base), image(tip), image(point.name)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from reportgen.ledger.kinematics.linkage import NOWHERE, POLES, Kinematics, What
-from reportgen.ledger.kinematics.sides import Side, Slide, Turn, image
+from reportgen.ledger.kinematics.sides import Side, image
 from reportgen.notation.expressions import Expression, Symbol, cross, meet, quotient, sign, turned
 from reportgen.notation.symbols import on_plan, segment
 
@@ -19,7 +19,7 @@ def velocity(k: Kinematics, one: Side, two: Side) -> None:
             _relative_velocity(k, side)
     k.absolute("v", one.point)
     for side in (one, two):
-        if side.still and (isinstance(side, Turn) or side.turning):
+        if side.still and (side.turns or side.turning):
             # Relative to a fixed point the velocity is the velocity itself.
             _enter_relative(k, side, k.q[f"v.{side.point}"])
 
@@ -31,7 +31,7 @@ def acceleration(k: Kinematics, one: Side, two: Side) -> None:
     starts = [_known_acceleration(k, side) for side in (one, two)]
     crossing = meet(starts[0], _sought(k, one), starts[1], _sought(k, two))
     k.vertex("a", image(one.point), crossing)
-    same_letter = _known_part(one) == _known_part(two)
+    same_letter = one.part == two.part
     for side, start in zip((one, two), starts, strict=True):
         _unknown_acceleration(k, side, start, same_letter)
     k.absolute("a", one.point)
@@ -39,7 +39,7 @@ def acceleration(k: Kinematics, one: Side, two: Side) -> None:
 
 def _guide_point(k: Kinematics, what: What, side: Side) -> None:
     """The point of a moving guide's link that lies under the sliding point."""
-    if isinstance(side, Slide) and side.carrier is not None and not side.still:
+    if side.carrier is not None and not side.still:
         arm = k.place(side.point) - k.place(k.links[side.carrier].origin)
         k.vertex(what, image(side.base), k.image_at(what, side.carrier, arm))
         k.absolute(what, side.base)
@@ -51,7 +51,7 @@ def _start(k: Kinematics, what: What, side: Side) -> Expression:
 
 def _sought(k: Kinematics, side: Side) -> Expression:
     """The direction of the unknown velocity or acceleration of a side."""
-    return turned(k.q[f"rod.{side.link}"]) if isinstance(side, Turn) else k.q[side.along]
+    return turned(k.q[f"rod.{side.link}"]) if side.turns else k.q[side.along]
 
 
 def _along(k: Kinematics, side: Side) -> Expression:
@@ -60,7 +60,7 @@ def _along(k: Kinematics, side: Side) -> Expression:
 
 
 def _symbol(base: str, side: Side, sup: str = "") -> Symbol:
-    return Symbol(base, f"{side.point}{side.shown}", sup)
+    return Symbol(base, side.pair, sup)
 
 
 def _relative_velocity(k: Kinematics, side: Side) -> None:
@@ -73,7 +73,7 @@ def _relative_velocity(k: Kinematics, side: Side) -> None:
 def _enter_relative(k: Kinematics, side: Side, definition: Expression) -> None:
     q, sizes = k.q, k.sizes
     relative = q.define(f"v.{side.relative}", definition, _symbol("v", side), scale=sizes.velocity)
-    if isinstance(side, Turn):
+    if side.turns:
         size, rotation = relative / q[f"l.{side.rod}"], f"omega.{side.link}"
         omega = q.define(rotation, size, scale=sizes.rotation)
         sense = sign(cross(q[f"rod.{side.link}"], _along(k, side)))
@@ -82,31 +82,20 @@ def _enter_relative(k: Kinematics, side: Side, definition: Expression) -> None:
 
 def _known_acceleration(k: Kinematics, side: Side) -> Expression:
     """Enter aⁿ = v²/l towards the base, or aᵏ = 2ω v_r square to v_r; gives where the unknown part starts."""
-    q, start, part = k.q, _start(k, "a", side), _known_part(side)
+    q, start, part = k.q, _start(k, "a", side), side.part
     if not part:
         return start
     name, relative = f"{part}.{side.relative}", q[f"v.{side.relative}"]
-    formula: Expression
-    if isinstance(side, Turn):
-        formula = relative**2 / q[f"l.{side.rod}"]
-    else:
-        formula = 2 * q[f"omega.{side.turning}"] * relative
+    formula = relative**2 / q[f"l.{side.rod}"] if side.turns else 2 * q[f"omega.{side.turning}"] * relative
     known = q.define(f"a.{side.relative}.{part}", formula, _symbol("a", side, part), scale=k.sizes.acceleration)
     first = Symbol(POLES["a"]) if side.still else on_plan(side.base, True)
-    last = Symbol(part, f"{side.point}{side.shown}")
+    last = Symbol(part, side.pair)
     drawn = q.define(f"seg.a.{name}", known / q["mu.a"], segment(first, last), scale=k.paper("a"))
-    if isinstance(side, Turn):
+    if side.turns:
         return k.vertex("a", name, start - drawn * (q[f"rod.{side.link}"] / q[f"l.{side.rod}"]))
     # The relative velocity turned by 90° in the sense of ω.
     across = turned(quotient(_along(k, side), relative / q["mu.v"]))
     return k.vertex("a", name, start + drawn * sign(k.omega(side.turning)) * across)
-
-
-def _known_part(side: Side) -> str:
-    """The letter of a side's known relative acceleration, "" where there is none."""
-    if isinstance(side, Turn):
-        return "n"
-    return "k" if side.turning else ""
 
 
 def _unknown_acceleration(k: Kinematics, side: Side, start: Expression, same_letter: bool) -> None:
@@ -114,20 +103,20 @@ def _unknown_acceleration(k: Kinematics, side: Side, start: Expression, same_let
 
     Where the known parts of both sides have the `same_letter`, n or k, their ends are told apart by their vectors.
     """
-    if isinstance(side, Slide) and side.still and not side.turning:
+    if not side.sought:
         return
     q, relative = k.q, side.relative
-    part, sup = ("t", "τ") if isinstance(side, Turn) else ("r", "r")
+    part, sup = side.sought, "τ" if side.turns else "r"
     along = q[f"plan.a.{image(side.point)}"] - start
-    begin, end = Symbol(_known_part(side)), on_plan(side.point, True)
+    begin, end = Symbol(side.part), on_plan(side.point, True)
     if not begin.base:
         begin = on_plan(side.base, True)
     elif same_letter:
-        begin, end = end, Symbol(begin.base, f"{side.point}{side.shown}")
+        begin, end = end, Symbol(begin.base, side.pair)
     drawn = k.segment(f"seg.a.{part}.{relative}", begin, end, along, "a")
     size = q["mu.a"] * drawn
     sought = q.define(f"a.{relative}.{part}", size, _symbol("a", side, sup), scale=k.sizes.acceleration)
-    if isinstance(side, Turn):
+    if side.turns:
         rotation, scale = f"eps.{side.link}", k.sizes.rotation**2
         eps = q.define(rotation, sought / q[f"l.{side.rod}"], scale=scale)
         sense = sign(cross(q[f"rod.{side.link}"], along))

@@ -2,9 +2,9 @@
 
 Every group of class II is solved by writing the motion of one point M in two ways:
 
-* `Turn`: M and a known point P lie on one link: v_M = v_P + v_MP, v_MP ⊥ PM;
+* M turns about a known point P of its link: v_M = v_P + v_MP, v_MP ⊥ PM;
   a_M = a_P + aⁿ_MP + aᵗ_MP.
-* `Slide`: M slides over a known point G in a known direction d: v_M = v_G + v_MG, v_MG ∥ d;
+* M slides over a known point G in a known direction d: v_M = v_G + v_MG, v_MG ∥ d;
   a_M = a_G + aᵏ_MG + aʳ_MG with aᵏ = 2ω v_MG where the guide turns.
 
 ==== ================================= =========================================
@@ -38,66 +38,76 @@ def under(name: str, link: int, taken: Collection[str]) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Turn:
-    """`point` moves about `base` on `link`; `still` when the base is fixed to the ground."""
+class Side:
+    """One of the two ways in which the motion of a `point` is written: with its `base`, and relative to it.
 
-    point: str
-    base: str
-    link: int
-    still: bool
-    measured: bool = False
-    """Whether their distance changes and is measured on the drawing."""
-
-    @property
-    def relative(self) -> str:
-        return f"{self.point}{self.base}"
-
-    @property
-    def rod(self) -> str:
-        return f"{self.base}{self.point}"
-
-    @property
-    def shown(self) -> str:
-        """The base as vectors name it."""
-        return self.base
-
-    @property
-    def turns(self) -> bool:
-        return True
-
-
-@dataclass(frozen=True, slots=True)
-class Slide:
-    """`point` slides over `base` along the direction `along` (an id); `turning` is the link whose turning
-    gives the Coriolis acceleration, 0 if nothing turns.
-
-    `shown` names the base in vectors: B2 for the pin B as a point of block 2.  `carrier` is the link that
-    has the guide when the base is that link's point under `point`, None when the base is a pin.
+    Either both lie on `link` and the point turns about the base, or it slides over the base along the direction
+    `along` (an id).  `still` when the base is fixed to the ground; `shown` is the base as vectors name it: B2 for
+    the pin B as a point of block 2.
     """
 
     point: str
     base: str
-    along: str
-    turning: int
     still: bool
     shown: str
+    link: int = 0
+    measured: bool = False
+    """Whether the distance of a turning point from its base changes and is measured on the drawing."""
+    along: str = ""
+    turning: int = 0
+    """The link whose turning gives a sliding point its Coriolis acceleration, 0 if nothing turns."""
     carrier: int | None = None
-
-    @property
-    def relative(self) -> str:
-        return f"{self.point}{self.base}"
+    """The link that has the guide when the base is that link's point under `point`, None when the base is a pin."""
 
     @property
     def turns(self) -> bool:
-        return False
+        return not self.along
 
     @property
     def guided(self) -> bool:
         """Whether the base is the guide's own point, not a pin."""
         return self.carrier is not None
 
+    @property
+    def relative(self) -> str:
+        """The point relative to its base as ids name it."""
+        return f"{self.point}{self.base}"
 
-Side = Turn | Slide
+    @property
+    def pair(self) -> str:
+        """The same as vectors name it."""
+        return f"{self.point}{self.shown}"
+
+    @property
+    def rod(self) -> str:
+        """What a turning point turns with."""
+        return f"{self.base}{self.point}"
+
+    @property
+    def part(self) -> str:
+        """The letter of the relative acceleration that velocities give, n or k, "" where there is none."""
+        return "n" if self.turns else "k" if self.turning else ""
+
+    @property
+    def sought(self) -> str:
+        """The letter of the one that is sought, t or r; "" where the point's own acceleration stands for it."""
+        return "t" if self.turns else "r" if self.turning or not self.still else ""
+
+    # --- ids
+
+    @property
+    def velocity(self) -> str:
+        """The relative velocity."""
+        return f"v.{self.relative}"
+
+    @property
+    def known(self) -> str:
+        """The segment of the relative acceleration that velocities give."""
+        return f"seg.a.{self.part}.{self.relative}"
+
+    @property
+    def omega(self) -> str:
+        return f"omega.{self.turning}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,26 +142,26 @@ def sides(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:
     return SIDES[dyad.kind](plan, dyad)
 
 
-def _turn(plan: Scheme, point: str, base: str | Guide, link: int, measured: bool = False) -> Turn:
+def _turn(plan: Scheme, point: str, base: str | Guide, link: int, measured: bool = False) -> Side:
     assert isinstance(base, str)
-    return Turn(point, base, link, plan.still(base), measured)
+    return Side(point, base, plan.still(base), base, link, measured)
 
 
-def _on_guide(plan: Scheme, point: str, guide: str | Guide, slider: int, *others: str) -> Slide:
+def _on_guide(plan: Scheme, point: str, guide: str | Guide, slider: int, *others: str) -> Side:
     """A point that slides over its guide's link; `others` are names already taken in the group."""
     assert isinstance(guide, Guide)
     base = under(point, guide.link, {*plan.owner, *others})
-    turning = plan.spins[guide.link]
-    return Slide(point, base, f"guide.{slider}", turning, guide.link == GROUND, base, guide.link)
+    on = guide.link
+    return Side(point, base, on == GROUND, base, along=f"guide.{slider}", turning=plan.spins[on], carrier=on)
 
 
-def _over_pin(plan: Scheme, dyad: Dyad, point: str) -> Slide:
+def _over_pin(plan: Scheme, dyad: Dyad, point: str) -> Side:
     """The point of link j under the outer pin P slides over P."""
     assert isinstance(dyad.start, str)
     i, j = dyad.links
     pin = dyad.start
     shown = pin if pin[-1].isdigit() else f"{pin}{i}"
-    return Slide(point, pin, f"slot.{j}", plan.spins[j], plan.still(pin), shown)
+    return Side(point, pin, plan.still(pin), shown, along=f"slot.{j}", turning=plan.spins[j])
 
 
 def _rrr(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:

@@ -1,9 +1,14 @@
-"""Figures of the mechanism: scheme, groups, positions, the gas beside the cylinder, Coriolis, instant centres."""
+"""Figures: their names, paper, scale and looks; then those of the mechanism.
+
+A figure is a function of a report and of what it shows.  Registered under a name it is called as
+`figure(name, …)`, with the caption that `words.yaml` has for it under `captions`.  Those of the mechanism are
+its scheme, groups and positions, the gas beside the cylinder, Coriolis acceleration and instant centres.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -11,39 +16,156 @@ import numpy as np
 
 from reportgen.analysis import FULL_TURN, motion_at
 from reportgen.catalogue.loads import Piston
-from reportgen.catalogue.machine import Machine
+from reportgen.catalogue.machine import Machine, Position
 from reportgen.cycle.applied import StrokeIndicator
-from reportgen.document.drawing import (
-    A3_ACROSS,
-    A3_UPRIGHT,
-    WHITE,
-    Drawn,
-    drawing_scale,
-    figure,
-    looks,
-    on_paper,
-    short,
-)
-from reportgen.document.groups import GroupView
-from reportgen.document.parts import PlaneLink, SideView
-from reportgen.document.report import DENSE, SAME, Report, function
+from reportgen.document.groups import GroupView, PlaneLink
+from reportgen.document.report import DENSE, FUNCTIONS, SAME, Report, function
+from reportgen.document.tree import Figure, InlineMath, Plate, Text
 from reportgen.figures import indicator as indicator_figure
 from reportgen.figures import scheme as scheme_figure
-from reportgen.figures.draft import Draft
+from reportgen.figures.draft import Draft, sheets
 from reportgen.figures.forces import Sliding
 from reportgen.figures.forces import coriolis as coriolis_figure
 from reportgen.figures.positions import Centre, PositionPlan, centre_plan, position_plan
 from reportgen.figures.scene import Scene
+from reportgen.figures.scheme import Looks
 from reportgen.ledger.kinematics.centres import PREFIX, centre_symbol
+from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.notation import symbols
 from reportgen.notation.expressions import Chain, Number, Symbol
 
+MM = 1e3
+A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)
+TEXT_BLOCK = (160.0, 225.0)
+"""What of an A4 page a figure may fill with its caption."""
+WHITE = (40.0, 64.0)
+"""What of a plate's page (mm) its margins, header and caption take."""
+HALF = 0.5
+CLOSE = 5.5
+"""What of their margins (mm) scenes of one figure give up to stand side by side."""
 SCHEME_BOX = (120.0, 130.0)
 SHOWN_AT = 1
 """The position (from 0) at which schemes are drawn: the first one away from the start."""
 ROOM = 24.0
 """What margins, labels and the scale take of a drawing's page (mm), across and upwards."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """The scenes of a figure; `paper` (mm) asks for a page of its own for each."""
+
+    scenes: tuple[Scene, ...]
+    paper: tuple[float, float] | None = None
+    note: Chain | None = None
+    """A scale to print behind the caption."""
+
+
+FIGURES: dict[str, tuple[str, Callable[..., Drawn]]] = {}
+
+
+def figure(name: str, key: str = "") -> Callable[[Callable[..., Drawn]], Callable[..., Drawn]]:
+    """Register a figure under the name by which templates call it; `key` is what its references begin with."""
+
+    def register(draw: Callable[..., Drawn]) -> Callable[..., Drawn]:
+        FIGURES[name] = key or f"fig.{name}", draw
+        return draw
+
+    return register
+
+
+def insert_figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple[Figure | Plate, ...]:
+    """A registered figure: `figure(name, …)`, or `figure(name, key, caption, …)` with words of its own;
+    `words` names other ones of `words.yaml`.
+
+    A figure on plates is a block for each of them, and the key names the first.  Raises `KeyError` for a
+    name that nobody draws.
+    """
+    key, draw = FIGURES[name]
+    if arguments and isinstance(arguments[0], str):
+        key, caption, *shown = arguments
+    else:
+        shown = list(arguments)
+        group = next((one for one in shown if isinstance(one, GroupView)), None)
+        position = next((one for one in shown if isinstance(one, Position)), None)
+        key = ".".join(str(part) for part in (key, group, position) if part is not None)
+        caption = report.words["captions"][words or name].format(k=position, g=group)
+    drawn = draw(report, *shown)
+    inlines = report.prose.inlines(caption)
+    if drawn.note is not None:
+        inlines = (*inlines, Text("; "), InlineMath(drawn.note))
+    if drawn.paper is None:
+        return (Figure(drawn.scenes, inlines, key),)
+    count = len(drawn.scenes)
+    return tuple(
+        Plate(
+            scene,
+            drawn.paper,
+            inlines if count == 1 else (*inlines, Text(f" ({index}/{count})")),
+            key if index == 1 else f"{key}.{index}",
+        )
+        for index, scene in enumerate(drawn.scenes, start=1)
+    )
+
+
+FUNCTIONS["figure"] = insert_figure
+
+
+def in_text(*scenes: Scene) -> bool:
+    """Whether a figure is one scene that fits a text block in true size."""
+    return len(scenes) == 1 and scenes[0].width <= TEXT_BLOCK[0] and scenes[0].height <= TEXT_BLOCK[1]
+
+
+def _fits(width: float, height: float, paper: tuple[float, float]) -> bool:
+    """Whether a drawing has room on a plate."""
+    return width <= paper[0] - WHITE[0] and height <= paper[1] - WHITE[1]
+
+
+def on_paper(scene: Scene) -> Drawn:
+    """A scene in the text if it fits there in true size, else on a page large enough for it."""
+    if in_text(scene):
+        return Drawn((scene,))
+    for paper in (A3_ACROSS, A3_UPRIGHT):
+        if _fits(scene.width, scene.height, paper):
+            return Drawn((scene,), paper)
+    return Drawn((scene,), (max(scene.width + WHITE[0], 297.0), max(scene.height + WHITE[1], 210.0)))
+
+
+def beside_one_another(*scenes: Scene) -> Drawn:
+    """Scenes close together if they fit a text block so, else as they are; on pages of their own if they must."""
+    together = sheets(scenes, *TEXT_BLOCK, trim=CLOSE)
+    if in_text(*together):
+        return Drawn(together)
+    return Drawn(scenes, None if all(map(in_text, scenes)) else A3_ACROSS)
+
+
+def drawing_scale(report: Report) -> float:
+    """mm of paper for a metre, of drawings to μ_l."""
+    return MM / float(report.ledger["mu.l"].values[0])
+
+
+def scale_note(report: Report, id: str, factor: float = 1.0) -> Chain:
+    """A scale as printed below a figure; a figure drawn smaller by `factor` has a scale that much larger."""
+    number = report.ledger.number(id)
+    return Chain((report.ledger.symbol(id), short(replace(number, value=number.value / factor))))
+
+
+def looks(report: Report, scale: float, factor: float = 1.0) -> Looks:
+    """Pistons with their bore, mass centres, the figure's scale."""
+    blocks = {
+        piston.link: (min(0.6 * piston.bore * scale, 24.0), min(piston.bore * scale, 40.0) * 0.5)
+        for piston in report.machine.pistons
+    }
+    jointed = {name for group in report.groups for name in (group.P, group.Q)}
+    names = report.analysis.motion.points.keys() - jointed
+    centres = tuple(body.centre for body in report.machine.linkage.inertias if body.centre in names)
+    return Looks(blocks=blocks, centres=centres, scale=scale_note(report, "mu.l", factor))
+
+
+def short(number: Number) -> Number:
+    """The number as it is, to six digits at most."""
+    return replace(number, value=float(f"{number.value:.6g}"), decimals=None)
+
 
 # --- the machine at one position and over a turn
 
@@ -197,7 +319,7 @@ def _branches(
 
 
 @figure("coriolis")
-def coriolis(report: Report, k: int, group: GroupView, side: SideView) -> Drawn:
+def coriolis(report: Report, k: int, group: GroupView, side: Side) -> Drawn:
     """The relative velocity in a turning guide, turned by 90° in the sense of its ω."""
     ledger, points = report.ledger, report.analysis.motion.points
     omega = float(ledger[f"turn.omega.{side.turning}"].at(k).real)
@@ -231,20 +353,17 @@ def centres_drawn(report: Report, k: int) -> tuple[PlaneLink, ...]:
     spots = [complex(point.p[k - 1]) * drawing_scale(report) for point in report.analysis.motion.points.values()]
     kept: list[PlaneLink] = []
     for link in report.plane_links:
-        if centre_state(report, link, k) == "found" and _fits(np.array([*spots, _place(report, link, k)])):
-            spots.append(_place(report, link, k))
-            kept.append(link)
+        if centre_state(report, link, k) == "found":
+            together = np.array([*spots, _place(report, link, k)])
+            size = float(np.ptp(together.real)) + ROOM, float(np.ptp(together.imag)) + ROOM
+            if any(_fits(*size, paper) for paper in (A3_ACROSS, A3_UPRIGHT)):
+                spots.append(together[-1])
+                kept.append(link)
     return tuple(kept)
 
 
 def _place(report: Report, link: PlaneLink, k: int) -> complex:
     return complex(report.ledger[f"{PREFIX}{link.link}"].at(k)) * drawing_scale(report)
-
-
-def _fits(spots: np.ndarray) -> bool:
-    """Whether a drawing of these spots (mm) has room on a page, upright or across."""
-    wide, high = float(np.ptp(spots.real)) + ROOM, float(np.ptp(spots.imag)) + ROOM
-    return any(wide <= paper[0] - WHITE[0] and high <= paper[1] - WHITE[1] for paper in (A3_ACROSS, A3_UPRIGHT))
 
 
 @figure("centres")
