@@ -119,7 +119,7 @@ def test_every_language_has_headings_for_the_same_columns() -> None:
 def test_blank_lines_quoted_commas_and_a_title_above(put: Put) -> None:
     path = put('Danh sách lớp\n\n,\nid,name,\n\n01,"Nam, Trần"\n  , \n02,Lan\n')
     roster = read_roster(path)
-    assert [(one.id, one.name) for one in roster.students] == [("01", "Nam, Trần"), ("02", "Lan")]
+    assert [(one.id, one.card["name"]) for one in roster.students] == [("01", "Nam, Trần"), ("02", "Lan")]
     assert str(roster.students[1].mark) == f"{path}:8:1"
 
 
@@ -133,7 +133,7 @@ def test_a_workbook_of_numbers_with_sheets_before_it(put: Put) -> None:
     )
     path = put(write_xlsx(book), "roster.xlsx")
     roster = read_roster(path)
-    assert [(one.id, one.name) for one in roster.students] == [("195520103001", "An"), ("007", "=1+1")]
+    assert [(one.id, one.card["name"]) for one in roster.students] == [("195520103001", "An"), ("007", "=1+1")]
     first = roster.students[0].overrides["parameters.H"]
     assert (first.text, str(first.mark)) == ("95 mm", f"{path}:Lớp!C2")
     assert roster.students[1].overrides == {}
