@@ -9,8 +9,8 @@ import re
 from collections.abc import Iterable, Sequence
 
 from reportgen.document.groups import GroupView
-from reportgen.document.report import Report, function, listed, lower_digits
-from reportgen.document.tree import Equation, InlineMath, Inlines, Reference, Text, Value
+from reportgen.document.report import FUNCTIONS, Report, function, listed, lower_digits
+from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.ledger.forces.polygon import Side as PolygonSide
 from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.structure import mobility
@@ -64,9 +64,7 @@ def known(report: Report, id: str) -> bool:
     return id in report.ledger
 
 
-@function
-def zero(report: Report, id: str, position: int | None = None) -> bool:
-    return report.is_zero(id, position)
+FUNCTIONS["zero"] = Report.is_zero
 
 
 @function
@@ -155,12 +153,13 @@ def plate_refs(report: Report, prefix: str) -> Inlines:
 def force_list(report: Report, group: GroupView, position: int) -> Inlines:
     """The known sides of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, …"""
     assert group.polygon is not None
-    known_sides = [side for side in group.polygon.sides if not side.unknown]
-    shown = []
-    for side in known_sides:
-        length = quantity(report, f"seg.{group.name}.{side.name}", position)
-        shown.append((*length, Text(" ("), InlineMath(report.force_symbol(side.name)), Text(")")))
-    return tuple(part for index, one in enumerate(shown) for part in ((Text(", "),) if index else ()) + one)
+    shown: list[Inline] = []
+    for side in group.polygon.sides:
+        if not side.unknown:
+            length = quantity(report, f"seg.{group.name}.{side.name}", position)
+            force = InlineMath(report.force_symbol(side.name))
+            shown += [*((Text(", "),) if shown else ()), *length, Text(" ("), force, Text(")")]
+    return tuple(shown)
 
 
 # --- lines

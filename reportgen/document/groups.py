@@ -186,7 +186,7 @@ class GroupView:
 
     def _in_order(self, *ids: str) -> list[str]:
         """The ids that exist, but before each what it is worked out from."""
-        known = self.ledger_ids(ids)
+        known = self.ledger.known(ids)
         ordered: dict[str, None] = {}
 
         def put(id: str) -> None:
@@ -201,10 +201,6 @@ class GroupView:
         for id in known:
             put(id)
         return list(ordered)
-
-    def ledger_ids(self, ids: Iterable[str]) -> list[str]:
-        """Those of the ids that the ledger knows, each once."""
-        return [id for id in dict.fromkeys(ids) if id in self.ledger]
 
     def _point_lines(self, what: str, parts: tuple[str, ...]) -> Iterator[str]:
         for place in self.points:
@@ -240,7 +236,7 @@ class GroupView:
                 if side.turns and side.link == place.link:
                     ends = "p" if side.still else image(side.base), image(self.M)
                     ids += [f"seg.{what}.{end}{image(place.name)}" for end in ends]
-        return self.ledger_ids(ids)
+        return self.ledger.known(ids)
 
     def base(self, what: str, side: Side, k: int) -> str:
         """How the end of a base's vector comes on the plan: at the "pole", "drawn" before, or "new"."""
@@ -270,7 +266,7 @@ class GroupView:
             return []
         known = [(side.name, side.link) for side in self.polygon.sides if not side.unknown]
         known.append((f"R{self.across}", self.j))
-        return self.ledger_ids(f"h.{name}.{about}" for name, carrier in known if carrier == link)
+        return self.ledger.known(f"h.{name}.{about}" for name, carrier in known if carrier == link)
 
     @property
     def outer_lines(self) -> list[str]:

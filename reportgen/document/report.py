@@ -293,7 +293,7 @@ class Report:
 
     def known(self, ids: Iterable[str]) -> list[str]:
         """Those of the ids that the ledger knows, each once."""
-        return [id for id in dict.fromkeys(ids) if id in self.ledger]
+        return self.ledger.known(ids)
 
     @cached_property
     def plane_links(self) -> tuple[PlaneLink, ...]:

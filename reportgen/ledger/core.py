@@ -83,6 +83,10 @@ class Ledger:
     def __getitem__(self, id: str) -> Family:
         return self.families[id]
 
+    def known(self, ids: Iterable[str]) -> list[str]:
+        """Those of the ids that are entered, each once."""
+        return [id for id in dict.fromkeys(ids) if id in self.families]
+
     def quantity(self, id: str, position: int | None = None) -> Quantity:
         """One number as printed.  Raises `KeyError` for an unknown id."""
         family = self.families[id]
