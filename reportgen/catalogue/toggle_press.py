@@ -119,7 +119,7 @@ def machine(assignment: Assignment) -> Machine:
         ω3 = line("f.omega.3", ω1 * r * sin(φ1 - φ2) / (l * sin(φ3 - φ2)))
         line("f.v.C", 2 * l * ω3 * cos(φ3))
         top = ω1**2 * r * cos(φ1 - φ2) + ω2**2 * b - ω3**2 * l * cos(φ3 - φ2)
-        ε3 = line("f.eps.3", top / (l * sin(φ3 - φ2)))
+        ε3 = line("f.eps.3", line("f.q", top, "q", "acceleration") / (l * sin(φ3 - φ2)))
         line("f.a.C", 2 * l * (ε3 * cos(φ3) - ω3**2 * sin(φ3)))
 
     return driven(
