@@ -23,7 +23,7 @@ ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 
 FILES = (
     *("engine-single-VII", "slider-crank-01", "engine-twin-05", "engine-v-01", "four-bar-01", "slotted-lever-02"),
-    *("shaper-02", "lever-six-bar-01", "linkage-8"),
+    *("shaper-02", "lever-six-bar-01", "toggle-press-01", "scotch-yoke-01", "linkage-8"),
 )
 """An assignment of every kind with a crank and loads."""
 

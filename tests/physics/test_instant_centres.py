@@ -10,9 +10,10 @@ import pytest
 
 from reportgen import api
 from reportgen.analysis import Analysis
+from reportgen.ledger.core import Ledger
 from reportgen.ledger.kinematics.centres import links_in_plane_motion
 from reportgen.ledger.kinematics.sides import Side, scheme
-from reportgen.ledger.report import Books, keep
+from reportgen.ledger.report import write_ledger
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 EXACT = 1e-9
@@ -24,22 +25,22 @@ WITH_CENTRES = (
 """At least one file of every kind but the slotted lever, none of whose links is in plane motion."""
 
 
-def solved(name: str) -> tuple[Analysis, Books, tuple[Side, ...]]:
+def solved(name: str) -> tuple[Analysis, Ledger, tuple[Side, ...]]:
     analysis = api.analyse(api.load(ASSIGNMENTS / f"{name}.yaml"))
-    return analysis, keep(analysis), links_in_plane_motion(scheme(analysis.machine.linkage))
+    return analysis, write_ledger(analysis), links_in_plane_motion(scheme(analysis.machine.linkage))
 
 
 @pytest.mark.parametrize("name", WITH_CENTRES)
 def test_the_centre_stands_still(name: str) -> None:
     """v_B + iω(P − B) = 0 by the numerical motion, wherever the centre can be measured."""
-    analysis, books, turns = solved(name)
+    analysis, ledger, turns = solved(name)
     motion = analysis.motion
     assert turns
     for turn in turns:
         base, link = motion.points[turn.base], motion.links[turn.link]
-        measured = np.isfinite(books.ledger[f"ic.seg.{turn.link}.{turn.base}"].values)
+        measured = np.isfinite(ledger[f"ic.seg.{turn.link}.{turn.base}"].values)
         assert measured.any()
-        arm = (books.ledger[f"ic.{turn.link}"].values - base.p)[measured]
+        arm = (ledger[f"ic.{turn.link}"].values - base.p)[measured]
         left = base.v[measured] + 1j * link.omega[measured] * arm
         assert np.abs(left).max() <= EXACT * np.abs(base.v).max()
 
@@ -47,8 +48,8 @@ def test_the_centre_stands_still(name: str) -> None:
 @pytest.mark.parametrize("name", WITH_CENTRES)
 def test_all_three_ways_agree(name: str) -> None:
     """ω and v by the centre are those of the motion; projections on the link are equal, as its length is."""
-    analysis, books, turns = solved(name)
-    ledger, motion = books.ledger, analysis.motion
+    analysis, ledger, turns = solved(name)
+    motion = analysis.motion
     for turn in turns:
         link = turn.link
         base, end, omega = motion.points[turn.base].v, motion.points[turn.point].v, motion.links[link].omega
@@ -66,10 +67,10 @@ def test_all_three_ways_agree(name: str) -> None:
 
 def test_a_link_without_rotation_has_no_centre() -> None:
     """At the middle of the stroke of a central slider-crank the rod is parallel to itself."""
-    analysis, books, (turn,) = solved("slider-crank-01")
+    analysis, ledger, (turn,) = solved("slider-crank-01")
     still = np.abs(analysis.motion.links[turn.link].omega) < 1e-12 * analysis.machine.speed
     for id in (f"ic.seg.{turn.link}.{turn.base}", f"ic.omega.{turn.link}"):
-        assert np.isnan(books.ledger[id].values[still]).all()
+        assert np.isnan(ledger[id].values[still]).all()
 
 
 def test_the_slotted_lever_has_none() -> None:
@@ -89,7 +90,7 @@ def test_a_textbook_rod_turns_about_the_corner_of_a_square(tmp_path: Path) -> No
         encoding="utf-8",
     )
     analysis = api.analyse(api.load(file))
-    ledger = keep(analysis).ledger
+    ledger = write_ledger(analysis)
     assert ledger["ic.2"].values[0] == pytest.approx((1 + 1j) * 1.2 / math.sqrt(2), rel=1e-9)
     assert ledger["ic.seg.2.B"].values[0] == pytest.approx(0.2)
     assert ledger["ic.omega.2"].values[0] == pytest.approx(2.0, rel=1e-9)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 
 import pytest
 
@@ -53,17 +53,13 @@ def test_every_arrow_is_as_long_on_paper_as_in_its_scene(report: Report) -> None
     assert off == []
 
 
-def segment(name: str, plan: str, known: Collection[str]) -> str:
-    """The ledger's id of a vector of a velocity or acceleration plan: v_B is pb, a^n_BA is a′n."""
-    of = re.fullmatch(r"([nk]?)(([A-Z]\d*)([A-Z]\d*))", name)
+def segment(name: str, plan: str) -> str:
+    """The ledger's id of a vector of a velocity or acceleration plan: v_B is pb, v_BA is ab, a^n_BA is a′n."""
+    of = re.fullmatch(r"([nkrτ]?)(([A-Z]\d*)([A-Z]\d*))", name)
     if not of:
         return f"seg.{plan}.p{name.lower()}"
     part, both, first, second = of.groups()
-    if part:
-        return f"seg.{plan}.{part}.{both}"
-    # A relative acceleration that is left is tangential, or along the guide that the other point carries.
-    along = (f"seg.{plan}.t.{both}", f"seg.{plan}.r.{both}")
-    return next((id for id in along if id in known), f"seg.{plan}.{second.lower()}{first.lower()}")
+    return f"seg.{plan}.{part.replace('τ', 't')}.{both}" if part else f"seg.{plan}.{second.lower()}{first.lower()}"
 
 
 def segments(written: Written, key: str) -> dict[str, list[float]]:
@@ -75,7 +71,7 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
         key.replace("fig.crank.", f"fig.R.{DRIVER}."),
     )
     if motion:
-        ids = {name: [segment(name, motion[1], ledger.families)] for name in names(written, key)}
+        ids = {name: [segment(name, motion[1])] for name in names(written, key)}
         position = motion[2]
     elif forces:
         group = forces[1] or forces[2]

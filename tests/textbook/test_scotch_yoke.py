@@ -10,7 +10,7 @@ import pytest
 
 from reportgen import api, catalogue
 from reportgen.analysis import Analysis
-from reportgen.ledger.report import keep
+from reportgen.ledger.report import write_ledger
 
 EXACT = 1e-12
 """Rounding of a few dozen operations, relative."""
@@ -45,7 +45,7 @@ def test_motion_and_printed_formulas(start: str, guide: int, direction: str, tmp
     φ = first + 2 * math.pi * np.arange(24) / 24
     x, v, a = R * np.cos(φ), -SPEED * R * np.sin(φ), -(SPEED**2) * R * np.cos(φ)
     along = np.exp(1j * math.radians(guide))
-    yoke, ledger = analysis.motion.points["B"], keep(analysis).ledger
+    yoke, ledger = analysis.motion.points["B"], write_ledger(analysis)
     for found, printed, expected, size in (
         (yoke.p, "f.x.B", x, R),
         (yoke.v, "f.v.B", v, SPEED * R),
