@@ -15,14 +15,7 @@ from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Length
 from reportgen.catalogue import given_loads, reach
-from reportgen.catalogue.driven import (
-    Driven,
-    FixedPoint,
-    GivenSheet,
-    driven,
-    even_angles,
-    natural_lines,
-)
+from reportgen.catalogue.driven import Driven, FixedPoint, GivenSheet, driven, even_angles, natural_lines
 from reportgen.catalogue.loads import Applied, TableLaw, course, crank_motion
 from reportgen.catalogue.machine import Machine
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage

@@ -11,13 +11,7 @@ from reportgen.figures.forces import ArmOf, Couple, Force, Sliding, bodies, cori
 from reportgen.figures.scene import Arc, Arrow, Scene
 from reportgen.figures.scheme import Looks
 from reportgen.notation.expressions import Symbol
-from tests.figures.machines import (
-    OMEGA,
-    R,
-    at_positions,
-    twin_engine,
-    velocity_plan,
-)
+from tests.figures.machines import OMEGA, R, at_positions, twin_engine, velocity_plan
 from tests.figures.overlaps import overlaps
 
 EXACT = 1e-9

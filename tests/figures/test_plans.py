@@ -13,12 +13,7 @@ from reportgen.figures.plan import TARGET, TINY, Plan, PlanPoint, PlanVector, en
 from reportgen.figures.scene import Arrow, Circle, Label, Line, Scene
 from reportgen.mechanism.motion import Motion
 from reportgen.notation.expressions import Symbol
-from tests.figures.machines import (
-    acceleration_plan,
-    at_positions,
-    twin_engine,
-    velocity_plan,
-)
+from tests.figures.machines import acceleration_plan, at_positions, twin_engine, velocity_plan
 from tests.figures.overlaps import overlaps
 
 POSITIONS = range(16)

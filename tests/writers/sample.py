@@ -32,18 +32,7 @@ from reportgen.document.tree import (
     Value,
     Words,
 )
-from reportgen.figures.scene import (
-    Arc,
-    Arrow,
-    Circle,
-    Hatch,
-    Item,
-    Label,
-    Line,
-    Polyline,
-    Scene,
-    Stroke,
-)
+from reportgen.figures.scene import Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline, Scene, Stroke
 from reportgen.notation.expressions import (
     PI,
     Call,

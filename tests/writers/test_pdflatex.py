@@ -6,10 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.document.tree import (
-    Section,
-    Text,
-)
+from reportgen.document.tree import Section, Text
 from reportgen.errors import TypesetterError
 from reportgen.writers import latex, pdflatex
 from tests.writers.pages import document, needs_tex

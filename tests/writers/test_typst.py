@@ -26,15 +26,7 @@ from reportgen.document.tree import (
 )
 from reportgen.errors import TypesetterError
 from reportgen.figures.scene import Arc, Arrow, Label, Polyline, Scene
-from reportgen.notation.expressions import (
-    Chain,
-    Number,
-    Product,
-    Sum,
-    Symbol,
-    Term,
-    VectorEquation,
-)
+from reportgen.notation.expressions import Chain, Number, Product, Sum, Symbol, Term, VectorEquation
 from reportgen.writers import typst
 from reportgen.writers.layout import in_rows
 from reportgen.writers.typst_math import literal

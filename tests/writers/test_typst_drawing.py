@@ -10,9 +10,7 @@ from typing import Any
 import pymupdf
 import pytest
 
-from reportgen.document.tree import (
-    Figure,
-)
+from reportgen.document.tree import Figure
 from reportgen.figures.scene import Arc, Arrow, Label, Line, Polyline, Scene, Stroke
 from tests.writers import sample
 from tests.writers.pages import MM, by_typst

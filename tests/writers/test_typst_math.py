@@ -10,11 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reportgen.document.tree import (
-    Equation,
-    InlineMath,
-    Paragraph,
-)
+from reportgen.document.tree import Equation, InlineMath, Paragraph
 from reportgen.errors import TypesetterError
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import (
