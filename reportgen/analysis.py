@@ -11,8 +11,15 @@ import numpy as np
 from reportgen.catalogue.loads import Applied, Piston, Torque
 from reportgen.catalogue.machine import Machine
 from reportgen.cycle.applied import indicated_work, stroke_at
-from reportgen.mechanism.forces import Forces, solve_forces
-from reportgen.mechanism.loads import Load, inertia_loads, mean_over, virtual_work_torque, weights
+from reportgen.mechanism.forces import (
+    Forces,
+    Load,
+    inertia_loads,
+    mean_over,
+    solve_forces,
+    virtual_work_torque,
+    weights,
+)
 from reportgen.mechanism.motion import Motion, solve_motion
 
 FULL_TURN = 2 * np.pi

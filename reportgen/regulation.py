@@ -9,7 +9,7 @@ import numpy as np
 from reportgen.analysis import FULL_TURN, Analysis, analyse, breaks
 from reportgen.catalogue.machine import Machine
 from reportgen.cycle.flywheel import Flywheel, accumulated, regulate
-from reportgen.mechanism.loads import virtual_work_torque
+from reportgen.mechanism.forces import virtual_work_torque
 from reportgen.mechanism.motion import Motion
 
 SAMPLES = 1440

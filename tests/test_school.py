@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api, installation
-from reportgen.document.plain import text_of
+from reportgen.document.tree import text_of
 
 SAMPLE = Path(__file__).parent.parent / "assignments" / "engine-twin-05.yaml"
 

@@ -13,15 +13,143 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.answers import bands
 from reportgen.case import Case
-from reportgen.document.plain import formula
+from reportgen.document.tree import formula
 from reportgen.ledger.core import Ledger
-from reportgen.notation.expressions import Number, Symbol, refs
+from reportgen.notation import vocabulary
+from reportgen.notation.expressions import Call, Number, Ref, Symbol, refs
 from reportgen.notation.numbers import Language
 from reportgen.notation.sheet import Family
 from reportgen.notation.vocabulary import Chapter
 from reportgen.words import load_words, search_path
+
+PAPER_ERROR = 0.5e-3
+"""How far off a drawn point may lie (m on paper), at each end of a measured length."""
+
+DIGITS = 3
+"""Significant figures that a value is computed with."""
+
+WHOLE_DEGREE = np.pi / 180
+
+REACH = 3 / np.sqrt(3)
+"""Three standard deviations of errors that are spread evenly over ±1."""
+
+SHARE = 1e-4
+"""A change of this share of an error stands for its slope."""
+
+
+def drawn_bands(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndarray]:
+    """Half widths (SI) [N] when every length on paper is off by `error` (m) at each of its ends.
+
+    What is read or worked out from the drawing is also written down with so many figures only.
+    """
+    bands = _carried_through(ledger, measuring_errors(ledger, error))
+    for id, band in bands.items():
+        # A direction is written down in whole degrees.
+        last = WHOLE_DEGREE / 2 if is_direction(id) else half_unit(ledger[id].values, DIGITS)
+        bands[id] = band + np.where(band > 0, last, 0.0)
+    return bands
+
+
+def computed_bands(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
+    """Half widths (SI) [N] when every value that is not given is rounded to `digits` significant figures."""
+    errors = {
+        id: half_unit(family.values, digits)
+        for id, family in ledger.families.items()
+        if not (family.hidden or family.is_plane or family.exact or family.definition is None)
+    }
+    return _carried_through(ledger, errors)
+
+
+def measuring_errors(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndarray]:
+    """The own errors (SI) of what is measured: two ends of a length; of a direction, two ends over its length.
+
+    Other angles are measured between lines as long as the drawn crank.
+    """
+    errors: dict[str, np.ndarray] = {}
+    lengths = (float(one.values[0]) for one in ledger.families.values() if is_chosen_length(ledger, one))
+    crank = min(lengths, default=np.inf)
+    for id, family in ledger.families.items():
+        if family.hidden or family.is_plane or not family.constructed:
+            continue
+        if family.kind == "segment":
+            errors[id] = np.full(len(family.values), 2 * error)
+        elif is_direction(id):
+            length = np.abs(_on_paper(ledger, id))
+            with np.errstate(all="ignore"):
+                errors[id] = np.minimum(np.where(length > 0, 2 * error / length, np.pi), np.pi)
+        elif family.kind == "angle":
+            errors[id] = np.full(len(family.values), 2 * error / crank)
+    return errors
+
+
+def is_direction(id: str) -> bool:
+    """Whether a quantity is the direction of a vector."""
+    return vocabulary.row(id).around
+
+
+def is_chosen_length(ledger: Ledger, family: Family) -> bool:
+    """Whether a length on paper was chosen, as that of the drawn crank is, itself or by a round scale."""
+    if family.kind != "segment":
+        return False
+    return family.definition is None or any(is_round_scale(ledger[id]) for id in refs(family.definition))
+
+
+def is_round_scale(family: Family) -> bool:
+    """Whether it is a scale that the crank is drawn to, which the scale of the drawing, `mu.l`, says again."""
+    return family.kind == "length scale" and family.id != "mu.l"
+
+
+def half_unit(values: np.ndarray, digits: int) -> np.ndarray:
+    """Half a unit of the last of `digits` significant figures; 0 for 0."""
+    sizes = np.abs(values)
+    with np.errstate(all="ignore"):
+        unit = 10.0 ** (np.floor(np.log10(sizes) + 1e-12) - digits + 1)
+    return np.where(np.isfinite(unit) & (sizes > 0), unit / 2, 0.0)
+
+
+def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Half widths (SI) [N] of every printed quantity from own errors of some."""
+    rows = {id: row for row, id in enumerate(errors)}
+    shown = [id for id, family in ledger.families.items() if not (family.hidden or family.is_plane)]
+    if not rows:
+        return {id: np.zeros(len(ledger[id].values)) for id in shown}
+
+    def moved(id: str) -> object:
+        def move(value: np.ndarray, _: Mapping[str, np.ndarray]) -> np.ndarray:
+            step = np.zeros((len(rows), errors[id].shape[-1]))
+            step[rows[id]] = SHARE * np.nan_to_num(errors[id])
+            return value + step
+
+        return move
+
+    values = ledger.evaluate({id: moved(id) for id in errors})
+    bands: dict[str, np.ndarray] = {}
+    for id in shown:
+        family = ledger[id]
+        change = np.atleast_2d(values[id] - family.values)
+        if family.how.unit == "°":
+            change = np.mod(change + np.pi, 2 * np.pi) - np.pi
+        own = np.nan_to_num(np.broadcast_to(errors.get(id, 0.0), family.values.shape))
+        if id in rows:
+            change[rows[id]] = 0.0
+        inherited = REACH * np.sqrt((np.nan_to_num(change) ** 2).sum(axis=0)) / SHARE
+        # A single value depends on the errors at all positions.
+        band = own + (inherited.max(keepdims=True) if len(own) == 1 else inherited)
+        # Near a dead centre a very short vector may have any direction.
+        bands[id] = np.minimum(band, np.pi) if family.how.unit == "°" else band
+    return bands
+
+
+def _on_paper(ledger: Ledger, id: str) -> np.ndarray:
+    """The drawn length (m) of the vector whose direction `dir.…` is measured."""
+    definition = ledger[id].definition
+    assert isinstance(definition, Call), f"{id} is no direction of a vector"
+    (vector,) = definition.arguments
+    assert isinstance(vector, Ref), f"{id} is no direction of a vector"
+    # The side of a force plan that is drawn for a force; on other plans the vector itself lies on paper.
+    sides = (one.values for one in ledger.families.values() if one.of == vector.id and one.kind == "segment")
+    return next(sides, ledger[vector.id].values)
 
 
 class Role(StrEnum):
@@ -123,7 +251,7 @@ def shown_number(row: Row, value: float) -> Number:
 def make_key(case: Case) -> Key:
     """The key of a case, from the ledger that its report prints."""
     assignment, machine, ledger, words = case.assignment, case.analysis.machine, case.ledger, case.words
-    on_paper, by_rounding = bands.drawn(ledger), bands.computed(ledger)
+    on_paper, by_rounding = drawn_bands(ledger), computed_bands(ledger)
     worked = tuple(assignment.worked_positions)
     complete = set(worked) == set(range(1, machine.positions + 1))
 
@@ -142,7 +270,7 @@ def make_key(case: Case) -> Key:
         # What is read from a diagram can be worked out on paper, an integral over the cycle cannot.
         workable = id != "M.difference" and (family.definition is not None or len(values) > 1)
         workable = workable and (part is not Chapter.cycle or complete)
-        asked = (role is Role.scale and not bands.is_round_scale(family)) or (role is Role.asked and workable)
+        asked = (role is Role.scale and not is_round_scale(family)) or (role is Role.asked and workable)
         return Row(
             id,
             part,
@@ -181,7 +309,7 @@ def _is_shown(ledger: Ledger, id: str) -> bool:
 
 
 def _role(ledger: Ledger, family: Family) -> Role:
-    if bands.is_chosen_length(ledger, family) or family.kind.endswith("scale"):
+    if is_chosen_length(ledger, family) or family.kind.endswith("scale"):
         return Role.scale
     typed = family.exact if family.definition is None else not refs(family.definition)
     return Role.given if typed else Role.asked

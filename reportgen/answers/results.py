@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from reportgen.analysis import Analysis
+from reportgen.assignment.faults import word
 from reportgen.case import Case
-from reportgen.mechanism.loads import Load
+from reportgen.mechanism.forces import Load
 from reportgen.mechanism.structure import Crank
+from reportgen.notation.numbers import Language, significant_decimals, write
 
 FORMAT = "reportgen-results/1"
 
@@ -108,3 +112,110 @@ def _pair(value: complex) -> list[float] | None:
     if not np.isfinite(value):
         return None
     return [float(np.real(value)), float(np.imag(value))]
+
+
+DIGITS = 5
+MOST_DECIMALS = 4
+LEAD = 2
+MOST_COLUMNS = 7
+MM = 1e3
+WORDS = frozenset({"position", "crank_angle", "driver_way", "equilibrium", "virtual_work"})
+"""Headings that are words of a language; the others are symbols."""
+
+Row = dict[str, float | str | None]
+
+
+def print_tables(results: Mapping[str, Any], language: Language) -> None:
+    """Prints the tables of results in the form of `reportgen-results/1`, as wide as they need."""
+    from rich.console import Console
+    from rich.table import Table
+
+    # Numbers are never cut to the width of a terminal; `MOST_COLUMNS` keeps the tables within most.
+    console = Console(width=500)
+    for name, rows in tables(results["positions"]).items():
+        for headings in _split(rows[0]):
+            table = Table(title=word(name, language), title_justify="left", title_style="bold")
+            for heading in headings:
+                text = word(heading, language) if heading in WORDS else heading
+                table.add_column(text, justify="right", no_wrap=True)
+            for cells in zip(*(_column(rows, heading, language) for heading in headings), strict=True):
+                table.add_row(*cells)
+            console.print(table)
+            console.print()
+
+
+def _split(row: Row) -> list[list[str]]:
+    """Headings of the tables side by side that a row is split into, each with the position and its angle."""
+    lead, others = list(row)[:LEAD], list(row)[LEAD:]
+    return [[*lead, *others[at : at + MOST_COLUMNS]] for at in range(0, len(others), MOST_COLUMNS)]
+
+
+def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]]:
+    """Name of each table and its rows; positions that cannot be reached are left out."""
+    found: dict[str, list[Row]] = defaultdict(list)
+    for position in positions:
+        if position is None:
+            continue
+        lead: Row = {"position": position.get("label", str(position["number"])), **_driver(position)}
+        points, links = position["points"], position["links"]
+        rows: dict[str, Row] = {
+            "velocities": {f"v {name}": _size(point["v"]) for name, point in points.items()},
+            "accelerations": {f"a {name}": _size(point["a"]) for name, point in points.items()},
+            "links": {
+                f"{symbol}{name}": link[quantity]
+                for symbol, quantity in (("ω", "omega"), ("ε", "epsilon"))
+                for name, link in links.items()
+            },
+            "loads": {name: _size(load) for name, load in position.get("loads", {}).items()},
+            "reactions": _once({name: _size(force) for name, force in position.get("reactions", {}).items()}),
+            "torque": dict(position.get("balancing_torque", {})),
+            "force": dict(position.get("balancing_force", {})),
+        }
+        for name, row in rows.items():
+            if row:
+                found[name].append(lead | row)
+    return {name: _without_zeros(rows) for name, rows in found.items()}
+
+
+def _driver(position: Mapping[str, Any]) -> Row:
+    """The position of the driver: the angle of a crank in degrees, the way of a slider in mm."""
+    if "driver_way" in position:
+        return {"driver_way": position["driver_way"] * MM}
+    return {"crank_angle": round(math.degrees(position["crank_angle"]), 6) % 360}
+
+
+def _once(reactions: Row) -> Row:
+    """Each pair R_ij, R_ji once: their sizes are the same."""
+    shown: Row = {}
+    for name, size in reactions.items():
+        if f"{name[0]}{name[:0:-1]}" not in shown:
+            shown[name] = size
+    return shown
+
+
+def _without_zeros(rows: list[Row]) -> list[Row]:
+    """The rows without the columns that are zero at every position (a slider's angular velocity)."""
+    kept = [key for key in rows[0] if any(row.get(key) for row in rows) or key in WORDS]
+    return [{key: row.get(key) for key in kept} for row in rows]
+
+
+def _size(vector: Any) -> float | None:
+    """The size of a vector [x, y]; of a reaction with further keys, that of its force."""
+    parts = vector.get("force") if isinstance(vector, Mapping) else vector
+    return None if parts is None else math.hypot(*parts)
+
+
+def _column(rows: Sequence[Row], heading: str, language: Language) -> list[str]:
+    """The column's numbers, all with the decimals that give the largest of them `DIGITS` digits."""
+    values = [row.get(heading) for row in rows]
+    numbers = [value for value in values if not (value is None or isinstance(value, str))]
+    largest = max(map(abs, numbers), default=0.0)
+    whole = all(float(value).is_integer() for value in numbers)
+    decimals = 0 if whole else min(max(significant_decimals(largest, DIGITS), 0), MOST_DECIMALS)
+
+    def cell(value: float | str | None) -> str:
+        if value is None:
+            return "–"
+        return value if isinstance(value, str) else write(value, decimals, language)
+
+    return [cell(value) for value in values]

@@ -12,8 +12,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
-from reportgen.assignment import checks
-from reportgen.assignment.common import Assignment, Draft, Kind, file_model, sections
+from reportgen.assignment.common import Assignment, Draft, Kind, file_model, sections, worked_positions
 from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, Finding, Where, as_error, close_or_known
 from reportgen.assignment.source import List, Node, Scalar, Source, Table, plain, read_source
 from reportgen.errors import Mark
@@ -41,7 +40,7 @@ def assess(
     if kind is None:
         findings.insert(0, _no_kind(name, kinds))
     else:
-        for check_one in (*kind.checks, checks.worked_positions(kind.turns, kind.added)):
+        for check_one in (*kind.checks, worked_positions(kind.turns, kind.added)):
             found = {finding.where for finding in findings}
             findings += [finding for finding in check_one(draft) if finding.where not in found]
     # What the source already refuses is not judged a second time.

@@ -8,8 +8,7 @@ from itertools import islice
 from typing import Any
 
 from reportgen.assignment.faults import unexpected, word
-from reportgen.batch.jobs import SYSTEM, Job, Outcome, failed, run_job
-from reportgen.batch.pool import Pool, Results, Retried
+from reportgen.batch.pool import SYSTEM, Job, Outcome, Pool, Results, Retried, failed, run_job
 from reportgen.errors import ReportgenError
 from reportgen.notation.numbers import Language
 

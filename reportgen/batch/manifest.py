@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from reportgen import api
-from reportgen.batch.jobs import Job, Outcome
+from reportgen.batch.pool import Job, Outcome
 
 NAME = "manifest.json"
 JOURNAL = ".manifest.journal"

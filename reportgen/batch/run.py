@@ -15,9 +15,8 @@ from reportgen import api
 from reportgen.api import MAKERS, Engine, Maker
 from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_problem, word
 from reportgen.batch import manifest
-from reportgen.batch.jobs import Job, Outcome, failed, making
 from reportgen.batch.manifest import Entry
-from reportgen.batch.pool import Pool, local
+from reportgen.batch.pool import Job, Outcome, Pool, failed, local, making
 from reportgen.batch.roster import Assigned, Roster, Student, match_files, read_roster
 from reportgen.batch.variants import make_variants
 from reportgen.errors import Mark, Problem

@@ -11,8 +11,7 @@ from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
-from reportgen.assignment import checks
-from reportgen.assignment.common import Assignment, Check, Draft, Part, Positions
+from reportgen.assignment.common import Assignment, Check, Draft, Part, Positions, one_of
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import (
     Acceleration,
@@ -31,7 +30,7 @@ from reportgen.mechanism.structure import Inertia, Linkage, LinkPoint
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import PI, Number, Operand, Ref, Symbol
 from reportgen.notation.sheet import Sheet
-from reportgen.notation.symbols import drawn_length
+from reportgen.notation.vocabulary import drawn_length
 from reportgen.units import Given
 
 OPENING = ("given", "contents", "foreword", "structure", "motion")
@@ -111,11 +110,11 @@ class Driven(Part):
     def checks(cls) -> tuple[Check, ...]:
         """One speed, one of weight and mass, something for a flywheel to even out."""
         one_mass = (
-            checks.one_of("parameters", f"G{link}", f"m{link}", required=link in cls.required)
+            one_of("parameters", f"G{link}", f"m{link}", required=link in cls.required)
             for link in cls.links["G"]
         )
         evened = (*(f"{letter}{link}" for letter in "GmJ" for link in cls.links[letter]), *cls.loads)
-        return checks.one_of("parameters", "n", "omega1"), *one_mass, needs_loads(evened)
+        return one_of("parameters", "n", "omega1"), *one_mass, needs_loads(evened)
 
 
 def needs_loads(keys: Iterable[str]) -> Check:

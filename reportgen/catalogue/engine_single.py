@@ -13,8 +13,7 @@ from typing import Annotated
 
 import numpy as np
 
-from reportgen.assignment import checks
-from reportgen.assignment.common import Assignment, Draft, Positions
+from reportgen.assignment.common import Assignment, Draft, Positions, one_of
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Acceleration, Interval, Length, Ratio, Share, quantity
 from reportgen.catalogue import given_loads
@@ -124,7 +123,7 @@ def _check_turning(draft: Draft) -> Iterator[Finding]:
 CHECKS = (
     _check_lengths,
     _check_turning,
-    checks.one_of("parameters", "rho", "J2", required=False),
+    one_of("parameters", "rho", "J2", required=False),
     *given_loads.DIAGRAM_CHECKS,
 )
 

@@ -9,8 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from reportgen.assignment import checks
-from reportgen.assignment.common import Check, Draft, Part, Positions
+from reportgen.assignment.common import Check, Draft, Part, Positions, increasing, same_length
 from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import (
     CycleAngle,
@@ -114,10 +113,10 @@ class ByOrdinates(_Diagram):
 Diagram = Annotated[ByStroke | ByCrankAngle | ByOrdinates, Field(discriminator="by")]
 
 DIAGRAM_CHECKS = (
-    checks.same_length("indicator", "s", STROKES),
-    checks.same_length("indicator", "angle", ("p", "height")),
-    checks.increasing("indicator", "s", 0, 1),
-    checks.increasing("indicator", "angle", 0, 720, "deg"),
+    same_length("indicator", "s", STROKES),
+    same_length("indicator", "angle", ("p", "height")),
+    increasing("indicator", "s", 0, 1),
+    increasing("indicator", "angle", 0, 720, "deg"),
 )
 
 
@@ -208,15 +207,15 @@ def _inside(check: Check, section: str) -> Check:
 FORCE_CHECKS = tuple(
     _inside(check, "force")
     for check in (
-        checks.same_length("force", "s", ("inward", "outward")),
-        checks.same_length("force", "angle", ("F",)),
-        checks.increasing("force", "s", 0, 1),
-        checks.increasing("force", "angle", 0, 360, "deg"),
+        same_length("force", "s", ("inward", "outward")),
+        same_length("force", "angle", ("F",)),
+        increasing("force", "s", 0, 1),
+        increasing("force", "angle", 0, 360, "deg"),
     )
 )
 PRESS_CHECKS = tuple(
     _inside(check, "press")
-    for check in (checks.same_length("press", "s", ("P",)), checks.increasing("press", "s", 0, 1))
+    for check in (same_length("press", "s", ("P",)), increasing("press", "s", 0, 1))
 )
 
 

@@ -17,7 +17,7 @@ from reportgen.catalogue.loads import Applied, Constant, Law, crank_motion, oppo
 from reportgen.catalogue.machine import Machine
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.notation.expressions import Symbol
-from reportgen.notation.symbols import drawn_length
+from reportgen.notation.vocabulary import drawn_length
 from reportgen.units import Given
 
 TURNS = 1

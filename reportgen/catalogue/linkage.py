@@ -40,7 +40,7 @@ from reportgen.mechanism.structure import DRIVER, Linkage
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import nice_up
 from reportgen.notation.sheet import Sheet
-from reportgen.notation.symbols import drawn_length
+from reportgen.notation.vocabulary import drawn_length
 
 TURNS = 1
 """A cycle of two turns counts the second turn's positions among those added to the first."""

@@ -8,7 +8,7 @@ from typing import Any
 
 from reportgen.catalogue import linkage_file as file
 from reportgen.mechanism.structure import DyadKind
-from reportgen.notation import symbols
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Number
 from reportgen.units import Given
 
@@ -87,7 +87,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...]) -> dict[str, Any]:
     origins = _origins(given)
     arms += [f"{origins[point.link]}{name}" for name, point in given.points.items()]
     return {
-        "frame": [(symbols.point(name), *map(number, at)) for name, at in given.frame.items()],
+        "frame": [(vocabulary.point(name), *map(number, at)) for name, at in given.frame.items()],
         "quantities": tuple(_quantities(given, rows)),
         "groups": rows,
         "guides": guides(given),

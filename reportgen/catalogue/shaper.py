@@ -22,7 +22,7 @@ from reportgen.cycle.applied import Cutting
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import nice_up
 from reportgen.notation.sheet import Sheet
-from reportgen.notation.symbols import drawn_length
+from reportgen.notation.vocabulary import drawn_length
 from reportgen.units import Given
 
 TURNS = 1

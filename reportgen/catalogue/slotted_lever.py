@@ -19,7 +19,7 @@ from reportgen.catalogue.slotted import SlottedCrank
 from reportgen.mechanism.structure import Linkage, LinkPoint
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.sheet import Sheet
-from reportgen.notation.symbols import drawn_length
+from reportgen.notation.vocabulary import drawn_length
 from reportgen.units import Given
 
 TURNS = 1

@@ -57,7 +57,7 @@ def solve(
 ) -> None:
     """Compute motion, forces and torque; print readable tables, or JSON in SI units."""
     from reportgen import api
-    from reportgen.tables import print_tables
+    from reportgen.answers.results import print_tables
 
     with ending(lang):
         assignment = api.load(file, lang)
@@ -126,7 +126,7 @@ def compare(
     lang: LangOption = None,
 ) -> None:
     """Check your own SHEET before handing it in: where it first leaves the assignment, without answers."""
-    from reportgen.grading.comparison import compare as compared
+    from reportgen.grading.marking import compare as compared
 
     with ending(lang):
         lines, agrees = compared(file, sheet, hint, lang)

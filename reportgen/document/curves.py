@@ -107,14 +107,14 @@ def polar(report: Report) -> Drawn:
     numbers = tuple(map(str, report.all_positions))
     assert report.driver_polygon is not None
     scenes = []
-    for side in report.driver_polygon.sides:
-        if side.unknown or not side.is_reaction:
+    for edge in report.driver_polygon.edges:
+        if edge.unknown or not edge.is_reaction:
             continue
-        pin = next(group.P for group in report.groups if side.name == f"R{group.i}{DRIVER}")
+        pin = next(group.P for group in report.groups if edge.name == f"R{group.i}{DRIVER}")
         radius = fine.motion.points[pin].p - fine.motion.points[report.driver.centre].p
-        load = fine.forces.reactions[side.name].force * np.conj(radius / np.abs(radius)) * 1j
+        load = fine.forces.reactions[edge.name].force * np.conj(radius / np.abs(radius)) * 1j
         series = charts.Series(
-            report.force_vector(side.name), load.real, load.imag, _marks(report), numbers
+            report.force_vector(edge.name), load.real, load.imag, _marks(report), numbers
         )
         scenes.append(charts.polar(series, "N", title=f"{report.words['figure']['pin']} {pin}"))
     return Drawn(tuple(scenes))

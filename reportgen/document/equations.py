@@ -11,10 +11,10 @@ from collections.abc import Iterable, Sequence
 from reportgen.document.groups import GroupView
 from reportgen.document.report import FUNCTIONS, Report, function, listed, lower_digits
 from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Reference, Text, Value
-from reportgen.ledger.forces.polygon import Side as PolygonSide
+from reportgen.ledger.forces.polygon import Edge
 from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.structure import mobility
-from reportgen.notation import symbols
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import (
     Chain,
     Expression,
@@ -81,19 +81,19 @@ def direction(report: Report, id: str, position: int | None = None) -> str:
 @function
 def point(report: Report, name: str) -> Symbol:
     """The symbol of a point, e.g. S with a lowered 2."""
-    return symbols.point(name)
+    return vocabulary.point(name)
 
 
 @function
 def points(report: Report, names: Iterable[object]) -> Inlines:
     """Symbols of points, side by side with commas."""
-    return listed(InlineMath(symbols.point(str(name))) for name in names)
+    return listed(InlineMath(vocabulary.point(str(name))) for name in names)
 
 
 @function
 def image(report: Report, name: str, prime: bool = False) -> Symbol:
     """The image of a point on a plan."""
-    return symbols.on_plan(name, prime)
+    return vocabulary.on_plan(name, prime)
 
 
 @function
@@ -151,13 +151,13 @@ def plate_refs(report: Report, prefix: str) -> Inlines:
 
 @function
 def force_list(report: Report, group: GroupView, position: int) -> Inlines:
-    """The known sides of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, …"""
+    """The known edges of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, …"""
     assert group.polygon is not None
     shown: list[Inline] = []
-    for side in group.polygon.sides:
-        if not side.unknown:
-            length = quantity(report, f"seg.{group.name}.{side.name}", position)
-            force = InlineMath(report.force_symbol(side.name))
+    for edge in group.polygon.edges:
+        if not edge.unknown:
+            length = quantity(report, f"seg.{group.name}.{edge.name}", position)
+            force = InlineMath(report.force_symbol(edge.name))
             shown += [*((Text(", "),) if shown else ()), *length, Text(" ("), force, Text(")")]
     return tuple(shown)
 
@@ -309,7 +309,7 @@ def _on_crank(report: Report, name: str) -> bool:
 def force_equation(report: Report, group: GroupView, position: int) -> Equation:
     """The equilibrium of a group's two links; only the two reactions that close the plan are unknown."""
     assert group.polygon is not None
-    terms = [_force(report, group, side) for side in group.polygon.sides]
+    terms = [_force(report, group, edge) for edge in group.polygon.edges]
     return _balance(report, terms, f"eq.R.{group}.{position}")
 
 
@@ -321,13 +321,13 @@ def link_equation(report: Report, group: GroupView, link: int, position: int | N
     """
     assert group.polygon is not None
     words = report.words["vector"]
-    own = [side for side in group.polygon.sides if side.link == link]
-    terms = [_force(report, group, side) for side in own if not side.unknown]
+    own = [edge for edge in group.polygon.edges if edge.link == link]
+    terms = [_force(report, group, edge) for edge in own if not edge.unknown]
     # Across the slot; its size is computed before the plan, or read from the plan of link j.
     first = group.kind == "RPP" and link == group.j
     inner = R(report, group.across if link == group.j else group.inner)
     terms.append(Term(inner, (words["across_slot"], None if first else words["computed"])))
-    terms += [_force(report, group, side) for side in own if side.unknown]
+    terms += [_force(report, group, edge) for edge in own if edge.unknown]
     return _balance(report, terms, "" if position is None else f"eq.R.{group}.{position}")
 
 
@@ -340,24 +340,24 @@ def driver_equation(report: Report) -> Equation:
     unknown = {"R01": words["across_guide"], "Rcb": words["along_guide"]} if slides else {}
     terms = [
         Term(
-            report.force_vector(side.name),
-            (unknown.get(side.name), None) if side.unknown else (words["given"], words["given"]),
+            report.force_vector(edge.name),
+            (unknown.get(edge.name), None) if edge.unknown else (words["given"], words["given"]),
         )
-        for side in report.driver_polygon.sides
+        for edge in report.driver_polygon.edges
     ]
     return _balance(report, terms)
 
 
-def _force(report: Report, group: GroupView, side: PolygonSide) -> Term:
+def _force(report: Report, group: GroupView, edge: Edge) -> Term:
     """A force of a group's plan with what is known of it."""
     words = report.words["vector"]
-    way = group.one if side.link == group.i else group.two
-    shown = report.force_vector(side.name)
-    if side.part and way.turns:
-        normal = side.part == "n"
+    way = group.one if edge.link == group.i else group.two
+    shown = report.force_vector(edge.name)
+    if edge.part and way.turns:
+        normal = edge.part == "n"
         along = f"{'∥' if normal else '⊥'} {lower_digits(way.rod)}"
         return Term(shown, (along, None if normal else words["computed"]))
-    if side.unknown:
+    if edge.unknown:
         return Term(shown, (words["across_guide"] if way.guided else None, None))
     return Term(shown, (words["given"], words["given"]))
 

@@ -32,7 +32,7 @@ from reportgen.figures.scheme import Looks
 from reportgen.ledger.kinematics.centres import PREFIX, centre_symbol
 from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.notation import symbols
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Chain, Number, Symbol
 
 MM = 1e3
@@ -325,7 +325,7 @@ def coriolis(report: Report, k: int, group: GroupView, side: Side) -> Drawn:
     omega = float(ledger[f"turn.omega.{side.turning}"].at(k).real)
     relative = complex(points[side.point].v[k - 1]) - complex(points[side.base].v[k - 1])
     sliding = Sliding(
-        symbols.point(side.point),
+        vocabulary.point(side.point),
         (Symbol("v", side.pair, over="vector"), relative),
         (Symbol("a", side.pair, "k", "vector"), 1j * omega * relative),
         (ledger.symbol(side.omega), float(np.sign(omega))),

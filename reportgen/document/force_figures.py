@@ -30,9 +30,9 @@ from reportgen.figures.plan import plan
 from reportgen.figures.scene import Circle, Item, Line, Scene
 from reportgen.figures.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.ledger.forces.polygon import Polygon
-from reportgen.mechanism.loads import Load, as_single_force, percussion_meeting
+from reportgen.mechanism.forces import Load, as_single_force, percussion_meeting
 from reportgen.mechanism.structure import DRIVER
-from reportgen.notation import symbols
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Chain, Symbol
 
 
@@ -101,10 +101,10 @@ class _Bodies:
     def found_before(self, polygon: Polygon) -> list[Force]:
         """Reactions of other groups on the links of a force plan, found before."""
         found = []
-        for side in polygon.sides:
-            if side.is_reaction and side.link in self.links and not side.unknown and side.part != "t":
-                at = complex(self.report.analysis.forces.reactions[side.name].point[self.k - 1]) * self.scale
-                force = self.reaction(side.name, at)
+        for edge in polygon.edges:
+            if edge.is_reaction and edge.link in self.links and not edge.unknown and edge.part != "t":
+                at = complex(self.report.analysis.forces.reactions[edge.name].point[self.k - 1]) * self.scale
+                force = self.reaction(edge.name, at)
                 found.append(force if force.direction and np.isfinite(at) else replace(force, at=0j, direction=0j))
         return found
 
@@ -174,7 +174,7 @@ def driver(report: Report, k: int) -> Drawn:
     polygon, centre, body = report.driver_polygon, report.driver.centre, _Bodies(report, k, (DRIVER,))
     assert polygon is not None
     pin = body.at(centre or report.driver.pin)
-    closing = (body.reaction(side.name, pin) for side in polygon.sides if side.unknown)
+    closing = (body.reaction(edge.name, pin) for edge in polygon.edges if edge.unknown)
     forces = [*body.loads(), *body.found_before(polygon), *closing]
     if centre:
         balance = Couple(report.ledger.symbol("M.eq"), pin, float(np.sign(report.ledger.number("M.eq", k).value)))
@@ -254,7 +254,7 @@ def lever(report: Report, k: int) -> Drawn:
     if machine.span and not report.is_zero("R.cb", k):
         # The force that balances a sliding driver acts on the lever too; that of a crank is a torque.
         image = complex(motion.points[report.driver.pin].v[index]) * per
-        shown = symbols.vector(ledger.symbol("M.eq"))
+        shown = vocabulary.vector(ledger.symbol("M.eq"))
         forces.append(Force(shown, image, complex(ledger["F.Rcb"].at(k)), "reaction", "Rcb"))
         arms.append(ArmOf(ledger.symbol(report.driver.velocity_segment), 0j, "Rcb"))
     scale = Chain((ledger.symbol("mu.v"), ledger.number("mu.v")))

@@ -264,7 +264,7 @@ class GroupView:
         """Arms about a point of the known loads on a link of the group."""
         if self.polygon is None:
             return []
-        known = [(side.name, side.link) for side in self.polygon.sides if not side.unknown]
+        known = [(edge.name, edge.link) for edge in self.polygon.edges if not edge.unknown]
         known.append((f"R{self.across}", self.j))
         return self.ledger.known(f"h.{name}.{about}" for name, carrier in known if carrier == link)
 
@@ -323,7 +323,7 @@ class GroupView:
     def last_known(self) -> str:
         """The vertex of the force plan at which the known forces end."""
         assert self.polygon is not None
-        return self.polygon.sides[-2].start
+        return self.polygon.edges[-2].start
 
     @property
     def last_of_j(self) -> str:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from reportgen.document import tree
-from reportgen.document.plain import plain
+from reportgen.document.tree import plain
 from reportgen.errors import ReportgenError
 
 _COUNTED_LEVELS = 3

@@ -13,11 +13,10 @@ from reportgen.document.groups import GroupView
 from reportgen.document.report import Report
 from reportgen.figures.draft import sheets
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
-from reportgen.ledger.forces.polygon import Polygon
-from reportgen.ledger.forces.polygon import Side as Force
+from reportgen.ledger.forces.polygon import Edge, Polygon
 from reportgen.ledger.kinematics.linkage import POLES, What
 from reportgen.ledger.kinematics.sides import Side, image
-from reportgen.notation import symbols
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Chain, Symbol
 
 SHEET = (385.0, 232.0)
@@ -108,7 +107,7 @@ class _Sketch:
         """Enter the vector of a point's own velocity or acceleration, from the pole, with its end."""
         end = self.at(image(name))
         self.vectors.append(PlanVector(name, 0j, end, style, Symbol(self.what, name, over="vector"), stage))
-        self.points.append(PlanPoint(symbols.on_plan(name, self.what == "a"), end, stage))
+        self.points.append(PlanPoint(vocabulary.on_plan(name, self.what == "a"), end, stage))
 
     def relative(self, side: Side, part: str, start: complex, end: complex, stage: int) -> None:
         """Enter what a side adds to the velocity or acceleration of its base, or a part of it."""
@@ -161,12 +160,12 @@ def forces(report: Report, k: int, group: GroupView) -> Drawn:
 
 @figure("force-stages", "fig.R.stages")
 def force_stages(report: Report, k: int, group: GroupView) -> Drawn:
-    """The force plan step by step: loads, components found by moments, closing sides, what is read."""
+    """The force plan step by step: loads, components found by moments, closing edges, what is read."""
     assert group.polygon is not None
     drawing = force_plan(report, group.polygon, k)
-    sides = group.polygon.sides
-    known = sum(not side.unknown for side in sides)
-    by_moments = [not side.unknown and side.part == "t" for side in sides]
+    edges = group.polygon.edges
+    known = sum(not edge.unknown for edge in edges)
+    by_moments = [not edge.unknown and edge.part == "t" for edge in edges]
 
     def step(stage: int) -> int:
         return 2 + stage - known if stage >= known else int(by_moments[stage])
@@ -191,22 +190,22 @@ def force_plates(report: Report, group: GroupView) -> Drawn:
 
 
 def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
-    """A force plan in mm: known sides one by one, then what closing it gives, then what is read from it."""
+    """A force plan in mm: known edges one by one, then what closing it gives, then what is read from it."""
 
     def corner(letter: str) -> complex:
         return complex(report.ledger[f"plan.R{polygon.name}.{letter}"].at(k)) * MM
 
-    known = sum(not side.unknown for side in polygon.sides)
-    drawn: list[tuple[Force, int, Style]] = [
-        (side, known, "found") if side.unknown else (side, number, "known")
-        for number, side in enumerate(polygon.sides)
+    known = sum(not edge.unknown for edge in polygon.edges)
+    drawn: list[tuple[Edge, int, Style]] = [
+        (edge, known, "found") if edge.unknown else (edge, number, "known")
+        for number, edge in enumerate(polygon.edges)
     ]
     drawn += [(read, known + 1, "relative") for read in polygon.reads]
     vectors = []
-    stage_of = {polygon.sides[0].start: 0}
-    for side, stage, style in drawn:
-        start, end, label = corner(side.start), corner(side.end), report.force_vector(side.name)
-        vectors.append(PlanVector(side.start + side.end, start, end, style, label, stage))
-        stage_of.setdefault(side.end, stage)
+    stage_of = {polygon.edges[0].start: 0}
+    for edge, stage, style in drawn:
+        start, end, label = corner(edge.start), corner(edge.end), report.force_vector(edge.name)
+        vectors.append(PlanVector(edge.start + edge.end, start, end, style, label, stage))
+        stage_of.setdefault(edge.end, stage)
     points = tuple(PlanPoint(Symbol(letter), corner(letter), stage) for letter, stage in stage_of.items())
     return Plan(tuple(vectors), points, (), _scale(report, f"mu.R{polygon.name}"), pole=False)

@@ -34,7 +34,7 @@ from reportgen.document import markdown
 from reportgen.document.markdown import SECRET, Emitted, Key, Place, Rendered, Unnumbered
 from reportgen.document.tree import BlankLine, Block, InlineMath, Inlines, Reference, Text, Value
 from reportgen.errors import ReportgenError, TemplateError
-from reportgen.notation import symbols
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Expression, Number
 from reportgen.notation.numbers import MINUS
 
@@ -154,7 +154,7 @@ def _emit(value: object) -> str:
         case Undefined():
             return str(value)  # raises, naming what is undefined
         case PointName():
-            return _store(InlineMath(symbols.point(value)))
+            return _store(InlineMath(vocabulary.point(value)))
         case str():
             return _emit_text(value)
         case bool() | float() | None:

@@ -28,7 +28,7 @@ from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics.centres import links_in_plane_motion
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import Mobility, mobility
-from reportgen.notation import symbols
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Symbol
 
 PLATES_UP_TO = 24
@@ -354,7 +354,7 @@ class Report:
     @property
     def on_crank(self) -> frozenset[str]:
         """The forces of the driver's force plan."""
-        return frozenset(side.name for side in self.driver_polygon.sides) if self.driver_polygon else frozenset()
+        return frozenset(edge.name for edge in self.driver_polygon.edges) if self.driver_polygon else frozenset()
 
     @property
     def joined(self) -> list[GroupView]:
@@ -406,7 +406,7 @@ class Report:
         return self.ledger.symbol(self.ledger[f"F.{name}"].of)
 
     def force_vector(self, name: str) -> Symbol:
-        return symbols.vector(self.force_symbol(name))
+        return vocabulary.vector(self.force_symbol(name))
 
     def is_zero(self, id: str, k: int | None = None) -> bool:
         return bool(self.ledger.number(id, k).value == 0)

@@ -26,7 +26,7 @@ from reportgen.document.tree import (
     Text,
     Value,
 )
-from reportgen.notation import symbols
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Expression, Fraction, Number, Symbol, refs
 
 MM = 1e3
@@ -379,7 +379,7 @@ def joints(report: Report) -> Iterator[Sequence[object]]:
     """All joints: number, place, links, type."""
     for number, joint in enumerate(report.mobility.joints, start=1):
         one, other = joint.links
-        yield str(number), symbols.point(joint.point), f"{one} – {other}", report.words["joints"][joint.kind]
+        yield str(number), vocabulary.point(joint.point), f"{one} – {other}", report.words["joints"][joint.kind]
 
 
 @table("lengths")
@@ -410,7 +410,7 @@ def groups(report: Report) -> Iterator[Sequence[object]]:
     """The groups in the order of assembly, with the way in which each is assembled."""
     choice = report.words["linkage"]["choice"]
     for row in report.own["groups"]:
-        joints = listed(InlineMath(symbols.point(name)) for name in row.joints)
+        joints = listed(InlineMath(vocabulary.point(name)) for name in row.joints)
         yield ", ".join(map(str, row.links)), row.kind, joints, choice[row.choice]
 
 
@@ -423,4 +423,4 @@ def guides(report: Report) -> Iterator[Sequence[object]]:
 @rows("points", 24.0, 24.0, 40.0, 40.0)
 def further_points(report: Report) -> Iterator[Sequence[object]]:
     """Further points of the links by their distances."""
-    return ((symbols.point(row.name), str(row.link), row.along, row.across) for row in report.own["points"])
+    return ((vocabulary.point(row.name), str(row.link), row.along, row.across) for row in report.own["points"])

@@ -12,13 +12,12 @@ import numpy as np
 
 from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
-from reportgen.figures.geometry import clusters
 from reportgen.figures.labels import Request, joined, label
-from reportgen.figures.scene import Circle, Content, Item, Line, Polyline, Scene, Stroke
+from reportgen.figures.scene import Circle, Content, Item, Line, Polyline, Scene, Stroke, clusters
 from reportgen.figures.scheme import Looks, Skeleton, driver_marks, mechanism, skeleton
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import GROUND, Crank, Linkage
-from reportgen.notation import symbols
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Symbol
 
 TOGETHER = 0.3
@@ -79,14 +78,14 @@ def position_plan(
         items.append(Polyline(tuple(complex(p) for p in curve), PATH))
         # The name of a path stands anywhere along it.
         places = [complex(p) for p in curve[:: max(1, len(curve) // 10)]]
-        requests.append(label(places, symbols.point(name)))
+        requests.append(label(places, vocabulary.point(name)))
     if shows.emphasised is not None and every[shows.emphasised].reached:
         bones = every[shows.emphasised]
         items += _links(bones, style.HEAVY, shows.paths)
         items += [style.point(bones.points[name]) for name in shows.paths]
     for name in reached[0].pivots if reached else ():
         items += style.pivot(reached[0].points[name])
-        requests.append(label(reached[0].points[name], symbols.point(name), gap=style.JOINT + 0.4))
+        requests.append(label(reached[0].points[name], vocabulary.point(name), gap=style.JOINT + 0.4))
     numbers = range(count) if count <= CROWDED else [k for k in (shows.emphasised,) if k is not None]
     draft = Draft(tuple(items), tuple(requests)) + _numbers(every, numbers, shows)
     return finish(draft + beside if beside else draft, notes=notes)
@@ -164,7 +163,7 @@ def _links(bones: Skeleton, pen: Stroke, further: Sequence[str] = ()) -> list[It
 def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionPlan) -> Draft:
     """Dots at the numbered positions and their names, one label for points that coincide."""
     shown = [
-        (every[k].points[name], Symbol(symbols.point(name).base, shows.label(k)))
+        (every[k].points[name], Symbol(vocabulary.point(name).base, shows.label(k)))
         for name in shows.numbered
         for k in numbers
         if every[k].reached

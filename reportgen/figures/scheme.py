@@ -11,12 +11,23 @@ import numpy as np
 
 from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
-from reportgen.figures.geometry import Complexes, Floats, clusters, polar
 from reportgen.figures.labels import Request, joined, label
-from reportgen.figures.scene import Arc, Circle, Content, Item, Line, Scene, Stroke
+from reportgen.figures.scene import (
+    Arc,
+    Circle,
+    Complexes,
+    Content,
+    Floats,
+    Item,
+    Line,
+    Scene,
+    Stroke,
+    clusters,
+    polar,
+)
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
-from reportgen.notation import symbols
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Symbol
 
 
@@ -293,6 +304,6 @@ def _number(bones: Skeleton, link: int, looks: Looks) -> list[Request]:
 def _names(names: Sequence[str], bones: Skeleton) -> list[Request]:
     """One label for points that coincide."""
     return [
-        label(bones.points[group[0]], *joined(map(symbols.point, group), " ≡ "), gap=style.JOINT + 0.5)
+        label(bones.points[group[0]], *joined(map(vocabulary.point, group), " ≡ "), gap=style.JOINT + 0.5)
         for group in clusters(dict.fromkeys(names), 0.3, bones.points.__getitem__)
     ]

@@ -10,8 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.figures.geometry import polar, rectangle, unit
-from reportgen.figures.scene import Circle, Hatch, Item, Line, Polyline, Stroke
+from reportgen.figures.scene import Circle, Hatch, Item, Line, Polyline, Stroke, polar, rectangle, unit
 
 BLACK, GRAY, PALE = "#000000", "#6b6b6b", "#a8a8a8"
 BLUE, RED = "#123c7c", "#9c1c1c"

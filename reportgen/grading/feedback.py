@@ -13,7 +13,6 @@ from reportgen.answers.key_files import band, band_decimals
 from reportgen.answers.paper import DASH, cells, fields, heading, paper, paragraph, student_rows
 from reportgen.answers.sheet import NAMES, asked_positions, given_entry, grid, info_page, page, rows_shown
 from reportgen.document import tree
-from reportgen.document.plain import plain
 from reportgen.document.tree import (
     Block,
     Column,
@@ -24,6 +23,7 @@ from reportgen.document.tree import (
     Paragraph,
     Table,
     Text,
+    plain,
 )
 from reportgen.errors import Problem
 from reportgen.grading.marks import Marked, Marking, Verdict, points_of

@@ -14,8 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from reportgen.answers.bands import is_direction
-from reportgen.answers.key import Key
+from reportgen.answers.key import Key, is_direction
 from reportgen.grading.marks import Cells, Marked, Place, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM
 from reportgen.grading.working import Guide

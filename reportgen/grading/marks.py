@@ -9,8 +9,7 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Annotated
 
-from reportgen.answers.bands import DIGITS, PAPER_ERROR
-from reportgen.answers.key import Key
+from reportgen.answers.key import DIGITS, PAPER_ERROR, Key
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Flag, Interval, Whole, quantity
 from reportgen.assignment.reading import read_model

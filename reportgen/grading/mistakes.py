@@ -12,7 +12,7 @@ from itertools import takewhile
 
 import numpy as np
 
-from reportgen.answers.bands import is_direction
+from reportgen.answers.key import is_direction
 from reportgen.grading.working import Change, Guide, Values
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Call, Expression, Negative, Sum, rebuild, refs, walk

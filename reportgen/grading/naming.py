@@ -11,12 +11,11 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.answers.bands import is_direction
-from reportgen.answers.key import Role
+from reportgen.answers.key import Role, is_direction
 from reportgen.grading.marks import Cells, Marked, Place, Verdict
 from reportgen.grading.mistakes import OF_POSITION, WRONG_DATUM, Mistake, general_mistakes, mistakes_in
 from reportgen.grading.working import Change, Guide, Values, Working
-from reportgen.ledger.following import follow
+from reportgen.ledger.core import follow
 
 FEW_FIGURES = 2
 """Significant figures that are too few, but still show the value; one figure shows too little."""

@@ -22,7 +22,7 @@ from reportgen.assignment.faults import Fault, as_error, as_problem
 from reportgen.errors import Mark, Problem
 from reportgen.grading.marks import Answer, Place, Submission
 from reportgen.notation.numbers import Language
-from reportgen.notation.symbols import KINDS
+from reportgen.notation.vocabulary import KINDS
 from reportgen.units import Dimension, QuantityFault
 from reportgen.words import load_words, search_path
 from reportgen.workbook import Cell, Page, read

@@ -9,13 +9,20 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.analysis import Analysis
-from reportgen.answers import bands
-from reportgen.answers.key import Key, Role, Row, make_key
+from reportgen.answers.key import (
+    Key,
+    Role,
+    Row,
+    computed_bands,
+    drawn_bands,
+    is_chosen_length,
+    is_direction,
+    make_key,
+)
 from reportgen.assignment import Assignment
 from reportgen.case import Case
 from reportgen.grading.marks import Place, Policy, Submission
-from reportgen.ledger.core import Ledger
-from reportgen.ledger.following import carried, follow, standing_on
+from reportgen.ledger.core import Ledger, carried, follow, standing_on
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Ref
 
@@ -51,7 +58,7 @@ class Guide:
         They are the widest of drawing, rounding and a share of the quantity's maximum over the turn.
         """
         policy, ledger = self.policy, self.ledger
-        drawn, computed = bands.drawn(ledger, policy.paper), bands.computed(ledger, policy.digits)
+        drawn, computed = drawn_bands(ledger, policy.paper), computed_bands(ledger, policy.digits)
         return {
             row.id: np.maximum(np.maximum(drawn[row.id], computed[row.id]), policy.share * self.size(row.id))
             * (1 + ALMOST)
@@ -60,7 +67,7 @@ class Guide:
 
     def size(self, id: str) -> float:
         """The largest value of a quantity over the turn (SI); of an angle, a full turn."""
-        if bands.is_direction(id):
+        if is_direction(id):
             return 2 * np.pi
         values = np.abs(self.ledger[id].values)
         return float(values[np.isfinite(values)].max(initial=0.0))
@@ -234,7 +241,7 @@ def _makes_scale(guide: Guide, id: str, scale: str) -> bool:
     """Whether a length on paper is the one that a scale was made from: the drawn crank, pa."""
     ledger = guide.ledger
     if scale == "mu.l":
-        return bands.is_chosen_length(ledger, ledger[id])
+        return is_chosen_length(ledger, ledger[id])
     definition = ledger[id].definition
     return isinstance(definition, Ref) and ledger[definition.id].definition is None
 

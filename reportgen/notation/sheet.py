@@ -19,8 +19,7 @@ import numpy as np
 from reportgen.notation import vocabulary
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Call, Expression, Operand, Ref, Symbol, as_expression, walk
-from reportgen.notation.symbols import KINDS, MAX_DIGITS, Kind
-from reportgen.notation.vocabulary import Chapter
+from reportgen.notation.vocabulary import KINDS, MAX_DIGITS, Chapter, Kind
 
 ZERO = 1e-9
 """A value below this share of its own scale is nothing: it prints as 0."""

@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
+import datetime
+import io
+import math
+import posixpath
 import re
 import unicodedata
-from collections.abc import Iterator
+import warnings
+import zipfile
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import closing, redirect_stdout
+from functools import partial
+from itertools import tee
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from reportgen.assignment.faults import as_error
 from reportgen.assignment.source import mark_in
-from reportgen.errors import Mark
+from reportgen.errors import CellMark, Mark
 from reportgen.notation.numbers import Language
 from reportgen.workbook.cells import (
     LONGEST_CELL,
     Cell,
+    CellKind,
     Page,
     RefusedError,
     exceeds,
@@ -21,7 +32,209 @@ from reportgen.workbook.cells import (
     too_long,
     unguarded,
 )
-from reportgen.workbook.spreadsheet import read_xlsx
+from reportgen.workbook.package import CONTENT_TYPES, MOST_GROUPS, Package, measure
+
+if TYPE_CHECKING:
+    from openpyxl import Workbook
+
+
+MOST_SHEETS = 100
+_ESCAPE = re.compile(r"_x([0-9A-Fa-f]{4})_")
+
+Row = tuple[Any, ...]
+"""The cells of a row as openpyxl gives them."""
+Marks = Callable[[int, int], CellMark]
+"""Gives the mark of a cell of one sheet by its row and column."""
+
+
+def read_xlsx(data: bytes, file: str) -> tuple[Page, ...]:
+    """The sheets of a workbook in their order; raises `RefusedError`."""
+    copy, counts, formulas = _judged(Package(data, file))
+    with warnings.catch_warnings(), redirect_stdout(io.StringIO()):
+        # openpyxl warns of, and even prints, what it leaves out: looks and rules, but no value of a cell.
+        warnings.simplefilter("ignore")
+        try:
+            with closing(_load(copy, stored=True)) as values:
+                if not formulas:
+                    return _pages(values, None, counts, file)
+                with closing(_load(copy, stored=False)) as texts:
+                    return _pages(values, texts, counts, file)
+        except RefusedError:
+            raise
+        except Exception:
+            # openpyxl has no exception of its own for a damaged workbook.
+            raise RefusedError("sheet-damaged", Mark(file)) from None
+
+
+def _judged(package: Package) -> tuple[bytes, list[int], bool]:
+    """A copy with the parts that openpyxl is to read; the number of cells of each sheet; whether any is a formula.
+
+    Raises `RefusedError` where a sheet cannot be found or a part has too much in it.
+    """
+    root = next((r.target for r in package.relations("_rels/.rels").values() if r.kind == "officeDocument"), "")
+    workbook = root.lstrip("/")
+    if workbook not in package:
+        raise package.refused("sheet-no-zip")
+    folder, name = posixpath.split(workbook)
+    beside = posixpath.join(folder, "_rels", f"{name}.rels")
+    relations = package.relations(beside)
+    places = {
+        id: one.target.lstrip("/") if one.target.startswith("/") else posixpath.normpath(f"{folder}/{one.target}")
+        for id, one in relations.items()
+    }
+    listed = [attributes.get("id", "") for tag, attributes in package.elements(workbook) if tag == "sheet"]
+    if len(listed) > MOST_SHEETS:
+        raise too_large(package.mark)
+    found = {places[id] for id in listed if places.get(id, "") in package}
+    if len(found) < len(listed):
+        raise package.refused("sheet-damaged")
+    sheets = [places[id] for id in listed if relations[id].kind == "worksheet"]
+    if not sheets:
+        raise package.refused("sheet-no-zip")
+    tables = {one.kind: places[id] for id, one in relations.items() if one.kind in ("styles", "sharedStrings")}
+    others = [CONTENT_TYPES, workbook, beside, *(place for place in tables.values() if place in package)]
+    measured = {place: measure(package, place) for place in (*others, *sheets)}
+    copy = _copy(package, measured, tables.get("sharedStrings", ""))
+    return copy, [measured[sheet][0] for sheet in sheets], any(measured[sheet][1] for sheet in sheets)
+
+
+def _copy(package: Package, names: Iterable[str], strings: str) -> bytes:
+    """A package of these parts; `strings` is the one of the shared strings."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as made:
+        for name in names:
+            content = package.content(name)
+            if name == strings:
+                # openpyxl drops these letters, which distinguish the seven characters written _x005F_x000D_ from the
+                # carriage return written _x000D_: so they are given in a way that leaves them there.
+                content = content.replace(b"x005F_", b"x005Fx005F__")
+            made.writestr(name, content)
+    return stream.getvalue()
+
+
+def _load(copy: bytes, *, stored: bool) -> Workbook:
+    """The workbook with the stored results of its formulas, or with their texts."""
+    from openpyxl import load_workbook
+
+    return load_workbook(io.BytesIO(copy), read_only=True, data_only=stored, keep_links=False)
+
+
+def _pages(values: Workbook, formulas: Workbook | None, counts: Sequence[int], file: str) -> tuple[Page, ...]:
+    if len(values.worksheets) != len(counts):
+        raise RefusedError("sheet-damaged", Mark(file))
+    pages = []
+    for number, (sheet, count) in enumerate(zip(values.worksheets, counts, strict=True), start=1):
+        sheet.reset_dimensions()
+        if formulas is None:
+            typed, stored = tee(sheet.rows)
+        else:
+            same = formulas.worksheets[number - 1]
+            same.reset_dimensions()
+            typed, stored = same.rows, sheet.rows
+        mark = partial(CellMark, file, sheet=sheet.title, number=number)
+        rows = _rows(zip(typed, stored, strict=True), count, mark)
+        pages.append(Page(sheet.title, rows, sheet.sheet_state != "visible"))
+    return tuple(pages)
+
+
+def _rows(read: Iterator[tuple[Row, Row]], count: int, mark: Marks) -> tuple[tuple[Cell, ...], ...]:
+    """All rows of a sheet from the first on, as long as their last cell that holds something.
+
+    `read` gives each row twice, with formulas as typed and with stored values; `count` cells must be among them.
+    """
+    from openpyxl.cell.read_only import ReadOnlyCell
+
+    cells: dict[int, dict[int, Cell]] = {}
+    found = 0
+    for number, pair in enumerate(_whole(read, mark), start=1):
+        if number > MOST_GROUPS:
+            raise RefusedError("sheet-damaged", mark(number, 1))
+        for typed, stored in zip(*pair, strict=True):
+            if not isinstance(typed, ReadOnlyCell):
+                continue
+            found += 1
+            row, column = typed.row, typed.column
+            cell = _cell(typed, stored, mark(row, column))
+            if cell.blank:
+                continue
+            if exceeds(row, column):
+                raise too_large(cell.mark)
+            if isinstance(cell.value, str) and len(cell.value) > LONGEST_CELL:
+                raise too_long(cell.mark)
+            cells.setdefault(row, {})[column] = cell
+    if found != count:
+        # openpyxl leaves out rows and cells that are not in order.
+        raise RefusedError("sheet-damaged", mark(1, 1))
+    lengths = {row: max(columns) for row, columns in cells.items()}
+    last = max(cells, default=0)
+    if exceeds(0, 0, sum(lengths.values())):
+        raise too_large(mark(last, 1))
+    return tuple(
+        tuple(
+            cells[row].get(column) or Cell(None, mark(row, column), "empty")
+            for column in range(1, lengths.get(row, 0) + 1)
+        )
+        for row in range(1, last + 1)
+    )
+
+
+def _whole(read: Iterator[tuple[Row, Row]], mark: Marks) -> Iterator[tuple[Row, Row]]:
+    """The rows up to one that openpyxl cannot read, which is refused as the row after the last whole one."""
+    last = 0
+    try:
+        for pair in read:
+            yield pair
+            last += 1
+    except Exception:
+        raise RefusedError("sheet-damaged", mark(last + 1, 1)) from None
+
+
+def _cell(typed: Any, stored: Any, mark: CellMark) -> Cell:
+    value, kind = _value(stored.value, stored.data_type, mark)
+    if typed.data_type != "f":
+        return Cell(value, mark, kind)
+    # The formula of an array is an object with its text, that of a table of data one without.
+    text = typed.value if isinstance(typed.value, str) else getattr(typed.value, "text", "=")
+    return Cell(value, mark, "formula", text)
+
+
+def _value(value: object, type: str, mark: CellMark) -> tuple[str | float | None, CellKind]:
+    match value:
+        case None:
+            return None, "empty"
+        case bool():
+            return ("TRUE" if value else "FALSE"), "boolean"
+        case int() | float():
+            try:
+                number = float(value)
+            except OverflowError:
+                number = math.inf
+            if not math.isfinite(number):
+                raise RefusedError("sheet-damaged", mark)
+            return number, "number"
+        case str() if type == "e":
+            return value, "error"
+        case str():
+            text = unicodedata.normalize("NFC", _ESCAPE.sub(lambda match: chr(int(match[1], 16)), value))
+            return (text, "text") if text.strip() else (None, "empty")
+        case _:
+            return _date(value), "date"
+
+
+def _date(value: object) -> str:
+    """A day as 2011-03-24, a moment as 2011-03-24T08:30:00, a time of day as 08:30:00, hours passed as 36:00:00."""
+    match value:
+        case datetime.datetime() if value.time() == datetime.time():
+            return value.date().isoformat()
+        case datetime.datetime() | datetime.time():
+            return value.isoformat(timespec="seconds")
+        case datetime.timedelta():
+            minutes, seconds = divmod(abs(round(value.total_seconds())), 60)
+            sign = "-" if value < datetime.timedelta() else ""
+            return f"{sign}{minutes // 60:02}:{minutes % 60:02}:{seconds:02}"
+        case _:
+            return str(value)
+
 
 LARGEST = 10_000_000
 """Bytes of a file."""
@@ -73,7 +286,7 @@ def _read_csv(data: bytes, file: str, name: str) -> Page:
         raise RefusedError("encoding", mark_in(data, fault.start, file)) from None
     rows: list[tuple[Cell, ...]] = []
     cells = 0
-    for row in _rows(text, file):
+    for row in _csv_rows(text, file):
         rows.append(row)
         cells += len(row)
         if exceeds(len(rows), len(row), cells):
@@ -81,7 +294,7 @@ def _read_csv(data: bytes, file: str, name: str) -> Page:
     return Page(name, tuple(rows))
 
 
-def _rows(text: str, file: str) -> Iterator[tuple[Cell, ...]]:
+def _csv_rows(text: str, file: str) -> Iterator[tuple[Cell, ...]]:
     """The cells of each line; a quoted cell may hold separators and line ends."""
     stated = _STATED.match(text)
     separator = stated[1] if stated else _separator(text)

@@ -8,8 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import ClassVar
 
-from reportgen.document.plain import plain
-from reportgen.document.tree import Block, Equation, List, PageBreak, Paragraph, Plate, Table
+from reportgen.document.tree import Block, Equation, List, PageBreak, Paragraph, Plate, Table, plain
 from reportgen.errors import TypesetterError
 from reportgen.figures.scene import Scene
 from reportgen.notation.expressions import (

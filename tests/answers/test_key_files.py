@@ -11,8 +11,7 @@ from openpyxl import load_workbook
 from reportgen.answers.key import make_key
 from reportgen.answers.key_files import band, key_book, key_data, key_document, key_rows
 from reportgen.case import open_case
-from reportgen.document.plain import text_of
-from reportgen.document.tree import Table
+from reportgen.document.tree import Table, text_of
 from reportgen.grading.submission import read_submission
 from reportgen.notation.numbers import Language
 from reportgen.workbook import write_xlsx

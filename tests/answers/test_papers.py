@@ -8,8 +8,7 @@ import pytest
 
 from reportgen import api
 from reportgen.answers.key_files import key_document
-from reportgen.document.plain import text_of
-from reportgen.document.tree import Document
+from reportgen.document.tree import Document, text_of
 from reportgen.grading.feedback import feedback_document
 from reportgen.grading.grades import class_document
 from reportgen.notation.numbers import Language

@@ -15,8 +15,7 @@ from reportgen.answers.key import Key, Role, make_key
 from reportgen.answers.paper import answer_tables, task
 from reportgen.answers.sheet import answer_book, number_format
 from reportgen.case import open_case
-from reportgen.document.plain import plain, text_of
-from reportgen.document.tree import Document, Table
+from reportgen.document.tree import Document, Table, plain, text_of
 from reportgen.notation.numbers import Language, write
 from reportgen.workbook import write_xlsx
 from tests.grading.keys import small_key

@@ -6,8 +6,7 @@ import io
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from reportgen.batch.jobs import Job, run_job
-from reportgen.batch.pool import Pool, Results, Retried
+from reportgen.batch.pool import Job, Pool, Results, Retried, run_job
 from reportgen.batch.run import Order, Result, run_batch
 from tests.batch.little import little
 

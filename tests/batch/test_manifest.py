@@ -11,8 +11,8 @@ import pytest
 
 from reportgen import installation
 from reportgen.batch import manifest
-from reportgen.batch.jobs import Job, Outcome, making
 from reportgen.batch.manifest import Entry, journal
+from reportgen.batch.pool import Job, Outcome, making
 from reportgen.errors import Mark, Problem
 from reportgen.installation import templates_hash
 from tests.batch.classes import Batch

@@ -20,8 +20,7 @@ import pytest
 from reportgen import api
 from reportgen.api import Engine, Maker
 from reportgen.batch import pool as pools
-from reportgen.batch.jobs import Job, making, run_job
-from reportgen.batch.pool import local
+from reportgen.batch.pool import Job, local, making, run_job
 from reportgen.batch.run import Order, run_batch
 from reportgen.notation.numbers import Language
 from tests.batch.classes import Batch, tree, write_class

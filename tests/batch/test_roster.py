@@ -14,8 +14,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from reportgen.assignment.faults import messages
-from reportgen.batch.roster import NAME_PARTS, PERSONAL, folder_name, read_roster
-from reportgen.batch.table import folded
+from reportgen.batch.roster import NAME_PARTS, PERSONAL, folded, folder_name, read_roster
 from reportgen.errors import AssignmentError
 from reportgen.workbook import Book, Sheet, write_xlsx
 

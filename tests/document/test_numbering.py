@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from reportgen.document.numbering import DocumentError, number, unreferenced
-from reportgen.document.plain import text_of
 from reportgen.document.tree import (
     Block,
     Cell,
@@ -23,6 +22,7 @@ from reportgen.document.tree import (
     Table,
     Text,
     Words,
+    text_of,
 )
 from reportgen.figures.scene import Scene
 from reportgen.notation.expressions import Symbol

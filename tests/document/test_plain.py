@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from reportgen.document.plain import formula, plain, text_of
 from reportgen.document.tree import (
     BlankLine,
     Contents,
@@ -16,6 +15,9 @@ from reportgen.document.tree import (
     Text,
     Value,
     Words,
+    formula,
+    plain,
+    text_of,
 )
 from reportgen.notation.expressions import (
     PI,

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.document.plain import text_of
+from reportgen.document.tree import text_of
 from reportgen.notation.numbers import Language
 
 SLOTTED = """

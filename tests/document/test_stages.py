@@ -45,7 +45,7 @@ def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> Non
     for group in report.groups:
         if group.polygon is None:
             continue
-        known = [s for s in group.polygon.sides if not s.unknown and is_drawn(group, s.name)]
+        known = [s for s in group.polygon.edges if not s.unknown and is_drawn(group, s.name)]
         by_moments = {s.start + s.end for s in known if s.name.endswith(".t")}
         given = {s.start + s.end for s in known} - by_moments
         panels = force_stages(report, k, group).scenes
@@ -54,7 +54,7 @@ def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> Non
         assert not by_moments & {arrow.name for arrow in arrows[0]}
         second = {arrow.name for arrow in arrows[1] if arrow.stroke.colour == NEW.colour}
         assert by_moments <= second
-        assert not by_moments or not second & {s.start + s.end for s in group.polygon.sides if s.unknown}
+        assert not by_moments or not second & {s.start + s.end for s in group.polygon.edges if s.unknown}
 
 
 @pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])

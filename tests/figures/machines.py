@@ -10,7 +10,7 @@ from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol
-from reportgen.notation.symbols import on_plan
+from reportgen.notation.vocabulary import on_plan
 
 R, L = 0.0475, 0.171
 OMEGA = 2200 * math.pi / 30

@@ -9,7 +9,7 @@ import typst
 from reportgen.figures.labels import CLEAR
 from reportgen.figures.metrics import box
 from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Symbol
-from reportgen.writers.typst_math import TypstFormulas
+from reportgen.writers.typst import TypstFormulas
 
 LABELS: tuple[Expression | str, ...] = (
     Symbol("p"),

@@ -9,7 +9,7 @@ from reportgen.figures.scene import Circle, Label, Line, Polyline, Scene
 from reportgen.figures.scheme import Looks, groups, scheme
 from reportgen.figures.style import HEAVY, POINT, body
 from reportgen.mechanism.structure import Crank, Dyad, Linkage, LinkPoint
-from reportgen.notation.symbols import point
+from reportgen.notation.vocabulary import point
 from tests.figures.machines import at_positions, dense
 from tests.figures.overlaps import overlaps
 

@@ -15,15 +15,14 @@ import numpy as np
 import yaml
 
 from reportgen import api
-from reportgen.answers import bands
-from reportgen.answers.key import Key, Row, words_of
+from reportgen.answers.key import PAPER_ERROR, Key, Row, measuring_errors, words_of
 from reportgen.answers.sheet import asked_positions, grid, info_page, page, rows_shown
 from reportgen.assignment import Assignment
 from reportgen.errors import AssignmentError, Mark
 from reportgen.grading.marks import Answer, Submission
 from reportgen.grading.mistakes import Mistake
 from reportgen.grading.working import Guide, open_guide
-from reportgen.ledger.following import follow
+from reportgen.ledger.core import follow
 from reportgen.workbook import Book, Entry
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -115,7 +114,7 @@ def written(guide: Guide, world: World) -> Submission:
 
 def worked_out(guide: Guide, mistake: Mistake | None = None, drawn: np.random.Generator | None = None) -> World:
     """The ledger run through with a mistake, and with lengths measured off by up to 0.5 mm at each end."""
-    errors = bands.measuring_errors(guide.ledger, bands.PAPER_ERROR) if drawn is not None else {}
+    errors = measuring_errors(guide.ledger, PAPER_ERROR) if drawn is not None else {}
     changes: dict[str, Any] = {}
     made = mistake.changes if mistake else {}
     for id in (*errors, *made):

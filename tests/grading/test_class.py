@@ -14,7 +14,7 @@ from reportgen.batch import assess
 from reportgen.batch.assess import Graded
 from reportgen.batch.variants import make_variants
 from reportgen.case import open_case
-from reportgen.grading.comparison import compare
+from reportgen.grading.marking import compare
 from reportgen.grading.marks import Policy, read_policy
 from reportgen.grading.mistakes import WRONG_DATUM
 from reportgen.workbook import read, write_csv

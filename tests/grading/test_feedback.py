@@ -10,8 +10,7 @@ from typing import Any, get_args
 import pytest
 from openpyxl import load_workbook
 
-from reportgen.document.plain import text_of
-from reportgen.document.tree import Figure, Table
+from reportgen.document.tree import Figure, Table, text_of
 from reportgen.errors import CellMark, Problem
 from reportgen.figures.scene import Label
 from reportgen.grading.feedback import (

@@ -19,7 +19,7 @@ from reportgen.answers.sheet import answer_book
 from reportgen.errors import AssignmentError
 from reportgen.grading.marks import Submission
 from reportgen.grading.submission import decimal_mark, is_blank, read_number, read_submission
-from reportgen.notation.symbols import KINDS
+from reportgen.notation.vocabulary import KINDS
 from reportgen.units import QuantityFault
 from reportgen.workbook import write_csv, write_xlsx
 from tests.grading.keys import csv_rows, small_key

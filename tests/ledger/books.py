@@ -6,13 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.ledger import precision
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces import enter_forces
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics import enter_kinematics
-from reportgen.mechanism.forces import Forces, solve_forces
-from reportgen.mechanism.loads import Load, inertia_loads, virtual_work_torque, weights
+from reportgen.ledger.report import choose_decimals
+from reportgen.mechanism.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.sheet import Sheet
@@ -35,7 +34,7 @@ class Book:
     polygons: tuple[Polygon, ...]
 
     def ledger(self) -> Ledger:
-        decimals, cancellations = precision.choose(self.b.families, (("M.eq", "M.vw"),))
+        decimals, cancellations = choose_decimals(self.b.families, (("M.eq", "M.vw"),))
         return Ledger(self.b.families, decimals, self.b.positions, cancellations)
 
 

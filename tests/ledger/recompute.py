@@ -13,7 +13,7 @@ from decimal import Decimal
 from reportgen.ledger.core import Ledger
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol, children, rebuild, walk
-from reportgen.notation.symbols import KINDS
+from reportgen.notation.vocabulary import KINDS
 
 EXACT = 1e-9
 """Share of a line's own value that a computer's arithmetic, and π to as many digits, may be off."""

@@ -12,9 +12,8 @@ from books import MACHINES, RATE, keep
 from recompute import excess, worst_lines
 
 from reportgen import api
-from reportgen.ledger import precision
 from reportgen.ledger.core import Ledger
-from reportgen.ledger.report import write_ledger
+from reportgen.ledger.report import choose_decimals, write_ledger
 from reportgen.notation.expressions import Chain, Number
 
 ROUND = np.radians(17.0 + 30.0 * np.arange(12))
@@ -95,6 +94,6 @@ def test_decimals_are_chosen_fast(engine: Ledger) -> None:
     times = []
     for _ in range(3):
         start = perf_counter()
-        precision.choose(engine.families, (("M.eq", "M.vw"),))
+        choose_decimals(engine.families, (("M.eq", "M.vw"),))
         times.append(perf_counter() - start)
     assert min(times) < 0.15

@@ -14,7 +14,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from reportgen.mechanism.dyads import cross, dot
-from reportgen.mechanism.loads import Load
+from reportgen.mechanism.forces import Load
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import (
     Crank,

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reportgen.cycle.applied import AngleIndicator, StrokeIndicator, indicated_work, stroke_at
-from reportgen.mechanism.loads import mean_over
+from reportgen.mechanism.forces import mean_over
 
 ROUNDING = 1e-12
 ROD = 3.6  # L/R

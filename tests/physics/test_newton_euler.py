@@ -13,8 +13,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from reportgen.mechanism.forces import Forces, solve_forces
-from reportgen.mechanism.loads import Load, inertia_loads, virtual_work_torque, weights
+from reportgen.mechanism.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 

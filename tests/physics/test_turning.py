@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from reportgen.mechanism.dyads import cross
-from reportgen.mechanism.forces import solve_forces
-from reportgen.mechanism.loads import (
+from reportgen.mechanism.forces import (
     Load,
     as_single_force,
     inertia_loads,
     mean_over,
     percussion_centre,
     percussion_meeting,
+    solve_forces,
     virtual_work_torque,
     weights,
 )

@@ -76,7 +76,7 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
     elif forces:
         group = forces[1] or forces[2]
         polygon = next(polygon for polygon in written.case.polygons if polygon.name == group)
-        sides = (*polygon.sides, *polygon.reads)
+        sides = (*polygon.edges, *polygon.reads)
         ids = defaultdict(list)
         for side in sides:
             ids[side.start + side.end].append(f"seg.{polygon.name}.{side.name}")

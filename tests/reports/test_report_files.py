@@ -12,8 +12,7 @@ from typing import Any
 import pytest
 
 from reportgen import api
-from reportgen.document.plain import plain
-from reportgen.document.tree import Contents, Section
+from reportgen.document.tree import Contents, Section, plain
 from tests.reports import built, pages
 from tests.reports.built import Report
 from tests.reports.pages import squash

@@ -13,7 +13,6 @@ from jinja2 import Environment, nodes
 
 from reportgen import catalogue
 from reportgen.document.numbering import unreferenced
-from reportgen.document.plain import formula, plain
 from reportgen.document.tree import (
     Block,
     Cover,
@@ -30,6 +29,8 @@ from reportgen.document.tree import (
     Table,
     Value,
     Words,
+    formula,
+    plain,
 )
 from reportgen.mechanism.structure import DyadKind
 from reportgen.words import load_words, search_path

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.document.plain import formula, text_of
+from reportgen.document.tree import formula, text_of
 from reportgen.notation.numbers import write
 from tests.reports import built, recompute
 from tests.reports.built import Report, Written

@@ -11,8 +11,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.document.plain import text_of
-from reportgen.document.tree import Block, Document, Section
+from reportgen.document.tree import Block, Document, Section, text_of
 from reportgen.notation.numbers import Language
 from tests.reports import built
 

@@ -11,7 +11,7 @@ import pytest
 
 from reportgen import api
 from reportgen.document.numbering import unreferenced
-from reportgen.document.plain import formula, text_of
+from reportgen.document.tree import formula, text_of
 from reportgen.notation.numbers import write
 from tests.reports import built, pages, recompute, variants
 from tests.reports.built import Written

@@ -7,8 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from reportgen.mechanism.forces import solve_forces
-from reportgen.mechanism.loads import Load, inertia_loads, virtual_work_torque, weights
+from reportgen.mechanism.forces import Load, inertia_loads, solve_forces, virtual_work_torque, weights
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 

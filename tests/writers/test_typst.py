@@ -29,7 +29,7 @@ from reportgen.figures.scene import Arc, Arrow, Label, Polyline, Scene
 from reportgen.notation.expressions import Chain, Number, Product, Sum, Symbol, Term, VectorEquation
 from reportgen.writers import typst
 from reportgen.writers.layout import in_rows
-from reportgen.writers.typst_math import literal
+from reportgen.writers.typst import literal
 from tests.writers import sample
 from tests.writers.pages import MM, body_of, by_typst, opened, plain, text_of
 

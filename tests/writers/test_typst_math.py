@@ -29,7 +29,7 @@ from reportgen.notation.expressions import (
     Term,
     VectorEquation,
 )
-from reportgen.writers.typst_math import TypstFormulas
+from reportgen.writers.typst import TypstFormulas
 from tests.writers import sample
 from tests.writers.pages import MM, body_of, by_typst, plain, text_of
 

@@ -11,8 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from reportgen.ledger.forces import driver
-from reportgen.ledger.forces.groups import group
+from reportgen.ledger.forces.groups import driver, group, lever
 from reportgen.ledger.forces.loads import Applied, Statics, carried_reactions, enter_loads
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics.linkage import natural_sizes
@@ -37,6 +36,6 @@ def enter_forces(
         carried = carried_reactions(statics, dyad.links)
         polygons.append(group(replace(statics, loads=(*carried, *loads)), dyad))
     carried = carried_reactions(statics, (DRIVER,))
-    polygons.append(driver.driver(replace(statics, loads=(*carried, *loads))))
-    driver.lever(statics, loads)
+    polygons.append(driver(replace(statics, loads=(*carried, *loads))))
+    lever(statics, loads)
     return tuple(polygons)

@@ -12,17 +12,17 @@ from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Expression, Number, Symbol, heading
 from reportgen.notation.numbers import nice_up
 from reportgen.notation.sheet import Sheet
-from reportgen.notation.symbols import segment
+from reportgen.notation.vocabulary import segment
 
 PLAN_BOX = (0.160, 0.200)
 """Every force plan of a group fits into this box on paper (m): one scale serves them all."""
 LETTERS = "efghijklmqrtuvwxyzabcd"
-"""Vertices of a force plan in the order of drawing; n is where the unknown sides meet."""
+"""Vertices of a force plan in the order of drawing; n is where the unknown edges meet."""
 
 
 @dataclass(frozen=True, slots=True)
-class Side:
-    """One force of a polygon, from vertex to vertex; `unknown` sides are found by closing it.
+class Edge:
+    """One force of a polygon, from vertex to vertex; `unknown` edges are found by closing it.
 
     `link` is the link it acts on.
     """
@@ -45,14 +45,14 @@ class Side:
 
 @dataclass(frozen=True, slots=True)
 class Polygon:
-    """A group's force plan: its sides head to tail and the joints read from it.
+    """A group's force plan: its edges head to tail and the joints read from it.
 
     `reads` are further vectors read between vertices, e.g. the reaction in the inner joint.
     """
 
     name: str
-    sides: tuple[Side, ...]
-    reads: tuple[Side, ...] = ()
+    edges: tuple[Edge, ...]
+    reads: tuple[Edge, ...] = ()
 
 
 class Path:
@@ -63,13 +63,13 @@ class Path:
         self._letters = iter(LETTERS)
         self.first = self.last = next(self._letters)
         self.corners: dict[str, Expression] = {self.first: Number(0.0)}
-        self.sides: list[Side] = []
+        self.edges: list[Edge] = []
 
     def lay(self, name: str, link: int) -> None:
         """Lay the force `F.name` on from the last vertex."""
         letter = next(self._letters)
         self.corners[letter] = self.corners[self.last] + self._q[f"F.{name}"]
-        self.sides.append(Side(name, self.last, letter, link=link))
+        self.edges.append(Edge(name, self.last, letter, link=link))
         self.last = letter
 
 
@@ -99,10 +99,10 @@ def read(statics: Statics, plan: str, name: str, symbol: Symbol, id: str, start:
     q.define(f"dir.{name}", heading(vector), Symbol("α", symbol.sub), scale=1.0, of=id)
 
 
-def drawn_sides(statics: Statics, plan: str, sides: Iterable[Side]) -> None:
+def drawn_edges(statics: Statics, plan: str, edges: Iterable[Edge]) -> None:
     """The drawn lengths of a plan's known forces."""
     q = statics.q
-    for side in sides:
-        drawn = abs(q[f"F.{side.name}"] / q[f"mu.R{plan}"])
-        letters = segment(side.start, side.end)
-        q.define(f"seg.{plan}.{side.name}", drawn, letters, scale=PLAN_BOX[1], of=f"F.{side.name}")
+    for edge in edges:
+        drawn = abs(q[f"F.{edge.name}"] / q[f"mu.R{plan}"])
+        letters = segment(edge.start, edge.end)
+        q.define(f"seg.{plan}.{edge.name}", drawn, letters, scale=PLAN_BOX[1], of=f"F.{edge.name}")

@@ -13,14 +13,13 @@ speed `v.A` of its pin.
 
 from __future__ import annotations
 
-from reportgen.ledger.kinematics import driver
 from reportgen.ledger.kinematics.centres import enter_centres
 from reportgen.ledger.kinematics.groups import group, images, places
-from reportgen.ledger.kinematics.linkage import Kinematics
+from reportgen.ledger.kinematics.linkage import Kinematics, crank, fitting_scale, slide
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import DRIVER, Crank, Linkage
 from reportgen.notation.sheet import Sheet
-from reportgen.notation.symbols import point
+from reportgen.notation.vocabulary import point
 
 
 def enter_kinematics(q: Sheet, linkage: Linkage, turn: int) -> None:
@@ -31,7 +30,7 @@ def enter_kinematics(q: Sheet, linkage: Linkage, turn: int) -> None:
     scales = None
     if not isinstance(linkage.driver, Crank):
         trial = _enter(q.copy(), linkage, turn)
-        scales = driver.fitting_scale(trial, "v"), driver.fitting_scale(trial, "a")
+        scales = fitting_scale(trial, "v"), fitting_scale(trial, "a")
     _enter(q, linkage, turn, scales)
 
 
@@ -40,9 +39,9 @@ def _enter(q: Sheet, linkage: Linkage, turn: int, scales: tuple[float, float] | 
         q.give(f"p.{name}", complex(at), point(name), "length")
     plan = scheme(linkage)
     if isinstance(linkage.driver, Crank):
-        k = driver.crank(q, plan, linkage.driver, turn)
+        k = crank(q, plan, linkage.driver, turn)
     else:
-        k = driver.slide(q, plan, linkage.driver, turn, scales)
+        k = slide(q, plan, linkage.driver, turn, scales)
         places(k, DRIVER, None)
         for what in ("v", "a"):
             images(k, what, DRIVER, None)

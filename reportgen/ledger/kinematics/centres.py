@@ -12,7 +12,7 @@ from reportgen.ledger.kinematics.linkage import Kinematics
 from reportgen.ledger.kinematics.sides import Scheme, Side, image, sides
 from reportgen.mechanism.structure import DRIVER, Crank
 from reportgen.notation.expressions import Expression, Symbol, arg, call, cos, meet, quotient, turned
-from reportgen.notation.symbols import point, segment
+from reportgen.notation.vocabulary import point, segment
 
 PREFIX = "ic."
 NEAREST, FARTHEST = 0.002, 0.3
