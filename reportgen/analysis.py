@@ -10,7 +10,7 @@ import numpy as np
 
 from reportgen.catalogue.loads import Applied, Piston, Torque
 from reportgen.catalogue.machine import Machine
-from reportgen.cycle.applied import indicated_work, stroke_at
+from reportgen.cycle import indicated_work, stroke_at
 from reportgen.mechanism.forces import (
     Forces,
     Load,

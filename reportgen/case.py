@@ -15,7 +15,7 @@ from reportgen.words import load_words, search_path
 
 if TYPE_CHECKING:
     from reportgen.analysis import Analysis
-    from reportgen.cycle.flywheel import Flywheel
+    from reportgen.flywheel import Flywheel
     from reportgen.ledger.core import Ledger
     from reportgen.ledger.forces.polygon import Polygon
 

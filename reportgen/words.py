@@ -1,19 +1,68 @@
-"""Where templates and words are looked for, and the short words of `words.yaml` as nested tables."""
+"""Every word that is not in a template: texts of faults and of the command line, short words of the reports.
+
+They are YAML files in `templates/`: `<language>/messages.yaml` has what the program itself says,
+`words.yaml` what its documents say; a school's own words and those of one kind of machine go before the
+common ones.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from functools import lru_cache
+import difflib
+import unicodedata
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache, lru_cache
+from hashlib import sha256
+from importlib import metadata
 from pathlib import Path
+from string import Formatter
 from typing import Any
 
-from reportgen import installation
-from reportgen.errors import Mark, TemplateError
+from reportgen.errors import AssignmentError, Fault, Mark, Problem, TemplateError
 from reportgen.notation.numbers import Language
+from reportgen.source import Table, plain, read_source
+
+DEFAULT_LANGUAGE: Language = "vi"
+LONGEST_SHOWN = 40
+"""How much of the file a message repeats, in characters."""
 
 FILE = "words.yaml"
 FILES = 32
 """How many files of words are kept."""
+
+
+@cache
+def version() -> str:
+    """The version as installed; "0" in a checkout that is not installed."""
+    try:
+        return metadata.version("reportgen")
+    except metadata.PackageNotFoundError:
+        return "0"
+
+
+def templates() -> Path:
+    """The folder of words and frames: packed into the package, or beside it in a checkout."""
+    package = Path(__file__).resolve().parent
+    packed = package / "templates"
+    return packed if packed.is_dir() else package.parent / "templates"
+
+
+def templates_hash() -> str:
+    """SHA-256 of the names and contents of all templates, those of schools included, in sorted order."""
+    root = templates()
+    digest = sha256()
+    for path in sorted(path for path in root.rglob("*") if path.is_file()):
+        for part in (path.relative_to(root).as_posix().encode(), path.read_bytes()):
+            digest.update(len(part).to_bytes(8, "big") + part)
+    return digest.hexdigest()
+
+
+def schools() -> list[str]:
+    """The folders of templates that belong to a school, such as `tnut` with its `vi` and `en`."""
+    return sorted(
+        folder.name
+        for folder in templates().iterdir()
+        if folder.name not in {"vi", "en", "frames"} and any((folder / name).is_dir() for name in ("vi", "en"))
+    )
 
 
 def search_path(
@@ -23,7 +72,7 @@ def search_path(
 
     A school's own words, then those of one kind of machine, then those common to all.
     """
-    root = root or installation.templates()
+    root = root or templates()
     return (
         *((root / school / language,) if school else ()),
         *((root / language / kind,) if kind else ()),
@@ -54,8 +103,6 @@ def _read(path: Path) -> Mapping[str, Any]:
 @lru_cache(maxsize=FILES)
 def _as_of(path: Path, changed: int, size: int) -> Mapping[str, Any]:
     """A file's words, read once for as long as it stays the same; nobody changes them."""
-    from reportgen.assignment.source import Table, plain, read_source
-
     source = read_source(path)
     if source.faults:
         raise TemplateError("\n".join(f"{fault.mark}: {fault.code}" for fault in source.faults))
@@ -72,3 +119,55 @@ def _over(below: Mapping[str, Any], above: Mapping[str, Any]) -> Mapping[str, An
         both_tables = isinstance(value, Mapping) and isinstance(below.get(key), Mapping)
         result[key] = _over(below[key], value) if both_tables else value
     return result | {key: value for key, value in below.items() if key not in result}
+
+
+@cache
+def messages(language: Language) -> Mapping[str, Any]:
+    """The message table: `faults`, `hints`, `words` (kinds of value, reasons), `columns` and `cli`."""
+    return _read(templates() / language / "messages.yaml")
+
+
+def word(key: str, language: Language | None, /, **arguments: object) -> str:
+    """A text of the command line with its arguments filled in."""
+    return str(messages(language or DEFAULT_LANGUAGE)["cli"][key]).format(**arguments)
+
+
+def unexpected(error: BaseException, language: Language | None) -> str:
+    """A fault of the program itself, in one line."""
+    return word("unexpected", language, name=type(error).__name__, text=" ".join(str(error).split()))
+
+
+def as_problem(fault: Fault, language: Language | None) -> Problem:
+    """The fault in words; its hint is given when the arguments it speaks of are known."""
+    table = messages(language or DEFAULT_LANGUAGE)
+    arguments = {name: _shown(text) for name, text in fault.arguments.items()}
+    for name in arguments.keys() & {"expected", "reason"}:
+        arguments[name] = str(table["words"].get(fault.arguments[name], arguments[name]))
+    message = str(table["faults"][fault.code]).format_map(arguments)
+    # The hint that was asked for, then the code's own and its second form.
+    keys = (fault.arguments.get("hint"), fault.code, f"{fault.code}-otherwise")
+    hints = (str(table["hints"][key]) for key in keys if table["hints"].get(key))
+    hint = next((hint for hint in hints if _fields(hint) <= arguments.keys()), None)
+    return Problem(fault.code, message, fault.mark, hint.format_map(arguments) if hint else None)
+
+
+def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentError:
+    """The error that carries these faults in words, each once."""
+    return AssignmentError(list(dict.fromkeys(as_problem(fault, language) for fault in faults)))
+
+
+def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
+    """What to say of an unknown key: the known one it was probably meant to be, or all that are known."""
+    same = [name for name in known if name.casefold() == key.casefold()]
+    close = difflib.get_close_matches(key, known, n=1, cutoff=0.6) or same
+    return {"close": close[0]} if close else {"known": ", ".join(known)}
+
+
+def _fields(template: str) -> set[str]:
+    return {name for _, name, _, _ in Formatter().parse(template) if name}
+
+
+def _shown(text: str) -> str:
+    """A piece of the file as it can stand in a message: one line, no control characters, not endless."""
+    clean = "".join("\N{REPLACEMENT CHARACTER}" if unicodedata.category(c) in {"Cc", "Cs"} else c for c in text)
+    return clean if len(clean) <= LONGEST_SHOWN else f"{clean[:LONGEST_SHOWN]}…"

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from reportgen import api, installation
+from reportgen import api
 from reportgen.document.tree import text_of
+from reportgen.words import templates
 
 SAMPLE = Path(__file__).parent.parent / "assignments" / "engine-twin-05.yaml"
 
@@ -22,12 +23,12 @@ def with_school(folder: Path, name: str) -> Path:
 
 def test_a_school_overrides_one_section(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = tmp_path / "templates"
-    shutil.copytree(installation.templates(), root)
+    shutil.copytree(templates(), root)
     (root / "my-school" / "en").mkdir(parents=True)
     (root / "my-school" / "en" / "foreword.md").write_text(
         "# Preface {{ unnumbered() }}\n\nAs our department asks.\n", encoding="utf-8"
     )
-    monkeypatch.setattr(installation, "templates", lambda: root)
+    monkeypatch.setattr("reportgen.words.templates", lambda: root)
     text = text_of(api.document(api.load(with_school(tmp_path, "my-school"))))
     assert "As our department asks." in text
     assert "Position plan" in text
@@ -35,7 +36,7 @@ def test_a_school_overrides_one_section(tmp_path: Path, monkeypatch: pytest.Monk
 
 def test_a_section_of_a_school_may_call_and_write_short(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = tmp_path / "templates"
-    shutil.copytree(installation.templates(), root)
+    shutil.copytree(templates(), root)
     (root / "my-school" / "en").mkdir(parents=True)
     (root / "my-school" / "en" / "foreword.md").write_text(
         "# Preface {{ unnumbered() }}\n\nFig. @fig.ours shows $A$, $O_1$ and $omega.1$ = {{ value('omega.1') }}.\n\n"
@@ -43,7 +44,7 @@ def test_a_section_of_a_school_may_call_and_write_short(tmp_path: Path, monkeypa
         '{{ tables("tab.ours", "Our speeds", ["v.B"], positions) }}\n',
         encoding="utf-8",
     )
-    monkeypatch.setattr(installation, "templates", lambda: root)
+    monkeypatch.setattr("reportgen.words.templates", lambda: root)
     text = text_of(api.document(api.load(with_school(tmp_path, "my-school"))))
     assert "shows A, O_1 and ω_1 = " in text
     assert "Our machine" in text

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from reportgen.analysis import Analysis
-from reportgen.assignment.faults import word
 from reportgen.case import Case
 from reportgen.mechanism.forces import Load
 from reportgen.mechanism.structure import Crank
 from reportgen.notation.numbers import Language, significant_decimals, write
+from reportgen.words import word
 
 FORMAT = "reportgen-results/1"
 

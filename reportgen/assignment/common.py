@@ -11,8 +11,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, create_model, model_validator
 
-from reportgen.assignment.faults import Finding, Where
 from reportgen.assignment.fields import Angle, Date, Line, SchoolFolder, Whole, WorkedPositions, quantity
+from reportgen.errors import Finding, Where
 from reportgen.notation.numbers import Language
 from reportgen.units import Given, QuantityFault, read_number, read_quantity
 

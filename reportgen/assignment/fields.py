@@ -17,8 +17,8 @@ from typing import Annotated, Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
-from reportgen import installation
 from reportgen.units import NUMBER, Given, QuantityFault, read_quantity, read_ratio, read_unit
+from reportgen.words import schools
 
 LONGEST_TEXT = 300
 MOST_WORKED = 720
@@ -101,7 +101,7 @@ class SchoolFolder(Reader):
     """The folder of a school's own words beside those of the languages, e.g. `tnut` for templates/tnut/vi."""
 
     def read(self, value: object) -> str:
-        known = installation.schools()
+        known = schools()
         if value not in known:
             raise fault("no-such-school", text=str(value), known=", ".join(known) or "–")
         return str(value)

@@ -13,10 +13,10 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
 from reportgen.assignment.common import Assignment, Draft, Kind, file_model, sections, worked_positions
-from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, Finding, Where, as_error, close_or_known
-from reportgen.assignment.source import List, Node, Scalar, Source, Table, plain, read_source
-from reportgen.errors import Mark
+from reportgen.errors import Fault, Finding, Mark, Where
 from reportgen.notation.numbers import Language
+from reportgen.source import List, Node, Scalar, Source, Table, plain, read_source
+from reportgen.words import DEFAULT_LANGUAGE, as_error, close_or_known
 
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"

@@ -13,9 +13,8 @@ from pathlib import Path
 from reportgen import api, catalogue
 from reportgen.answers.key import Key
 from reportgen.api import Engine
-from reportgen.assignment.faults import Fault, as_problem, word
 from reportgen.batch.roster import assignment_files, comparable, folder_name
-from reportgen.errors import AssignmentError, Mark, Problem, ReportgenError
+from reportgen.errors import AssignmentError, Fault, Mark, Problem, ReportgenError
 from reportgen.grading.feedback import feedback_book, feedback_document
 from reportgen.grading.grades import class_document, grade_rows
 from reportgen.grading.marking import mark
@@ -23,6 +22,7 @@ from reportgen.grading.marks import Marking, Policy
 from reportgen.grading.submission import read_submission
 from reportgen.grading.working import Guide, open_guide
 from reportgen.notation.numbers import Language
+from reportgen.words import as_problem, word
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.reading import BOOKS
 

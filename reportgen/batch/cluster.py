@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
 from typing import Any
 
-from reportgen.assignment.faults import unexpected, word
 from reportgen.batch.pool import SYSTEM, Job, Outcome, Pool, Results, Retried, failed, run_job
 from reportgen.errors import ReportgenError
 from reportgen.notation.numbers import Language
+from reportgen.words import unexpected, word
 
 AHEAD = 2
 """Jobs that are handed out for each of the cluster's threads, so that none waits for the next one."""

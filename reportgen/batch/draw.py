@@ -28,11 +28,11 @@ import numpy as np
 
 from reportgen import api, catalogue
 from reportgen.analysis import Analysis, motion_at
-from reportgen.assignment.faults import Fault
 from reportgen.batch.editing import path_text
 from reportgen.batch.roster import Roster, Student
 from reportgen.batch.spec import DRAWN_SECTIONS, Settings, Spec, place
 from reportgen.catalogue.machine import Machine
+from reportgen.errors import Fault
 
 ATTEMPTS = 64
 MOST_TRIED = 4096

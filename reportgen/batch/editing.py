@@ -10,8 +10,8 @@ import re
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
-from reportgen.assignment.faults import Where
-from reportgen.assignment.source import List, Node, Scalar, Table, plain, read_text
+from reportgen.errors import Where
+from reportgen.source import List, Node, Scalar, Table, plain, read_text
 
 WIDTH = 100
 _PLAIN = re.compile(r"[^\W\d_][\w/^²³⁴·.@-]*( [\w/^²³⁴·.@-]+)*|[+-]?[0-9.][\w./^²³⁴·+-]*( [\w./^²³⁴·*+-]+)*")

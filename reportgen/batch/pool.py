@@ -23,11 +23,10 @@ from typing import TYPE_CHECKING
 
 from pebble import concurrent
 
-from reportgen import installation
 from reportgen.api import Engine, Maker
-from reportgen.assignment.faults import unexpected, word
 from reportgen.errors import AssignmentError, Problem, ReportgenError
 from reportgen.notation.numbers import Language
+from reportgen.words import templates, templates_hash, unexpected, version, word
 
 if TYPE_CHECKING:
     from multiprocessing.context import ForkServerContext, SpawnContext
@@ -83,7 +82,7 @@ class Outcome:
 
 def making(engine: Engine, language: Language | None) -> Making:
     """How this installation would make a product now."""
-    return Making(installation.version(), installation.templates_hash(), engine, language)
+    return Making(version(), templates_hash(), engine, language)
 
 
 def failed(problem: str) -> Outcome:
@@ -100,7 +99,7 @@ def run_job(job: Job) -> Outcome:
     scratch = ""
 
     def without_paths(text: str) -> str:
-        return text.replace(f"{scratch}{os.sep}", "").replace(str(installation.templates()), "templates")
+        return text.replace(f"{scratch}{os.sep}", "").replace(str(templates()), "templates")
 
     try:
         if making(engine, language) != job.making:

@@ -21,12 +21,12 @@ from typing import get_args
 
 from pydantic_core import PydanticCustomError
 
-from reportgen.assignment.faults import Fault, as_error, as_problem, messages
 from reportgen.assignment.fields import Text
-from reportgen.assignment.source import Scalar
-from reportgen.errors import Mark, Problem
+from reportgen.errors import Fault, Mark, Problem
 from reportgen.notation.numbers import Language
+from reportgen.source import Scalar
 from reportgen.units import NUMBER, UNIT
+from reportgen.words import as_error, as_problem, messages
 from reportgen.workbook import Cell, Page, read
 
 FIRST_ROWS = 20

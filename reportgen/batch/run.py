@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, Literal, TextIO
 
 from reportgen import api
 from reportgen.api import MAKERS, Engine, Maker
-from reportgen.assignment.faults import DEFAULT_LANGUAGE, Fault, as_problem, word
 from reportgen.batch import manifest
 from reportgen.batch.manifest import Entry
 from reportgen.batch.pool import Job, Outcome, Pool, failed, local, making
 from reportgen.batch.roster import Assigned, Roster, Student, match_files, read_roster
 from reportgen.batch.variants import make_variants
-from reportgen.errors import Mark, Problem
+from reportgen.errors import Fault, Mark, Problem
 from reportgen.notation.numbers import Language, write
+from reportgen.words import DEFAULT_LANGUAGE, as_problem, word
 
 if TYPE_CHECKING:
     from rich.progress import ProgressColumn

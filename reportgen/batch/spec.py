@@ -25,14 +25,14 @@ from pathlib import Path
 
 from reportgen import catalogue
 from reportgen.assignment.common import Kind
-from reportgen.assignment.faults import Fault, Where, as_error, close_or_known
 from reportgen.assignment.reading import allowed_forms, known_keys, language_of, misread
-from reportgen.assignment.source import List, Node, Scalar, Source, Table, read_source
 from reportgen.batch.editing import at, path_text, put, without
 from reportgen.batch.roster import Column, columns, records
-from reportgen.errors import Mark
+from reportgen.errors import Fault, Mark, Where
 from reportgen.notation.numbers import Language
+from reportgen.source import List, Node, Scalar, Source, Table, read_source
 from reportgen.units import NUMBER, QuantityFault, read_number, read_quantity, read_unit
+from reportgen.words import as_error, close_or_known
 from reportgen.workbook import read
 
 OWN_KEYS = ("variants", "salt")

@@ -20,16 +20,15 @@ import numpy as np
 
 from reportgen import api
 from reportgen.assignment import Assignment
-from reportgen.assignment.faults import Fault, Where, as_error, word
-from reportgen.assignment.source import Node, Scalar, Table, read_source
 from reportgen.batch.draw import Draw, Drawn, draw, judge_of, shared
 from reportgen.batch.editing import at, path_text, put, quoted, text_of
 from reportgen.batch.roster import read_roster
 from reportgen.batch.spec import Spec, assembled, read_spec
 from reportgen.case import Case
-from reportgen.errors import AssignmentError, Mark
-from reportgen.installation import version
+from reportgen.errors import AssignmentError, Fault, Mark, Where
 from reportgen.notation.numbers import Language
+from reportgen.source import Node, Scalar, Table, read_source
+from reportgen.words import as_error, version, word
 from reportgen.workbook import write_csv
 
 TABLE = "variants.csv"

@@ -15,14 +15,12 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from reportgen import installation
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
-from reportgen.assignment.faults import Fault, as_error
-from reportgen.assignment.source import Source, read_source
-from reportgen.errors import AssignmentError, Problem
+from reportgen.errors import AssignmentError, Fault, Problem
 from reportgen.notation.numbers import Language
-from reportgen.words import FILE, load_words
+from reportgen.source import Source, read_source
+from reportgen.words import FILE, as_error, load_words, templates
 
 
 @cache
@@ -30,7 +28,7 @@ def kinds() -> Mapping[str, str]:
     """The module of every kind, by the name that stands in a file, in alphabetical order."""
     modules = (path.stem for path in sorted(Path(__file__).parent.glob("*.py")))
     named = {module.replace("_", "-"): module for module in modules}
-    words = installation.templates() / "vi"
+    words = templates() / "vi"
     return {kind: module for kind, module in named.items() if (words / kind / FILE).is_file()}
 
 
@@ -61,7 +59,7 @@ def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
 
 def title(name: str, language: Language) -> str:
     """The line of description of a kind, from its words."""
-    return str(load_words((installation.templates() / language / name,))["title"])
+    return str(load_words((templates() / language / name,))["title"])
 
 
 def titles(language: Language) -> dict[str, str]:
@@ -95,7 +93,7 @@ def sample(name: str, language: Language) -> str:
     if name not in kinds():
         raise KeyError(name)
     file = f"{name}.yaml"
-    return (installation.templates() / language / "new" / file).read_text(encoding="utf-8")
+    return (templates() / language / "new" / file).read_text(encoding="utf-8")
 
 
 def schema() -> dict[str, Any]:

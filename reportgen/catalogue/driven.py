@@ -12,7 +12,6 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 
 from reportgen.assignment.common import Assignment, Check, Draft, Part, Positions, one_of
-from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import (
     Acceleration,
     AngularVelocity,
@@ -26,6 +25,7 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.catalogue.machine import Machine
+from reportgen.errors import Finding
 from reportgen.mechanism.structure import Inertia, Linkage, LinkPoint
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import PI, Number, Operand, Ref, Symbol

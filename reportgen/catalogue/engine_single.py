@@ -14,7 +14,6 @@ from typing import Annotated
 import numpy as np
 
 from reportgen.assignment.common import Assignment, Draft, Positions, one_of
-from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Acceleration, Interval, Length, Ratio, Share, quantity
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.driven import CRANK_DRAWN, Driven, GivenSheet, driven
@@ -28,6 +27,7 @@ from reportgen.catalogue.sliders import (
     loop_equations,
     offset_slider,
 )
+from reportgen.errors import Finding
 from reportgen.notation.expressions import PI, Number, Ref, Symbol, sqrt, tan
 from reportgen.units import Given
 

@@ -13,14 +13,14 @@ from typing import Annotated
 from pydantic import Field
 
 from reportgen.assignment.common import Assignment, Draft, Positions
-from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Angle, Length, RodRatio, Share
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.loads import Piston, gas_forces
 from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.sliders import centred_slider, compared
-from reportgen.cycle.applied import STROKES, Stroke, stroke_at
+from reportgen.cycle import STROKES, Stroke, stroke_at
+from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.notation.expressions import PI
 from reportgen.notation.sheet import Sheet

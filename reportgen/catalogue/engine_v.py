@@ -13,7 +13,6 @@ from typing import Annotated
 import numpy as np
 
 from reportgen.assignment.common import Assignment, Draft, Positions
-from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Angle, Length, Whole, quantity
 from reportgen.catalogue import given_loads, reach
 from reportgen.catalogue.driven import Driven, GivenSheet, driven
@@ -21,6 +20,7 @@ from reportgen.catalogue.loads import Applied, Constant, Piston, course, crank_m
 from reportgen.catalogue.machine import Machine, lettered
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.sliders import centred_slider, compared, second_cylinder
+from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.notation.expressions import PI, Symbol
 from reportgen.notation.sheet import Sheet

@@ -12,7 +12,6 @@ from functools import partial
 from typing import Annotated, Literal
 
 from reportgen.assignment.common import Assignment, Draft, Part
-from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Angle, Length, quantity
 from reportgen.catalogue import reach
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
@@ -20,6 +19,7 @@ from reportgen.catalogue.given_loads import LinkTorque, torque_on
 from reportgen.catalogue.loads import Applied, Constant, Floats
 from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.sliders import compared, components
+from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Linkage, LinkPoint
 from reportgen.notation.expressions import (
     Chain,

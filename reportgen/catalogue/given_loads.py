@@ -10,7 +10,6 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from reportgen.assignment.common import Check, Draft, Part, Positions, increasing, same_length
-from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import (
     CycleAngle,
     Decimal,
@@ -23,7 +22,8 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.catalogue.loads import Constant, Law, Torque, by_angle, by_stroke, crank_motion, opposing
-from reportgen.cycle.applied import STROKES, AngleIndicator, Indicator, StrokeIndicator
+from reportgen.cycle import STROKES, AngleIndicator, Indicator, StrokeIndicator
+from reportgen.errors import Finding
 from reportgen.mechanism.structure import Linkage
 from reportgen.units import Given
 

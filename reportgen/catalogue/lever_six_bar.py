@@ -9,12 +9,12 @@ from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from reportgen.assignment.common import Assignment, Draft, Part, Positions
-from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Length, quantity
 from reportgen.catalogue import reach
 from reportgen.catalogue.driven import CRANK_DRAWN, Coordinate, Driven, FixedPoint, GivenSheet, driven
 from reportgen.catalogue.loads import Applied, Constant, Law, crank_motion, opposing
 from reportgen.catalogue.machine import Machine
+from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.vocabulary import drawn_length

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.assignment.common import Assignment, Draft, Positions
-from reportgen.assignment.faults import Finding
 from reportgen.catalogue import linkage_checks, linkage_words
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.driven import GivenSheet, needs_loads, outline
@@ -35,6 +34,7 @@ from reportgen.catalogue.loads import (
     rails,
 )
 from reportgen.catalogue.machine import Machine, lettered
+from reportgen.errors import Finding
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import DRIVER, Linkage
 from reportgen.notation.expressions import Symbol

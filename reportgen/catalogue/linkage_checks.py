@@ -11,11 +11,11 @@ from itertools import pairwise
 import numpy as np
 
 from reportgen.assignment.common import Draft, Positions
-from reportgen.assignment.faults import Finding, Where
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue import reach
 from reportgen.catalogue.loads import crank_motion
 from reportgen.catalogue.reach import Member
+from reportgen.errors import Finding, Where
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Linkage, mobility
 from reportgen.units import Given

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.assignment.common import Positions
-from reportgen.cycle.applied import AngleIndicator, Cutting, Indicator, StrokeIndicator
+from reportgen.cycle import AngleIndicator, Cutting, Indicator, StrokeIndicator
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.assignment.faults import Finding, Where
 from reportgen.catalogue.loads import FULL_TURN, MotionAt, NotToAndFro, course
+from reportgen.errors import Finding, Where
 from reportgen.mechanism.dyads import SINGULAR, Complexes, Floats, cross, unit
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage

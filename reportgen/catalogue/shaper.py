@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from typing import Annotated
 
 from reportgen.assignment.common import Assignment, Draft, Part
-from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Interval, Length, Ratio, Share, quantity
 from reportgen.catalogue import reach, slotted
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
@@ -18,7 +17,8 @@ from reportgen.catalogue.loads import Applied, CuttingLaw
 from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.slotted import HIGHEST, Ram, SlottedCrank
-from reportgen.cycle.applied import Cutting
+from reportgen.cycle import Cutting
+from reportgen.errors import Finding
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import nice_up
 from reportgen.notation.sheet import Sheet

@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from typing import Annotated
 
 from reportgen.assignment.common import Assignment, Draft
-from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Angle, Length, Share, quantity
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.driven import MIDDLE, Driven, GivenSheet, driven, even_angles
@@ -24,6 +23,7 @@ from reportgen.catalogue.sliders import (
     loop_equations,
     offset_slider,
 )
+from reportgen.errors import Finding
 from reportgen.units import Given
 
 TURNS = 1

@@ -9,13 +9,13 @@ import math
 from collections.abc import Iterator
 
 from reportgen.assignment.common import Assignment, Draft
-from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Angle, Length
 from reportgen.catalogue import slotted
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
 from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.slotted import SlottedCrank
+from reportgen.errors import Finding
 from reportgen.mechanism.structure import Linkage, LinkPoint
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.sheet import Sheet

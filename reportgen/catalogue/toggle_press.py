@@ -12,12 +12,12 @@ from collections.abc import Iterator
 from typing import Literal
 
 from reportgen.assignment.common import Assignment, Draft, Positions
-from reportgen.assignment.faults import Finding
 from reportgen.assignment.fields import Length
 from reportgen.catalogue import given_loads, reach
 from reportgen.catalogue.driven import Driven, FixedPoint, GivenSheet, driven, even_angles, natural_lines
 from reportgen.catalogue.loads import Applied, TableLaw, course, crank_motion
 from reportgen.catalogue.machine import Machine
+from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage
 from reportgen.notation.expressions import Symbol, acos, atan2, cos, sin, sqrt
 from reportgen.notation.sheet import Sheet

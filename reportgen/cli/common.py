@@ -81,14 +81,14 @@ def complain(text: str) -> None:
 
 def complain_of_program(error: BaseException, lang: Language | None = None) -> None:
     """Says that an exception nobody expected is a fault of the program."""
-    from reportgen.assignment.faults import unexpected
+    from reportgen.words import unexpected
 
     complain(unexpected(error, lang))
 
 
 def say(key: str, lang: Language | None, /, **arguments: object) -> str:
     """A text of the message table in the language of the command line."""
-    from reportgen.assignment.faults import word
+    from reportgen.words import word
 
     return word(key, lang, **arguments)
 

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from reportgen.analysis import FULL_TURN
-from reportgen.cycle.flywheel import Flywheel
 from reportgen.document.figures import MM, Drawn, figure
 from reportgen.document.groups import GroupView
 from reportgen.document.report import SAME, Report
 from reportgen.figures import charts
 from reportgen.figures.scene import Scene
+from reportgen.flywheel import Flywheel
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import DRIVER, GROUND
 from reportgen.notation.expressions import Symbol

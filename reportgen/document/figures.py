@@ -17,7 +17,7 @@ import numpy as np
 from reportgen.analysis import FULL_TURN, motion_at
 from reportgen.catalogue.loads import Piston
 from reportgen.catalogue.machine import Machine, Position
-from reportgen.cycle.applied import StrokeIndicator
+from reportgen.cycle import StrokeIndicator
 from reportgen.document.groups import GroupView, PlaneLink
 from reportgen.document.report import DENSE, FUNCTIONS, SAME, Report, function
 from reportgen.document.tree import Figure, InlineMath, Plate, Text

@@ -19,10 +19,10 @@ from reportgen.case import Case
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.catalogue.loads import Piston
 from reportgen.catalogue.machine import Machine, Position
-from reportgen.cycle.flywheel import Flywheel
 from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink
 from reportgen.document.prose import PointName, Prose
 from reportgen.document.tree import Block, InlineMath, Inlines, Paragraph, Text
+from reportgen.flywheel import Flywheel
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics.centres import links_in_plane_motion

@@ -13,7 +13,7 @@ from typing import Any
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.catalogue.loads import AngleLaw, Applied, TableLaw, Torque, WayLaw
 from reportgen.catalogue.machine import Position
-from reportgen.cycle.applied import StrokeIndicator
+from reportgen.cycle import StrokeIndicator
 from reportgen.document.report import FUNCTIONS, Function, Report, function, listed, lower_digits
 from reportgen.document.tree import (
     FIRST_COLUMN,

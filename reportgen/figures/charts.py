@@ -15,9 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
+from reportgen.figures.geometry import clusters
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.metrics import box
-from reportgen.figures.scene import Circle, Content, Item, Label, Line, Polyline, Scene, Stroke, clusters
+from reportgen.figures.scene import Circle, Content, Item, Label, Line, Polyline, Scene, Stroke
 from reportgen.notation.expressions import Number
 from reportgen.notation.numbers import nice_up
 

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from reportgen.figures import style
+from reportgen.figures.geometry import bounds, corners_of, moved
 from reportgen.figures.labels import Request, place
 from reportgen.figures.metrics import box
-from reportgen.figures.scene import Content, Item, Label, Scene, bounds, corners_of, moved
+from reportgen.figures.scene import Content, Item, Label, Scene
 
 Part = TypeVar("Part")
 

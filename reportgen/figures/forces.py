@@ -14,21 +14,10 @@ from typing import Literal
 
 from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
+from reportgen.figures.geometry import clusters, polar, unit
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.plan import CROWDED, Plan, point_names
-from reportgen.figures.scene import (
-    Arc,
-    Arrow,
-    Circle,
-    Content,
-    Item,
-    Line,
-    Polyline,
-    Scene,
-    clusters,
-    polar,
-    unit,
-)
+from reportgen.figures.scene import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene
 from reportgen.figures.scheme import Looks, mechanism, skeleton
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import Linkage

@@ -15,20 +15,10 @@ import numpy as np
 
 from reportgen.figures import style
 from reportgen.figures.draft import Draft
+from reportgen.figures.geometry import clusters, unit
 from reportgen.figures.labels import CLEAR, joined, label
 from reportgen.figures.metrics import box
-from reportgen.figures.scene import (
-    Arrow,
-    Circle,
-    Content,
-    Item,
-    Label,
-    Line,
-    Polyline,
-    Stroke,
-    clusters,
-    unit,
-)
+from reportgen.figures.scene import Arrow, Circle, Content, Item, Label, Line, Polyline, Stroke
 from reportgen.notation.numbers import nice_up
 
 STROKES = (

@@ -17,20 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.figures import style
+from reportgen.figures.geometry import Complexes, Flags, Floats, frame, overlap, segments
 from reportgen.figures.metrics import Box, box
-from reportgen.figures.scene import (
-    Circle,
-    Complexes,
-    Content,
-    Flags,
-    Floats,
-    Item,
-    Label,
-    Line,
-    frame,
-    overlap,
-    segments,
-)
+from reportgen.figures.scene import Circle, Content, Item, Label, Line
 
 Indices = NDArray[np.intp]
 Segment = tuple[complex, complex]

@@ -15,23 +15,9 @@ from typing import Literal
 
 from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish, settle
+from reportgen.figures.geometry import bounds, clipped, clusters, corners_of, unit
 from reportgen.figures.labels import Request, label
-from reportgen.figures.scene import (
-    Arrow,
-    Circle,
-    Content,
-    Item,
-    Label,
-    Line,
-    Polyline,
-    Scene,
-    Stroke,
-    bounds,
-    clipped,
-    clusters,
-    corners_of,
-    unit,
-)
+from reportgen.figures.scene import Arrow, Circle, Content, Item, Label, Line, Polyline, Scene, Stroke
 from reportgen.notation.numbers import SERIES
 
 Style = Literal["known", "relative", "found"]

@@ -12,8 +12,9 @@ import numpy as np
 
 from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
+from reportgen.figures.geometry import clusters
 from reportgen.figures.labels import Request, joined, label
-from reportgen.figures.scene import Circle, Content, Item, Line, Polyline, Scene, Stroke, clusters
+from reportgen.figures.scene import Circle, Content, Item, Line, Polyline, Scene, Stroke
 from reportgen.figures.scheme import Looks, Skeleton, driver_marks, mechanism, skeleton
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import GROUND, Crank, Linkage

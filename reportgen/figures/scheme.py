@@ -11,20 +11,9 @@ import numpy as np
 
 from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
+from reportgen.figures.geometry import Complexes, Floats, clusters, polar
 from reportgen.figures.labels import Request, joined, label
-from reportgen.figures.scene import (
-    Arc,
-    Circle,
-    Complexes,
-    Content,
-    Floats,
-    Item,
-    Line,
-    Scene,
-    Stroke,
-    clusters,
-    polar,
-)
+from reportgen.figures.scene import Arc, Circle, Content, Item, Line, Scene, Stroke
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
 from reportgen.notation import vocabulary

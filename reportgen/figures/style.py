@@ -10,7 +10,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.figures.scene import Circle, Hatch, Item, Line, Polyline, Stroke, polar, rectangle, unit
+from reportgen.figures.geometry import polar, rectangle, unit
+from reportgen.figures.scene import Circle, Hatch, Item, Line, Polyline, Stroke
 
 BLACK, GRAY, PALE = "#000000", "#6b6b6b", "#a8a8a8"
 BLUE, RED = "#123c7c", "#9c1c1c"

@@ -18,13 +18,12 @@ from typing import Literal, get_args
 
 from reportgen import units
 from reportgen.answers.key import Key
-from reportgen.assignment.faults import Fault, as_error, as_problem
-from reportgen.errors import Mark, Problem
+from reportgen.errors import Fault, Mark, Problem
 from reportgen.grading.marks import Answer, Place, Submission
 from reportgen.notation.numbers import Language
 from reportgen.notation.vocabulary import KINDS
 from reportgen.units import Dimension, QuantityFault
-from reportgen.words import load_words, search_path
+from reportgen.words import as_error, as_problem, load_words, search_path
 from reportgen.workbook import Cell, Page, read
 
 DecimalMark = Literal[".", ","]

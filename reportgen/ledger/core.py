@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.cycle.flywheel import Flywheel
+from reportgen.flywheel import Flywheel
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import (

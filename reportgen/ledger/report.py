@@ -9,10 +9,9 @@ from decimal import Decimal
 
 import numpy as np
 
-from reportgen import regulation
+from reportgen import flywheel
 from reportgen.analysis import Analysis
 from reportgen.catalogue.loads import TableLaw
-from reportgen.cycle.flywheel import Flywheel
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces import enter_forces
 from reportgen.ledger.forces.polygon import Polygon
@@ -196,7 +195,7 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None) -> 
     with q.within(Chapter.formulas):
         machine.formulas(q)
     polygons: tuple[Polygon, ...] = ()
-    flywheel: Flywheel | None = None
+    regulated: flywheel.Flywheel | None = None
     if analysis.loads:
         _masses(q, analysis)
         _gas(q, analysis)
@@ -207,13 +206,13 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None) -> 
         with q.within(Chapter.cycle):
             _cycle(q, analysis)
             if machine.unevenness is not None:
-                flywheel = regulation.flywheel(machine, machine.unevenness)
-                _flywheel(q, machine.linkage, flywheel, machine.cycle_angles)
+                regulated = flywheel.flywheel(machine, machine.unevenness)
+                _flywheel(q, machine.linkage, regulated, machine.cycle_angles)
     # The checks by instant centres take the other numbers as they are printed.
     main = {id: family for id, family in q.families.items() if not id.startswith(centres.PREFIX)}
     settled, listed = choose_decimals(main, (("M.eq", "M.vw"),) if "M.eq" in q else ())
     decimals, more = choose_decimals(q.families, fixed=settled)
-    return Ledger(q.families, decimals, machine.positions, listed + more, units or {}, polygons, flywheel)
+    return Ledger(q.families, decimals, machine.positions, listed + more, units or {}, polygons, regulated)
 
 
 def _masses(q: Sheet, analysis: Analysis) -> None:
@@ -280,29 +279,29 @@ def _without_dust(value: float, size: float) -> float:
 # --- the flywheel -----------------------------------------------------------------------------------
 
 
-def _flywheel(q: Sheet, linkage: Linkage, flywheel: Flywheel, positions: np.ndarray) -> None:
+def _flywheel(q: Sheet, linkage: Linkage, regulated: flywheel.Flywheel, positions: np.ndarray) -> None:
     """Enter the flywheel of a machine whose positions are the cycle angles `positions`; δ is `unevenness`.
 
     Ids: `J.r` reduced inertia (only where a moving link has mass), `M.r` reduced torque, `A.excess` excess work,
     `omega.of` the regulated speed at each position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`,
     `A.lower`, and `J.d` the flywheel.
     """
-    at = np.searchsorted(flywheel.angle, positions - 1e-9)
+    at = np.searchsorted(regulated.angle, positions - 1e-9)
     inertia = _reduced(q, linkage)
     if inertia is not None:
         q.define("J.r", inertia)
-    largest, δ, ω1 = float(np.abs(flywheel.torque).max()), q["unevenness"], q["omega.1"]
-    q.give("M.r", flywheel.torque[at], exact=False, scale=largest)
-    q.give("M.c", flywheel.constant, exact=False, scale=largest)
-    most = float(np.abs(flywheel.work).max())
-    q.give("A.excess", flywheel.work[at], "A", "work", exact=False, scale=most)
+    largest, δ, ω1 = float(np.abs(regulated.torque).max()), q["unevenness"], q["omega.1"]
+    q.give("M.r", regulated.torque[at], exact=False, scale=largest)
+    q.give("M.c", regulated.constant, exact=False, scale=largest)
+    most = float(np.abs(regulated.work).max())
+    q.give("A.excess", regulated.work[at], "A", "work", exact=False, scale=most)
     q.define("omega.max", ω1 * (1 + δ / 2))
     q.define("omega.min", ω1 * (1 - δ / 2))
-    a = q.give("A.upper", flywheel.upper, "a", "work", exact=False)
-    b = q.give("A.lower", flywheel.lower, "b", "work", exact=False)
+    a = q.give("A.upper", regulated.upper, "a", "work", exact=False)
+    b = q.give("A.lower", regulated.lower, "b", "work", exact=False)
     q.define("J.d", (a - b) / (δ * ω1**2))
-    if flywheel.moment > 0:
-        q.give("omega.of", flywheel.speed[at], "ω", exact=False)
+    if regulated.moment > 0:
+        q.give("omega.of", regulated.speed[at], "ω", exact=False)
 
 
 def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:

@@ -231,10 +231,13 @@ def _balance(
     """
     pole = motion.points[dyad.middle].p
     valid = motion.reachable
-    reach = max(
-        float(np.max(np.abs(motion.points[joint.point].p - pole)[valid], initial=0.0)) for joint in own
-    )
-    length = reach or 1.0
+
+    def farthest(points: Iterable[str]) -> float:
+        return max(float(np.max(np.abs(motion.points[name].p - pole)[valid], initial=0.0)) for name in points)
+
+    # Joints that lie in one point do so but for rounding.
+    reach, whole = farthest(joint.point for joint in own), farthest(motion.points)
+    length = reach if reach > NOTHING * whole else whole or 1.0
     matrix = np.zeros((6, 6, pole.size))
     known = np.zeros((6, pole.size))
     columns = [column for joint in own for column in _unknowns(joint, motion, length)]

@@ -6,8 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
-from reportgen.assignment.faults import Fault
-from reportgen.errors import Mark
+from reportgen.errors import Fault, Mark
 
 CellKind = Literal["empty", "text", "number", "boolean", "date", "error", "formula"]
 

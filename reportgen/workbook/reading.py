@@ -17,10 +17,10 @@ from itertools import tee
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from reportgen.assignment.faults import as_error
-from reportgen.assignment.source import mark_in
 from reportgen.errors import CellMark, Mark
 from reportgen.notation.numbers import Language
+from reportgen.source import mark_in
+from reportgen.words import as_error
 from reportgen.workbook.cells import (
     LONGEST_CELL,
     Cell,

@@ -14,10 +14,10 @@ from functools import cache
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from reportgen import installation
 from reportgen.document import tree
 from reportgen.figures.scene import Scene
 from reportgen.notation.expressions import Symbol
+from reportgen.words import templates
 from reportgen.writers import layout
 from reportgen.writers.drawing import paint_latex
 from reportgen.writers.latex_math import LatexFormulas, declarations, escape, hexadecimal
@@ -54,7 +54,7 @@ def _frame() -> Template:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(
-        loader=FileSystemLoader(installation.templates() / "frames" / "latex"),
+        loader=FileSystemLoader(templates() / "frames" / "latex"),
         block_start_string="<%",
         block_end_string="%>",
         variable_start_string="<(",

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-from reportgen import installation
 from reportgen.document import tree
 from reportgen.errors import TypesetterError
 from reportgen.figures.scene import Scene
@@ -25,6 +24,7 @@ from reportgen.notation.expressions import (
 )
 from reportgen.notation.numbers import Language
 from reportgen.notation.numbers import write as written
+from reportgen.words import templates
 from reportgen.writers import layout
 from reportgen.writers.drawing import paint_typst
 from reportgen.writers.layout import NAMED, PRIMES, UNSPACED, Formulas
@@ -137,7 +137,7 @@ def write(document: tree.Document) -> str:
 
 def _frame() -> str:
     """The frame's source: from the installed package, or beside it in a checkout."""
-    path = installation.templates() / "frames" / "typst" / "report.typ"
+    path = templates() / "frames" / "typst" / "report.typ"
     try:
         return path.read_text(encoding="utf-8")
     except OSError as error:

@@ -138,7 +138,7 @@ def test_another_engine_language_or_template_makes_all_anew(
     variants = [order, replace(order, engine="latex"), replace(order, language="vi"), order]
     for variant in variants:
         run_batch(variant, io.StringIO(), {"little": little})
-    monkeypatch.setattr("reportgen.installation.templates_hash", lambda: "other words")
+    monkeypatch.setattr("reportgen.batch.pool.templates_hash", lambda: "other words")
     batch.run()
     assert len(log.read_text().splitlines()) == len(variants) + 1
 

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.assignment.source import plain, read_text
 from reportgen.batch.draw import draw, judge_of, pick
 from reportgen.batch.spec import read_spec
 from reportgen.batch.variants import Effort, compare, make_variants
 from reportgen.errors import AssignmentError
+from reportgen.source import plain, read_text
 from reportgen.workbook import Book, Sheet, write_xlsx
 from tests.batch.specs import BARS, ROOT, Put, classes, ids, located
 

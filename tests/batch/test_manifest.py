@@ -9,12 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from reportgen import installation
 from reportgen.batch import manifest
 from reportgen.batch.manifest import Entry, journal
 from reportgen.batch.pool import Job, Outcome, making
 from reportgen.errors import Mark, Problem
-from reportgen.installation import templates_hash
+from reportgen.words import templates, templates_hash
 from tests.batch.classes import Batch
 from tests.batch.little import little
 
@@ -145,7 +144,7 @@ def test_neither_times_nor_places_are_told(tmp_path: Path) -> None:
         texts.append(batch.run().manifest.read_text(encoding="utf-8"))
     assert texts[0] == texts[1]
     assert str(tmp_path) not in texts[0]
-    assert not any(folder in texts[0] for folder in ("/tmp", str(installation.templates())))
+    assert not any(folder in texts[0] for folder in ("/tmp", str(templates())))
 
 
 def test_an_entry_without_files_holds_nothing(tmp_path: Path) -> None:
@@ -160,7 +159,7 @@ def test_the_hash_of_templates_is_of_names_and_words(
     (tmp_path / "school" / "vi").mkdir(parents=True)
     file = tmp_path / "school" / "vi" / "given.md"
     file.write_text("# Đề bài", encoding="utf-8")
-    monkeypatch.setattr(installation, "templates", lambda: tmp_path)
+    monkeypatch.setattr("reportgen.words.templates", lambda: tmp_path)
     before = templates_hash()
     assert templates_hash() == before
     if change == "added":

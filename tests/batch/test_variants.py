@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.assignment.source import Scalar, plain, read_text
 from reportgen.batch.draw import draw, judge_of
 from reportgen.batch.editing import put
 from reportgen.batch.roster import read_roster
@@ -16,6 +15,7 @@ from reportgen.batch.spec import read_spec
 from reportgen.batch.variants import Variants, make_variants
 from reportgen.cli import app
 from reportgen.errors import AssignmentError, Mark
+from reportgen.source import Scalar, plain, read_text
 from reportgen.workbook import read, write_csv
 from tests.batch.specs import BARS, DEMO, ROOT, Put, ids, located
 

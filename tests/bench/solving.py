@@ -18,7 +18,7 @@ import numpy as np
 from reportgen import api, catalogue
 from reportgen.analysis import analyse
 from reportgen.catalogue.machine import Machine
-from reportgen.cycle.applied import StrokeIndicator
+from reportgen.cycle import StrokeIndicator
 
 from .closed_form import Cylinder, Engine, solve
 

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from reportgen import installation
 from reportgen.document.prose import Prose
 from reportgen.document.tree import (
     BlankLine,
@@ -32,7 +31,7 @@ from reportgen.document.tree import (
 )
 from reportgen.errors import TemplateError
 from reportgen.notation.expressions import Number, Symbol
-from reportgen.words import search_path
+from reportgen.words import search_path, templates
 
 V_B = Symbol("v", "B")
 SPEED = Number(15.708, 2, "m/s")
@@ -270,7 +269,7 @@ def test_the_nearest_words_win(tmp_path: Path) -> None:
 
 
 def test_the_templates_are_found() -> None:
-    assert (installation.templates() / "vi").is_dir()
+    assert (templates() / "vi").is_dir()
 
 
 def test_a_template_changed_between_reports_is_read_again(tmp_path: Path) -> None:

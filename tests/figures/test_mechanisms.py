@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 
 from reportgen.figures.draft import finish
+from reportgen.figures.geometry import Complexes
 from reportgen.figures.indicator import Branch, Frame, Reading, beside, indicator
 from reportgen.figures.positions import PositionPlan, position_plan
-from reportgen.figures.scene import Circle, Complexes, Hatch, Label, Line, Polyline
+from reportgen.figures.scene import Circle, Hatch, Label, Line, Polyline
 from reportgen.figures.scheme import Looks, groups, scheme, skeleton
 from reportgen.mechanism.structure import Linkage
 from reportgen.notation.expressions import Symbol

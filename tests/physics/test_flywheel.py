@@ -13,10 +13,9 @@ import pytest
 from reportgen import api, catalogue
 from reportgen.analysis import FULL_TURN, analyse, motion_at
 from reportgen.catalogue.machine import Machine
-from reportgen.cycle.flywheel import Flywheel, accumulated, regulate
+from reportgen.flywheel import Flywheel, accumulated, flywheel, reduced_inertia, regulate
 from reportgen.ledger.report import write_ledger
 from reportgen.notation.sheet import Sheet
-from reportgen.regulation import flywheel, reduced_inertia
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 

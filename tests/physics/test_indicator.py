@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reportgen.cycle.applied import AngleIndicator, StrokeIndicator, indicated_work, stroke_at
+from reportgen.cycle import AngleIndicator, StrokeIndicator, indicated_work, stroke_at
 from reportgen.mechanism.forces import mean_over
 
 ROUNDING = 1e-12

@@ -130,6 +130,24 @@ def test_chains_of_three_groups(data: st.DataObject) -> None:
 # --- the proof notices faults ------------------------------------------------------------------------
 
 
+def test_joints_that_lie_in_one_point_but_for_rounding() -> None:
+    """Blocks 4 and 5 on one point of a link that turns: their distance is the rounding of that point."""
+    names = [f"T{link}" for link in range(1, 6)]
+    guide = Guide(at=0.04j, angle=0.0, link=1)
+    linkage = Linkage(
+        ground={"O": 0j},
+        driver=Crank("O", "A", 0.1),
+        dyads=(
+            Dyad("RRP", (2, 3), "A", "M0", guide, (math.hypot(0.1, 0.04), 0.0), -1),
+            Dyad("RPP", (4, 5), "T3", "M1", guide, (0.0, 0.0), slide_angle=0.3),
+        ),
+        points=tuple(LinkPoint(name, link, 0.01j * (link == 5)) for link, name in enumerate(names, 1)),
+        inertias=tuple(Inertia(link, name, 0.5, 0.05) for link, name in enumerate(names, 1)),
+        gravity=-9.81j,
+    )
+    prove(linkage, 7.0, [])
+
+
 @pytest.fixture
 def engine() -> Linkage:
     """An offset slider-crank with a coupler-driven rocker: nothing in it is nothing by symmetry."""

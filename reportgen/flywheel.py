@@ -2,15 +2,77 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reportgen.analysis import FULL_TURN, Analysis, analyse, breaks
 from reportgen.catalogue.machine import Machine
-from reportgen.cycle.flywheel import Flywheel, accumulated, regulate
 from reportgen.mechanism.forces import virtual_work_torque
 from reportgen.mechanism.motion import Motion
+
+Floats = NDArray[np.float64]
+ORDER = 8
+"""Gauss nodes between neighbouring angles: exact to rounding for a degree or less of a smooth torque."""
+
+
+@dataclass(frozen=True)
+class Flywheel:
+    """The regulated cycle over angles φ [N] (rad, in the direction of rotation).
+
+    `torque` M_r and `constant` M_c (N·m), `inertia` J_r and `moment` J_d (kg·m²), `work` A, `upper` a and
+    `lower` b (J), `speed` ω [N] and its bounds `fastest`, `slowest` (rad/s); `high`, `low` are the indices
+    where the speed reaches them.
+    """
+
+    angle: Floats
+    torque: Floats
+    constant: float
+    inertia: Floats
+    work: Floats
+    upper: float
+    lower: float
+    moment: float
+    speed: Floats
+    fastest: float
+    slowest: float
+    high: int
+    low: int
+
+
+def accumulated(function: Callable[[Floats], Floats], angle: Floats) -> Floats:
+    """∫ f dφ from the first angle to each [N]; f is smooth between neighbouring angles, which rise."""
+    nodes, factors = np.polynomial.legendre.leggauss(ORDER)
+    half = np.diff(angle)[:, None] / 2
+    inside = angle[:-1, None] + half * (nodes + 1)
+    values = np.asarray(function(inside.ravel())).reshape(inside.shape)
+    return np.concatenate(([0.0], np.cumsum((half * factors * values).sum(axis=1))))
+
+
+def regulate(
+    angle: Floats, torque: Floats, work: Floats, inertia: Floats, speed: float, unevenness: float
+) -> Flywheel:
+    """The flywheel for mean speed ω_m and unevenness δ, from M_r, its work ∫M_r dφ and J_r at angles [N].
+
+    The angles span the whole cycle.  `moment` is 0 or less where the links alone are even enough; the speed is
+    then not that of a flywheel, and nan.
+    """
+    mean = float(work[-1] / (angle[-1] - angle[0]))
+    excess = work - mean * (angle - angle[0])
+    fastest, slowest = speed * (1 + unevenness / 2), speed * (1 - unevenness / 2)
+    above, below = excess - fastest**2 * inertia / 2, excess - slowest**2 * inertia / 2
+    high, low = int(above.argmax()), int(below.argmin())
+    upper, lower = float(above[high]), float(below[low])
+    moment = (upper - lower) / (unevenness * speed**2)
+    energy = fastest**2 * moment / 2 - upper
+    squared = 2 * (energy + excess) / (moment + inertia) if moment > 0 else np.full(angle.shape, np.nan)
+    return Flywheel(
+        angle, torque, -mean, inertia, excess, upper, lower, moment, np.sqrt(squared), fastest, slowest, high, low
+    )
+
 
 SAMPLES = 1440
 """Angles of a turn at which the extremes of energy are looked for: a quarter degree misses less than 1e-5."""

@@ -9,15 +9,14 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import yaml
 
-from reportgen.assignment.faults import Fault
-from reportgen.errors import Mark
+from reportgen.errors import Fault, Mark
 
 LARGEST = 1_000_000
 DEEPEST = 12
@@ -130,14 +129,6 @@ def plain(node: Node) -> Any:
             return [plain(item) for item in items]
         case Table(entries):
             return {key.text: plain(value) for key, value in entries}
-
-
-def words_of(path: Path) -> Mapping[str, Any]:
-    """A trusted file of the package (messages and the like) as plain dicts; raises `ValueError`."""
-    source = read_source(path)
-    if source.faults or not isinstance(source.top, Table):
-        raise ValueError(f"{path}: {[fault.code for fault in source.faults]}")
-    return dict(plain(source.top))
 
 
 class _Loader(yaml.SafeLoader):
