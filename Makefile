@@ -18,6 +18,7 @@ test: $(VENV)/.developing
 	$(BIN)/python -m pytest -rs -n auto --dist loadfile
 
 lint: $(VENV)/.developing
+	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports

@@ -80,9 +80,7 @@ class StrokeIndicator:
         """The fractions where the pressure bends."""
         return self.fractions
 
-    def pressure(
-        self, cycle_angle: ArrayLike, fraction: ArrayLike, dead_centres: ArrayLike = DEAD_CENTRES
-    ) -> Floats:
+    def pressure(self, cycle_angle: ArrayLike, fraction: ArrayLike, dead_centres: ArrayLike = DEAD_CENTRES) -> Floats:
         """Pressure (Pa) [N] at cycle angles [N] where the piston stands at fractions [N] of its stroke."""
         stroke = stroke_at(cycle_angle, dead_centres)
         by_row = np.stack([np.interp(np.asarray(fraction), self.fractions, row) for row in self.rows])

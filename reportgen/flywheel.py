@@ -52,9 +52,7 @@ def accumulated(function: Callable[[Floats], Floats], angle: Floats) -> Floats:
     return np.concatenate(([0.0], np.cumsum((half * factors * values).sum(axis=1))))
 
 
-def regulate(
-    angle: Floats, torque: Floats, work: Floats, inertia: Floats, speed: float, unevenness: float
-) -> Flywheel:
+def regulate(angle: Floats, torque: Floats, work: Floats, inertia: Floats, speed: float, unevenness: float) -> Flywheel:
     """The flywheel for mean speed ω_m and unevenness δ, from M_r, its work ∫M_r dφ and J_r at angles [N].
 
     The angles span the whole cycle.  `moment` is 0 or less where the links alone are even enough; the speed is
@@ -92,9 +90,7 @@ def reduced_inertia(machine: Machine, motion: Motion) -> np.ndarray:
 def reduced_torque(analysis: Analysis) -> np.ndarray:
     """M_r [N] (N·m) of weights and applied loads, positive in the direction of rotation."""
     static = (*analysis.weights, *analysis.applied)
-    return np.asarray(
-        -analysis.machine.turn * virtual_work_torque(analysis.machine.linkage, analysis.motion, static)
-    )
+    return np.asarray(-analysis.machine.turn * virtual_work_torque(analysis.machine.linkage, analysis.motion, static))
 
 
 def _possible(analysis: Analysis) -> float:

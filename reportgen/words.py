@@ -65,9 +65,7 @@ def schools() -> list[str]:
     )
 
 
-def search_path(
-    language: Language, kind: str = "", school: str = "", root: Path | None = None
-) -> tuple[Path, ...]:
+def search_path(language: Language, kind: str = "", school: str = "", root: Path | None = None) -> tuple[Path, ...]:
     """The folders in which templates and words are looked for; the first that has a name wins.
 
     A school's own words, then those of one kind of machine, then those common to all.

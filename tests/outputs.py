@@ -221,9 +221,7 @@ def differences(before: Path, after: Path) -> Iterator[str]:
             continue
         unlike = [
             (number, a, b)
-            for number, (a, b) in enumerate(
-                zip_longest(one.splitlines(), other.splitlines(), fillvalue="(nothing)"), 1
-            )
+            for number, (a, b) in enumerate(zip_longest(one.splitlines(), other.splitlines(), fillvalue="(nothing)"), 1)
             if not alike(a, b)
         ]
         if unlike:

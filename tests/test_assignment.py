@@ -64,9 +64,7 @@ def test_any_compatible_unit_is_understood(text: str, unit: str, si: float) -> N
     assert given.text == text
 
 
-@pytest.mark.parametrize(
-    "unit", ["mm**9", "m/", "/s", "m**m", "3 mm", "(((", "e", "degC", "x" * 50, "kG/cm2"]
-)
+@pytest.mark.parametrize("unit", ["mm**9", "m/", "/s", "m**m", "3 mm", "(((", "e", "degC", "x" * 50, "kG/cm2"])
 def test_nonsense_is_no_length(unit: str) -> None:
     with pytest.raises(QuantityFault):
         read_quantity(f"1 {unit}", "m")
@@ -200,20 +198,7 @@ def test_schema_refuses_what_the_reader_refuses(tmp_path: Path, old: str, new: s
 
 
 PIECES = st.sampled_from(
-    [
-        *"\t\n:[]{},#'\"|>?%@~\0-\\",
-        "",
-        ": ",
-        "- ",
-        "&a ",
-        "*a",
-        "!x ",
-        "\x85",
-        "\u2028",
-        "\ud7ff",
-        "1e300",
-        "nan",
-    ]
+    [*"\t\n:[]{},#'\"|>?%@~\0-\\", "", ": ", "- ", "&a ", "*a", "!x ", "\x85", "\u2028", "\ud7ff", "1e300", "nan"]
 )
 
 
@@ -241,11 +226,7 @@ def test_no_text_makes_a_traceback(edits: list[tuple[int, int, str]]) -> None:
 
 CONTENT = yaml.load(SAMPLE_TEXT, yaml.BaseLoader)
 ANYTHING = st.recursive(
-    st.none()
-    | st.booleans()
-    | st.floats()
-    | st.text(max_size=5)
-    | st.sampled_from(["all", "1 mm", "0,5", "1/3"]),
+    st.none() | st.booleans() | st.floats() | st.text(max_size=5) | st.sampled_from(["all", "1 mm", "0,5", "1/3"]),
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=4), inner, max_size=3),
     max_leaves=6,
 )

@@ -113,9 +113,7 @@ def test_the_size_of_a_document() -> None:
         Table((), (), ((), (), ())),
         Figure((scene, scene)),
     )
-    assert size_of(blocks, 7) == Size(
-        7, figures=2, labels=2, strokes=4, formulas=2, tables=1, rows=3, words=2
-    )
+    assert size_of(blocks, 7) == Size(7, figures=2, labels=2, strokes=4, formulas=2, tables=1, rows=3, words=2)
 
 
 def test_shares_are_even_and_whole() -> None:
@@ -151,12 +149,7 @@ def test_both_ways_of_setting_a_source_are_measured(tmp_path: Path) -> None:
 
 def test_the_table_is_aligned() -> None:
     lines = table([Row("a", "≤ 1.5", "1.20", "words"), Row("longer", "", "12.00")]).splitlines()
-    assert (
-        len(
-            {line.index(end) + len(end) for line, end in zip(lines, ("result", "1.20", "12.00"), strict=True)}
-        )
-        == 1
-    )
+    assert len({line.index(end) + len(end) for line, end in zip(lines, ("result", "1.20", "12.00"), strict=True)}) == 1
 
 
 def test_a_class_is_made_and_its_workers_memory_taken(tmp_path: Path) -> None:

@@ -52,18 +52,14 @@ def test_check_and_help_leave_heavy_libraries_alone() -> None:
         f"assert reportgen.api.check(Path({str(SAMPLE)!r})) == []\n"
         "print(*{'pint', 'matplotlib', 'pylatex', 'typst', 'jinja2'} & set(sys.modules))"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True
-    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == ""
 
 
 def test_the_command_line_itself_loads_next_to_nothing() -> None:
     """`--help` asks for no assignment; what reads one is loaded by the commands that do."""
     script = "import sys, reportgen.cli\nprint(*{'numpy', 'pydantic', 'yaml', 'reportgen.api'} & set(sys.modules))"
-    done = subprocess.run(
-        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True
-    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == ""
 
 
@@ -73,9 +69,7 @@ def test_the_package_offers_its_functions_by_name() -> None:
         f"print(load({str(SAMPLE)!r}).kind, all(callable(getattr(reportgen, name)) for name in reportgen.__all__))\n"
         "print(hasattr(reportgen, 'nothing'))"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True
-    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["engine-twin", "True", "False"]
 
 
@@ -166,11 +160,7 @@ def solved(*arguments: object) -> dict[str, Any]:
 
 def test_solve_as_json() -> None:
     results = solved(SAMPLE)
-    assert (results["format"], results["kind"], results["variant"]) == (
-        "reportgen-results/1",
-        "engine-twin",
-        "5",
-    )
+    assert (results["format"], results["kind"], results["variant"]) == ("reportgen-results/1", "engine-twin", "5")
     assert [position["number"] for position in results["positions"]] == list(range(1, 17))
     fourth = results["positions"][3]
     # Printed at position 4, drawn by hand: 0.5 %.

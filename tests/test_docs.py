@@ -26,7 +26,6 @@ ROOT = Path(__file__).parent.parent
 PAGES = ("README.md", *sorted(f"docs/{page.name}" for page in (ROOT / "docs").glob("*.md")))
 """For users: each is read, and its commands are run, by itself."""
 
-EXTENDING = "docs/extending.md"
 DOCUMENTS = (*PAGES, "CONTRIBUTING.md", "ARCHITECTURE.md", "CHANGELOG.md")
 LARGEST_PICTURE = 150_000
 """Bytes: a page that loads at once, also over a slow line."""
@@ -129,9 +128,7 @@ def run(lines: Sequence[str], place: Path) -> list[tuple[list[str], int]]:
         check=True,
     )
     outputs, codes = done.stdout.split(mark)[:-1:2], done.stdout.split(mark)[1::2]
-    return [
-        (output.strip("\n").splitlines(), int(code)) for output, code in zip(outputs, codes, strict=True)
-    ]
+    return [(output.strip("\n").splitlines(), int(code)) for output, code in zip(outputs, codes, strict=True)]
 
 
 def copy_of_repository(place: Path) -> Path:
@@ -260,9 +257,7 @@ def test_every_key_of_the_results_is_explained() -> None:
 
 
 def test_every_page_is_linked_from_the_readme() -> None:
-    """All but the page for developers, which CONTRIBUTING links."""
-    readme, contributing = (set(_LINK.findall(text_of(page))) for page in ("README.md", "CONTRIBUTING.md"))
-    assert {page for page in DOCUMENTS if page != "README.md"} - readme <= {EXTENDING} & contributing
+    assert {page for page in DOCUMENTS if page != "README.md"} <= set(_LINK.findall(text_of("README.md")))
 
 
 def test_the_one_command_that_installs_tex_is_given() -> None:

@@ -64,9 +64,7 @@ def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
     entry["weights"] = _loads(analysis.weights, k)
     entry["inertia"] = _loads(analysis.inertia, k)
     if analysis.gas:
-        entry["pressures"] = {
-            name.replace("P", "p"): float(gas.pressure[k]) for name, gas in analysis.gas.items()
-        }
+        entry["pressures"] = {name.replace("P", "p"): float(gas.pressure[k]) for name, gas in analysis.gas.items()}
     reactions = analysis.forces.reactions.items()
     entry["reactions"] = {name: _pair(reaction.force[k]) for name, reaction in reactions}
     entry["reactions_in_guides"] = {
@@ -90,11 +88,7 @@ def _applied(analysis: Analysis, k: int) -> dict[str, Any]:
 
 def _loads(loads: tuple[Load, ...], k: int) -> Mapping[str, Any]:
     return {
-        load.name: {
-            "force": _pair(load.force[k]),
-            "point": _pair(load.point[k]),
-            "couple": float(load.couple[k]),
-        }
+        load.name: {"force": _pair(load.force[k]), "point": _pair(load.point[k]), "couple": float(load.couple[k])}
         for load in loads
     }
 

@@ -68,9 +68,7 @@ class Graded:
     missing: tuple[Key, ...]
 
 
-def grade(
-    submissions: Sequence[Path], assignments: Path, policy: Policy, language: Language | None = None
-) -> Graded:
+def grade(submissions: Sequence[Path], assignments: Path, policy: Policy, language: Language | None = None) -> Graded:
     """Mark the sheets of files and folders; raises `AssignmentError` if `assignments` is at fault."""
     room = Classroom(assignment_files(assignments, language), policy, language)
     markings: dict[str, Marking] = {}
@@ -129,9 +127,7 @@ def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language 
         yield Path("class.pdf"), api.typeset(page, engine)[1]
 
 
-def put(
-    graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None
-) -> Iterator[Path]:
+def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None) -> Iterator[Path]:
     """Write every file of a graded class below `out`, each in one step; raises `OutputError`."""
     for name, content in files_of(graded, policy, engine, language):
         yield from api.put(out / name.parent, {name.name: content})

@@ -195,9 +195,7 @@ def effort(assignment: Assignment) -> Effort:
     case = Case(assignment)
     analysis, families = case.analysis, case.ledger.families.values()
     derived = [one for one in families if one.definition is not None and not one.hidden and not one.is_plane]
-    zeros = sum(
-        one.at(position) == 0 for one in derived if one.scale for position in range(1, len(one.values) + 1)
-    )
+    zeros = sum(one.at(position) == 0 for one in derived if one.scale for position in range(1, len(one.values) + 1))
     balance = np.real(analysis.torque) if analysis.loads else None
     return Effort(
         worked=sum(len(one.values) for one in derived),

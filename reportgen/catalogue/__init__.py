@@ -102,9 +102,7 @@ def schema() -> dict[str, Any]:
     from pydantic.json_schema import JsonSchemaMode, models_json_schema
 
     # All at once: models of one name in different kinds get names of their own.
-    models: list[tuple[type[BaseModel], JsonSchemaMode]] = [
-        (file_model(kind(name)), "validation") for name in kinds()
-    ]
+    models: list[tuple[type[BaseModel], JsonSchemaMode]] = [(file_model(kind(name)), "validation") for name in kinds()]
     found, definitions = models_json_schema(models, by_alias=True)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -110,8 +110,7 @@ class Driven(Part):
     def checks(cls) -> tuple[Check, ...]:
         """One speed, one of weight and mass, something for a flywheel to even out."""
         one_mass = (
-            one_of("parameters", f"G{link}", f"m{link}", required=link in cls.required)
-            for link in cls.links["G"]
+            one_of("parameters", f"G{link}", f"m{link}", required=link in cls.required) for link in cls.links["G"]
         )
         evened = (*(f"{letter}{link}" for letter in "GmJ" for link in cls.links[letter]), *cls.loads)
         return one_of("parameters", "n", "omega1"), *one_mass, needs_loads(evened)

@@ -35,9 +35,7 @@ Articulation = Annotated[Given, quantity("mm", least=0, below=1e5)]
 Force = Annotated[Given, quantity("N", least=-1e7, most=1e7)]
 
 
-class Parameters(
-    Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loads=("PC", "PE", "D")
-):
+class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loads=("PC", "PE", "D")):
     """Lengths, the two axes, the speed; forces on the pistons, or their bore; what moves has mass if given one."""
 
     AB: Length
@@ -105,10 +103,7 @@ def _check_assembly(draft: Draft) -> Iterator[Finding]:
         most = f"< BC = {given.BC.si * 1e3:g} mm"
         yield Finding("out-of-range", ("parameters", "BD"), {"text": given.BD.text, "range": most})
         return
-    members = {
-        (2, 3): Member("BC", ("parameters", "BC")),
-        (4, 5): Member(f"{given.joint}E", ("parameters", "DE")),
-    }
+    members = {(2, 3): Member("BC", ("parameters", "BC")), (4, 5): Member(f"{given.joint}E", ("parameters", "DE"))}
     yield from reach.findings(_linkage(given, _sheet(given)), members)
 
 
@@ -169,10 +164,7 @@ def machine(assignment: Assignment) -> Machine:
 
     motion_at = crank_motion(linkage, positions, start, given.speed)
     second_top = given.second_top if given.turns == 2 else 1
-    courses = (
-        course(linkage, 3, motion_at, given.turns),
-        course(linkage, 5, motion_at, given.turns, second_top),
-    )
+    courses = (course(linkage, 3, motion_at, given.turns), course(linkage, 5, motion_at, given.turns, second_top))
     pistons: tuple[Piston, ...] = ()
     if given.D is not None:
         pistons = tuple(Piston.on(one, given.D.si, assignment.indicator.table) for one in courses)

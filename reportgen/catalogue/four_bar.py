@@ -214,9 +214,7 @@ class LinkForce(Part):
     angle: Angle
 
 
-class Parameters(
-    Driven, masses=(1, 2, 3), moments=(1, 2, 3), shares=(1, 2, 3), loads=("torque", "force")
-):
+class Parameters(Driven, masses=(1, 2, 3), moments=(1, 2, 3), shares=(1, 2, 3), loads=("torque", "force")):
     """Lengths, the branch, the speed; coupler points, masses and loads only if they are given."""
 
     AB: Length
@@ -314,9 +312,9 @@ def machine(assignment: Assignment) -> Machine:
         linkage,
         start,
         formulas=lambda q: analytic_method(q, FourBar(φ1, points, turn, turn * given.side)),
-        applied=() if force is None else (
-            Applied("P3", 3, "C", cmath.rect(1.0, force.angle.si), Constant(force.P.si)),
-        ),
+        applied=()
+        if force is None
+        else (Applied("P3", 3, "C", cmath.rect(1.0, force.angle.si), Constant(force.P.si)),),
         torques=torque_on(given.torque, 3, linkage, positions, start),
         paths=tuple(names),
         compared=compared(plans),

@@ -214,8 +214,7 @@ FORCE_CHECKS = tuple(
     )
 )
 PRESS_CHECKS = tuple(
-    _inside(check, "press")
-    for check in (same_length("press", "s", ("P",)), increasing("press", "s", 0, 1))
+    _inside(check, "press") for check in (same_length("press", "s", ("P",)), increasing("press", "s", 0, 1))
 )
 
 

@@ -33,9 +33,7 @@ class SliderForce(Part):
     sense: Literal["opposing", "right", "left"] = "opposing"
 
 
-class Parameters(
-    Driven, masses=(1, 2, 3, 4, 5), moments=(1, 2, 3, 4), shares=(1, 2, 3, 4), loads=("force",)
-):
+class Parameters(Driven, masses=(1, 2, 3, 4, 5), moments=(1, 2, 3, 4), shares=(1, 2, 3, 4), loads=("force",)):
     """Lengths, fixed points, the way the groups are assembled, the speed; masses and the load if given."""
 
     AB: Length
@@ -98,10 +96,7 @@ def _check_turning(draft: Draft) -> Iterator[Finding]:
         yield Finding("out-of-range", ("parameters", "CE"), {"text": given.CE.text, "range": upper})
         return
     linkage = _linkage(given, _sheet(given))
-    members = {
-        (2, 3): reach.Member("AC, CD", ("parameters", "CD")),
-        (4, 5): reach.Member("EF", ("parameters", "EF")),
-    }
+    members = {(2, 3): reach.Member("AC, CD", ("parameters", "CD")), (4, 5): reach.Member("EF", ("parameters", "EF"))}
     found = list(reach.findings(linkage, members))
     yield from found
     if not found and reach.turns_fully(linkage, 3):

@@ -132,9 +132,7 @@ def machine(assignment: Assignment) -> Machine:
         sheet=_sheet(given, linkage, built, drawn.si if drawn else None),
         applied=tuple(load for load in loads if isinstance(load, Applied)),
         torques=tuple(load for load in loads if isinstance(load, Torque)),
-        outline=outline(
-            bool(linkage.inertias), bool(loads), given.flywheel, driver="crank" if crank else "slide"
-        ),
+        outline=outline(bool(linkage.inertias), bool(loads), given.flywheel, driver="crank" if crank else "slide"),
         unevenness=None if given.flywheel is None else given.flywheel.delta.si,
         facts=linkage_words.facts(given, tuple(load.name for load in loads)),
     )
@@ -258,18 +256,14 @@ def _pushing(
     return _constant(load, load.F.si, rate, motion_at)
 
 
-def _turning(
-    load: file.Constant | file.OverAngle | file.OverWay, driver: file.Driver, motion_at: MotionAt
-) -> Law:
+def _turning(load: file.Constant | file.OverAngle | file.OverWay, driver: file.Driver, motion_at: MotionAt) -> Law:
     if not isinstance(load, file.Constant):
         return _by_driver(load, load.torque_unit.si if load.torque_unit else 1.0, driver)
     assert load.M is not None
     return _constant(load, load.M.si, lambda motion: motion.links[load.link].omega, motion_at)
 
 
-def _constant(
-    load: file.Constant, size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt
-) -> Law:
+def _constant(load: file.Constant, size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt) -> Law:
     if not load.against:
         return Constant(size)
     found = opposing(abs(size), lambda angle: rate(motion_at(angle)))

@@ -215,9 +215,7 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
             continue
         if isinstance(load, file.OverStroke | file.Gas):
             if load.link not in sliders:
-                yield Finding(
-                    "no-slider", (*at, "link"), {"text": str(load.link), "known": _listed(sliders) or "–"}
-                )
+                yield Finding("no-slider", (*at, "link"), {"text": str(load.link), "known": _listed(sliders) or "–"})
             if isinstance(load, file.OverStroke):
                 yield from _table(at, "s", load.s, (1.0,), inward=load.inward, outward=load.outward)
             elif given.turns != 2:
@@ -253,12 +251,7 @@ def _rail_links(group: file.Group) -> list[int]:
 
 
 def _table(
-    at: Where,
-    key: str,
-    nodes: tuple[float, ...],
-    last: tuple[float],
-    unit: str = "",
-    **rows: tuple[float, ...],
+    at: Where, key: str, nodes: tuple[float, ...], last: tuple[float], unit: str = "", **rows: tuple[float, ...]
 ) -> Iterator[Finding]:
     """Nodes grow from 0 to `last` and every row has a value for each."""
     for name, row in rows.items():
@@ -292,9 +285,7 @@ def _declared(given: file.Parameters) -> Iterator[Finding]:
         is_groups = [tuple(sorted(dyad.links)) for dyad in found.groups]
         if said_groups != set(is_groups):
             text = ", ".join(map(str, declared.groups))
-            yield Finding(
-                "not-as-declared", (*at, "groups"), {"text": text, "found": ", ".join(map(str, is_groups))}
-            )
+            yield Finding("not-as-declared", (*at, "groups"), {"text": text, "found": ", ".join(map(str, is_groups))})
 
 
 # --- assembly -------------------------------------------------------------------------------------

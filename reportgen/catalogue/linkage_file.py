@@ -29,16 +29,7 @@ from reportgen.assignment.fields import (
 )
 from reportgen.catalogue.driven import Flywheel
 from reportgen.catalogue.given_loads import CycleAngles, Diagram, Fractions
-from reportgen.mechanism.structure import (
-    Crank,
-    Dyad,
-    DyadKind,
-    Guide,
-    Inertia,
-    Linkage,
-    LinkPoint,
-    SlidingDriver,
-)
+from reportgen.mechanism.structure import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 from reportgen.units import Given
 
 MOST_GROUPS = 12
@@ -70,12 +61,10 @@ Speed = Annotated[Given, quantity("m/s", above=0, most=1e3)]
 Force = Annotated[Given, quantity("N", least=-1e9, most=1e9)]
 Torque = Annotated[Given, quantity("N m", least=-1e9, most=1e9)]
 Row = Annotated[
-    tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9))], ...],
-    Field(min_length=2, max_length=MOST_NODES),
+    tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9))], ...], Field(min_length=2, max_length=MOST_NODES)
 ]
 DriverWays = Annotated[
-    tuple[Annotated[Given, quantity("mm", least=0, below=1e5)], ...],
-    Field(min_length=2, max_length=MOST_NODES),
+    tuple[Annotated[Given, quantity("mm", least=0, below=1e5)], ...], Field(min_length=2, max_length=MOST_NODES)
 ]
 
 NOWHERE = Given(0.0, 0.0, "mm", "0 mm")
@@ -389,8 +378,7 @@ class Parameters(Part):
             dyads=tuple(group.dyad for group in self.groups),
             points=tuple(LinkPoint(name, one.link, place(one.at)) for name, one in self.points.items()),
             inertias=tuple(
-                Inertia(body.link, body.at, body.mass(self.g.si), body.J.si if body.J else 0.0)
-                for body in self.masses
+                Inertia(body.link, body.at, body.mass(self.g.si), body.J.si if body.J else 0.0) for body in self.masses
             ),
             gravity=-1j * self.g.si,
         )

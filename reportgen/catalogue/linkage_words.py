@@ -203,8 +203,7 @@ def _guide(slider: int, guide: file.GuideSection) -> GuideRow:
 
 def points(given: file.Parameters) -> tuple[PointRow, ...]:
     return tuple(
-        PointRow(name, point.link, number(point.at[0]), number(point.at[1]))
-        for name, point in given.points.items()
+        PointRow(name, point.link, number(point.at[0]), number(point.at[1])) for name, point in given.points.items()
     )
 
 
@@ -218,9 +217,7 @@ def _load(load: file.Loading, name: str) -> LoadRow:
             given = load.angle if isinstance(load, file.OverAngle) else load.way
             nodes = tuple(node.value for node in given)
             torque, way = load.at is None, number(load.direction)
-            return LoadRow(
-                name, load.link, load.by, torque, load.at or "", way, nodes=nodes, rows=(load.values,)
-            )
+            return LoadRow(name, load.link, load.by, torque, load.at or "", way, nodes=nodes, rows=(load.values,))
     size = load.F or load.M
     assert size is not None
     return LoadRow(

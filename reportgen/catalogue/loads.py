@@ -208,9 +208,7 @@ class Opposing:
         return self.reversals
 
 
-def by_stroke(
-    fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]
-) -> Indicator:
+def by_stroke(fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]) -> Indicator:
     """Forces over s/H from the top: a row for the way in, towards the crank, and one for the way out."""
     return StrokeIndicator(fractions, inward, outward, inward, outward)
 
@@ -296,9 +294,7 @@ def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top
     phase = (-(first + FULL_TURN * (top - 1)) + ROUND) % whole - ROUND
     crank_pin = dyad.start if isinstance(dyad.start, str) else dyad.middle
     other = dyad.links[0] if dyad.links[1] == link else dyad.links[1]
-    return Course(
-        link, other, dyad.middle, crank_pin, complex(ends[high]), complex(ends[1 - high]), 0.0, way, phase
-    )
+    return Course(link, other, dyad.middle, crank_pin, complex(ends[high]), complex(ends[1 - high]), 0.0, way, phase)
 
 
 # --- what is loaded ---------------------------------------------------------------------------------

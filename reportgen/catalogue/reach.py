@@ -55,9 +55,7 @@ class Way:
 WHOLE_TURN = Way()
 
 
-def findings(
-    linkage: Linkage, members: Mapping[tuple[int, int], Member], way: Way = WHOLE_TURN
-) -> Iterator[Finding]:
+def findings(linkage: Linkage, members: Mapping[tuple[int, int], Member], way: Way = WHOLE_TURN) -> Iterator[Finding]:
     """The first group that the driver cannot carry through all its way: with its links and the driver's places."""
     places = np.linspace(way.start, way.end, STEPS + 1)
     motion = solve_motion(linkage, places, 1.0)

@@ -89,14 +89,8 @@ def equations() -> dict[str, tuple[Chain, ...]]:
     """The place of the yoke and of the block in its slot, and their rates."""
     r, φ, ω1 = Symbol("l", "OA"), Symbol("φ"), Symbol("ω", "1")
     return {
-        "closure": (
-            Chain((Symbol("x", "B"), r * cos(φ))),
-            Chain((Symbol("y", "A"), r * sin(φ))),
-        ),
-        "velocity": (
-            Chain((Symbol("v", "B"), -ω1 * r * sin(φ))),
-            Chain((Symbol("v", "r"), ω1 * r * cos(φ))),
-        ),
+        "closure": (Chain((Symbol("x", "B"), r * cos(φ))), Chain((Symbol("y", "A"), r * sin(φ)))),
+        "velocity": (Chain((Symbol("v", "B"), -ω1 * r * sin(φ))), Chain((Symbol("v", "r"), ω1 * r * cos(φ)))),
         "acceleration": (
             Chain((Symbol("a", "B"), -(ω1**2) * r * cos(φ))),
             Chain((Symbol("a", "r"), -(ω1**2) * r * sin(φ))),

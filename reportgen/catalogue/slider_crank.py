@@ -86,9 +86,9 @@ def machine(assignment: Assignment) -> Machine:
         linkage,
         geometry.crank_angle(start),
         formulas=lambda q: offset_slider(q, start + even_angles(positions), offset, has_centre),
-        applied=() if given.force is None else (
-            Applied("P3", 3, "C", cmath.rect(1.0, geometry.axis), TableLaw(course, given.force.table, turns=TURNS)),
-        ),
+        applied=()
+        if given.force is None
+        else (Applied("P3", 3, "C", cmath.rect(1.0, geometry.axis), TableLaw(course, given.force.table, turns=TURNS)),),
         sliders=(course,),
         paths=("S2",) if has_centre else (),
         compared=compared((*OFFSET_PLANS, *(CENTRE_PLANS if has_centre else ()))),

@@ -186,9 +186,7 @@ class OffsetSlider:
         return Linkage(
             ground={"A": 0j},
             driver=Crank("A", "B", self.r),
-            dyads=(
-                Dyad("RRP", (2, 3), "B", "C", Guide(self._placed(1j * self.e), self.axis), (self.l, 0.0)),
-            ),
+            dyads=(Dyad("RRP", (2, 3), "B", "C", Guide(self._placed(1j * self.e), self.axis), (self.l, 0.0)),),
             points=() if centre is None else (LinkPoint("S2", 2, complex(centre)),),
             inertias=tuple(inertias),
             gravity=-1j * gravity,
@@ -225,10 +223,7 @@ def loop_equations(offset: bool) -> dict[str, tuple[Chain, ...]]:
     φ, β, x, v, a = Symbol("φ"), Symbol("β"), Symbol("x", "C"), Symbol("v", "C"), Symbol("a", "C")
     nothing = Number(0.0)
     return {
-        "closure": (
-            Chain((r * cos(φ) + l * cos(β), x)),
-            Chain((r * sin(φ) + l * sin(β), e if offset else nothing)),
-        ),
+        "closure": (Chain((r * cos(φ) + l * cos(β), x)), Chain((r * sin(φ) + l * sin(β), e if offset else nothing))),
         "velocity": (
             Chain((-ω1 * r * sin(φ) - ω2 * l * sin(β), v)),
             Chain((ω1 * r * cos(φ) + ω2 * l * cos(β), nothing)),

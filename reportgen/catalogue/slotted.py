@@ -16,20 +16,7 @@ from dataclasses import dataclass
 from reportgen.catalogue.driven import natural_lines
 from reportgen.catalogue.loads import FULL_TURN, Course, Floats
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.notation.expressions import (
-    PI,
-    Chain,
-    Expression,
-    Number,
-    Ref,
-    Symbol,
-    acos,
-    asin,
-    cos,
-    sin,
-    sqrt,
-    tan,
-)
+from reportgen.notation.expressions import PI, Chain, Expression, Number, Ref, Symbol, acos, asin, cos, sin, sqrt, tan
 from reportgen.notation.sheet import Sheet
 
 ROUND = 1e-12
@@ -129,9 +116,7 @@ class Ram:
     def linkage(self, points: Sequence[LinkPoint], inertias: Sequence[Inertia], gravity: float) -> Linkage:
         """The mechanism; the ram's guide points against its working way, E lies on the working side of D."""
         towards = self.crank.place(1 + 0j)
-        guide = Guide(
-            self.crank.place(1j * (self.height - self.crank.d)), math.atan2(towards.imag, towards.real)
-        )
+        guide = Guide(self.crank.place(1j * (self.height - self.crank.d)), math.atan2(towards.imag, towards.real))
         return Linkage(
             ground=self.crank.ground,
             driver=self.crank.driver,
@@ -235,18 +220,9 @@ def lever_equations(r: Symbol, d: Symbol) -> dict[str, tuple[Chain, ...]]:
     S, φ1, φ3, ω1, ω3 = Symbol("S"), Symbol("φ", "1"), Symbol("φ", "3"), Symbol("ω", "1"), Symbol("ω", "3")
     v_r, ε3 = Symbol("v", "r"), Symbol("ε", "3")
     return {
-        "closure": (
-            Chain((S * cos(φ3), r * cos(φ1))),
-            Chain((S * sin(φ3), d + r * sin(φ1))),
-        ),
-        "between": (
-            Chain((S * cos(φ1 - φ3), r + d * sin(φ1))),
-            Chain((S * sin(φ1 - φ3), -d * cos(φ1))),
-        ),
-        "velocity": (
-            Chain((S * ω3, ω1 * r * cos(φ1 - φ3))),
-            Chain((v_r, -ω1 * r * sin(φ1 - φ3))),
-        ),
+        "closure": (Chain((S * cos(φ3), r * cos(φ1))), Chain((S * sin(φ3), d + r * sin(φ1)))),
+        "between": (Chain((S * cos(φ1 - φ3), r + d * sin(φ1))), Chain((S * sin(φ1 - φ3), -d * cos(φ1)))),
+        "velocity": (Chain((S * ω3, ω1 * r * cos(φ1 - φ3))), Chain((v_r, -ω1 * r * sin(φ1 - φ3)))),
         "acceleration": (Chain((S * ε3 + 2 * v_r * ω3, -(ω1**2) * r * sin(φ1 - φ3))),),
     }
 
@@ -271,9 +247,5 @@ def ram_equations() -> dict[str, tuple[Chain, ...]]:
             Chain((Symbol("v", "E"), -(ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))),
             Chain((ω3 * l3 * cos(φ3) + ω4 * l4 * cos(φ4), nothing)),
         ),
-        "acceleration": (
-            *triangle["acceleration"],
-            Chain((Symbol("a", "E"), -along)),
-            Chain((across, nothing)),
-        ),
+        "acceleration": (*triangle["acceleration"], Chain((Symbol("a", "E"), -along)), Chain((across, nothing))),
     }

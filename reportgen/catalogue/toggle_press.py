@@ -71,10 +71,7 @@ def _check_turning(draft: Draft) -> Iterator[Finding]:
     if given is None:
         return
     linkage = _linkage(given, _sheet(given))
-    members = {
-        (2, 3): reach.Member("AB, BD", ("parameters", "AB")),
-        (4, 5): reach.Member("BC", ("parameters", "BD")),
-    }
+    members = {(2, 3): reach.Member("AB, BD", ("parameters", "AB")), (4, 5): reach.Member("BC", ("parameters", "BD"))}
     motion_at = crank_motion(linkage, Positions(), 0.0)
     if found := list(reach.findings(linkage, members)):
         yield from found

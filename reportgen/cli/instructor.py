@@ -29,9 +29,9 @@ Roster = Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV o
 def variants(
     spec: Annotated[Path, typer.Argument(metavar="SPEC", help="Assignment file with choices.", show_default=False)],
     roster: Roster,
-    out: Annotated[
-        Path, typer.Option("-o", "--out", metavar="DIR", help="Folder of the assignment files.")
-    ] = Path("out/variants"),
+    out: Annotated[Path, typer.Option("-o", "--out", metavar="DIR", help="Folder of the assignment files.")] = Path(
+        "out/variants"
+    ),
     force: Annotated[bool, typer.Option("--force", help="Also replace files edited by hand.")] = False,
     lang: LangOption = None,
 ) -> None:
@@ -48,12 +48,10 @@ def variants(
 def batch(
     roster: Roster,
     spec: Annotated[
-        Path | None,
-        typer.Option("--spec", metavar="SPEC.yaml", help="Draw the variants of this.", show_default=False),
+        Path | None, typer.Option("--spec", metavar="SPEC.yaml", help="Draw the variants of this.", show_default=False)
     ] = None,
     assignments: Annotated[
-        Path | None,
-        typer.Option("--assignments", metavar="DIR", help="Assignment files by id.", show_default=False),
+        Path | None, typer.Option("--assignments", metavar="DIR", help="Assignment files by id.", show_default=False)
     ] = None,
     make: Annotated[str, typer.Option("--make", help="What to make, parted by commas.")] = "task,report,key",
     jobs: Annotated[
@@ -63,8 +61,7 @@ def batch(
     lang: LangOption = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out"),
     cluster: Annotated[
-        str | None,
-        typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler to work for us."),
+        str | None, typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler to work for us.")
     ] = None,
 ) -> None:
     """Make task, report or key of everybody on ROSTER; go on where an earlier run was stopped."""

@@ -9,18 +9,7 @@ from typing import Annotated
 
 import typer
 
-from reportgen.cli.common import (
-    AT_FAULT,
-    EngineOption,
-    File,
-    Files,
-    LangOption,
-    app,
-    ending,
-    for_each,
-    say,
-    write,
-)
+from reportgen.cli.common import AT_FAULT, EngineOption, File, Files, LangOption, app, ending, for_each, say, write
 
 
 @app.command()
@@ -29,9 +18,7 @@ def build(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the reports.")] = Path("out"),
     engine: EngineOption = "typst",
     lang: LangOption = None,
-    keep_source: Annotated[
-        bool, typer.Option("--keep-source", help="Also leave the source with its figures.")
-    ] = False,
+    keep_source: Annotated[bool, typer.Option("--keep-source", help="Also leave the source with its figures.")] = False,
 ) -> None:
     """Write the complete report of each FILE to DIR/<id>/report.pdf."""
     from reportgen import api
@@ -50,8 +37,7 @@ def solve(
         typer.Option("--positions", metavar="N", min=4, max=360, help="Positions a turn.", show_default=False),
     ] = None,
     json_file: Annotated[
-        Path | None,
-        typer.Option("--json", metavar="FILE|-", help="Write the results as JSON.", show_default=False),
+        Path | None, typer.Option("--json", metavar="FILE|-", help="Write the results as JSON.", show_default=False)
     ] = None,
     lang: LangOption = None,
 ) -> None:

@@ -30,9 +30,7 @@ def motion(report: Report) -> Drawn:
     """Velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
     names, moved = report.words["figure"], report.dense_cycle.motion
     # Along its guide a slider's course counts away from the crank.
-    along = {
-        group.Q: np.exp(1j * float(report.analysis.motion.links[group.j].angle[0])) for group in _sliding(report)
-    }
+    along = {group.Q: np.exp(1j * float(report.analysis.motion.links[group.j].angle[0])) for group in _sliding(report)}
     spins = scheme(report.machine.linkage).spins
     turning = [link for link, other in spins.items() if link == other > DRIVER]
 
@@ -113,9 +111,7 @@ def polar(report: Report) -> Drawn:
         pin = next(group.P for group in report.groups if edge.name == f"R{group.i}{DRIVER}")
         radius = fine.motion.points[pin].p - fine.motion.points[report.driver.centre].p
         load = fine.forces.reactions[edge.name].force * np.conj(radius / np.abs(radius)) * 1j
-        series = charts.Series(
-            report.force_vector(edge.name), load.real, load.imag, _marks(report), numbers
-        )
+        series = charts.Series(report.force_vector(edge.name), load.real, load.imag, _marks(report), numbers)
         scenes.append(charts.polar(series, "N", title=f"{report.words['figure']['pin']} {pin}"))
     return Drawn(tuple(scenes))
 
@@ -128,9 +124,7 @@ def _wheel(report: Report) -> Flywheel:
     return report.flywheel
 
 
-def _over_cycle(
-    report: Report, values: np.ndarray, name: str, levels: tuple[tuple[float, Symbol], ...] = ()
-) -> Scene:
+def _over_cycle(report: Report, values: np.ndarray, name: str, levels: tuple[tuple[float, Symbol], ...] = ()) -> Scene:
     names = report.words["figure"]
     kept = np.union1d(np.arange(0, values.size, THINNED), values.size - 1)
     curve = charts.Series("", np.degrees(_wheel(report).angle[kept]), values[kept])
@@ -162,10 +156,7 @@ def wittenbauer(report: Report) -> Drawn:
         ends = np.array([0.0, 1.2 * ends[1]])
     lines = [
         charts.Series(report.ledger.symbol(id), ends, height + bound**2 / 2 * ends)
-        for id, height, bound in (
-            ("omega.max", wheel.upper, wheel.fastest),
-            ("omega.min", wheel.lower, wheel.slowest),
-        )
+        for id, height, bound in (("omega.max", wheel.upper, wheel.fastest), ("omega.min", wheel.lower, wheel.slowest))
     ]
     curve = charts.Series(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
     return Drawn((charts.chart((curve, *lines), names["reduced_inertia"], names["excess_work"], turn=False),))

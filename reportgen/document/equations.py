@@ -172,9 +172,7 @@ def line(report: Report, id: str, position: int | None = None, note: str = "", k
 
 
 @function
-def lines(
-    report: Report, ids: Sequence[str], position: int | None = None, note: str = "", key: str = ""
-) -> Equation:
+def lines(report: Report, ids: Sequence[str], position: int | None = None, note: str = "", key: str = "") -> Equation:
     """Several worked lines, aligned."""
     return Equation(tuple(_worked(report, id, position, note) for id in ids), key)
 

@@ -225,9 +225,7 @@ def extremes(report: Report) -> Drawn:
     return on_paper(_position_plan(report, motion, shows))
 
 
-def _position_plan(
-    report: Report, motion: Motion, shows: PositionPlan, beside: Draft | None = None
-) -> Scene:
+def _position_plan(report: Report, motion: Motion, shows: PositionPlan, beside: Draft | None = None) -> Scene:
     dense = _motion(report.machine, np.linspace(0.0, FULL_TURN, DENSE))
     scale = drawing_scale(report)
     notes = looks(report, scale).notes

@@ -8,16 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.document.figures import (
-    HALF,
-    MM,
-    Drawn,
-    beside_one_another,
-    drawing_scale,
-    figure,
-    looks,
-    on_paper,
-)
+from reportgen.document.figures import HALF, MM, Drawn, beside_one_another, drawing_scale, figure, looks, on_paper
 from reportgen.document.groups import BodyView, GroupView
 from reportgen.document.plans import force_plan, motion_plan
 from reportgen.document.report import Report
@@ -143,12 +134,7 @@ def bodies(report: Report, k: int, group: GroupView) -> Drawn:
     scenes = [both.scene(forces, turning=both.couples(), title=title)]
     for link, pin in _moments(group):
         one = _Bodies(report, k, (link,))
-        forces = [
-            *one.loads(),
-            *one.found_before(group.polygon),
-            *one.outer(group, link),
-            one.inner(group, link),
-        ]
+        forces = [*one.loads(), *one.found_before(group.polygon), *one.outer(group, link), one.inner(group, link)]
         arms, title = one.arms(group.arms(pin, link), pin), f"{report.words['figure']['link']} {link}"
         extra = _percussion(report, link, k)
         scenes.append(one.scene(forces, arms=arms, turning=one.couples(), extra=extra, title=title))

@@ -118,9 +118,7 @@ class GroupView:
         self.Q = PointName(dyad.middle)
         self.T = PointName(dyad.end if isinstance(dyad.end, str) else "")
         self.M, self.relative, self.rod = PointName(self.one.point), self.one.relative, self.one.rod
-        self.carrier, last = (
-            end.link if isinstance(end, Guide) else plan.owner[end] for end in (dyad.start, dyad.end)
-        )
+        self.carrier, last = (end.link if isinstance(end, Guide) else plan.owner[end] for end in (dyad.start, dyad.end))
         self.outer, self.inner = joint(self.carrier, i), joint(j, i)
         self.guide, self.across = joint(last, j), joint(i, j)
         self.name = joint(i, j)

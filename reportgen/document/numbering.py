@@ -49,9 +49,7 @@ def number(document: tree.Document) -> tree.Document:
     ]
     if faults:
         raise DocumentError(faults)
-    named = {
-        key: plain(_filled(title, count.shown), document.language) for key, title in count.titles.items()
-    }
+    named = {key: plain(_filled(title, count.shown), document.language) for key, title in count.titles.items()}
     shown = count.shown | named
     return replace(document, blocks=_each(numbered, lambda line: _filled(line, shown)))
 
@@ -164,13 +162,9 @@ def _changed(block: tree.Block, change: Change) -> tree.Block:
         case tree.Table():
 
             def cells(rows: tuple[tuple[tree.Cell, ...], ...]) -> tuple[tuple[tree.Cell, ...], ...]:
-                return tuple(
-                    tuple(replace(cell, inlines=change(cell.inlines)) for cell in row) for row in rows
-                )
+                return tuple(tuple(replace(cell, inlines=change(cell.inlines)) for cell in row) for row in rows)
 
-            return replace(
-                block, head=cells(block.head), rows=cells(block.rows), caption=change(block.caption)
-            )
+            return replace(block, head=cells(block.head), rows=cells(block.rows), caption=change(block.caption))
         case tree.Figure() | tree.Plate():
             return replace(block, caption=change(block.caption))
     return block

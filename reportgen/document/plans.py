@@ -77,9 +77,7 @@ def _stages(report: Report, drawing: Plan, scale: str) -> Drawn:
     return Drawn(stages(drawing, HALF), note=Chain((report.ledger.symbol(scale), doubled)))
 
 
-def _plates(
-    report: Report, drawing: Callable[[Report, int], Plan], positions: Sequence[int], scale: str
-) -> Drawn:
+def _plates(report: Report, drawing: Callable[[Report, int], Plan], positions: Sequence[int], scale: str) -> Drawn:
     """Plans of one scale: as a figure if they fit one text block, else on A3 sheets."""
     word = report.words["table"]["position"]
     scenes = [
@@ -197,8 +195,7 @@ def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
 
     known = sum(not edge.unknown for edge in polygon.edges)
     drawn: list[tuple[Edge, int, Style]] = [
-        (edge, known, "found") if edge.unknown else (edge, number, "known")
-        for number, edge in enumerate(polygon.edges)
+        (edge, known, "found") if edge.unknown else (edge, number, "known") for number, edge in enumerate(polygon.edges)
     ]
     drawn += [(read, known + 1, "relative") for read in polygon.reads]
     vectors = []

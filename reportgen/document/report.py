@@ -216,8 +216,7 @@ class Report:
             return names
         words = self.words["linkage"]["given"]
         declared = {
-            id: words[what] + (lower_digits(of) if what == "length" else of)
-            for id, what, of in self.own["quantities"]
+            id: words[what] + (lower_digits(of) if what == "length" else of) for id, what, of in self.own["quantities"]
         }
         return {**declared, "unevenness": words["unevenness"]}
 

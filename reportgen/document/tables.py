@@ -15,17 +15,7 @@ from reportgen.catalogue.loads import AngleLaw, Applied, TableLaw, Torque, WayLa
 from reportgen.catalogue.machine import Position
 from reportgen.cycle import StrokeIndicator
 from reportgen.document.report import FUNCTIONS, Function, Report, function, listed, lower_digits
-from reportgen.document.tree import (
-    FIRST_COLUMN,
-    TEXT_WIDTH,
-    Cell,
-    Column,
-    InlineMath,
-    Inlines,
-    Table,
-    Text,
-    Value,
-)
+from reportgen.document.tree import FIRST_COLUMN, TEXT_WIDTH, Cell, Column, InlineMath, Inlines, Table, Text, Value
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Expression, Fraction, Number, Symbol, refs
 
@@ -154,9 +144,7 @@ def _columns(report: Report, key: str, caption: str, ids: Sequence[str], positio
 
 
 @function
-def tables(
-    report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]
-) -> tuple[Table, ...]:
+def tables(report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]) -> tuple[Table, ...]:
     """Quantities at positions: one table, or several below one another where the columns are too many."""
     at, columns = list(positions), []
     for id in ids:
@@ -316,8 +304,7 @@ def _law_table(
     nodes = law.table
     if isinstance(nodes, StrokeIndicator):
         rows = [
-            (cell(name), *(_exact(value / unit) for value in row))
-            for name, row in zip(names, nodes.rows, strict=False)
+            (cell(name), *(_exact(value / unit) for value in row)) for name, row in zip(names, nodes.rows, strict=False)
         ]
         head = (cell(Fraction(Symbol("s"), Symbol("H"))), *map(_exact, nodes.nodes))
         return _blocks(report, key, caption, head, rows, FIRST_COLUMN + 8)
@@ -334,9 +321,7 @@ def _exact(value: float) -> Cell:
     return Cell((Value(Number(float(f"{value:.10g}"))),))
 
 
-def _beside(
-    report: Report, key: str, caption: str, columns: Sequence[tuple[Symbol, Sequence[float]]]
-) -> Table:
+def _beside(report: Report, key: str, caption: str, columns: Sequence[tuple[Symbol, Sequence[float]]]) -> Table:
     """Long columns, folded into sets side by side."""
     head = tuple(cell(shown) for shown, _ in columns)
     sets = [tuple(map(_exact, row)) for row in zip(*(values for _, values in columns), strict=False)]
@@ -344,20 +329,14 @@ def _beside(
     rows_count = -(-len(sets) // beside)
     filled = sets + [(Cell(),) * len(columns)] * (rows_count * beside - len(sets))
     body = tuple(
-        tuple(one for block in range(beside) for one in filled[block * rows_count + row])
-        for row in range(rows_count)
+        tuple(one for block in range(beside) for one in filled[block * rows_count + row]) for row in range(rows_count)
     )
     width = Column(TEXT_WIDTH / beside / len(columns) - 2.0)
     return Table((width,) * (beside * len(columns)), (head * beside,), body, report.prose.inlines(caption), key)
 
 
 def _blocks(
-    report: Report,
-    key: str,
-    caption: str,
-    head: tuple[Cell, ...],
-    rows: Sequence[tuple[Cell, ...]],
-    first: float,
+    report: Report, key: str, caption: str, head: tuple[Cell, ...], rows: Sequence[tuple[Cell, ...]], first: float
 ) -> Table:
     """A wide table; more than 13 columns are set below one another in blocks of at most 12 values."""
     most = 12
@@ -383,9 +362,7 @@ def joints(report: Report) -> Iterator[Sequence[object]]:
 
 
 @table("lengths")
-def lengths(
-    report: Report, key: str, caption: str, head: Sequence[str], arms: Sequence[str]
-) -> tuple[Table, ...]:
+def lengths(report: Report, key: str, caption: str, head: Sequence[str], arms: Sequence[str]) -> tuple[Table, ...]:
     """Real and drawn lengths, one column a length; many lengths in several tables below one another."""
     columns = [
         (lower_digits(arm), *(bare(report, f"{prefix}.{arm}", None) for prefix in ("l", "drawn")))

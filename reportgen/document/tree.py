@@ -192,9 +192,7 @@ class PageBreak:
     pass
 
 
-Block = (
-    Section | Paragraph | List | Equation | Table | Figure | Plate | Cover | Contents | BlankLine | PageBreak
-)
+Block = Section | Paragraph | List | Equation | Table | Figure | Plate | Cover | Contents | BlankLine | PageBreak
 
 
 @dataclass(frozen=True, slots=True)

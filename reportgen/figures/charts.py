@@ -179,9 +179,7 @@ def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y
 # --- curves ---------------------------------------------------------------------------------------
 
 
-def _window(
-    series: Sequence[Series], levels: Sequence[float], turn: bool
-) -> tuple[_Window, list[float], list[float]]:
+def _window(series: Sequence[Series], levels: Sequence[float], turn: bool) -> tuple[_Window, list[float], list[float]]:
     """Ranges and ticks: whole multiples of 45 or 90 degrees across, matplotlib's choice upwards."""
     from matplotlib.ticker import MaxNLocator, MultipleLocator
 

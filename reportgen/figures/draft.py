@@ -83,11 +83,7 @@ def _notes(notes: Sequence[Content], x: float, y: float) -> tuple[Item, ...]:
 
 
 def sheets(
-    scenes: Sequence[Scene],
-    width: float,
-    height: float,
-    note: Content | None = None,
-    trim: float = TRIM,
+    scenes: Sequence[Scene], width: float, height: float, note: Content | None = None, trim: float = TRIM
 ) -> tuple[Scene, ...]:
     """The scenes in true size on as many sheets of `width` × `height` mm as they need.
 

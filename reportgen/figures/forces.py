@@ -107,12 +107,7 @@ def bodies(
 
 
 def lever(
-    plan: Plan,
-    forces: Sequence[Force],
-    arms: Sequence[ArmOf] = (),
-    *,
-    sense: int = 1,
-    notes: Sequence[Content] = (),
+    plan: Plan, forces: Sequence[Force], arms: Sequence[ArmOf] = (), *, sense: int = 1, notes: Sequence[Content] = ()
 ) -> Scene:
     """Zhukovsky's lever: the velocity plan turned 90° as a rigid lever about its pole, loaded by all forces.
 
@@ -153,9 +148,7 @@ def coriolis(sliding: Sliding) -> Scene:
 
 
 def draw_forces(
-    forces: Sequence[Force],
-    arms: Sequence[ArmOf] = (),
-    bars: Sequence[tuple[complex, complex]] = (),
+    forces: Sequence[Force], arms: Sequence[ArmOf] = (), bars: Sequence[tuple[complex, complex]] = ()
 ) -> Draft:
     """Arrows with their labels and the arms to their lines; forces without direction are left out.
 
@@ -217,8 +210,7 @@ def _tips(forces: Sequence[Force]) -> list[complex]:
     tips: list[complex] = []
     for n, force in enumerate(forces):
         before = sum(
-            abs(other.at - force.at) < 1.0 and _parallel(force.direction, other.direction)
-            for other in forces[:n]
+            abs(other.at - force.at) < 1.0 and _parallel(force.direction, other.direction) for other in forces[:n]
         )
         length = min(SHORTEST + STEP * before, LONGEST + 2 * before)
         tips.append(force.at + length * unit(force.direction))

@@ -102,12 +102,7 @@ class Centre:
 
 
 def centre_plan(
-    linkage: Linkage,
-    motion: Motion,
-    index: int,
-    scale: float,
-    centres: Sequence[Centre],
-    looks: Looks,
+    linkage: Linkage, motion: Motion, index: int, scale: float, centres: Sequence[Centre], looks: Looks
 ) -> Scene:
     """The mechanism at position `index` of `motion` with its links' instant centres and the normals to them."""
     bones = skeleton(linkage, motion, index, scale)

@@ -13,9 +13,7 @@ from reportgen.notation.expressions import Expression
 
 Content = Expression | str
 """What a label prints: an expression, or plain text."""
-Anchor = Literal[
-    "center", "left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right"
-]
+Anchor = Literal["center", "left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right"]
 
 
 @dataclass(frozen=True, slots=True)

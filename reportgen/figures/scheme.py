@@ -165,12 +165,7 @@ def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Lo
 
 
 def groups(
-    linkage: Linkage,
-    motion: Motion,
-    index: int,
-    scale: float,
-    looks: Looks,
-    titles: Sequence[str] = (),
+    linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks, titles: Sequence[str] = ()
 ) -> tuple[Scene, ...]:
     """The driver with the ground, then each Assur group alone, a scene each."""
     bones = skeleton(linkage, motion, index, scale)

@@ -111,18 +111,14 @@ def _summary(
     if markings:
         shares = [100 * marking.share for marking in markings]
         text = page["summary"].format(
-            count=len(markings),
-            mean=write(fmean(shares), 0, language),
-            median=write(median(shares), 0, language),
+            count=len(markings), mean=write(fmean(shares), 0, language), median=write(median(shares), 0, language)
         )
         yield paragraph(text)
     if missing:
         yield paragraph(page["missing"].format(count=len(missing)))
 
 
-def _marks(
-    markings: Sequence[Marking], words: Mapping[str, Any], language: Language, missing: Sequence[Key]
-) -> Table:
+def _marks(markings: Sequence[Marking], words: Mapping[str, Any], language: Language, missing: Sequence[Key]) -> Table:
     """A row for each student, in the order given."""
     names, page = words["grades"], words["class_page"]
     heads = (*(names[name] for name in ("id", "name", "class", "points", "out_of")), page["share"])

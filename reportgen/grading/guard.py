@@ -115,7 +115,8 @@ def _copied_from(guide: Guide, cells: Cells, classmates: Sequence[Key]) -> tuple
     for key in classmates:
         telling = {place: theirs for place, cell in cells.items() if (theirs := _theirs(guide, cell, key)) is not None}
         met = [
-            place for place, theirs in telling.items()
+            place
+            for place, theirs in telling.items()
             if (cell := cells[place]).verdict is not Verdict.right and cell.equals(theirs, cell.band)
         ]
         for place in met if len(met) >= FEWEST else ():
@@ -139,6 +140,8 @@ def _is_wild(guide: Guide, cell: Marked) -> bool:
     size = guide.size(cell.id) / guide.ledger[cell.id].how.scale
     largest, least = max(abs(cell.own), size), abs(cell.own)
     zero = cell.given == 0 and least > APART * cell.band
-    return zero or abs(cell.given) > OUT_OF_PROPORTION * largest or (
-        abs(cell.given) * OUT_OF_PROPORTION < least and least > APART * cell.band
+    return (
+        zero
+        or abs(cell.given) > OUT_OF_PROPORTION * largest
+        or (abs(cell.given) * OUT_OF_PROPORTION < least and least > APART * cell.band)
     )

@@ -50,9 +50,7 @@ def mark(guide: Guide, submission: Submission, classmates: Sequence[Key] = ()) -
     return Marking(guide.key, submission, tuple(in_order), warnings)
 
 
-def _judged(
-    working: Working, submission: Submission, row: Row, position: int, possible: Sequence[Values]
-) -> Marked:
+def _judged(working: Working, submission: Submission, row: Row, position: int, possible: Sequence[Values]) -> Marked:
     """The verdict on one cell; `possible` are values that follow from the student's own."""
     guide, place = working.guide, (row.id, position)
     family, index = guide.ledger[row.id], row.at(position)

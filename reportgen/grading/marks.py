@@ -165,16 +165,16 @@ class _PolicyFile(Part):
 def read_policy(path: Path, language: Language | None = None) -> Policy:
     """The policy of a YAML file; raises `AssignmentError` with all its faults, located.
 
-        tolerance:
-          paper: 0.5 mm          # how far off each end of a measured length may lie
-          digits: 3              # figures that values are computed with
-          share: 0.005           # of the quantity's maximum over the turn
-        points: {right: 1, follows: 1}
-        weights:                 # by id of the quantity, the first pattern that fits; 0: not marked
-          "seg.*": 0.5
-          "M.eq": 5
-        guard: true              # stock answers earn nothing
-        show_answers: true       # the feedback tells the right values
+    tolerance:
+      paper: 0.5 mm          # how far off each end of a measured length may lie
+      digits: 3              # figures that values are computed with
+      share: 0.005           # of the quantity's maximum over the turn
+    points: {right: 1, follows: 1}
+    weights:                 # by id of the quantity, the first pattern that fits; 0: not marked
+      "seg.*": 0.5
+      "M.eq": 5
+    guard: true              # stock answers earn nothing
+    show_answers: true       # the feedback tells the right values
     """
     content = read_model(path, _PolicyFile, language)
     tolerance, points = content.tolerance, content.points

@@ -9,16 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.analysis import Analysis
-from reportgen.answers.key import (
-    Key,
-    Role,
-    Row,
-    computed_bands,
-    drawn_bands,
-    is_chosen_length,
-    is_direction,
-    make_key,
-)
+from reportgen.answers.key import Key, Role, Row, computed_bands, drawn_bands, is_chosen_length, is_direction, make_key
 from reportgen.assignment import Assignment
 from reportgen.case import Case
 from reportgen.grading.marks import Place, Policy, Submission

@@ -140,9 +140,7 @@ class Ledger:
         """The definition as it stands at one position: signs of arms before their terms, nothings left out."""
         match node:
             case Sum(terms):
-                kept = [
-                    self._signs_out(term, position) for term in terms if not self._is_nothing(term, position)
-                ]
+                kept = [self._signs_out(term, position) for term in terms if not self._is_nothing(term, position)]
                 if not kept:
                     return Number(0.0)
                 return kept[0] if len(kept) == 1 else Sum(tuple(kept))
@@ -164,9 +162,7 @@ class Ledger:
                 return rebuild(node, lambda child: self._signs_out(child, position))
 
     def _is_nothing(self, term: Expression, position: int | None) -> bool:
-        return any(
-            self.families[id].optional and self.families[id].at(position) == 0 for id in refs(term)
-        )
+        return any(self.families[id].optional and self.families[id].at(position) == 0 for id in refs(term))
 
     def evaluate(
         self,
@@ -271,9 +267,7 @@ def _measured(definition: Expression | None) -> Expression | None:
     return None if isinstance(definition, Ref) else definition
 
 
-def follow(
-    ledger: Ledger, changes: Mapping[str, Any], *, only: Container[str] | None = None
-) -> dict[str, np.ndarray]:
+def follow(ledger: Ledger, changes: Mapping[str, Any], *, only: Container[str] | None = None) -> dict[str, np.ndarray]:
     """As `Ledger.evaluate`, with each vector as long as the sizes say that were read from it."""
     vectors = {size: one for size, one in carried(ledger).items() if only is None or size in only}
     sizes: dict[str, list[str]] = {}

@@ -325,7 +325,5 @@ def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:
         return None
     if len(terms) <= TERMS or len(parts) == 1:
         return total(terms) / ω1**2
-    each = [
-        q.define(f"J.r.{link}", total(own) / ω1**2, Symbol("J", f"r{link}")) for link, own in parts.items()
-    ]
+    each = [q.define(f"J.r.{link}", total(own) / ω1**2, Symbol("J", f"r{link}")) for link, own in parts.items()]
     return total(each)

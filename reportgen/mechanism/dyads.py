@@ -153,9 +153,7 @@ def assemble(dyad: Dyad, start: End, end: End, sign: Floats) -> Assembled:
 def _root(square: Floats, scale: Floats | float) -> Floats:
     """Square root, nan where the square is negative by more than rounding of `scale`²."""
     scale2 = np.square(scale)
-    return np.sqrt(
-        np.where((square < 0) & (square >= -TOUCHING * scale2), 0.0, np.where(square < 0, np.nan, square))
-    )
+    return np.sqrt(np.where((square < 0) & (square >= -TOUCHING * scale2), 0.0, np.where(square < 0, np.nan, square)))
 
 
 def _rrr(dyad: Dyad, p: PointMotion, t: PointMotion, sign: Floats) -> Assembled:
@@ -191,9 +189,7 @@ def _rrp(dyad: Dyad, p: PointMotion, rail: Rail, sign: Floats) -> Assembled:
     i = LinkMotion(np.angle(r), omega, epsilon)
     j = LinkMotion(np.angle(d), rail.carrier.omega, rail.carrier.epsilon)
     middle = PointMotion(q, under.v + rate * d, under.a + coriolis + rate2 * d)
-    return Assembled(
-        middle, (i, j), (p, middle), {(rail.link, dyad.links[1]): SlideMotion(s, rate, rate2, d)}
-    )
+    return Assembled(middle, (i, j), (p, middle), {(rail.link, dyad.links[1]): SlideMotion(s, rate, rate2, d)})
 
 
 def _rpr(dyad: Dyad, p: PointMotion, t: PointMotion, sign: Floats) -> Assembled:

@@ -119,9 +119,7 @@ def virtual_work_torque(linkage: Linkage, motion: Motion, loads: Sequence[Load])
     return -power / motion.rate
 
 
-def mean_over(
-    function: Callable[[Floats], Floats], breaks: Iterable[float], start: float, stop: float
-) -> float:
+def mean_over(function: Callable[[Floats], Floats], breaks: Iterable[float], start: float, stop: float) -> float:
     """∫ f dx / (stop − start) by composite Gauss–Legendre quadrature, split at `breaks`.
 
     Every part between breaks must be smooth; parts are halved until the mean settles to 1e-12 of the
@@ -208,9 +206,7 @@ def solve_forces(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> For
     for dyad in reversed(linkage.dyads):
         own = tuple(joint for joint in listed if joint.group == dyad.links)
         wrenches = _balance(dyad, own, motion, carried)
-        largest = max(
-            float(np.max(np.abs(wrench.force), initial=0.0, where=motion.reachable)) for wrench in wrenches
-        )
+        largest = max(float(np.max(np.abs(wrench.force), initial=0.0, where=motion.reachable)) for wrench in wrenches)
         for joint, wrench in zip(own, wrenches, strict=True):
             _enter(reactions, joint, wrench, motion, NOTHING * largest)
             source = joint.links[0]
@@ -221,9 +217,7 @@ def solve_forces(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> For
     return Forces(reactions, torque)
 
 
-def _balance(
-    dyad: Dyad, own: tuple[Joint, ...], motion: Motion, carried: Mapping[int, list[_Wrench]]
-) -> list[_Wrench]:
+def _balance(dyad: Dyad, own: tuple[Joint, ...], motion: Motion, carried: Mapping[int, list[_Wrench]]) -> list[_Wrench]:
     """The wrenches of a group's joints on their second links.
 
     Rows: ΣF_x, ΣF_y, ΣM/l about the middle point, of the one link and of the other; columns: two
@@ -277,9 +271,7 @@ def _components(wrench: _Wrench, pole: Complexes, length: float, sense: float) -
     return np.stack((force.real, force.imag, sense * wrench.moment(pole) / length))
 
 
-def _enter(
-    reactions: dict[str, Reaction], joint: Joint, wrench: _Wrench, motion: Motion, nothing: float
-) -> None:
+def _enter(reactions: dict[str, Reaction], joint: Joint, wrench: _Wrench, motion: Motion, nothing: float) -> None:
     """List a joint's reaction in both directions; a force up to `nothing` has no line of action."""
     source, target = joint.links
     point = wrench.point

@@ -167,11 +167,7 @@ class _State:
             self._place(number, LinkMotion(_continuous(link.angle), link.omega, link.epsilon), origin)
 
     def _note(self, dyad: Dyad, group: Assembled) -> None:
-        placed = (
-            np.isfinite(group.middle.p)
-            & np.isfinite(group.links[0].angle)
-            & np.isfinite(group.links[1].angle)
-        )
+        placed = np.isfinite(group.middle.p) & np.isfinite(group.links[0].angle) & np.isfinite(group.links[1].angle)
         moves = placed & np.isfinite(group.middle.a)
         for link in group.links:
             moves &= np.isfinite(link.epsilon)

@@ -189,19 +189,7 @@ class VectorEquation(_Algebra):
 
 
 Expression = (
-    Symbol
-    | Number
-    | Ref
-    | Sum
-    | Product
-    | Negative
-    | Fraction
-    | Power
-    | Root
-    | Call
-    | Matrix
-    | Chain
-    | VectorEquation
+    Symbol | Number | Ref | Sum | Product | Negative | Fraction | Power | Root | Call | Matrix | Chain | VectorEquation
 )
 
 Operand = Expression | float

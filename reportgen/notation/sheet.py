@@ -143,22 +143,13 @@ class Sheet:
         return float(self.value(quantity)[0])
 
     def give(
-        self,
-        id: str,
-        value: Any,
-        symbol: Symbol | str = "",
-        kind: str = "",
-        *,
-        exact: bool = True,
-        **traits: Any,
+        self, id: str, value: Any, symbol: Symbol | str = "", kind: str = "", *, exact: bool = True, **traits: Any
     ) -> Ref:
         """Enter given data (SI): a number, or one per position."""
         values = np.atleast_1d(np.asarray(value))
         return self._enter(id, symbol, kind, values, None, exact=exact, **traits)
 
-    def define(
-        self, id: str, definition: Operand, symbol: Symbol | str = "", kind: str = "", **traits: Any
-    ) -> Ref:
+    def define(self, id: str, definition: Operand, symbol: Symbol | str = "", kind: str = "", **traits: Any) -> Ref:
         """Enter a quantity defined by earlier ones; raises `KeyError` if one of them is missing."""
         expression = as_expression(definition)
         with np.errstate(all="ignore"):
@@ -177,13 +168,7 @@ class Sheet:
         return self.define(id, definition, Symbol(id), "ratio", hidden=True, of=of)
 
     def _enter(
-        self,
-        id: str,
-        symbol: Symbol | str,
-        kind: str,
-        values: np.ndarray,
-        definition: Expression | None,
-        **traits: Any,
+        self, id: str, symbol: Symbol | str, kind: str, values: np.ndarray, definition: Expression | None, **traits: Any
     ) -> Ref:
         row = vocabulary.row(id)
         if isinstance(symbol, str):

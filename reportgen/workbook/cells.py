@@ -68,9 +68,7 @@ def exceeds(row: int, column: int, cells: int = 0) -> bool:
 
 
 def too_large(mark: Mark) -> RefusedError:
-    return RefusedError(
-        "table-too-large", mark, rows=str(MOST_ROWS), columns=str(MOST_COLUMNS), cells=str(MOST_CELLS)
-    )
+    return RefusedError("table-too-large", mark, rows=str(MOST_ROWS), columns=str(MOST_COLUMNS), cells=str(MOST_CELLS))
 
 
 def too_long(mark: Mark) -> RefusedError:

@@ -22,9 +22,7 @@ from reportgen.workbook.cells import LONGEST_CELL, guarded, number_text
 if TYPE_CHECKING:
     from openpyxl.worksheet.worksheet import Worksheet
 
-Style = Literal[
-    "", "title", "head", "bold", "note", "input", "unasked", "good", "linked", "warn", "bad", "doubt"
-]
+Style = Literal["", "title", "head", "bold", "note", "input", "unasked", "good", "linked", "warn", "bad", "doubt"]
 
 MOMENT = (2000, 1, 1, 0, 0, 0)
 """When every file says that it was made, so that its bytes depend on its content alone."""

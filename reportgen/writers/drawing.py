@@ -12,19 +12,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 
-from reportgen.figures.scene import (
-    Anchor,
-    Arc,
-    Arrow,
-    Circle,
-    Hatch,
-    Item,
-    Label,
-    Line,
-    Polyline,
-    Scene,
-    Stroke,
-)
+from reportgen.figures.scene import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline, Scene, Stroke
 from reportgen.writers.layout import Formulas
 
 Segment = tuple[complex, complex]

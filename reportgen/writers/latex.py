@@ -206,9 +206,7 @@ class _Writer:
         lines += (_command("coversubtitle", escape(line)) for line in cover.subtitle)
         lines.append(r"\vfill")
         fields = (
-            _command(
-                "coverfield", escape(f"{label}:"), rf"\textbf{{{escape(value)}}}" if value else r"\dotline"
-            )
+            _command("coverfield", escape(f"{label}:"), rf"\textbf{{{escape(value)}}}" if value else r"\dotline")
             for label, value in cover.fields
         )
         lines += [_command("coverfields", "%\n".join(fields)), r"\vfill"]

@@ -17,8 +17,7 @@ from pathlib import Path
 from reportgen.errors import TypesetterError
 
 INSTALL = (
-    "apt-get install --no-install-recommends "
-    "texlive-latex-base texlive-latex-recommended texlive-lang-other lmodern"
+    "apt-get install --no-install-recommends texlive-latex-base texlive-latex-recommended texlive-lang-other lmodern"
 )
 """The one command that installs all this writer needs, on Debian and its kin."""
 
@@ -50,7 +49,7 @@ _ENVIRONMENT = {
 _OVERFULL = re.compile(r"^Overfull \\[hv]box \((?P<excess>[\d.]+)pt too (?:wide|high)\).*$", re.MULTILINE)
 _MISSING = re.compile(
     r"File [`'][^']+' not found|Font \S+ (?:at \S+ )?not loadable|Encoding scheme [^\n]* unknown"
-    r"|can't find file|Metric \(TFM\) file not found|pdfTeX error[^\n]*(?:font|cannot open)",
+    r"|can't find file|Metric \(TFM\) file not found|pdfTeX error[^\n]*(?:font|cannot open)"
 )
 _ERROR = re.compile(r"^(?:!|\S+:\d+:) ", re.MULTILINE)
 
@@ -90,9 +89,7 @@ def compile(source: str, timeout: float = 120.0) -> Compiled:
 
 def overfull(log: str) -> tuple[str, ...]:
     """The lines of a log about boxes that stand out by more than 1 pt."""
-    return tuple(
-        match.group() for match in _OVERFULL.finditer(log) if float(match["excess"]) > REPORTED_EXCESS
-    )
+    return tuple(match.group() for match in _OVERFULL.finditer(log) if float(match["excess"]) > REPORTED_EXCESS)
 
 
 def _run(program: str, directory: Path, timeout: float) -> None:

@@ -12,16 +12,7 @@ from itertools import pairwise
 from reportgen.document import tree
 from reportgen.errors import TypesetterError
 from reportgen.figures.scene import Scene
-from reportgen.notation.expressions import (
-    Chain,
-    Expression,
-    Number,
-    Product,
-    Sum,
-    Symbol,
-    VectorEquation,
-    walk,
-)
+from reportgen.notation.expressions import Chain, Expression, Number, Product, Sum, Symbol, VectorEquation, walk
 from reportgen.notation.numbers import Language
 from reportgen.notation.numbers import write as written
 from reportgen.words import templates

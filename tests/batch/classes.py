@@ -55,6 +55,5 @@ class Batch:
 def tree(folder: Path) -> dict[str, bytes]:
     """All that stands in a folder, hidden files too."""
     return {
-        path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else b""
-        for path in folder.rglob("*")
+        path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else b"" for path in folder.rglob("*")
     }

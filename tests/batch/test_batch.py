@@ -27,10 +27,7 @@ ROOT = Path(__file__).parents[2]
 def test_each_student_gets_a_folder(tmp_path: Path) -> None:
     batch = Batch(tmp_path, {"K1": "seconds: 0", "K2": "seconds: 0.0"})
     done = batch.run("little")
-    assert set(tree(batch.out)) == {
-        *("K1", "K1/a.pdf", "K1/b.xlsx", "K2", "K2/a.pdf", "K2/b.xlsx"),
-        "manifest.json",
-    }
+    assert set(tree(batch.out)) == {*("K1", "K1/a.pdf", "K1/b.xlsx", "K2", "K2/a.pdf", "K2/b.xlsx"), "manifest.json"}
     assert batch.events == [("K1", "little", "done"), ("K2", "little", "done")]
     assert (done.made, done.kept, done.exit_code, done.notes) == (2, 0, 0, [])
 
@@ -129,9 +126,7 @@ def test_products_of_earlier_runs_stay_in_the_manifest(tmp_path: Path) -> None:
     assert (done.made, done.kept) == (0, 2)
 
 
-def test_another_engine_language_or_template_makes_all_anew(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_another_engine_language_or_template_makes_all_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     log = tmp_path / "log"
     batch = Batch(tmp_path, {"K1": f"log: {log}"})
     order = Order(batch.roster, None, batch.given, batch.out, ("little",), language="en", jobs=1)
@@ -240,8 +235,7 @@ def test_the_command_tells_events_failures_and_the_manifest(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize(
-    "options",
-    [(), ("--spec", "a.yaml", "--assignments", "."), ("--assignments", ".", "--make", "report,dance")],
+    "options", [(), ("--spec", "a.yaml", "--assignments", "."), ("--assignments", ".", "--make", "report,dance")]
 )
 def test_wrong_usage_ends_with_2(tmp_path: Path, options: tuple[str, ...]) -> None:
     done = batch_command("roster.csv", *options)

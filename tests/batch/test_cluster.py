@@ -24,9 +24,7 @@ ROOT = Path(__file__).parents[2]
 @pytest.fixture(scope="module")
 def scheduler() -> Iterator[Any]:
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
-    ) as running:
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0") as running:
         yield running
 
 
@@ -98,10 +96,7 @@ def test_nobody_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
 
 def test_without_dask_the_remedy_is_told(tmp_path: Path) -> None:
     roster, given = write_class(tmp_path, {"K1": "kind: ship"})
-    script = (
-        "import sys; sys.modules['distributed'] = None\n"
-        "from reportgen.cli import main; main()"
-    )
+    script = "import sys; sys.modules['distributed'] = None\nfrom reportgen.cli import main; main()"
     command = (sys.executable, "-c", script, "batch", roster, "--assignments", given, "--lang", "en")
     done = subprocess.run(
         [*map(str, command), "--cluster", "tcp://127.0.0.1:9", "--out", str(tmp_path / "out")],

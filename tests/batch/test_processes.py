@@ -158,9 +158,7 @@ class Killed(BaseException):
 
 
 @pytest.mark.parametrize("placed", [False, True], ids=["half a file", "a whole file"])
-def test_an_end_at_any_file_is_made_good(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, placed: bool
-) -> None:
+def test_an_end_at_any_file_is_made_good(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, placed: bool) -> None:
     """Three students with two files each and two manifests: the run ends at each of them in turn."""
     students = {f"K{k}": "seconds: 0" for k in range(3)}
     straight = Batch(tmp_path, students, "straight")

@@ -168,11 +168,7 @@ def test_a_duplicate_names_the_first(put: Put) -> None:
 
 @pytest.mark.parametrize(
     ("content", "fault"),
-    [
-        ("name,class\nAn,1\n", "FILE:1:1 no-id-column"),
-        ("id,name\n", "FILE:1:1 empty-roster"),
-        ("", "FILE:1:1 empty"),
-    ],
+    [("name,class\nAn,1\n", "FILE:1:1 no-id-column"), ("id,name\n", "FILE:1:1 empty-roster"), ("", "FILE:1:1 empty")],
 )
 def test_a_table_without_ids_or_students(put: Put, content: str, fault: str) -> None:
     assert faults_of(put(content)) == [fault]
@@ -186,7 +182,4 @@ def test_cells_without_a_value_are_faults(put: Put) -> None:
     page.append(["#N/A", "x"])
     stream = io.BytesIO()
     book.save(stream)
-    assert faults_of(put(stream.getvalue(), "r.xlsx")) == [
-        "FILE:Sheet!B2 no-cell-value",
-        "FILE:Sheet!A3 no-cell-value",
-    ]
+    assert faults_of(put(stream.getvalue(), "r.xlsx")) == ["FILE:Sheet!B2 no-cell-value", "FILE:Sheet!A3 no-cell-value"]

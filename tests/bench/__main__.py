@@ -62,9 +62,7 @@ class Bench:
     def build(self, engine: str) -> Cost:
         """One report by the command line, in a cold process."""
         options = ("--out", str(self.folder / engine), "--engine", engine, "--keep-source")
-        return run(
-            (sys.executable, "-c", BUILD, "build", str(self.file), *options), self.folder, self.installed()
-        )
+        return run((sys.executable, "-c", BUILD, "build", str(self.file), *options), self.folder, self.installed())
 
     def installed(self) -> dict[str, str]:
         """The checkout before whatever is installed, with its bytecode kept as that of an installed package is."""
@@ -91,9 +89,7 @@ class Bench:
     def ask(self, *arguments: str) -> str:
         """What a helper process prints; this process stays small, for children inherit its peak memory."""
         command = (sys.executable, *arguments)
-        done = subprocess.run(
-            command, cwd=ROOT, env={**os.environ, **_importable()}, capture_output=True, text=True
-        )
+        done = subprocess.run(command, cwd=ROOT, env={**os.environ, **_importable()}, capture_output=True, text=True)
         if done.returncode:
             raise RuntimeError(done.stderr.strip())
         return done.stdout
@@ -103,9 +99,7 @@ class Bench:
         for engine in self.engines:
             self.build(engine)
         size = self.ask("-m", "tests.bench.size", str(self.file), str(self.report(self.engines[0])))
-        tasks: dict[str, Callable[[], Cost]] = {
-            engine: partial(self.build, engine) for engine in self.engines
-        }
+        tasks: dict[str, Callable[[], Cost]] = {engine: partial(self.build, engine) for engine in self.engines}
         tasks["typst alone"] = self.typst_alone
         passes = 0
         if "latex" in self.engines:
@@ -163,9 +157,7 @@ def table(rows: Sequence[Row]) -> str:
 
 def of_this_machine() -> str:
     """The machine in a line."""
-    return (
-        f"{os.cpu_count()} CPUs, Python {platform.python_version()}, {platform.system()} {platform.machine()}"
-    )
+    return f"{os.cpu_count()} CPUs, Python {platform.python_version()}, {platform.system()} {platform.machine()}"
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

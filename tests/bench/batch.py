@@ -50,9 +50,7 @@ class Class:
         Raises `RuntimeError` if one of them fails.
         """
         with tempfile.TemporaryDirectory(dir=self.folder) as out, _peaks() as peaks:
-            order = Order(
-                self.folder / "roster.csv", None, self.folder / "given", Path(out), ("report",), jobs=workers
-            )
+            order = Order(self.folder / "roster.csv", None, self.folder / "given", Path(out), ("report",), jobs=workers)
             begun = perf_counter()
             done = run_batch(order, io.StringIO())
             seconds = perf_counter() - begun

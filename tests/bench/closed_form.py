@@ -74,9 +74,7 @@ def solve(engine: Engine, cycle_angle: Floats) -> Solved:
     """Motion and forces at cycle angles [N] that grow with the rotation."""
     sides = tuple(_side(engine, cylinder, cycle_angle) for cylinder in engine.cylinders)
     torque = sum(_cross(side.pin[0], side.crank_on_rod) for side in sides)
-    power = sum(
-        _power(engine, cylinder, side) for cylinder, side in zip(engine.cylinders, sides, strict=True)
-    )
+    power = sum(_power(engine, cylinder, side) for cylinder, side in zip(engine.cylinders, sides, strict=True))
     bearing = sum(side.crank_on_rod for side in sides)
     return Solved(sides, np.asarray(bearing), np.asarray(torque), np.asarray(-power / engine.omega))
 

@@ -75,9 +75,7 @@ def _around(i: int, radius: float) -> tuple[float, float]:
 def source(size: Mapping[str, int]) -> str:
     """The LaTeX file: every page after the contents carries its share of everything."""
     pages = max(size["pages"] - 1, 1)
-    return (
-        PREAMBLE + "\n\\newpage\n".join(_page(size, pages, n) for n in range(pages)) + "\n\\end{document}\n"
-    )
+    return PREAMBLE + "\n\\newpage\n".join(_page(size, pages, n) for n in range(pages)) + "\n\\end{document}\n"
 
 
 def _page(size: Mapping[str, int], pages: int, n: int) -> str:

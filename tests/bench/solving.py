@@ -36,13 +36,7 @@ def machine(path: Path) -> tuple[Machine, Engine]:
     if not isinstance(table, StrokeIndicator):
         raise TypeError("the closed form reads an indicator diagram by stroke")
     cylinders = tuple(
-        Cylinder(
-            offset,
-            piston.phase,
-            q.si(f"m.{piston.rod}"),
-            q.si(f"J.{piston.rod}"),
-            q.si(f"m.{piston.link}"),
-        )
+        Cylinder(offset, piston.phase, q.si(f"m.{piston.rod}"), q.si(f"J.{piston.rod}"), q.si(f"m.{piston.link}"))
         for piston, offset in zip(built.pistons, (0.0, given.crank_angle.si), strict=True)
     )
     return built, Engine(

@@ -134,12 +134,7 @@ EDITS = [
     ("table ends early", "[0, 0.5, 1]", "[0, 0.5, 0.9]", ["14:15 table-end"]),
     ("impossible firing", "  by: stroke", "  by: stroke\n  firing: [intake, intake]", ["14:11 firing"]),
     ("unknown stroke", "  by: stroke", "  by: stroke\n  firing: [intake, idle]", ["14:20 choice"]),
-    (
-        "three in a firing pair",
-        "  by: stroke",
-        "  by: stroke\n  firing: [intake, intake, intake]",
-        ["14:11 too-many"],
-    ),
+    ("three in a firing pair", "  by: stroke", "  by: stroke\n  firing: [intake, intake, intake]", ["14:11 too-many"]),
     ("half a firing pair", "  by: stroke", "  by: stroke\n  firing: [intake]", ["14:11 too-few"]),
     # YAML
     ("tab before a key", "  H: 95 mm", "\tH: 95 mm", ["4:1 tab"]),
@@ -159,17 +154,8 @@ EDITS = [
     (
         "many faults",
         BASE,
-        BASE.replace("95 mm", "95")
-        .replace("2200 rpm", "2,2 rpm")
-        .replace("G2", "Q2")
-        .replace("0.5, 1]", "1]"),
-        [
-            "3:1 missing-key",
-            "4:6 missing-unit",
-            "6:6 decimal-comma",
-            "9:3 unknown-key",
-            "14:6 row-length",
-        ],
+        BASE.replace("95 mm", "95").replace("2200 rpm", "2,2 rpm").replace("G2", "Q2").replace("0.5, 1]", "1]"),
+        ["3:1 missing-key", "4:6 missing-unit", "6:6 decimal-comma", "9:3 unknown-key", "14:6 row-length"],
     ),
 ]
 

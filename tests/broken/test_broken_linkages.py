@@ -51,22 +51,10 @@ EDITS = [
         "angle: 0 deg, on: 5}",
         ["11:53 link-not-placed", "19:26 no-slider"],
     ),
-    (
-        "point on no link",
-        BASE,
-        "{link: 3, at: [300",
-        "{link: 8, at: [300",
-        ["9:16 not-placed", "13:15 no-such-link"],
-    ),
+    ("point on no link", BASE, "{link: 3, at: [300", "{link: 8, at: [300", ["9:16 not-placed", "13:15 no-such-link"]),
     ("mass on another link", BASE, "at: S2, G", "at: F, G", ["16:21 not-on-link"]),
     ("mass by nothing", BASE, "at: S2, G: 30 N", "at: S2", ["16:7 missing-key"]),
-    (
-        "flywheel without loads",
-        V,
-        "PC: 1 kN",
-        "flywheel: {delta: 1/50}",
-        ["2:102 flywheel-without-loads"],
-    ),
+    ("flywheel without loads", V, "PC: 1 kN", "flywheel: {delta: 1/50}", ["2:102 flywheel-without-loads"]),
     ("load on no slider", BASE, "stroke, link: 5", "stroke, link: 3", ["19:26 no-slider"]),
     ("force and torque", BASE, "M: 5 N m", "M: 5 N m, F: 3 N", ["18:41 force-or-torque"]),
     ("load without size", BASE, "link: 3, M: 5 N m", "link: 3", ["18:7 missing-key"]),
@@ -87,13 +75,7 @@ EDITS = [
     ("does not assemble over a turn", BASE, "280 mm]", "150 mm]", ["6:7 no-assembly"]),
     ("never assembles", BASE, "[340 mm, 280 mm]", "[34 mm, 28 mm]", ["6:7 never-assembled"]),
     ("toggle position", BASE, "[340 mm, 280 mm]", "[300 mm, 220 mm]", ["6:7 dead-point"]),
-    (
-        "block leaves its slot",
-        BASE,
-        "angle: 0 deg}",
-        "angle: 0 deg, slot: [0 mm, 650 mm]}",
-        ["11:55 out-of-slot"],
-    ),
+    ("block leaves its slot", BASE, "angle: 0 deg}", "angle: 0 deg, slot: [0 mm, 650 mm]}", ["11:55 out-of-slot"]),
     ("articulation beyond the rod", V, "BD: 66 mm", "BD: 260 mm", ["2:41 out-of-range"]),
     ("rod too short", V, "BC: 253 mm", "BC: 80 mm", ["2:29 no-assembly"]),
     ("bore without diagram", V, "PC: 1 kN", "D: 80 mm", ["1:1 missing-key"]),
@@ -103,9 +85,7 @@ EDITS = [
 
 @pytest.mark.parametrize(("name", "base", "old", "new", "expected"), EDITS, ids=[edit[0] for edit in EDITS])
 @pytest.mark.parametrize("language", ["vi", "en"])
-def test_fault(
-    name: str, base: str, old: str, new: str, expected: list[str], language: str, tmp_path: Path
-) -> None:
+def test_fault(name: str, base: str, old: str, new: str, expected: list[str], language: str, tmp_path: Path) -> None:
     assert base.count(old) == 1
     path = tmp_path / "file.yaml"
     path.write_text(base.replace(old, new), encoding="utf-8")

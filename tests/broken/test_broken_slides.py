@@ -51,12 +51,7 @@ EDITS = [
     ("torque at a point", "unit: N,", "unit: N, torque_unit: N m,", ["17:61 force-or-torque"]),
     ("end of the driver's slot", "{angle: 0 deg}", "{slot: [0 mm, 100 mm]}", ["6:83 driver-out-of-slot"]),
     ("start of the driver's slot", "{angle: 0 deg}", "{slot: [1 mm, 120 mm]}", ["6:72 driver-out-of-slot"]),
-    (
-        "block leaves its slot",
-        "angle: 90 deg}",
-        "angle: 90 deg, slot: [300 mm, 400 mm]}",
-        ["13:56 out-of-slot-slide"],
-    ),
+    ("block leaves its slot", "angle: 90 deg}", "angle: 90 deg, slot: [300 mm, 400 mm]}", ["13:56 out-of-slot-slide"]),
 ]
 
 

@@ -100,17 +100,13 @@ def test_a_dead_point_between_the_samples_is_named(
         (
             HEAD.format(crank=40, group=RPR.format(offset=60.00005)),
             "no-assembly",
-            tuple(
-                53.130102 + sign * math.degrees(math.acos((11600 - 60.00005**2) / 8000)) for sign in (-1, 1)
-            ),
+            tuple(53.130102 + sign * math.degrees(math.acos((11600 - 60.00005**2) / 8000)) for sign in (-1, 1)),
         ),
         # 50² + x² = 50.0001² at x = ±0.1 mm
         (SLIDE.format(rod=150.0001), "no-assembly-slide", (100.0, 100.2)),
     ],
 )
-def test_a_gap_between_the_samples_is_named(
-    content: str, code: str, ends: tuple[float, float], tmp_path: Path
-) -> None:
+def test_a_gap_between_the_samples_is_named(content: str, code: str, ends: tuple[float, float], tmp_path: Path) -> None:
     path = tmp_path / "file.yaml"
     path.write_text(content, encoding="utf-8")
     (found,) = check(path)

@@ -46,11 +46,7 @@ def see(*keys: str) -> Paragraph:
 
 def table(key: str = "", *cells: Inlines, caption: Inlines = ()) -> Table:
     return Table(
-        (Column(10),),
-        ((Cell(cells[0]),),) if cells else (),
-        tuple((Cell(c),) for c in cells[1:]),
-        caption,
-        key,
+        (Column(10),), ((Cell(cells[0]),),) if cells else (), tuple((Cell(c),) for c in cells[1:]), caption, key
     )
 
 
@@ -61,7 +57,7 @@ def numbers(*blocks: Block) -> list[str]:
 def test_sections_count_by_level() -> None:
     levels = (1, 2, 3, 3, 4, 2, 3, 1, 2)
     assert numbers(*(Section(level, title("s")) for level in levels)) == [
-        *("1", "1.1", "1.1.1", "1.1.2", "", "1.2", "1.2.1", "2", "2.1"),
+        *("1", "1.1", "1.1.1", "1.1.2", "", "1.2", "1.2.1", "2", "2.1")
     ]
 
 

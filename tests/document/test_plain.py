@@ -70,5 +70,5 @@ def test_the_front_matter_is_text_too() -> None:
     blocks = (cover, Contents("Contents"), PageBreak(), BlankLine("Name"))
     document = Document("en", "T", "A", ("", ""), ("", ""), Words("F", "T", "C", "p"), blocks)
     assert text_of(document).splitlines() == [
-        *("University", "Title", "Sub", "Student: N", "Class: …", "Place, 2011", "Contents", "Name …"),
+        *("University", "Title", "Sub", "Student: N", "Class: …", "Place, 2011", "Contents", "Name …")
     ]

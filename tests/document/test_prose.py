@@ -114,10 +114,7 @@ def test_markdown_becomes_the_tree(render: Render, template: str, expected: list
             "{% import 'macros.md' as m %}\nThe {{ m.speed_of('*B*') }}.",
             [says("The ", Emph((Text("speed"),)), " of ", Text("*B*"), ".")],
         ),
-        (
-            "{% import 'macros.md' as m %}\n{{ m.pages(vB) }}",
-            [says("One."), says("Two: ", InlineMath(V_B), ".")],
-        ),
+        ("{% import 'macros.md' as m %}\n{{ m.pages(vB) }}", [says("One."), says("Two: ", InlineMath(V_B), ".")]),
         (
             "{% set x %}*em* {{ vB }}{% endset %}\n{{ x ~ '*no*' }}{{ x }}",
             [

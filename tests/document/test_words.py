@@ -22,21 +22,12 @@ def test_words_of_a_school_stand_before_the_common_ones(tmp_path: Path) -> None:
     ):
         directory.mkdir(parents=True)
         (directory / "words.yaml").write_text(text, encoding="utf-8")
-    assert load_words(path) == {
-        "figure": {"plan": "Sơ đồ", "scheme": "Lược đồ"},
-        "yes": "Có",
-        "strokes": ["Một"],
-    }
+    assert load_words(path) == {"figure": {"plan": "Sơ đồ", "scheme": "Lược đồ"}, "yes": "Có", "strokes": ["Một"]}
 
 
 @pytest.mark.parametrize(
     ("text", "place"),
-    [
-        ("x", "1:1: a table"),
-        ("- x", "1:1: a table"),
-        ("", "1:1: empty"),
-        ("a: 1\na: 2\n", "2:1: duplicate-key"),
-    ],
+    [("x", "1:1: a table"), ("- x", "1:1: a table"), ("", "1:1: empty"), ("a: 1\na: 2\n", "2:1: duplicate-key")],
 )
 def test_what_cannot_be_read_is_a_fault_with_its_place(tmp_path: Path, text: str, place: str) -> None:
     (tmp_path / "words.yaml").write_text(text, encoding="utf-8")

@@ -23,10 +23,7 @@ def twin_engine() -> Linkage:
     return Linkage(
         ground={"O1": 0j},
         driver=Crank("O1", "A", R),
-        dyads=(
-            Dyad("RRP", (2, 3), "A", "B", VERTICAL, (L, 0.0)),
-            Dyad("RRP", (4, 5), "C", "D", VERTICAL, (L, 0.0)),
-        ),
+        dyads=(Dyad("RRP", (2, 3), "A", "B", VERTICAL, (L, 0.0)), Dyad("RRP", (4, 5), "C", "D", VERTICAL, (L, 0.0))),
         points=(LinkPoint("C", 1, -R), LinkPoint("S2", 2, 0.35 * L), LinkPoint("S4", 4, 0.35 * L)),
         inertias=(
             Inertia(2, "S2", m2, m2 * L**2 / 12),
@@ -55,10 +52,7 @@ def slotted_lever() -> Linkage:
     return Linkage(
         ground={"O1": 0.27j, "O3": 0j},
         driver=Crank("O1", "A", 0.10309),
-        dyads=(
-            Dyad("RPR", (2, 3), "A", "A3", "O3"),
-            Dyad("RRP", (4, 5), "D", "E", Guide(0.52j, math.pi), (0.1, 0.0)),
-        ),
+        dyads=(Dyad("RPR", (2, 3), "A", "A3", "O3"), Dyad("RRP", (4, 5), "D", "E", Guide(0.52j, math.pi), (0.1, 0.0))),
         points=(LinkPoint("D", 3, 0.55), LinkPoint("S3", 3, 0.3)),
     )
 

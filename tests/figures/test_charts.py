@@ -35,11 +35,7 @@ def test_a_chart_is_clear_and_of_its_size() -> None:
 
 
 def test_angles_have_ticks_at_whole_multiples() -> None:
-    ticks = [
-        item.content
-        for item in torque().items
-        if isinstance(item, Label) and isinstance(item.content, Number)
-    ]
+    ticks = [item.content for item in torque().items if isinstance(item, Label) and isinstance(item.content, Number)]
     assert [tick.value for tick in ticks if tick.unit == "°"] == [90.0 * k for k in range(9)]
 
 
@@ -62,10 +58,7 @@ def test_the_simplified_curve_stays_within_the_pen() -> None:
 
 def test_two_curves_are_told_apart_without_colour() -> None:
     x = ANGLE[:361]
-    series = [
-        Series(Symbol("v", "B"), x, np.sin(np.radians(x))),
-        Series(Symbol("v", "D"), x, np.cos(np.radians(x))),
-    ]
+    series = [Series(Symbol("v", "B"), x, np.sin(np.radians(x))), Series(Symbol("v", "D"), x, np.cos(np.radians(x)))]
     scene = chart(series, Symbol("φ", "1"), "v, m/s")
     assert overlaps(scene) == []
     pens = [item.stroke for item in scene.items if isinstance(item, Polyline) and not item.closed]

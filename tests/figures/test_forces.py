@@ -37,9 +37,7 @@ def sketch(k: int) -> Scene:
     )
     arms = (ArmOf(Symbol("h", "1"), point["D"], "Pqt4"), ArmOf(Symbol("h", "2"), point["D"], "G4"))
     couple = Couple(Symbol("M", "qt4"), point["S4"], -float(motion.links[4].epsilon[k]))
-    return bodies(
-        linkage, motion, k, scale, (4, 5), acting, arms=arms, turning=[couple], looks=Looks(centres=("S4",))
-    )
+    return bodies(linkage, motion, k, scale, (4, 5), acting, arms=arms, turning=[couple], looks=Looks(centres=("S4",)))
 
 
 @pytest.mark.parametrize("k", range(8))

@@ -151,10 +151,7 @@ def test_the_indicator_diagram_is_clear_on_both_sides_of_a_cylinder_in_any_direc
     for side in (1j * up, -1j * up):
         start, end, mu = beside(top, bottom, side, 75.0, 640.0)
         assert abs(end - start) == pytest.approx(70)
-        branches = (
-            Branch("Expansion", (0, 0.1, 0.4, 1), (640, 400, 120, 30)),
-            Branch("Exhaust", (0, 1), (2, 30)),
-        )
+        branches = (Branch("Expansion", (0, 0.1, 0.4, 1), (640, 400, 120, 30)), Branch("Exhaust", (0, 1), (2, 30)))
         readings = [Reading(Symbol(str(n), "(3)"), n / 8, 640 * (1 - n / 8) ** 2) for n in range(9)]
         frame = Frame(start, end, side, mu, "p, N/cm²")
         assert overlaps(finish(indicator(frame, branches, readings))) == []

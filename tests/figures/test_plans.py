@@ -51,14 +51,7 @@ def test_vectors_are_true_to_scale(k: int) -> None:
 def test_segments_of_the_reference_engine() -> None:
     # Printed at position 4, drawn by hand: 0.5 %.
     lengths = {name: abs(way) for name, way in arrows(plan(velocity_plan(motion(), 3))).items()}
-    for name, printed in {
-        "pa": 50,
-        "pb": 28.20,
-        "ab": 35.91,
-        "ps2": 40.11,
-        "pd": 42.41,
-        "ps4": 44.26,
-    }.items():
+    for name, printed in {"pa": 50, "pb": 28.20, "ab": 35.91, "ps2": 40.11, "pd": 42.41, "ps4": 44.26}.items():
         assert lengths[name] == pytest.approx(printed, rel=5e-3)
     lengths = {name: abs(way) for name, way in arrows(plan(acceleration_plan(motion(), 3))).items()}
     for name, printed in {"πb′": 35.10, "πd′": 35.62, "πs2′": 42.08, "πs4′": 42.23, "n": 7.20}.items():
@@ -80,17 +73,11 @@ def test_coinciding_points_share_a_label() -> None:
 @pytest.mark.parametrize("length", [0.004, 0.5, 2.99, 3.0, 8.0])
 def test_short_vectors_get_an_enlarged_inset(length: float) -> None:
     vectors = (PlanVector("long", 0j, 40 + 0j), PlanVector("short", 40 + 0j, 40 + length * 1j))
-    points = (
-        PlanPoint(Symbol("e"), 0j),
-        PlanPoint(Symbol("f"), 40 + 0j),
-        PlanPoint(Symbol("g"), 40 + length * 1j),
-    )
+    points = (PlanPoint(Symbol("e"), 0j), PlanPoint(Symbol("f"), 40 + 0j), PlanPoint(Symbol("g"), 40 + length * 1j))
     scene = plan(Plan(vectors, points))
     drawn = arrows(scene)
     assert drawn["short"] == pytest.approx(length * 1j, abs=1e-9)
-    ratios = [
-        item.content for item in scene.items if isinstance(item, Label) and str(item.content).endswith(":1")
-    ]
+    ratios = [item.content for item in scene.items if isinstance(item, Label) and str(item.content).endswith(":1")]
     assert len(ratios) == (1 if length < TINY else 0)
     if ratios:
         ratio = float(str(ratios[0]).removesuffix(":1"))

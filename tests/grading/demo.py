@@ -120,9 +120,7 @@ def write() -> None:
     with tempfile.TemporaryDirectory() as folder:
         make_variants(DEMO / "spec.yaml", DEMO / "roster.csv", Path(folder), False, None)
         guides = {path.stem: open_guide(api.load(path)) for path in sorted(Path(folder).glob("*.yaml"))}
-        sheets = {
-            id: filled(guides[id], *slip, seed) for seed, (id, slip) in enumerate(sorted(SLIPS.items()))
-        }
+        sheets = {id: filled(guides[id], *slip, seed) for seed, (id, slip) in enumerate(sorted(SLIPS.items()))}
         sheets |= {id: sheets[source] for id, source in COPIED.items()}
         for number, (id, sheet) in enumerate(sorted(sheets.items())):
             make, suffix = ((workbook, "xlsx"), (csv, "csv"))[number % 2]

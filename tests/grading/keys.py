@@ -57,13 +57,7 @@ def small_key(language: Language = "vi", id: str = "crank-07", student: str = "N
         row("omega.1", Chapter.velocity, Symbol("ω", "1"), "angular velocity", "rad/s", [10 * math.pi]),
         row("v.B", Chapter.velocity, Symbol("v", "B"), "velocity", "m/s", [4.71, 2.36, -1.2, 0.0]),
         row(
-            "dir.v.B",
-            Chapter.velocity,
-            Symbol("α", "vB"),
-            "angle",
-            "°",
-            [90, 180, 270, math.nan],
-            positions=(1, 2, 3),
+            "dir.v.B", Chapter.velocity, Symbol("α", "vB"), "angle", "°", [90, 180, 270, math.nan], positions=(1, 2, 3)
         ),
         row(
             "M.eq",

@@ -13,14 +13,7 @@ from openpyxl import load_workbook
 from reportgen.document.tree import Figure, Table, text_of
 from reportgen.errors import CellMark, Problem
 from reportgen.figures.scene import Label
-from reportgen.grading.feedback import (
-    FIRST,
-    STYLES,
-    feedback_book,
-    feedback_document,
-    mistake_inlines,
-    points_text,
-)
+from reportgen.grading.feedback import FIRST, STYLES, feedback_book, feedback_document, mistake_inlines, points_text
 from reportgen.grading.grades import class_document, grade_rows
 from reportgen.grading.marks import Answer, Marked, Marking, Submission, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM
@@ -34,13 +27,7 @@ from tests.grading.students import NAMES
 
 FILE = "/somewhere/of/the/instructor/work.xlsx"
 LANGUAGES: tuple[Language, ...] = get_args(Language)
-SLIPS = {
-    "too-few-figures",
-    "rows-swapped",
-    "wrong-column",
-    "other-scale",
-    *(name for name, _, _ in CONVENTIONS),
-}
+SLIPS = {"too-few-figures", "rows-swapped", "wrong-column", "other-scale", *(name for name, _, _ in CONVENTIONS)}
 
 
 def at(row: int, column: int) -> CellMark:

@@ -150,9 +150,7 @@ def test_mistake_before_the_first_value_on_the_sheet() -> None:
     filled = students.written(guide, world)
     kept = {place: given for place, given in filled.values.items() if place[0] in ("v.A", "v.B", "a.A")}
     marking = mark(guide, Submission(filled.assignment, filled.file, kept, {}))
-    assert {(cell.id, cell.mistake, cell.where) for cell in marking.first_errors} >= {
-        ("v.A", "stroke-for-radius", "R")
-    }
+    assert {(cell.id, cell.mistake, cell.where) for cell in marking.first_errors} >= {("v.A", "stroke-for-radius", "R")}
 
 
 @pytest.mark.parametrize(("datum", "taken"), [("H", 0.11), ("n", 2400.0), ("D", 0.09), ("G3", 28.0)])

@@ -124,8 +124,7 @@ def test_one_mark_before_three_digits_is_read_by_the_sheets_other_numbers() -> N
 
 
 @given(
-    st.text(alphabet="0123456789.,eE+-−–·×xX*^()/ °%'²³⁻¹mNskgradvgphdộ\u00a0\n=≈", max_size=70)
-    | st.text(max_size=20)
+    st.text(alphabet="0123456789.,eE+-−–·×xX*^()/ °%'²³⁻¹mNskgradvgphdộ\u00a0\n=≈", max_size=70) | st.text(max_size=20)
 )
 def test_any_text_is_a_finite_number_or_a_fault(text: str) -> None:
     codes = set()
@@ -233,11 +232,7 @@ def test_rows_and_columns_may_be_moved(tmp_path: Path) -> None:
     path.write_text(
         "Position 3;Value;unit;id;Pos. 1;note\n-1,2;;m/s;v.B;4,71;mine\n;31,4;rad/s;omega.1;;\n", encoding="utf-8"
     )
-    assert numbers(read_submission(path, small_key())) == {
-        ("v.B", 3): -1.2,
-        ("v.B", 1): 4.71,
-        ("omega.1", 0): 31.4,
-    }
+    assert numbers(read_submission(path, small_key())) == {("v.B", 3): -1.2, ("v.B", 1): 4.71, ("omega.1", 0): 31.4}
 
 
 def test_the_csv_of_the_sheet_is_read_whatever_the_separator(tmp_path: Path) -> None:

@@ -92,9 +92,7 @@ def _machines() -> dict[str, Linkage]:
     ground, low = {"A": 0j, "D": 0.3 + 0j}, {"A": 0j, "C": -0.25j}
     corner = LinkPoint("E", 2, 0.15 + 0.1j)
     return {
-        "RRR": Linkage(
-            ground, crank, (four_bar,), (corner,), (Inertia(2, "E", 2.0, 0.02), Inertia(3, "C", 1.0, 0.03))
-        ),
+        "RRR": Linkage(ground, crank, (four_bar,), (corner,), (Inertia(2, "E", 2.0, 0.02), Inertia(3, "C", 1.0, 0.03))),
         "RRP": Linkage(
             {"A": 0j},
             crank,
@@ -103,9 +101,7 @@ def _machines() -> dict[str, Linkage]:
             (Inertia(2, "S2", 2.0, 0.02), Inertia(3, "C", 3.0)),
         ),
         "RPR": Linkage(low, crank, (lever,), beam, (block, on_beam)),
-        "RPR with offset": Linkage(
-            low, crank, (replace(lever, lengths=(0.0, 0.05)),), beam, (block, on_beam)
-        ),
+        "RPR with offset": Linkage(low, crank, (replace(lever, lengths=(0.0, 0.05)),), beam, (block, on_beam)),
         "RPR and PRP": Linkage(
             low,
             crank,

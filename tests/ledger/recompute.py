@@ -95,5 +95,3 @@ def _scales(ledger: Ledger, chain: Chain, id: str, position: int) -> tuple[float
         for leaf, part in zip(leaves, put, strict=True)
         if isinstance(part, Number)
     )
-
-

@@ -80,11 +80,7 @@ def is_mild(book: Book) -> bool:
     swings = [link.epsilon for link in motion.links.values()] + [slide.a for slide in motion.slides.values()]
     forces = [reaction.force for reaction in book.forces.reactions.values()]
     loads = biggest(*(load.force for load in book.loads))
-    return (
-        biggest(*rates) < MILD * RATE
-        and biggest(*swings) < MILD * RATE**2
-        and biggest(*forces) < MILD * loads
-    )
+    return biggest(*rates) < MILD * RATE and biggest(*swings) < MILD * RATE**2 and biggest(*forces) < MILD * loads
 
 
 @st.composite
@@ -100,11 +96,7 @@ def books(draw: Any, kinds: tuple[DyadKind, ...], sliding: bool = False) -> Book
 
 
 ONE = settings(
-    max_examples=12,
-    deadline=None,
-    suppress_health_check=list(HealthCheck),
-    derandomize=True,
-    phases=[Phase.generate],
+    max_examples=12, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True, phases=[Phase.generate]
 )
 
 

@@ -16,16 +16,7 @@ from hypothesis import strategies as st
 from reportgen.mechanism.dyads import cross, dot
 from reportgen.mechanism.forces import Load
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import (
-    Crank,
-    Dyad,
-    DyadKind,
-    Guide,
-    Inertia,
-    Linkage,
-    LinkPoint,
-    SlidingDriver,
-)
+from reportgen.mechanism.structure import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 
 KINDS: tuple[DyadKind, ...] = ("RRR", "RRP", "RPR", "PRP", "RPP")
 REFERENCE = 0.7
@@ -123,16 +114,13 @@ def linkages(draw: Any, kinds: tuple[DyadKind, ...], sliding: bool = False) -> L
         if kind != "RPR":
             hanging.append(f"M{number}")
     masses = tuple(
-        Inertia(link, f"T{link}", draw(hundredths(50, 200)), draw(hundredths(5, 50)))
-        for link in linkage.links
+        Inertia(link, f"T{link}", draw(hundredths(50, 200)), draw(hundredths(5, 50))) for link in linkage.links
     )
     return replace(linkage, inertias=masses)
 
 
 @st.composite
-def _with_dyad(
-    draw: Any, linkage: Linkage, kind: DyadKind, links: tuple[int, int], hanging: list[str]
-) -> Linkage:
+def _with_dyad(draw: Any, linkage: Linkage, kind: DyadKind, links: tuple[int, int], hanging: list[str]) -> Linkage:
     now = solve_motion(linkage, REFERENCE, 1.0)
 
     def point() -> tuple[str, complex]:
@@ -177,6 +165,5 @@ def applied(draw: Any, linkage: Linkage) -> list[tuple[int, complex, complex, fl
 def as_loads(given: list[tuple[int, complex, complex, float]], motion: Motion) -> tuple[Load, ...]:
     still = np.zeros_like(motion.driver)
     return tuple(
-        Load(f"F{link}", link, still + force, still + point, still + couple)
-        for link, force, point, couple in given
+        Load(f"F{link}", link, still + force, still + point, still + couple) for link, force, point, couple in given
     )

@@ -31,8 +31,7 @@ def prove(analysis: Analysis) -> None:
     pairs: Pairs = {}
     for k in range(len(analysis.cycle_angle)):
         pose = {
-            link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k]))
-            for link in linkage.links
+            link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k])) for link in linkage.links
         }
         loads = [
             (load.link, complex(load.force[k]), complex(load.point[k]), float(load.couple[k]))

@@ -117,9 +117,7 @@ def test_the_cycle_closes(machine: Machine) -> None:
     assert found.work[-1] == pytest.approx(0, abs=1e-9 * np.abs(found.work).max())
     assert found.speed[-1] == pytest.approx(found.speed[0], rel=1e-9)
     # The other side's constant torque is the mean balancing torque: inertia gives back what it takes.
-    assert found.constant == pytest.approx(
-        machine.turn * api_mean(machine), abs=1e-9 * np.abs(found.torque).max()
-    )
+    assert found.constant == pytest.approx(machine.turn * api_mean(machine), abs=1e-9 * np.abs(found.torque).max())
 
 
 def test_a_constant_resistance_of_a_swinging_lever(tmp_path: Path) -> None:

@@ -83,9 +83,7 @@ def test_work_by_crank_angle_of_a_pressure_known_in_closed_form() -> None:
 def test_both_forms_agree_where_they_say_the_same() -> None:
     constant = StrokeIndicator((0.0, 1.0), (1e5, 1e5), (0.0, 0.0), (2e5, 2e5), (0.0, 0.0))
     edge = 1e-9
-    angles = np.array(
-        [0, math.pi - edge, math.pi, 2 * math.pi - edge, 2 * math.pi, 3 * math.pi - edge, 3 * math.pi]
-    )
+    angles = np.array([0, math.pi - edge, math.pi, 2 * math.pi - edge, 2 * math.pi, 3 * math.pi - edge, 3 * math.pi])
     by_angle = AngleIndicator((*angles, 4 * math.pi), (1e5, 1e5, 0, 0, 2e5, 2e5, 0, 0))
     # The ramps of 1e-9 rad meet dead centres, where the piston stands still: nothing is lost there.
     assert by_angle.work(fraction_rate) == pytest.approx(constant.work(1.0, 1.0), rel=1e-9)

@@ -52,12 +52,7 @@ def compare(
     pairs: dict[str, list[tuple[complex, complex]]] = {}
     for k, (pose, acting) in enumerate(zip(poses, loads, strict=True)):
         weights = [
-            (
-                body,
-                -1j * it.mass * GRAVITY,
-                pose[body][0] + it.centre * np.exp(1j * pose[body][1]),
-                0.0,
-            )
+            (body, -1j * it.mass * GRAVITY, pose[body][0] + it.centre * np.exp(1j * pose[body][1]), 0.0)
             for body, it in bodies.items()
         ]
         answer = ne.solve(bodies, joints, True, motion.rate, pose, [*acting, *weights], CONDITION)
@@ -141,9 +136,7 @@ def test_four_bar(
     for phi in map(float, analysis.motion.driver):
         pin = cmath.rect(r, phi)
         joint = meeting(pin, c, fixed, o, -1 if crossed else 1)
-        poses.append(
-            {1: (0j, phi), 2: (pin, cmath.phase(joint - pin)), 3: (fixed, cmath.phase(joint - fixed))}
-        )
+        poses.append({1: (0j, phi), 2: (pin, cmath.phase(joint - pin)), 3: (fixed, cmath.phase(joint - fixed))})
         push = cmath.rect(force, math.radians(120))
         loads.append([(3, 0j, fixed, -float(torque)), (3, push, joint, 0.0)])
     compare(analysis, bodies, joints, ["R01", "R12", "R23", "R03"], poses, loads)
@@ -246,11 +239,7 @@ def test_slotted_lever(
         f" s3: 0.{share}, J3: 0.03 kg m2, torque: {{M: {abs(torque)} N m, sense: {sense}}}}}\n",
     )
     r, pivot = crank / 1000, -1j * apart / 1000
-    bodies = {
-        1: ne.Body(0.0, 0.0, 0j),
-        2: ne.Body(0.5, 0.0, 0j),
-        3: ne.Body(3.0, 0.03, complex(0.3 * share / 10)),
-    }
+    bodies = {1: ne.Body(0.0, 0.0, 0j), 2: ne.Body(0.5, 0.0, 0j), 3: ne.Body(3.0, 0.03, complex(0.3 * share / 10))}
     joints: list[ne.Pin | ne.Slot] = [
         ne.Pin(0, 0j, 1, 0j),
         ne.Pin(1, complex(r), 2, 0j),

@@ -46,29 +46,20 @@ def disagreement(
     """
     motion, inertia = change(linkage, motion)
     given_arrays = made.as_loads(given_loads, motion)
-    forces = change_forces(
-        solve_forces(linkage, motion, (*given_arrays, *weights(linkage, motion), *inertia))
-    )
+    forces = change_forces(solve_forces(linkage, motion, (*given_arrays, *weights(linkage, motion), *inertia)))
     bodies, joints = made.bodies(linkage), made.joints(linkage)
     keys = made.reaction_keys(linkage)
     pairs: dict[str, list[tuple[complex, complex]]] = {}
     for k in np.flatnonzero(motion.reachable):
         pose = {
-            link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k]))
-            for link in linkage.links
+            link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k])) for link in linkage.links
         }
         by_weight = [
             (body.link, body.mass * linkage.gravity, complex(motion.points[body.centre].p[k]), 0.0)
             for body in linkage.inertias
         ]
         answer = ne.solve(
-            bodies,
-            joints,
-            isinstance(linkage.driver, Crank),
-            motion.rate,
-            pose,
-            given_loads + by_weight,
-            CONDITION,
+            bodies, joints, isinstance(linkage.driver, Crank), motion.rate, pose, given_loads + by_weight, CONDITION
         )
         if answer is None:
             continue
@@ -154,17 +145,9 @@ def engine() -> Linkage:
     return Linkage(
         {"O": 0, "E": 1.2 + 0.5j},
         Crank("O", "A", 0.3),
-        (
-            Dyad("RRP", (2, 3), "A", "B", Guide(-0.1j, 0.0), (0.9, 0.0)),
-            Dyad("RRR", (4, 5), "S2", "D", "E", (0.7, 0.6)),
-        ),
+        (Dyad("RRP", (2, 3), "A", "B", Guide(-0.1j, 0.0), (0.9, 0.0)), Dyad("RRR", (4, 5), "S2", "D", "E", (0.7, 0.6))),
         (LinkPoint("S2", 2, 0.4 + 0.1j), LinkPoint("S4", 4, 0.3), LinkPoint("S5", 5, 0.2 + 0.1j)),
-        (
-            Inertia(2, "S2", 2.0, 0.1),
-            Inertia(3, "B", 1.0),
-            Inertia(4, "S4", 1.5, 0.06),
-            Inertia(5, "S5", 1.0, 0.04),
-        ),
+        (Inertia(2, "S2", 2.0, 0.1), Inertia(3, "B", 1.0), Inertia(4, "S4", 1.5, 0.06), Inertia(5, "S5", 1.0, 0.04)),
     )
 
 

@@ -52,8 +52,7 @@ def test_motion_reactions_and_effort_by_multipliers(analysis: Analysis) -> None:
     pairs: Pairs = {}
     for k, way in enumerate(travelled(analysis)):
         pose = {
-            link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k]))
-            for link in linkage.links
+            link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k])) for link in linkage.links
         }
         applied = [
             (5, complex(0, np.interp(way, WAYS, FORCES)), complex(motion.points["F"].p[k]), 0.0),

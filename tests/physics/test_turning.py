@@ -227,10 +227,7 @@ def changed(linkage: Linkage, turn: complex, mirror: bool) -> Linkage:
             start=guide(old.start),
             end=guide(old.end),
             # e is measured to the left of the axis, so a mirror changes its side; a rod has no side.
-            lengths=(
-                size * old.lengths[0],
-                size * old.lengths[1] * (-1 if mirror and old.kind == "RPR" else 1),
-            ),
+            lengths=(size * old.lengths[0], size * old.lengths[1] * (-1 if mirror and old.kind == "RPR" else 1)),
             sign=-old.sign if flips else old.sign,
             slide_angle=-old.slide_angle if mirror else old.slide_angle,
         )
@@ -298,10 +295,7 @@ def test_unreachable_positions_are_nan_and_told_once() -> None:
     linkage = Linkage(
         {"O": 0, "E": 1.0},
         Crank("O", "A", 0.6),
-        (
-            Dyad("RRR", (2, 3), "A", "B", "E", (0.5, 0.5), 1),
-            Dyad("RRP", (4, 5), "B", "C", Guide(0, 0.0), (2.0, 0)),
-        ),
+        (Dyad("RRR", (2, 3), "A", "B", "E", (0.5, 0.5), 1), Dyad("RRP", (4, 5), "B", "C", Guide(0, 0.0), (2.0, 0))),
     )
     degrees = np.arange(0, 360, 10)
     motion = solve_motion(linkage, np.radians(degrees), 3.0)
@@ -320,9 +314,7 @@ def test_unreachable_positions_are_nan_and_told_once() -> None:
 
 def test_a_singular_position_is_told_not_guessed() -> None:
     # Rod as long as crank on a guide through the centre: at 90° the rod stands square to the guide.
-    linkage = Linkage(
-        {"O": 0}, Crank("O", "A", 0.3), (Dyad("RRP", (2, 3), "A", "B", Guide(0, 0.0), (0.3, 0)),)
-    )
+    linkage = Linkage({"O": 0}, Crank("O", "A", 0.3), (Dyad("RRP", (2, 3), "A", "B", Guide(0, 0.0), (0.3, 0)),))
     motion = solve_motion(linkage, np.radians([60.0, 90.0]), 2.0)
     assert motion.reachable.tolist() == [True, False]
     assert [(told.links, told.reason) for told in motion.unreachable] == [((2, 3), "singular")]
@@ -348,10 +340,7 @@ def test_one_force_in_its_limits() -> None:
 
 def test_the_drawn_point_of_percussion_lies_on_the_one_force() -> None:
     linkage = MACHINES["twin"]
-    linkage = replace(
-        linkage,
-        points=tuple(replace(p, local=0.25) if p.name == "S2" else p for p in linkage.points),
-    )
+    linkage = replace(linkage, points=tuple(replace(p, local=0.25) if p.name == "S2" else p for p in linkage.points))
     motion = solve_motion(linkage, TURN + 0.01, OMEGA)
     body = next(body for body in linkage.inertias if body.link == 2)
     load = next(load for load in inertia_loads(linkage, motion) if load.link == 2)

@@ -49,9 +49,7 @@ WRITTEN = [
     for language in (LANGUAGES if path in TYPESET else (api.load(path).language,))
 ]
 PRINTED = [
-    (path, language)
-    for path in TYPESET
-    for language in (LANGUAGES if path == SAMPLE else (api.load(path).language,))
+    (path, language) for path in TYPESET for language in (LANGUAGES if path == SAMPLE else (api.load(path).language,))
 ]
 """The sample is printed in both languages, other kinds in their file's own; trees are compared in both."""
 CASES = [
@@ -59,10 +57,7 @@ CASES = [
     for path, language in PRINTED
     for engine in ENGINES
 ]
-PAIRS = [
-    pytest.param((path, language), marks=(needs_tex,), id=f"{path.stem}-{language}")
-    for path, language in PRINTED
-]
+PAIRS = [pytest.param((path, language), marks=(needs_tex,), id=f"{path.stem}-{language}") for path, language in PRINTED]
 
 
 @dataclass(frozen=True)

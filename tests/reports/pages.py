@@ -69,15 +69,7 @@ def glyphs(page: Any) -> list[Glyph]:
                         word += 1
                         continue
                     found.append(
-                        Glyph(
-                            char["c"],
-                            tuple(char["bbox"]),
-                            span["size"],
-                            tuple(char["origin"]),
-                            bold,
-                            italic,
-                            word,
-                        )
+                        Glyph(char["c"], tuple(char["bbox"]), span["size"], tuple(char["origin"]), bold, italic, word)
                     )
     return found
 
@@ -110,9 +102,7 @@ def without_repeated_head(page: Any, found: Sequence[Glyph], before: Sequence[Gl
     top = min((glyph.box[1] for glyph in found), default=0.0)
     if is_plate(page) or not rules or rules[0].y1 > top:
         return found
-    below = next(
-        (rule for rule in rules[1:] if rule.y0 > top and abs(rule.width - rules[0].width) < 1), rules[0]
-    )
+    below = next((rule for rule in rules[1:] if rule.y0 > top and abs(rule.width - rules[0].width) < 1), rules[0])
     head = [glyph for glyph in found if glyph.origin[1] <= below.y1]
     return found[len(head) :] if text(head) in text(before) else found
 
@@ -144,12 +134,7 @@ def outside(page: Any, bearing: float) -> list[str]:
     and keep what printers need from the edge.
     """
     left, right = (15.0, 15.0) if is_plate(page) else (30.0, 20.0)
-    allowed = (
-        left * MM - bearing,
-        EDGE,
-        page.rect.width - right * MM + bearing,
-        page.rect.height - EDGE,
-    )
+    allowed = (left * MM - bearing, EDGE, page.rect.width - right * MM + bearing, page.rect.height - EDGE)
     return [
         f"page {page.number + 1}: {glyph.char!r} at {glyph.box}"
         for glyph in glyphs(page)

@@ -92,11 +92,7 @@ def printed_lines(report: Report) -> Iterator[PrintedLine]:
         ]
         for row in _rows(found):
             text = _read(row, found, bars)
-            text = (
-                text.replace("−", "-").replace(",", ".")
-                if report.language == "vi"
-                else text.replace("−", "-")
-            )
+            text = text.replace("−", "-").replace(",", ".") if report.language == "vi" else text.replace("−", "-")
             *before, substitution, result = ["", "", *text.split("=")]
             if before[2:] and _is_calculation(substitution) and RESULT.fullmatch(result):
                 yield PrintedLine(substitution, result, page.number + 1)
@@ -183,9 +179,7 @@ def _level(glyphs: Sequence[Glyph], found: Sequence[Glyph], bars: Sequence[Any])
     size = max(glyph.size for glyph in glyphs if glyph.char != "√")
     plain = [glyph for glyph in glyphs if glyph.char != "√"]
     baseline = Counter(g.origin[1] for g in plain if g.size > 0.9 * size).most_common(1)[0][0]
-    pieces = list(
-        _roots(found, bars, baseline, min(g.box[0] for g in glyphs) - size, max(g.box[2] for g in glyphs))
-    )
+    pieces = list(_roots(found, bars, baseline, min(g.box[0] for g in glyphs) - size, max(g.box[2] for g in glyphs)))
     for glyph in plain:
         if abs(glyph.origin[1] - baseline) < 0.6:
             pieces.append((glyph.origin[0], _plain(glyph.char)))

@@ -29,16 +29,7 @@ from reportgen.document.tree import (
 )
 from reportgen.figures.scene import Label
 from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import (
-    Chain,
-    Expression,
-    Number,
-    Symbol,
-    Term,
-    VectorEquation,
-    rebuild,
-    walk,
-)
+from reportgen.notation.expressions import Chain, Expression, Number, Symbol, Term, VectorEquation, rebuild, walk
 from tests.reports import built
 
 ROUNDING = 1e-9

@@ -67,8 +67,7 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
     ledger = written.case.ledger
     motion = re.fullmatch(r"fig\.([va])\.(?:stages\.)?(\w+?)(?:\.\d+)?", key)
     forces = re.fullmatch(
-        r"fig\.R\.(?:plates\.(\w+)(?:\.\d+)?|(?:stages\.)?(\w+)\.(\w+))",
-        key.replace("fig.crank.", f"fig.R.{DRIVER}."),
+        r"fig\.R\.(?:plates\.(\w+)(?:\.\d+)?|(?:stages\.)?(\w+)\.(\w+))", key.replace("fig.crank.", f"fig.R.{DRIVER}.")
     )
     if motion:
         ids = {name: [segment(name, motion[1])] for name in names(written, key)}
@@ -87,16 +86,13 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
     positions = range(1, count + 1) if position == "plates" else [worked(written, position, count)]
     scale = STAGES if ".stages." in key else 1.0
     return {
-        name: [abs(complex(ledger[id].at(k))) * MM * scale for id in of for k in positions]
-        for name, of in ids.items()
+        name: [abs(complex(ledger[id].at(k))) * MM * scale for id in of for k in positions] for name, of in ids.items()
     }
 
 
 def worked(written: Written, label: str, count: int) -> int:
     """The position that a figure's key names: keys hold the labels of the worked positions, in order."""
-    family = (
-        r"fig\.v\.(?!stages|plates)(\w+)" if count == written.case.analysis.machine.count else r"fig\.crank\.(\w+)"
-    )
+    family = r"fig\.v\.(?!stages|plates)(\w+)" if count == written.case.analysis.machine.count else r"fig\.crank\.(\w+)"
     keys = (re.fullmatch(family, key) for key, _ in built.scenes(written.document))
     labels = dict.fromkeys(found[1] for found in keys if found)
     numbers = dict.fromkeys((k - 1) % count + 1 for k in written.case.assignment.worked_positions)

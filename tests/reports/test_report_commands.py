@@ -44,9 +44,7 @@ def files(folder: Path) -> dict[str, bytes]:
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
-def test_a_missing_tex_is_told_with_its_remedy_and_leaves_the_old_report(
-    finished: Path, tmp_path: Path
-) -> None:
+def test_a_missing_tex_is_told_with_its_remedy_and_leaves_the_old_report(finished: Path, tmp_path: Path) -> None:
     empty = tmp_path / "bin"
     empty.mkdir()
     done = build(SAMPLE, "--out", finished, "--engine", "latex", "--keep-source", path=str(empty))
@@ -62,9 +60,7 @@ def test_a_typesetter_that_fails_leaves_the_old_report(finished: Path, tmp_path:
     program.parent.mkdir()
     program.write_text("#!/bin/sh\nexit 1\n", encoding="utf-8")
     program.chmod(0o755)
-    done = build(
-        SAMPLE, "--out", finished, "--engine", "latex", path=f"{program.parent}:{os.environ['PATH']}"
-    )
+    done = build(SAMPLE, "--out", finished, "--engine", "latex", path=f"{program.parent}:{os.environ['PATH']}")
     assert (done.returncode, done.stdout) == (3, "")
     assert files(finished) == {f"{SAMPLE.stem}/report.pdf": OLD}
 

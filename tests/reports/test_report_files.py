@@ -69,9 +69,7 @@ def test_contents_tell_the_page_on_which_each_heading_stands(report: Report) -> 
 def test_pages_are_numbered_as_they_lie(report: Report) -> None:
     word = squash(report.document.words.page)
     for page in list(report.pages)[1:]:
-        foot = pages.text(
-            glyph for glyph in pages.glyphs(page) if glyph.origin[1] > page.rect.height - 17 * pages.MM
-        )
+        foot = pages.text(glyph for glyph in pages.glyphs(page) if glyph.origin[1] > page.rect.height - 17 * pages.MM)
         assert foot.endswith(f"{word}{page.number + 1}")
 
 

@@ -23,9 +23,7 @@ CASES = [*built.TYPESET, built.ROOT / "assignments" / "shaper-02.yaml"]
 
 def faults(written: Written) -> list[str]:
     return [
-        f"{key} {scene.title}: {fault}"
-        for key, scene in built.scenes(written.document)
-        for fault in overlaps(scene)
+        f"{key} {scene.title}: {fault}" for key, scene in built.scenes(written.document) for fault in overlaps(scene)
     ]
 
 

@@ -107,9 +107,7 @@ def test_both_languages_have_the_same_sentences(path: Path) -> None:
         for language in built.LANGUAGES
     )
     assert [(a, b) for a, b in zip(vi, en, strict=True) if sentences(a) != sentences(b)] == []
-    assert [
-        (a, b) for a, b in zip(vi, en, strict=True) if len(a) > 60 and not 0.5 < len(b) / len(a) < 2
-    ] == []
+    assert [(a, b) for a, b in zip(vi, en, strict=True) if len(a) > 60 and not 0.5 < len(b) / len(a) < 2] == []
 
 
 def test_every_figure_and_table_is_referred_to(written: Written) -> None:
@@ -201,9 +199,7 @@ def test_every_word_is_used() -> None:
     assert words["joints"].keys() == {"R", "P"}
     computed = {"document", "groups", "joints", "zero"}
     unused = [
-        keys
-        for keys, _ in leaves(words)
-        if keys[0] not in computed and not re.search(rf"[\"'.]{keys[-1]}\b", code)
+        keys for keys, _ in leaves(words) if keys[0] not in computed and not re.search(rf"[\"'.]{keys[-1]}\b", code)
     ]
     assert unused == []
 

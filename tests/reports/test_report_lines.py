@@ -26,16 +26,10 @@ def rounded(written: Written) -> frozenset[str]:
     """
     numbers = list(recompute.numbers(written.document))
     exact, others = (
-        {
-            write(abs(number.value), number.decimals, "en")
-            for number in numbers
-            if (number.decimals is None) is given
-        }
+        {write(abs(number.value), number.decimals, "en") for number in numbers if (number.decimals is None) is given}
         for given in (True, False)
     )
-    return frozenset(
-        text for text in others if text not in exact or len(re.sub(r"\D", "", text).lstrip("0")) > 5
-    )
+    return frozenset(text for text in others if text not in exact or len(re.sub(r"\D", "", text).lstrip("0")) > 5)
 
 
 def lines(report: Report) -> list[PrintedLine]:
@@ -73,11 +67,7 @@ def test_one_corrupted_digit_is_caught(path: Path) -> None:
         for at in (at for at in range(digits.end()) if line.result[at].isdigit()):
             wrong = replace(line, result=corrupted(line.result, at))
             # The corrupted number is as rounded as the true one.
-            known = (
-                numbers | {corrupted(number, at - digits.end() + len(number))}
-                if number in numbers
-                else numbers
-            )
+            known = numbers | {corrupted(number, at - digits.end() + len(number))} if number in numbers else numbers
             assert wrong.misfit(known) > 1, wrong
             tried += 1
     assert tried > 30

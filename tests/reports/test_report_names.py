@@ -40,8 +40,7 @@ def assignment_with(folder: Path, text: str) -> Path:
     lines += [f"    {name}: {quoted(f'{name} {text}')}" for name in student_fields()]
     file = folder / "hostile.yaml"
     file.write_text(
-        f"{before}report:\n  date: 2011-03-24\n" + "\n".join(lines) + f"\n\npositions:{after}",
-        encoding="utf-8",
+        f"{before}report:\n  date: 2011-03-24\n" + "\n".join(lines) + f"\n\npositions:{after}", encoding="utf-8"
     )
     return file
 

@@ -38,11 +38,7 @@ def section(document: Document, number: str) -> tuple[Block, ...]:
     blocks = document.blocks
     start = next(i for i, block in enumerate(blocks) if isinstance(block, Section) and block.number == number)
     level = number.count(".") + 1
-    end = next(
-        i
-        for i, block in enumerate(blocks)
-        if i > start and isinstance(block, Section) and block.level <= level
-    )
+    end = next(i for i, block in enumerate(blocks) if i > start and isinstance(block, Section) and block.level <= level)
     return blocks[start:end]
 
 

@@ -41,12 +41,7 @@ def indicator_by_angle(content: dict[str, Any]) -> None:
     """A smooth made-up curve over 720°: compression and expansion as polytropes about top dead centre."""
     angles = range(0, 721, 20)
     pressures = [
-        round(
-            28
-            / (1 + 6 * math.sin(math.radians((angle - 360) / 2)) ** 2) ** 1.5
-            * (1.6 if angle > 360 else 1),
-            2,
-        )
+        round(28 / (1 + 6 * math.sin(math.radians((angle - 360) / 2)) ** 2) ** 1.5 * (1.6 if angle > 360 else 1), 2)
         if 180 <= angle <= 540
         else -1.0
         for angle in angles
@@ -69,9 +64,7 @@ def absolute_indicator(content: dict[str, Any]) -> None:
 
 CHANGES: dict[str, Change] = {
     "clockwise": put("positions.direction", "clockwise"),
-    "clockwise all worked": both(
-        put("positions.direction", "clockwise"), put("report.worked_positions", [3, 5, 16])
-    ),
+    "clockwise all worked": both(put("positions.direction", "clockwise"), put("report.worked_positions", [3, 5, 16])),
     **{f"count {count}": put("positions.count", count) for count in (4, 5, 7, 12, 36)},
     "all of four": both(put("positions.count", 4), put("report.worked_positions", "all")),
     "the last": put("report.worked_positions", [16]),

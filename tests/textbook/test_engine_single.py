@@ -114,8 +114,7 @@ def test_given_lengths_stand_for_stroke_and_ratio(seven: Analysis, tmp_path: Pat
     R, L = lengths(seven)
     file = tmp_path / "a.yaml"
     file.write_text(
-        text.replace("  H: 215 mm\n", f"  R: {R!r} m\n  L: {L!r} m\n").replace("  K: 1.04\n", ""),
-        encoding="utf-8",
+        text.replace("  H: 215 mm\n", f"  R: {R!r} m\n  L: {L!r} m\n").replace("  K: 1.04\n", ""), encoding="utf-8"
     )
     other = api.analyse(api.load(file))
     assert other.machine.sliders[0].stroke == pytest.approx(0.215, rel=1e-12)

@@ -28,8 +28,7 @@ def analysed(folder: Path, parameters: str, positions: str = "count: 9, start: 0
 
 
 @pytest.mark.parametrize(
-    ("branch", "coupler", "output", "digit"),
-    [("open", 20.298, 57.325, 1e-3), ("crossed", -60.98, -98.01, 1e-2)],
+    ("branch", "coupler", "output", "digit"), [("open", 20.298, 57.325, 1e-3), ("crossed", -60.98, -98.01, 1e-2)]
 )
 def test_published_positions_of_both_branches(
     tmp_path: Path, branch: str, coupler: float, output: float, digit: float
@@ -53,9 +52,7 @@ def test_published_velocities(tmp_path: Path) -> None:
 @pytest.mark.parametrize("branch", ["open", "crossed"])
 @pytest.mark.parametrize("direction", ["anticlockwise", "clockwise"])
 @pytest.mark.parametrize("lengths", [PUBLISHED, DRAG_LINK])
-def test_matrices_hold_and_give_the_plans_rates(
-    tmp_path: Path, lengths: str, direction: str, branch: str
-) -> None:
+def test_matrices_hold_and_give_the_plans_rates(tmp_path: Path, lengths: str, direction: str, branch: str) -> None:
     """[A][ω] = [B]ω₁ and [A][ε] = −[Ȧ][ω] + [Ḃ]ω₁ from the printed entries, by a general solver."""
     analysis = analysed(
         tmp_path,

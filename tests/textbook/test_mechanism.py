@@ -27,10 +27,7 @@ def twin() -> Linkage:
     return Linkage(
         ground={"O1": 0},
         driver=Crank("O1", "A", R),
-        dyads=(
-            Dyad("RRP", (2, 3), "A", "B", upward, (L, 0)),
-            Dyad("RRP", (4, 5), "C", "D", upward, (L, 0)),
-        ),
+        dyads=(Dyad("RRP", (2, 3), "A", "B", upward, (L, 0)), Dyad("RRP", (4, 5), "C", "D", upward, (L, 0))),
         points=(LinkPoint("C", 1, -R), LinkPoint("S2", 2, 0.35 * L), LinkPoint("S4", 4, 0.35 * L)),
         inertias=(
             Inertia(2, "S2", rod, rod * L**2 / 12),
@@ -147,12 +144,7 @@ def test_six_link_lever_mechanism() -> None:
     )
     motion = solve_motion(linkage, math.radians(30), 89.0)
     fitted, between, far = 0.0145, 0.0315, 0.06
-    for point, printed, error in (
-        ("A", 3.026, 1e-3),
-        ("C", 3.04, between),
-        ("E", 3.05, fitted),
-        ("F", 0.92, fitted),
-    ):
+    for point, printed, error in (("A", 3.026, 1e-3), ("C", 3.04, between), ("E", 3.05, fitted), ("F", 0.92, fitted)):
         assert abs(motion.points[point].v[0]) == pytest.approx(printed, rel=error)
     for point, printed, error in (("A", 269.3, 1e-3), ("C", 172, between), ("E", 200, fitted)):
         assert abs(motion.points[point].a[0]) == pytest.approx(printed, rel=error)
@@ -177,10 +169,7 @@ def test_shaper_in_closed_form(stroke: float, n: float) -> None:
     linkage = Linkage(
         {"O1": 1j * a, "O3": 0},
         Crank("O1", "A", l1),
-        (
-            Dyad("RPR", (2, 3), "A", "A3", "O3"),
-            Dyad("RRP", (4, 5), "D", "E", Guide(1j * b, math.pi), (l4, 0)),
-        ),
+        (Dyad("RPR", (2, 3), "A", "A3", "O3"), Dyad("RRP", (4, 5), "D", "E", Guide(1j * b, math.pi), (l4, 0))),
         (LinkPoint("D", 3, l3),),
     )
     crank = np.linspace(0, 2 * math.pi, 36, endpoint=False)

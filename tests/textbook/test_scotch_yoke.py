@@ -37,9 +37,7 @@ def analysed(folder: Path, parameters: str, positions: str = "count: 12") -> Ana
 @pytest.mark.parametrize("guide", [0, 35, -120])
 @pytest.mark.parametrize("start", ["", ", start: 70 deg"])
 def test_motion_and_printed_formulas(start: str, guide: int, direction: str, tmp_path: Path) -> None:
-    analysis = analysed(
-        tmp_path, f"{CRANK}, guide: {guide} deg", f"count: 24, direction: {direction}{start}"
-    )
+    analysis = analysed(tmp_path, f"{CRANK}, guide: {guide} deg", f"count: 24, direction: {direction}{start}")
     turn = 1 if direction == "anticlockwise" else -1
     first = turn * math.radians(70 - guide) if start else 0.0
     φ = first + 2 * math.pi * np.arange(24) / 24

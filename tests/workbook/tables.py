@@ -12,7 +12,7 @@ import pytest
 from reportgen.errors import AssignmentError
 from reportgen.workbook import Book, Entry, Page, Sheet, read
 
-CYNICAL = ("=cmd|' /C calc'!A0", "+1+1", "-2+3", "@SUM(A1)", "\t=1", "=HYPERLINK(\"http://x\")", "'=1", "＝1")
+CYNICAL = ("=cmd|' /C calc'!A0", "+1+1", "-2+3", "@SUM(A1)", "\t=1", '=HYPERLINK("http://x")', "'=1", "＝1")
 """Texts that a spreadsheet would take for formulas."""
 
 BOOK = Book(
@@ -74,7 +74,7 @@ def package(rows: str = ROWS, more: Mapping[str, str | bytes] | None = None, pro
         "xl/workbook.xml": f'<workbook xmlns="{MAIN}" xmlns:r="{OFFICE}"><sheets>'
         '<sheet name="S" sheetId="1" r:id="r1"/></sheets></workbook>',
         "xl/_rels/workbook.xml.rels": f'<Relationships xmlns="{REL}">{relation("worksheet", "worksheets/s.xml")}'
-        f'{relation("styles", "styles.xml", "r2")}{relation("sharedStrings", "strings.xml", "r3")}</Relationships>',
+        f"{relation('styles', 'styles.xml', 'r2')}{relation('sharedStrings', 'strings.xml', 'r3')}</Relationships>",
         "xl/worksheets/s.xml": f'{prologue}<worksheet xmlns="{MAIN}"><dimension ref="A1:A1"/>'
         f"<sheetData>{rows}</sheetData></worksheet>",
         **(more or {}),

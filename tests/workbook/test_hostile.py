@@ -15,20 +15,7 @@ from hypothesis import strategies as st
 
 from reportgen.errors import AssignmentError
 from reportgen.workbook import Page, read, write_xlsx
-from tests.workbook.tables import (
-    BOOK,
-    HALF,
-    MAIN,
-    REL,
-    SPREAD,
-    STRINGS,
-    STYLES,
-    TWICE,
-    TYPES,
-    package,
-    refusal,
-    rels,
-)
+from tests.workbook.tables import BOOK, HALF, MAIN, REL, SPREAD, STRINGS, STYLES, TWICE, TYPES, package, refusal, rels
 
 ENTITY = '<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]>'
 HOSTILE = {
@@ -67,10 +54,7 @@ HOSTILE = {
     "one endless row": (package(f"<row>{SPREAD}</row>"), "sheet-bomb"),
     "endless outside of rows": (package(f"{SPREAD}<row/>"), "sheet-bomb"),
     "endless between rows": (package(f"<row/>{HALF}" * 2), "sheet-bomb"),
-    "endless inside rows of another kind": (
-        package(f"<x:row xmlns:x='x'>{HALF}</x:row>" * 2),
-        "sheet-bomb",
-    ),
+    "endless inside rows of another kind": (package(f"<x:row xmlns:x='x'>{HALF}</x:row>" * 2), "sheet-bomb"),
     "too many rows with a style": (
         package("".join(f'<row r="{k}" s="{k * 7919 % 99991}"/>' for k in range(1, 270_000))),
         "sheet-bomb",
@@ -98,10 +82,7 @@ HOSTILE = {
         package('<row r="2"><c r="A2"><v>1</v></c></row><row r="1"><c r="A1"><v>2</v></c></row>'),
         "sheet-damaged",
     ),
-    "cells out of order": (
-        package('<row r="1"><c r="B1"><v>1</v></c><c r="A1"><v>2</v></c></row>'),
-        "sheet-damaged",
-    ),
+    "cells out of order": (package('<row r="1"><c r="B1"><v>1</v></c><c r="A1"><v>2</v></c></row>'), "sheet-damaged"),
     "a cell twice": (package('<row r="1"><c r="A1"><v>1</v></c><c r="A1"><v>2</v></c></row>'), "sheet-damaged"),
     "a row beyond all rows": (package('<row r="99999999999999"><c><v>1</v></c></row>'), "sheet-damaged"),
     "no row number": (package('<row r="x"><c><v>1</v></c></row>'), "sheet-damaged"),
@@ -184,9 +165,7 @@ SPOT = st.tuples(st.integers(0, 99), st.floats(0, 1), st.booleans(), st.sampled_
 @settings(max_examples=80, deadline=None)
 @given(st.sampled_from(PARTS), st.lists(SPOT, min_size=1, max_size=3))
 def test_a_workbook_with_damaged_parts_is_read_or_refused(
-    tmp_path_factory: pytest.TempPathFactory,
-    parts: Mapping[str, bytes],
-    spots: list[tuple[int, float, bool, bytes]],
+    tmp_path_factory: pytest.TempPathFactory, parts: Mapping[str, bytes], spots: list[tuple[int, float, bool, bytes]]
 ) -> None:
     """Packed again without a fault, so that the damage comes to what reads the XML, inside values or anywhere."""
     damaged = dict(parts)

@@ -124,23 +124,13 @@ def expressions() -> tuple[Expression, ...]:
         a * sin(b) * cos(c),
         (a / b) * c,
         (a * b) / (c * Negative(a)),
-        Chain(
-            (
-                V_A,
-                OMEGA * Symbol("R"),
-                Number(230.3835, 4) * Number(0.0475, 4),
-                Number(10.943, 3, "m/s"),
-            )
-        ),
+        Chain((V_A, OMEGA * Symbol("R"), Number(230.3835, 4) * Number(0.0475, 4), Number(10.943, 3, "m/s"))),
     )
 
 
 def wide_chain() -> Chain:
     """A chain about three text blocks wide."""
-    products = tuple(
-        Number(0.1234 + index, 4) * Number(-12.75, 2) * cos(Number(35.26, 2, "°"))
-        for index in range(4)
-    )
+    products = tuple(Number(0.1234 + index, 4) * Number(-12.75, 2) * cos(Number(35.26, 2, "°")) for index in range(4))
     return Chain((Symbol("M", "cb"), Sum(products), Sum(products), Number(-57.31, 2, "N·m")))
 
 
@@ -148,10 +138,7 @@ def velocity_equation() -> VectorEquation:
     return VectorEquation(
         (
             (Term(vector("v", "B"), ("∥ x", None, None)),),
-            (
-                Term(vector("v", "A"), ("⟂ OA", "→", OMEGA * Symbol("R"))),
-                Term(vector("v", "BA"), ("⟂ AB", None, None)),
-            ),
+            (Term(vector("v", "A"), ("⟂ OA", "→", OMEGA * Symbol("R"))), Term(vector("v", "BA"), ("⟂ AB", None, None))),
         ),
         ("phương", "chiều", "độ lớn"),
     )
@@ -181,24 +168,11 @@ def scheme() -> Scene:
     """A crank and a slider: every kind of item, every anchor, a turned label."""
     o, a, b = 25 + 35j, 40 + 50j, 85 + 35j
     frame = (5 + 24j, 45 + 24j, 45 + 28j, 5 + 28j)
-    anchors = (
-        "center",
-        "left",
-        "right",
-        "top",
-        "bottom",
-        "top-left",
-        "top-right",
-        "bottom-left",
-        "bottom-right",
-    )
+    anchors = ("center", "left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right")
     marks: list[Item] = []
     for index, anchor in enumerate(anchors):
         at = 8 + 14 * index + 8j
-        marks += [
-            Circle(at, 0.4, None, "#c00000"),
-            Label(at, Symbol("F", str(index)), anchor, 8.0),
-        ]
+        marks += [Circle(at, 0.4, None, "#c00000"), Label(at, Symbol("F", str(index)), anchor, 8.0)]
     return Scene(
         130,
         80,
@@ -232,13 +206,11 @@ def star(size: float = 40.0, rays: int = 12, title: str = "") -> Scene:
     """Arrows to all sides from the middle, each with its label, for measuring."""
     middle = complex(size / 2, size / 2)
     ends = [
-        middle + size * (0.18 + 0.25 * ray / rays) * cmath.exp(2j * math.pi * ray / rays + 0.1j)
-        for ray in range(rays)
+        middle + size * (0.18 + 0.25 * ray / rays) * cmath.exp(2j * math.pi * ray / rays + 0.1j) for ray in range(rays)
     ]
     items: list[Item] = [Arrow(middle, end, Stroke(0.25), name=f"pb{ray}") for ray, end in enumerate(ends)]
     items += [
-        Label(end + (end - middle) / abs(end - middle) * 2, Symbol("b", str(ray)))
-        for ray, end in enumerate(ends)
+        Label(end + (end - middle) / abs(end - middle) * 2, Symbol("b", str(ray))) for ray, end in enumerate(ends)
     ]
     return Scene(size, size, tuple(items), title)
 
@@ -251,12 +223,7 @@ def cover(title: str = HOSTILE) -> Cover:
         institution=("Trường Đại học Mẫu", "Khoa Cơ khí", "Bộ môn Kỹ thuật"),
         title=("Thuyết minh", "Bài tập lớn"),
         subtitle=(title,),
-        fields=(
-            ("Sinh viên", "Đặng Thị Ẩn"),
-            ("Mã số", "A_B-01 & 100%"),
-            ("Lớp", ""),
-            ("Người hướng dẫn", ""),
-        ),
+        fields=(("Sinh viên", "Đặng Thị Ẩn"), ("Mã số", "A_B-01 & 100%"), ("Lớp", ""), ("Người hướng dẫn", "")),
         place_and_date="Nơi mẫu, ngày … tháng … năm …",
     )
 
@@ -320,14 +287,7 @@ def blocks() -> tuple[Block, ...]:
         ),
         Equation((chain,), key="eq:va", number="1.1"),
         Equation((chain, wide_chain()), key="eq:wide", number="1.2"),
-        Equation(
-            (
-                replace(
-                    Chain((Symbol("ε", "1"), Number(0.0, None))),
-                    note="vì tay quay quay đều",
-                ),
-            )
-        ),
+        Equation((replace(Chain((Symbol("ε", "1"), Number(0.0, None))), note="vì tay quay quay đều"),)),
         Equation((velocity_equation(),), key="eq:vector", number="1.3"),
         Equation((force_equation(),), key="eq:force", number="1.4"),
         Section(3, text("Các bước dựng"), key="steps", number="1.1.1"),
@@ -352,11 +312,7 @@ def blocks() -> tuple[Block, ...]:
             columns=(Column(60, "left"), Column(30), Column(30, "right")),
             head=(cells("Đại lượng", "Ký hiệu", "Giá trị"),),
             rows=(
-                (
-                    Cell(text(HOSTILE)),
-                    Cell((InlineMath(OMEGA),)),
-                    Cell((Value(Number(230.3835, 4, "rad/s")),)),
-                ),
+                (Cell(text(HOSTILE)), Cell((InlineMath(OMEGA),)), Cell((Value(Number(230.3835, 4, "rad/s")),))),
                 (Cell(text("tỉ xích")), Cell((InlineMath(MU_V),)), Cell((Value(Number(0.2189, 4)),))),
                 (Cell(text("ô rộng ba cột"), span=3),),
             ),
@@ -398,16 +354,11 @@ def report(pages: int = 54) -> Document:
         number = f"{index + 1}"
         if index % 5 == 0:
             body.append(Section(1, text("Phần"), number=f"{index // 5 + 1}"))
-        body.append(
-            Section(2, text(f"Vị trí {number}"), key=f"s{number}", number=f"{index // 5 + 1}.{number}")
-        )
+        body.append(Section(2, text(f"Vị trí {number}"), key=f"s{number}", number=f"{index // 5 + 1}.{number}"))
         for line in range(6):
             body.append(
                 Paragraph(
-                    (
-                        *text("Vận tốc của điểm được tính theo công thức sau. " * 2),
-                        Reference(f"s{number}", number),
-                    )
+                    (*text("Vận tốc của điểm được tính theo công thức sau. " * 2), Reference(f"s{number}", number))
                 )
             )
             row = velocity_equation() if line == 0 else wide_chain() if line == 1 else expressions()[-1]

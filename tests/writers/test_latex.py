@@ -22,16 +22,7 @@ from reportgen.document.tree import (
     Text,
 )
 from reportgen.errors import TypesetterError
-from reportgen.notation.expressions import (
-    Chain,
-    Expression,
-    Number,
-    Product,
-    Sum,
-    Symbol,
-    Term,
-    VectorEquation,
-)
+from reportgen.notation.expressions import Chain, Expression, Number, Product, Sum, Symbol, Term, VectorEquation
 from reportgen.writers import latex, pdflatex
 from reportgen.writers.latex_math import MATHEMATICAL, TEXTUAL, escape
 from tests.writers import sample
@@ -75,11 +66,7 @@ def test_every_declared_character_prints_in_text_and_in_formulas() -> None:
     units = "".join(TEXTUAL.keys() - spaces)
     rows = [Symbol("x", sub=char) for char in MATHEMATICAL] + [Symbol("đ", "ốc", "Ữ")]
     text = folded(
-        printed(
-            Paragraph((Text(chars),)),
-            Equation((Number(1.0, 0, units),)),
-            *(Equation((row,)) for row in rows),
-        )
+        printed(Paragraph((Text(chars),)), Equation((Number(1.0, 0, units),)), *(Equation((row,)) for row in rows))
     )
     # The other names of the same glyphs.
     names = str.maketrans({"⋅": "·", "∘": "◦", "‐": "-"})

@@ -23,9 +23,7 @@ def test_beziers_follow_their_circle(start: float, sweep: float, sense: int) -> 
 
 
 @given(st.complex_numbers(max_magnitude=100), st.complex_numbers(max_magnitude=100), st.floats(0.1, 5))
-def test_a_head_ends_at_the_tip_and_covers_the_end_of_the_shaft(
-    a: complex, b: complex, length: float
-) -> None:
+def test_a_head_ends_at_the_tip_and_covers_the_end_of_the_shaft(a: complex, b: complex, length: float) -> None:
     shaft_end, head = arrow_head(a, b, length)
     if abs(b - a) < 1e-6:
         return
@@ -38,9 +36,7 @@ def test_a_head_ends_at_the_tip_and_covers_the_end_of_the_shaft(
 
 
 @given(st.floats(1, 40), st.floats(1, 40), ANGLES, st.floats(0.5, 3))
-def test_hatch_lies_inside_and_has_its_spacing(
-    width: float, height: float, turn: float, spacing: float
-) -> None:
+def test_hatch_lies_inside_and_has_its_spacing(width: float, height: float, turn: float, spacing: float) -> None:
     """The strokes of a rectangle, moved along by the spacing, cover its area to within a stroke's share."""
     by = complex(math.cos(turn), math.sin(turn))
     points = [corner * by for corner in (0j, width + 0j, width + height * 1j, height * 1j)]

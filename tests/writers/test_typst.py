@@ -103,9 +103,7 @@ def test_plate_has_its_own_paper_and_true_size() -> None:
 # --- text -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "text", [sample.HOSTILE, sample.VIETNAMESE, '"', "\\", "#", "= a", "- b", "+ c", "/ d"]
-)
+@pytest.mark.parametrize("text", [sample.HOSTILE, sample.VIETNAMESE, '"', "\\", "#", "= a", "- b", "+ c", "/ d"])
 def test_text_appears_as_typed(text: str) -> None:
     assert plain(text) in text_of(Paragraph((Text("("), Text(text), Text(")"))))
 
@@ -144,29 +142,20 @@ def test_what_is_empty_stays_quiet() -> None:
         List(((),)),
         Equation(()),
         Cover((), (), (), (), ""),
-        Figure(
-            (Scene(10, 10, (Polyline((1j,)), Arrow(1j, 1j), Arc(5j, 0, 0, 1), Arc(5j, 2, 1, 1, head=2))),)
-        ),
+        Figure((Scene(10, 10, (Polyline((1j,)), Arrow(1j, 1j), Arc(5j, 0, 0, 1), Arc(5j, 2, 1, 1, head=2))),)),
     )
     assert by_typst(*blocks).page_count <= 3
     assert by_typst().page_count == 1
 
 
 def test_a_run_in_heading_stands_in_the_line_of_its_paragraph() -> None:
-    printed = text_of(
-        Section(4, (Text("Nhận xét."),), key="k"), Paragraph((Text("Đúng, xem "), Reference("k", "đây")))
-    )
+    printed = text_of(Section(4, (Text("Nhận xét."),), key="k"), Paragraph((Text("Đúng, xem "), Reference("k", "đây"))))
     assert printed == "Nhận xét. Đúng, xem đây"
 
 
 def test_figures_wider_than_a_row_go_on_below() -> None:
     scenes = [Scene(width, 10) for width in (100, 56, 60, 100, 160)]
-    assert [[scene.width for scene in row] for row in in_rows(scenes)] == [
-        [100, 56],
-        [60],
-        [100],
-        [160],
-    ]
+    assert [[scene.width for scene in row] for row in in_rows(scenes)] == [[100, 56], [60], [100], [160]]
     assert in_rows(scenes[:2] * 2) == [scenes[:2]] * 2
 
 

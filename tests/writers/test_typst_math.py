@@ -34,9 +34,7 @@ from tests.writers import sample
 from tests.writers.pages import MM, body_of, by_typst, plain, text_of
 
 VIETNAMESE = TypstFormulas("vi")
-NUMBERS = st.builds(
-    Number, st.integers(-99, 99).map(lambda n: n / 4), st.just(2), st.sampled_from(["", "mm"])
-)
+NUMBERS = st.builds(Number, st.integers(-99, 99).map(lambda n: n / 4), st.just(2), st.sampled_from(["", "mm"]))
 EXPRESSIONS: st.SearchStrategy[Expression] = st.recursive(
     NUMBERS,
     lambda inner: st.one_of(
@@ -147,10 +145,7 @@ def test_a_wide_row_breaks_within_the_margins(row: Expression) -> None:
 
 def test_unknowns_of_a_vector_equation_stand_under_their_terms() -> None:
     (page,) = by_typst(Equation((sample.velocity_equation(),)))
-    words = [
-        (plain(word[4]), (word[0] + word[2]) / 2, word[1])
-        for word in page.get_text("words", clip=body_of(page))
-    ]
+    words = [(plain(word[4]), (word[0] + word[2]) / 2, word[1]) for word in page.get_text("words", clip=body_of(page))]
     marks = sorted((y, x) for word, x, y in words if word == "?")
     assert len(marks) == 4
     relation = next(x for word, x, _ in words if "=" in word)

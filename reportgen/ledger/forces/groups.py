@@ -23,31 +23,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.ledger.forces.loads import (
-    FAINT,
-    LoadOn,
-    Origin,
-    Statics,
-    above,
-    joint,
-    lone_couple,
-    moments,
-    opposite,
-)
+from reportgen.ledger.forces.loads import FAINT, LoadOn, Origin, Statics, above, joint, lone_couple, moments, opposite
 from reportgen.ledger.forces.polygon import Edge, Path, Polygon, drawn_edges, force_plan, read
 from reportgen.mechanism.structure import DRIVER, Crank, Dyad, DyadKind, Guide
-from reportgen.notation.expressions import (
-    Expression,
-    Ref,
-    Sum,
-    Symbol,
-    dot,
-    meet,
-    quotient,
-    sign,
-    total,
-    turned,
-)
+from reportgen.notation.expressions import Expression, Ref, Sum, Symbol, dot, meet, quotient, sign, total, turned
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import drawn_length
 
@@ -87,19 +66,9 @@ class Group:
 def group(statics: Statics, dyad: Dyad) -> Polygon:
     """Enter a group's reactions; `statics.loads` holds those of later groups on its links."""
     i, j = dyad.links
-    carriers = [
-        end.link if isinstance(end, Guide) else statics.scheme.owner[end] for end in (dyad.start, dyad.end)
-    ]
+    carriers = [end.link if isinstance(end, Guide) else statics.scheme.owner[end] for end in (dyad.start, dyad.end)]
     parts = Group(
-        statics,
-        dyad,
-        i,
-        j,
-        joint(carriers[0], i),
-        joint(j, i),
-        joint(carriers[1], j),
-        statics.on(i),
-        statics.on(j),
+        statics, dyad, i, j, joint(carriers[0], i), joint(j, i), joint(carriers[1], j), statics.on(i), statics.on(j)
     )
     return DYADS[dyad.kind](parts)
 
@@ -160,9 +129,7 @@ def _rpp(g: Group) -> Polygon:
 # --- steps ----------------------------------------------------------------------------------------
 
 
-def _tangential(
-    g: Group, link: int, digits: str, pin: str, middle: str, loads: tuple[LoadOn, ...]
-) -> None:
+def _tangential(g: Group, link: int, digits: str, pin: str, middle: str, loads: tuple[LoadOn, ...]) -> None:
     """Moments of a rod about the inner joint: Rᵗ l = ΣM, positive along the rod turned by 90°."""
     q, length = g.q, g.q[f"l.{pin}{middle}"]
     moment = moments(g.statics, loads, middle)
@@ -267,13 +234,7 @@ def _offset(g: Group, digits: str) -> None:
     q.define(f"x.{digits}", formula, scale=statics.span)
 
 
-DYADS: Mapping[DyadKind, Callable[[Group], Polygon]] = {
-    "RRR": _rrr,
-    "RRP": _rrp,
-    "RPR": _rpr,
-    "PRP": _prp,
-    "RPP": _rpp,
-}
+DYADS: Mapping[DyadKind, Callable[[Group], Polygon]] = {"RRR": _rrr, "RRP": _rrp, "RPR": _rpr, "PRP": _prp, "RPP": _rpp}
 
 
 def driver(statics: Statics) -> Polygon:

@@ -43,9 +43,7 @@ def _enter_centre(k: Kinematics, turn: Side) -> None:
 
     def distance(name: str, nearest: float) -> Expression:
         within = call("within", abs(k.place(name) - centre) / μ_l, nearest, FARTHEST)
-        return q.define(
-            f"ic.seg.{link}.{name}", within, segment(centre_symbol(link), point(name)), scale=k.span()
-        )
+        return q.define(f"ic.seg.{link}.{name}", within, segment(centre_symbol(link), point(name)), scale=k.span())
 
     PB, PC, v = distance(base, NEAREST), distance(end, 0.0), q[f"v.{base}"]
     q.define(f"ic.omega.{link}", v / (μ_l * PB), scale=sizes.rotation)

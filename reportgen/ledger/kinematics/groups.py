@@ -155,9 +155,7 @@ def group(k: Kinematics, dyad: Dyad) -> None:
     _motion(k, dyad, "a", turns, lambda: acceleration(k, *both))
 
 
-def _motion(
-    k: Kinematics, dyad: Dyad, what: What, turns: Mapping[int, Side | None], solve: Callable[[], None]
-) -> None:
+def _motion(k: Kinematics, dyad: Dyad, what: What, turns: Mapping[int, Side | None], solve: Callable[[], None]) -> None:
     solve()
     for link in dyad.links:
         k.share_rotation(what, link)

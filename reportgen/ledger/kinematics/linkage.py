@@ -126,9 +126,7 @@ class Kinematics:
         """The size of the mechanism as it is drawn (m)."""
         return longest(self.scheme.linkage) / self.q.si("mu.l")
 
-    def segment(
-        self, id: str, first: Symbol | str, second: Symbol | str, along: Expression, what: What
-    ) -> Ref:
+    def segment(self, id: str, first: Symbol | str, second: Symbol | str, along: Expression, what: What) -> Ref:
         """A segment measured on a plan."""
         return self.q.define(id, abs(along), segment(first, second), scale=self.paper(what))
 
@@ -257,9 +255,7 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int) -> Kinematics:
     return k
 
 
-def slide(
-    q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: tuple[float, float] | None
-) -> Kinematics:
+def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: tuple[float, float] | None) -> Kinematics:
     """The pin moves along its guide at constant v_A, a_A = 0; `scales` are μ_v and μ_a, None for a trial.
 
     Expects the driver's coordinate `s.1` and the size of its speed, `v.` and the pin's name.
