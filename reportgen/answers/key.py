@@ -1,6 +1,14 @@
 """The answer key: every quantity of a report at every position, with the bands within which it is right.
 
 Its rows are the ledger's own families, so key, report and marker cannot disagree.
+
+Bands are errors of drawing and of rounding, carried through the ledger.  Each error is a small change of one
+quantity; the ledger evaluates all of them at once, [errors, positions], and gives how far every later
+quantity moves.  An error that may lie anywhere within ±e has the standard deviation e/√3; independent ones
+add by their squares, and the band reaches to three of their sum's deviations.  A quantity's own error,
+which nothing evens out, is added whole:
+
+    band = e_own + 3 √(Σᵢ (∂f/∂xᵢ eᵢ/√3)²)
 """
 
 from __future__ import annotations

@@ -1,4 +1,8 @@
-"""The results of an analysis as plain data: SI units, radians, unrounded (format reportgen-results/1)."""
+"""The results of an analysis as plain data (format reportgen-results/1), and as tables on a terminal.
+
+The data are in SI units and radians, unrounded; the tables have a row for each position by its label, and
+vectors by their size.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""The part of an assignment file that every kind of machine shares, and the assignment read from it."""
+"""The part of an assignment file that every kind of machine shares, and checks for any kind to put in its list.
+
+Such checks look at several values at once.  They read the plain content, not the models, wherever they can:
+so they also speak when some other value of the file is wrong.
+"""
 
 from __future__ import annotations
 

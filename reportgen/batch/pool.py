@@ -1,7 +1,9 @@
-"""Jobs in processes of this machine, which may die without harm to any job but their own.
+"""Jobs, and the processes of this machine that do them; they may die without harm to any job but their own.
 
-Each job has a process of its own, started by pebble: its outcome arrives on a pipe that it shares with
-nobody, and all its memory ends with it.
+A job is one product of one student.  It holds all that decides its result, the bytes of the assignment
+file included, so that it can run in this process, in another, or on another machine, and so that its
+result need not be made twice.  Each has a process of its own, started by pebble: its outcome arrives on a
+pipe that it shares with nobody, and all its memory ends with it.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ Columns are id, name, class, section, email (or their Vietnamese names, see `col
 path such as `parameters.H`, `positions.start` or `report.supervisor`, which sets that value for the student.  Other
 columns are left alone, and so is a second one for the same thing (a class and a class of the course).  A name may
 stand in two columns, one for the family name and one for the given name, and is put together in their order.
-Headings may follow a title; empty rows are passed over.
+Headings may follow a title; empty rows are passed over.  A table of variants is read by the same headings.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Imported by the process that workers are forked from, so that each finds everything loaded."""
+"""Entry point of the process that workers are forked from: it loads everything, so that each finds it loaded."""
 
 from __future__ import annotations
 

@@ -1,6 +1,11 @@
 """The four-bar linkage: crank AB, coupler BC with points E and F, link CD; A and D fixed.
 
 Ground 0, crank 1 (AB), coupler 2 (BC), rocker or second crank 3 (CD, its frame from D to C).
+
+The analytic method: x runs along AD, y is x turned by 90° in the direction of rotation, so that ω₁ > 0; φ are
+the angles of AB, BC and DC from x.  With the diagonal BD and the angle δ at D, C on the left of BD (s = +1) or
+right of it: φ₂ = sβ − δ, φ₃ = 180° − δ − sγ.  The closed loop, differentiated once and twice:
+[A][ω₂ ω₃] = [B]ω₁,  [A][ε₂ ε₃] = −[Ȧ][ω₂ ω₃] + [Ḃ]ω₁.
 """
 
 from __future__ import annotations

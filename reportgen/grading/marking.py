@@ -2,7 +2,8 @@
 
 A wrong value costs its own mark once.  What stands on it is worked out again from the student's own
 values; where that is met, it earns its mark.  A wrong value with nothing wrong before it is the first
-of its chain, and the mistake behind it is sought by name.
+of its chain, and the mistake behind it is sought by name.  A student who compares a sheet before handing
+it in is told where it first leaves the assignment, without marks or answers.
 """
 
 from __future__ import annotations

@@ -1,8 +1,13 @@
-"""Named numbers and their definitions.
+"""Named numbers and their definitions, and the ledger evaluated again from other values.
 
 The families of the finished sheet (`notation.sheet`) with their decimals.  A `Quantity` is a family at one
 position.  Definitions are expressions over other families, so the ledger evaluates itself
 (`Ledger.evaluate`), tells what depends on what (`refs`), and prints its own worked lines (`Ledger.chain`).
+
+A plan's point and the length measured to it are two families; a definition further on uses the one or
+the other.  Whoever measured (or computed) another length goes on from a vector of that length, in the
+drawing's direction: `carried` pairs each vector with the sizes that stand for it, and `follow`
+stretches the vector whenever one of them is not what the drawing gave.
 """
 
 from __future__ import annotations

@@ -1,4 +1,10 @@
-"""Analysis → Ledger: enters everything in the order in which a report derives it, then chooses decimals."""
+"""Analysis → Ledger: enters everything in the order in which a report derives it, then chooses decimals.
+
+Decimals are chosen so that every printed line recomputes.  For a printed line ŷ = f(x̂₁, x̂₂, …) with
+half-units uᵢ of the last printed digits, the input error that a reader's calculator sees is Σ|∂f/∂xᵢ| uᵢ;
+it stays within u_y at every position: inputs get one more decimal, the largest contribution first, up to
+six significant figures; where that is not enough the result gets one fewer.
+"""
 
 from __future__ import annotations
 

@@ -1,9 +1,10 @@
-"""Reactions in every joint and the driver's balancing torque, by equilibrium of the links.
+"""Weights and inertia forces, the reactions in every joint, and the driver's balancing torque.
 
 Every joint holds two unknowns: the two components of a force in a revolute joint, the force across
 the guide and a couple in a prismatic one.  Two links and three joints make six equations with six
 unknowns, whatever the kind of the group; all positions are solved in one batch.  Groups are taken in
-the reverse of their assembly, so that each hands its reactions on to links not yet balanced.
+the reverse of their assembly, so that each hands its reactions on to links not yet balanced.  The work of
+the same loads gives the torque a second time, without any reaction.
 """
 
 from __future__ import annotations

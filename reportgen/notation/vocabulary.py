@@ -2,6 +2,9 @@
 
 This is the one place where the text of an id is read.  A quantity asks here for its symbol, a key for its
 chapter, marking for the scale of a length on paper and for the distance of two values.
+
+A *kind* fixes the printed unit, what one such unit is in SI, and the preferred number of significant
+figures; `ledger.report` then raises or lowers decimals so that printed lines recompute.
 """
 
 from __future__ import annotations

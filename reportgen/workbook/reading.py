@@ -1,4 +1,7 @@
-"""A table file by its path: a CSV or XLSX file becomes pages of located cells, any other file is refused."""
+"""A table file by its path: a CSV or XLSX file becomes pages of located cells, any other file is refused.
+
+XLSX is read by openpyxl from a copy that holds the judged parts it needs and no others.
+"""
 
 from __future__ import annotations
 

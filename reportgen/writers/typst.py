@@ -1,7 +1,9 @@
 """Document → Typst source → PDF, by the typesetter that comes embedded in its Python package.
 
 The source is one self-standing file: the frame `templates/frames/typst/report.typ`, which holds the
-look and defines short names, then the report as calls of these names, a block a line.
+look and defines short names, then the report as calls of these names, a block a line.  In formulas names
+and numbers travel as string literals, so nothing in them can become markup, and every operator stands
+between spaces, because identifiers of Typst may hold a hyphen.
 """
 
 from __future__ import annotations

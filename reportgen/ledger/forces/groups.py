@@ -14,6 +14,7 @@ RPP  –                                        from b across the slot, from e a
 ==== ======================================== ==================================================
 
 In a slide, M is the moment of all else on the link about the pin; the reaction acts at the distance M/R.
+The driver comes last, under what the groups leave on it, and the balance by virtual work on Zhukovsky's lever.
 """
 
 from __future__ import annotations

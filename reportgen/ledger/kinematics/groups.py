@@ -1,4 +1,7 @@
-"""Where a group's links lie, kind by kind, the order in which a group is entered, and the points of its links."""
+"""A group's kinematics, kind by kind: where its links lie, velocities and accelerations, the points of its links.
+
+Both follow from two vector equations for the point where the group's two sides meet (`sides`).
+"""
 
 from __future__ import annotations
 

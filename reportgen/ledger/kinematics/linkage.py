@@ -1,4 +1,7 @@
-"""A linkage while its kinematics is entered: the sheet, and every link that is placed so far."""
+"""A linkage while its kinematics is entered: the sheet, every link placed so far, and the driver placed first.
+
+The driver is a crank at constant ω₁ or a slide at constant speed; it fixes the scales of the plans.
+"""
 
 from __future__ import annotations
 
