@@ -1,9 +1,9 @@
 """Analysis → Ledger: enters everything in the order in which a report derives it, then chooses decimals.
 
-Decimals are chosen so that every printed line recomputes.  For a printed line ŷ = f(x̂₁, x̂₂, …) with
-half-units uᵢ of the last printed digits, the input error that a reader's calculator sees is Σ|∂f/∂xᵢ| uᵢ;
-it stays within u_y at every position: inputs get one more decimal, the largest contribution first, up to
-six significant figures; where that is not enough the result gets one fewer.
+Decimals are chosen so that every printed line recomputes: a reader's calculator, fed with the printed numbers
+x̂₁, x̂₂, … of a line y = f(x₁, x₂, …), comes to the printed ŷ within one unit of its last digit, at every
+position.  To first order f(x̂) − ŷ = Σ ∂f/∂xᵢ (x̂ᵢ − xᵢ) − (ŷ − y).  Inputs get one more decimal, the largest
+contribution first, as far as their kind allows; where that is not enough the result gets one fewer.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from decimal import Decimal
+from functools import cache
 
 import numpy as np
 
@@ -26,7 +27,7 @@ from reportgen.mechanism.structure import Linkage
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import PI, Expression, Symbol, call, refs, total
 from reportgen.notation.sheet import ZERO, Family, Sheet, is_short
-from reportgen.notation.vocabulary import MAX_DIGITS, Chapter
+from reportgen.notation.vocabulary import Chapter
 
 LEAST_DIGITS = 3
 """A family's largest value keeps at least these; a line that needs fewer is a listed cancellation."""
@@ -37,7 +38,7 @@ class _Line:
     id: str
     inputs: tuple[str, ...]
     slopes: np.ndarray
-    """|∂f/∂xᵢ| in printed units, [inputs, positions]."""
+    """∂f/∂xᵢ in printed units, [inputs, positions]."""
 
 
 def _largest(family: Family) -> float:
@@ -73,7 +74,7 @@ def _shown_decimals(family: Family) -> int:
 
 
 def _slopes(family: Family, inputs: tuple[str, ...], families: Mapping[str, Family]) -> np.ndarray:
-    """|∂f/∂xᵢ| by central differences, both sides in printed units."""
+    """∂f/∂xᵢ by central differences, both sides in printed units."""
     assert family.definition is not None
     values = {id: families[id].values for id in inputs}
     rows = []
@@ -83,8 +84,9 @@ def _slopes(family: Family, inputs: tuple[str, ...], families: Mapping[str, Fami
         with np.errstate(all="ignore"):
             up = evaluate(family.definition, values | {id: source.values + step})
             down = evaluate(family.definition, values | {id: source.values - step})
-        slope = np.abs(np.asarray(up) - down) / (2 * step) * source.how.scale / family.how.scale
-        rows.append(np.broadcast_to(np.nan_to_num(slope, posinf=0.0), np.broadcast_shapes(slope.shape, (1,))))
+        slope = (np.asarray(up) - down) / (2 * step) * source.how.scale / family.how.scale
+        slope = np.nan_to_num(slope, posinf=0.0, neginf=0.0)
+        rows.append(np.broadcast_to(slope, np.broadcast_shapes(slope.shape, (1,))))
     width = max((row.size for row in rows), default=1)
     return np.array([np.broadcast_to(row, (width,)) for row in rows])
 
@@ -110,11 +112,11 @@ def choose_decimals(
         if family.exact or family.is_plane or family.hidden or _is_short(family):
             decimals[id] = None
             continue
-        most = _digits_to_decimals(family, MAX_DIGITS)
-        wanted = _wanted(family)
-        ceiling[id], floor[id] = most, min(_digits_to_decimals(family, LEAST_DIGITS), wanted)
+        most, wanted = _digits_to_decimals(family, family.how.most), _wanted(family)
+        most = min(most, most if family.how.finest is None else family.how.finest)
+        floor[id] = min(_digits_to_decimals(family, LEAST_DIGITS), wanted)
+        ceiling[id] = max(most, 0)
         decimals[id] = max(min(wanted, most), 0)
-        ceiling[id] = max(ceiling[id], 0)
 
     lines = [
         _Line(id, inputs, _slopes(family, inputs, families))
@@ -126,38 +128,47 @@ def choose_decimals(
         if inputs and not any(families[name].is_plane for name in inputs)
     ]
 
-    def half_unit(id: str) -> float:
+    def shown(id: str) -> int:
+        """Decimals as printed; a result printed as it is (0.171 m) is read to its own last digit."""
         digits = decimals[id]
-        return 0.0 if digits is None else 0.5 * 10.0**-digits
+        return _shown_decimals(families[id]) if digits is None else digits
 
-    def allowed(id: str) -> float:
-        """A result printed as it is (0.171 m) is read to its own last digit."""
-        return half_unit(id) if decimals[id] is not None else 0.5 * 10.0 ** -_shown_decimals(families[id])
+    @cache
+    def rounding(id: str, digits: int) -> np.ndarray:
+        """x̂ − x at every position, in printed units."""
+        values = np.nan_to_num(families[id].values.real / families[id].how.scale)
+        return np.asarray(np.round(values, digits) - values)
+
+    def shares(line: _Line) -> list[tuple[str, np.ndarray]]:
+        """What the rounding of each input that is not exact does to the line, ∂f/∂xᵢ (x̂ᵢ − xᵢ)."""
+        known = ((id, slope, decimals[id]) for id, slope in zip(line.inputs, line.slopes, strict=True))
+        return [(id, slope * rounding(id, digits)) for id, slope, digits in known if digits is not None]
+
+    def over(line: _Line) -> np.ndarray:
+        """How far a line is off at each position, in units of its last digit."""
+        off = sum((share for _, share in shares(line)), -rounding(line.id, shown(line.id)))
+        return np.abs(off) * 10.0 ** shown(line.id)
 
     def holds(line: _Line) -> bool:
-        shares = line.slopes * np.array([[half_unit(id)] for id in line.inputs])
-        return bool(shares.sum(axis=0).max() <= allowed(line.id) * (1 + 1e-9))
+        return bool(over(line).max() <= 1 + 1e-6)
 
     cancellations: dict[str, None] = {}
     settled = False
     while not settled:
         settled = True
         for line in reversed(lines):
-            while True:
-                shares = line.slopes * np.array([[half_unit(id)] for id in line.inputs])
-                worst = int(shares.sum(axis=0).argmax())
-                if shares[:, worst].sum() <= allowed(line.id) * (1 + 1e-9) or line.id in cancellations:
-                    break
+            while not (line.id in cancellations or holds(line)):
+                worst = int(over(line).argmax())
                 raisable = [
-                    (shares[index, worst], id)
-                    for index, id in enumerate(line.inputs)
-                    if (digits := decimals[id]) is not None and digits < ceiling[id]
+                    (abs(share[worst % share.size]), id)
+                    for id, share in shares(line)
+                    if (decimals[id] or 0) < ceiling[id]
                 ]
                 settled = False
                 if raisable and max(raisable)[0] > 0:
                     chosen = max(raisable)[1]
                     decimals[chosen] = (decimals[chosen] or 0) + 1
-                elif (own := decimals[line.id]) is not None and own > max(floor[line.id], 0):
+                elif (own := decimals[line.id]) is not None and own > floor[line.id]:
                     decimals[line.id] = ceiling[line.id] = own - 1
                 else:
                     cancellations[line.id] = None

@@ -25,14 +25,17 @@ from reportgen.notation.expressions import Symbol
 class Kind:
     """How a kind of quantity is printed: SI value = printed value × `scale`.
 
-    `digits` are the significant figures aimed at for the largest value of a family; `decimals`, if
-    given, fixes the aim instead (a segment is measured to 0.01 mm whatever its length).
+    `digits` are the significant figures aimed at for the largest value of a family, and `most` those that
+    it may have where a line needs them; `decimals`, if given, fixes the aim instead.  No value is printed
+    finer than to `finest` decimals (a segment is measured to 0.01 mm whatever its length).
     """
 
     unit: str
     scale: float = 1.0
     digits: int = 4
+    most: int = 6
     decimals: int | None = None
+    finest: int | None = None
 
 
 KINDS: dict[str, Kind] = {
@@ -46,28 +49,28 @@ KINDS: dict[str, Kind] = {
     "diameter": Kind("cm", 1e-2, digits=4),
     "area": Kind("cm²", 1e-4, digits=5),
     "product of lengths": Kind("m²", digits=4),
-    "segment": Kind("mm", 1e-3, decimals=2),
+    "segment": Kind("mm", 1e-3, decimals=2, finest=2),
     "length scale": Kind("m/mm", 1e3, digits=4),
     "velocity scale": Kind("m/(s·mm)", 1e3, digits=6),
     "acceleration scale": Kind("m/(s²·mm)", 1e3, digits=5),
     "force scale": Kind("N/mm", 1e3, digits=4),
     "pressure scale": Kind("N/(cm²·mm)", 1e7, digits=4),
-    "velocity": Kind("m/s", digits=5),
-    "acceleration": Kind("m/s²", digits=5),
-    "angular velocity": Kind("rad/s", digits=5),
-    "angular acceleration": Kind("rad/s²", digits=5),
+    "velocity": Kind("m/s", most=5),
+    "acceleration": Kind("m/s²", most=5),
+    "angular velocity": Kind("rad/s"),
+    "angular acceleration": Kind("rad/s²", most=5),
     "weight": Kind("N", digits=4),
     "gravity": Kind("m/s²", digits=3),
     "mass": Kind("kg", digits=5),
     "moment of inertia": Kind("kg·m²", digits=4),
     "pressure": Kind("N/cm²", 1e4, digits=4),
-    "force": Kind("N", digits=5),
-    "torque": Kind("N·m", digits=4),
-    "work": Kind("J", digits=5),
-    "power": Kind("W", digits=5),
+    "force": Kind("N", most=5),
+    "torque": Kind("N·m", most=5),
+    "work": Kind("J", most=5),
+    "power": Kind("W", most=5),
 }
 
-MAX_DIGITS = 6
+MAX_DIGITS = max(kind.most for kind in KINDS.values())
 """No printed number has more significant figures (on the family's largest value)."""
 
 
