@@ -7,7 +7,7 @@ here where they are defined.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any, TypeVar
 
@@ -406,6 +406,11 @@ class Report:
 
     def force_vector(self, name: str) -> Symbol:
         return vocabulary.vector(self.force_symbol(name))
+
+    @property
+    def balance_symbol(self) -> Symbol:
+        """M_cb or P_cb, whichever of the two ways it is reached by."""
+        return replace(self.ledger.symbol("M.eq"), sup="")
 
     def is_zero(self, id: str, k: int | None = None) -> bool:
         return bool(self.ledger.number(id, k).value == 0)

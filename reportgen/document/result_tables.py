@@ -10,7 +10,7 @@ import numpy as np
 from reportgen.document.groups import GroupView
 from reportgen.document.report import Report
 from reportgen.document.tables import bare, columns, list_table, rows, side_by_side, table, tables
-from reportgen.document.tree import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Table, Text, Value
+from reportgen.document.tree import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Paragraph, Table, Text, Value
 from reportgen.ledger.kinematics.sides import Side, image
 from reportgen.mechanism.structure import Crank
 from reportgen.notation.expressions import Chain, Number, Power, Symbol
@@ -233,7 +233,7 @@ def balance(report: Report) -> list[str]:
 
 
 @table("flywheel")
-def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
+def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
     """Reduced torque and excess work; the reduced inertia if links have mass, the speed if there is a flywheel."""
     words = report.words["tables"]["flywheel"]
     inertia = words["inertia"] if report.has_reduced_inertia else ""

@@ -15,9 +15,20 @@ from reportgen.catalogue.loads import AngleLaw, Applied, TableLaw, Torque, WayLa
 from reportgen.catalogue.machine import Position
 from reportgen.cycle import StrokeIndicator
 from reportgen.document.report import FUNCTIONS, Function, Report, function, listed, lower_digits
-from reportgen.document.tree import FIRST_COLUMN, TEXT_WIDTH, Cell, Column, InlineMath, Inlines, Table, Text, Value
+from reportgen.document.tree import (
+    FIRST_COLUMN,
+    TEXT_WIDTH,
+    Cell,
+    Column,
+    InlineMath,
+    Inlines,
+    Paragraph,
+    Table,
+    Text,
+    Value,
+)
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Expression, Fraction, Number, Symbol, refs
+from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Symbol, refs
 
 MM = 1e3
 WIDEST_COLUMN = 26.0
@@ -47,7 +58,7 @@ def columns(name: str, cycle: bool = False) -> Callable[[Ids], Ids]:
     """Register a table of quantities, which the function lists, at all positions of one turn or of the cycle."""
 
     def register(ids: Ids) -> Ids:
-        def quantities(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
+        def quantities(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
             return tables(report, key, caption, ids(report), report.all_positions if cycle else report.positions)
 
         TABLES[name] = quantities
@@ -91,7 +102,7 @@ def _quantities(
     head: Sequence[str],
     ids: Sequence[str],
     positions: Iterable[int] | None = None,
-) -> tuple[Table, ...]:
+) -> tuple[Table | Paragraph, ...]:
     return tables(report, key, caption, ids, positions or report.all_positions)
 
 
@@ -129,30 +140,27 @@ def bare(report: Report, id: str, position: int | None, size: bool = False) -> I
     return (Value(Number(number.value, number.decimals, "")),)
 
 
-def _columns(report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]) -> Table:
-    """A table of quantities (columns) at positions (rows); the head shows symbol and unit."""
-    ledger = report.ledger
-    width = min((TEXT_WIDTH - FIRST_COLUMN) / len(ids), WIDEST_COLUMN)
-    units = [ledger.units.get(ledger[id].how.unit, ledger[id].how.unit) for id in ids]
-    head = (
-        (cell(report.words["table"]["position"]), *(cell(ledger.symbol(id)) for id in ids)),
-        (Cell(), *map(cell, units)),
-    )
-    rows = tuple((cell(str(k)), *(cell(bare(report, id, k)) for id in ids)) for k in positions)
-    columns = (Column(FIRST_COLUMN), *(Column(width) for _ in ids))
-    return Table(columns, head, rows, report.prose.inlines(caption), key)
-
-
 @function
-def tables(report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]) -> tuple[Table, ...]:
-    """Quantities at positions: one table, or several below one another where the columns are too many."""
+def tables(
+    report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]
+) -> tuple[Table | Paragraph, ...]:
+    """Quantities at positions: one table, or several below one another where the columns are too many.
+
+    Those that are zero at every position have no column; a sentence says so instead.
+    """
     at, columns = list(positions), []
-    for id in ids:
+    zeros = [id for id in ids if all(report.is_zero(id, k) for k in at)]
+    shown = [id for id in ids if id not in zeros] or list(ids)
+    for id in shown:
         unit = report.ledger[id].how.unit
         unit = report.ledger.units.get(unit, unit)
         columns.append([report.ledger.symbol(id), unit, *(bare(report, id, k) for k in at)])
     titles = [report.words["table"]["position"], "", *map(str, at)]
-    return side_by_side(report, key, caption, Column(FIRST_COLUMN), titles, columns, MOST_COLUMNS - 1, heads=2)
+    found = side_by_side(report, key, caption, Column(FIRST_COLUMN), titles, columns, MOST_COLUMNS - 1, heads=2)
+    if not zeros or shown == list(ids):
+        return found
+    equations = listed(InlineMath(Chain((report.ledger.symbol(id), Number(0.0)))) for id in zeros)
+    return *found, Paragraph((Text(f"{report.words['table']['zero']} "), *equations, Text(".")))
 
 
 def side_by_side(

@@ -113,10 +113,11 @@ def choose_decimals(
             decimals[id] = None
             continue
         most, wanted = _digits_to_decimals(family, family.how.most), _wanted(family)
-        most = min(most, most if family.how.finest is None else family.how.finest)
-        floor[id] = min(_digits_to_decimals(family, LEAST_DIGITS), wanted)
-        ceiling[id] = max(most, 0)
-        decimals[id] = max(min(wanted, most), 0)
+        if family.how.finest is not None:
+            most = min(most, family.how.finest)
+        floor[id], ceiling[id] = min(_digits_to_decimals(family, LEAST_DIGITS), wanted), most
+        # A whole number is shown whole, as far as its kind has figures.
+        decimals[id] = min(max(wanted, 0), most)
 
     lines = [
         _Line(id, inputs, _slopes(family, inputs, families))
@@ -147,7 +148,7 @@ def choose_decimals(
     def over(line: _Line) -> np.ndarray:
         """How far a line is off at each position, in units of its last digit."""
         off = sum((share for _, share in shares(line)), -rounding(line.id, shown(line.id)))
-        return np.abs(off) * 10.0 ** shown(line.id)
+        return np.asarray(np.abs(off) * 10.0 ** shown(line.id))
 
     def holds(line: _Line) -> bool:
         return bool(over(line).max() <= 1 + 1e-6)

@@ -1,7 +1,7 @@
 """Whether a printed line recomputes: a reader's calculator lands within one last digit.
 
-With x̂ᵢ the numbers as printed and uᵢ half a unit of their last digit, a line ŷ = f(x̂) passes if
-|f(x̂) − ŷ| ≤ u_y + Σ|∂f/∂xᵢ| uᵢ, units included.
+With x̂ᵢ the numbers as printed, a line ŷ = f(x̂) passes if |f(x̂) − ŷ| is at most one unit of ŷ's last digit,
+units included.
 """
 
 from __future__ import annotations
@@ -36,25 +36,16 @@ def excess(chain: Chain, scales: tuple[float, ...] = (), result: float = 1.0) ->
     scales = scales or (1.0,) * len(numbers)
     assert len(numbers) == len(scales)
 
-    def value(changes: dict[int, float]) -> float:
-        """The line's formula with some numbers moved, in the result's unit."""
-        count = iter(range(len(numbers)))
+    remaining = iter(scales)
 
-        def put(node: Expression) -> Expression:
-            if isinstance(node, Number):
-                index = next(count)
-                moved = node.shown + changes.get(index, 0.0)
-                return Number(math.radians(moved) if node.unit == "°" else moved * scales[index])
-            return rebuild(node, put)
+    def put(node: Expression) -> Expression:
+        if isinstance(node, Number):
+            scale = next(remaining)
+            return Number(math.radians(node.shown) if node.unit == "°" else node.shown * scale)
+        return rebuild(node, put)
 
-        return float(evaluate(put(shown))) / result
-
-    central = value({})
-    allowed = outcome.half_unit if outcome.decimals is not None else _last_digit(outcome.value)
-    for index, number in enumerate(numbers):
-        step = number.half_unit
-        if step:
-            allowed += max(abs(value({index: side * step}) - central) for side in (1, -1))
+    central = float(evaluate(put(shown))) / result
+    allowed = 2 * (outcome.half_unit if outcome.decimals is not None else _last_digit(outcome.value))
     missed = abs(central - outcome.shown)
     if math.isnan(missed):
         return math.inf

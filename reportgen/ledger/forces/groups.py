@@ -251,7 +251,7 @@ def _driving_crank(statics: Statics, centre: str, own: tuple[LoadOn, ...]) -> Po
     """R01 closes the polygon; moments about the centre give M_cb = −Σ R h μ_l."""
     total = moments(statics, own, centre)
     balance = 0.0 if total is None else -total
-    statics.q.define("M.eq", balance, Symbol("M", "cb"), scale=statics.torque)
+    statics.q.define("M.eq", balance, Symbol("M", "cb", "(1)"), scale=statics.torque)
     path = _laid(statics, own)
     force_plan(statics, "1", "R(1)", path.corners)
     drawn_edges(statics, "1", path.edges)
@@ -269,7 +269,7 @@ def _driving_slide(statics: Statics, pin: str, own: tuple[LoadOn, ...]) -> Polyg
     read(statics, "1", "R01", Symbol("R", "01"), "R.01", path.last, "n")
     read(statics, "1", "Rcb", Symbol("P", "cb"), "R.cb", "n", path.first)
     along = sign(dot(q["F.Rcb"], guide))
-    q.define("M.eq", q["R.cb"] * along, Symbol("P", "cb"), "force", scale=statics.force)
+    q.define("M.eq", q["R.cb"] * along, Symbol("P", "cb", "(1)"), "force", scale=statics.force)
     total = moments(statics, own, pin)
     if total is not None:
         q.define("M.01", total, scale=statics.torque)
@@ -326,7 +326,7 @@ def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
             alone = statics.turn * lone_couple(statics, load) * omega
             contribute(f"{load.name}.lone", alone / rate, optional=True)
     balance = -Sum(tuple(parts)) if parts else 0.0
-    q.define("M.vw", balance, Symbol(letter, "cb"), kind, scale=scale)
+    q.define("M.vw", balance, Symbol(letter, "cb", "(2)"), kind, scale=scale)
 
 
 def _omega(statics: Statics, link: int) -> Expression | None:
