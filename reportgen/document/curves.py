@@ -92,7 +92,7 @@ def _over_a_turn(report: Report, curves: Sequence[tuple[Symbol, np.ndarray]], ti
 def torque(report: Report) -> Drawn:
     """What balances the driver: a torque over the angle of a crank, a force over the way of a slider."""
     ledger, names, slides = report.ledger, report.words["figure"], bool(report.machine.span)
-    curve = charts.Series(report.balance_symbol, _across(report), report.dense_cycle.torque, _marks(report))
+    curve = charts.Series(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
     title, across = ("balancing_force", "way") if slides else ("torque", "cycle_angle")
     levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),)
     return Drawn((charts.chart((curve,), names[across], names[title], levels=levels, turn=not slides),))

@@ -163,7 +163,7 @@ def driver(report: Report, k: int) -> Drawn:
     closing = (body.reaction(edge.name, pin) for edge in polygon.edges if edge.unknown)
     forces = [*body.loads(), *body.found_before(polygon), *closing]
     if centre:
-        balance = Couple(report.balance_symbol, pin, float(np.sign(report.ledger.number("M.eq", k).value)))
+        balance = Couple(report.balance_symbol(), pin, float(np.sign(report.ledger.number("M.eq", k).value)))
         drawing = body.scene(forces, arms=body.arms(report.crank_arms, centre), turning=(balance,))
     else:
         drawing = body.scene(forces)
@@ -240,7 +240,7 @@ def lever(report: Report, k: int) -> Drawn:
     if machine.span and not report.is_zero("R.cb", k):
         # The force that balances a sliding driver acts on the lever too; that of a crank is a torque.
         image = complex(motion.points[report.driver.pin].v[index]) * per
-        shown = vocabulary.vector(report.balance_symbol)
+        shown = vocabulary.vector(report.balance_symbol())
         forces.append(Force(shown, image, complex(ledger["F.Rcb"].at(k)), "reaction", "Rcb"))
         arms.append(ArmOf(ledger.symbol(report.driver.velocity_segment), 0j, "Rcb"))
     scale = Chain((ledger.symbol("mu.v"), ledger.number("mu.v")))

@@ -407,7 +407,6 @@ class Report:
     def force_vector(self, name: str) -> Symbol:
         return vocabulary.vector(self.force_symbol(name))
 
-    @property
     def balance_symbol(self) -> Symbol:
         """M_cb or P_cb, whichever of the two ways it is reached by."""
         return replace(self.ledger.symbol("M.eq"), sup="")
