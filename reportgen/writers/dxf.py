@@ -61,11 +61,11 @@ STACK = 0.7
 
 def write_sheet(sheet: Sheet, language: Language) -> bytes:
     """The DXF file (R2010) of a sheet."""
-    import ezdxf
-    from ezdxf.lldxf.const import DXF2010
+    from ezdxf._options import options
+    from ezdxf.document import Drawing
 
-    ezdxf.options.write_fixed_meta_data_for_testing = True
-    document = ezdxf.new(DXF2010)
+    options.write_fixed_meta_data_for_testing = True
+    document = Drawing.new("R2010")
     document.header["$INSUNITS"] = 4
     document.header["$MEASUREMENT"] = 1
     document.header["$LTSCALE"] = 1.0
@@ -86,6 +86,7 @@ def write_sheet(sheet: Sheet, language: Language) -> bytes:
 def _draw(document: Drawing, part: Part, texts: MText) -> None:
     """The items of a part in model space, as one named group."""
     model: Any = document.modelspace()
+    group: list[Any]
     with document.groups.new(part.name).edit_data() as group:
         for item in part.scene.items:
             group.extend(_entities(model, item, part, texts))

@@ -13,7 +13,9 @@ from itertools import pairwise
 
 from reportgen.document import tree
 from reportgen.errors import TypesetterError
+from reportgen.figures.geometry import moved
 from reportgen.figures.scene import Scene
+from reportgen.figures.sheet import Sheet
 from reportgen.notation.expressions import Chain, Expression, Number, Product, Sum, Symbol, VectorEquation, walk
 from reportgen.notation.numbers import Language
 from reportgen.notation.numbers import write as written
@@ -90,6 +92,8 @@ def _superscript(text: str) -> str:
 
 LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
+SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
+#show math.equation: set text(font:"New Computer Modern Math")"""
 FLOATING = 80.0
 """A figure taller than this lets the text run on before it where the page is nearly full, mm."""
 
@@ -126,6 +130,17 @@ def write(document: tree.Document) -> str:
     )
     body = _Blocks(document.language, document.words).write(document.blocks)
     return f"{_frame()}\n#show: report.with({opening})\n\n{body}\n"
+
+
+def write_sheets(sheets: Sequence[Sheet], title: str, author: str, language: Language) -> str:
+    """The Typst source of drawing sheets, each a page of its own size; it needs no other file."""
+    formulas = TypstFormulas(language)
+    lines = [f"#set document(title:{literal(title)},author:{literal(author)},date:none)", SHEET_LOOK]
+    for sheet in sheets:
+        items = tuple(moved(item, part.at) for part in sheet.parts for item in part.scene.items)
+        drawing = paint_typst(Scene(sheet.width, sheet.height, items), formulas)
+        lines.append(f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[#{drawing}]")
+    return f"{_frame()}\n" + "\n".join(lines) + "\n"
 
 
 def _frame() -> str:
