@@ -14,10 +14,10 @@ import cmath
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Annotated, Literal
+from typing import Literal
 
-from reportgen.assignment.common import Assignment, Draft, Part
-from reportgen.assignment.fields import Angle, Length, quantity
+from reportgen.assignment.common import Assignment, Part, of_parameters
+from reportgen.assignment.fields import Angle, Coordinate, ForceSize, Length
 from reportgen.catalogue import reach
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
@@ -201,21 +201,19 @@ def equations() -> dict[str, tuple[Chain, ...]]:
 TURNS = 1
 LINKS = {1: ("A", "B"), 2: ("B", "C"), 3: ("D", "C")}
 """The bars by the pins at their ends."""
-Offset = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
-Size = Annotated[Given, quantity("N", least=0, most=1e9)]
 
 
 class CouplerPoint(Part):
     """A point of the coupler: its distances from B along BC, and across it to the left."""
 
-    along: Offset
-    across: Offset = Given(0.0, 0.0, "mm", "0 mm")
+    along: Coordinate
+    across: Coordinate = Given(0.0, 0.0, "mm", "0 mm")
 
 
 class LinkForce(Part):
     """A force on link 3 at C, in a direction fixed in the plane."""
 
-    P: Size
+    P: ForceSize
     angle: Angle
 
 
@@ -282,11 +280,9 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
     )
 
 
-def _check_turning(draft: Draft) -> Iterator[Finding]:
+@of_parameters
+def _check_turning(given: Parameters) -> Iterator[Finding]:
     """The crank turns fully, without dead points, and link 3 does what the file says of it."""
-    given: Parameters | None = draft.sections.get("parameters")
-    if given is None:
-        return
     linkage = _linkage(given, _sheet(given))
     found = list(reach.findings(linkage, {(2, 3): reach.Member("BC, CD", ("parameters", "BC"))}))
     yield from found
@@ -306,7 +302,7 @@ def machine(assignment: Assignment) -> Machine:
     positions, turn = assignment.positions, assignment.positions.sign
     q = _sheet(given, assignment.drawing.crank)
     linkage, frame, force = _linkage(given, q), given.frame.si, given.force
-    start = frame if positions.start is None else positions.start.si
+    start = positions.start_or(frame)
     points = tuple(point for point in linkage.points if point.link == 2)
     names = [point.name for point in points]
     φ1 = turn * (start + turn * even_angles(positions) - frame)

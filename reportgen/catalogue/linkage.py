@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.assignment.common import Assignment, Draft, Positions
+from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters, one_of
 from reportgen.catalogue import linkage_checks, linkage_words
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.driven import GivenSheet, needs_loads, outline
@@ -54,22 +54,14 @@ STEPS = 72
 
 def _check_speed(draft: Draft) -> Iterator[Finding]:
     """A crank has a speed, in one way."""
-    parameters = draft.raw.get("parameters")
-    driver = parameters.get("driver") if isinstance(parameters, dict) else None
-    if not isinstance(driver, dict) or driver.get("type") != "crank":
-        return
-    given = [key for key in driver if key in {"n", "omega1"} and driver[key] is not None]
-    if len(given) > 1:
-        both = {"first": given[0], "second": given[1]}
-        yield Finding("both-given", ("parameters", "driver", given[1]), both, at="key")
-    elif not given:
-        yield Finding("missing-key", ("parameters", "driver", "n"), {"key": "n | omega1"})
+    if draft.at("parameters", "driver", "type") == "crank":
+        yield from one_of("parameters.driver", "n", "omega1")(draft)
 
 
-def _check_flywheel(draft: Draft) -> Iterator[Finding]:
+@of_parameters
+def _check_flywheel(given: Parameters) -> Iterator[Finding]:
     """A flywheel turns with a crank."""
-    given: Parameters | None = draft.sections.get("parameters")
-    if given is not None and given.flywheel is not None and isinstance(given.driver, file.SlideDriver):
+    if given.flywheel is not None and isinstance(given.driver, file.SlideDriver):
         yield Finding("flywheel-of-slide", ("parameters", "flywheel"), at="key")
 
 
@@ -83,16 +75,11 @@ def added_positions(parameters: Parameters, positions: Positions) -> int:
     return each * parameters.turns - positions.count
 
 
-def _start(positions: Positions) -> float:
-    """The crank's angle at the first position: along +x unless the file says otherwise."""
-    return 0.0 if positions.start is None else positions.start.si
-
-
 def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...], tuple[str, ...]]:
     """Uneven positions and their labels; none where every position is an even one."""
     if not given.also_at or not isinstance(given.driver, file.CrankDriver):
         return (), ()
-    extra = (positions.sign * (angle.si - _start(positions)) for angle in dict.fromkeys(given.also_at))
+    extra = (positions.sign * (angle.si - positions.start_or()) for angle in dict.fromkeys(given.also_at))
     return lettered(positions.count, given.turns, extra)
 
 
@@ -105,7 +92,7 @@ def machine(assignment: Assignment) -> Machine:
     positions, driver, linkage = assignment.positions, given.driver, given.linkage
     places, labels = _places(given, positions)
     crank = isinstance(driver, file.CrankDriver)
-    start, turn, span = _start(positions), positions.sign, 0.0
+    start, turn, span = positions.start_or(), positions.sign, 0.0
     if isinstance(driver, file.SlideDriver):
         start, span = driver.start.si, driver.span
         turn = 1 if driver.end.si > start else -1

@@ -49,9 +49,8 @@ def _of_a_crank(draft: Draft, given: file.Parameters) -> Iterator[Finding]:
     if not isinstance(given.driver, file.SlideDriver):
         return
     for section, keys in (("positions", ("start", "direction")), ("drawing", ("crank",)), TURNING):
-        written = draft.raw.get(section)
         for key in keys:
-            if isinstance(written, dict) and written.get(key) is not None:
+            if draft.at(section, key) is not None:
                 yield Finding("no-crank", (section, key), {"key": key}, at="key")
 
 
@@ -312,7 +311,7 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
     yield from found
     if found:
         return
-    motion_at = crank_motion(made, positions, 0.0 if positions.start is None else positions.start.si)
+    motion_at = crank_motion(made, positions, positions.start_or())
     yield from _slots(given, made, motion_at(np.linspace(0.0, 2 * np.pi, STEPS + 1)))
     for index, load in enumerate(given.loads):
         if isinstance(load, file.OverStroke | file.Gas):

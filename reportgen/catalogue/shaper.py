@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator
 from typing import Annotated
 
-from reportgen.assignment.common import Assignment, Draft, Part
+from reportgen.assignment.common import Assignment, Part, of_parameters
 from reportgen.assignment.fields import Interval, Length, Ratio, Share, quantity
 from reportgen.catalogue import reach, slotted
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
@@ -89,11 +89,9 @@ def _geometry(given: Parameters, q: GivenSheet, turn: int) -> Ram:
     return Ram(crank, q.si("l.CD"), q.si("l.DE"), q.si("b"))
 
 
-def _check_assembly(draft: Draft) -> Iterator[Finding]:
+@of_parameters
+def _check_assembly(given: Parameters) -> Iterator[Finding]:
     """The rocker swings, the block stays in it, and link 4 reaches from D to the ram's line all through the turn."""
-    given: Parameters | None = draft.sections.get("parameters")
-    if given is None:
-        return
     geometry = _geometry(given, _sheet(given), 1)
     crank = geometry.crank.r
     block = {"block": "2", "link": "3", "group": "(2, 3)", "pivot": "C"}
