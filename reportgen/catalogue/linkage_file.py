@@ -35,6 +35,7 @@ from reportgen.assignment.fields import (
 )
 from reportgen.catalogue.driven import Flywheel
 from reportgen.catalogue.given_loads import Diagram
+from reportgen.errors import Where
 from reportgen.mechanism.structure import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 from reportgen.units import Given
 
@@ -252,6 +253,16 @@ class RPP(Part):
 
 Group = Annotated[RRR | RRP | RPR | PRP | RPP, Field(discriminator="type")]
 ORDER: tuple[DyadKind, ...] = ("RRR", "RRP", "RPR", "PRP", "RPP")
+
+
+def rails(group: Group) -> list[tuple[int, GuideSection, Where]]:
+    """The guides of a group: the link that slides on each, the guide, its place in the group's section."""
+    match group:
+        case PRP(links=links, guides=guides):
+            return [(links[index], guide, ("guides", index)) for index, guide in enumerate(guides)]
+        case RRP() | RPP():
+            return [(group.links[1], group.guide, ("guide",))]
+    return []
 
 
 # --- points, masses, loads ------------------------------------------------------------------------
