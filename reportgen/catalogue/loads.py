@@ -22,6 +22,7 @@ from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
 
 Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 FULL_TURN = 2 * np.pi
 STEPS = 720
 """Steps of a turn in which a link is watched for turning back."""
@@ -226,22 +227,23 @@ def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
     """What resists a `rate` over the cycle angle (0…2π) with a constant size."""
     edges = np.linspace(0.0, FULL_TURN, STEPS + 1) - FULL_TURN / STEPS / np.pi
     signs = np.sign(rate(edges))
-    low, high = (edges[chosen] for chosen in _around(signs))
-    first = signs[_around(signs)[0]]
-    for _ in range(HALVINGS if low.size else 0):
-        middle = (low + high) / 2
-        same = np.sign(rate(middle)) == first
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    changes = np.flatnonzero(signs[1:] != signs[:-1])
+    first = signs[changes]
+    halvings = HALVINGS if changes.size else 0
+    _, high = halved(edges[changes], edges[changes + 1], lambda angle: np.sign(rate(angle)) == first, halvings)
     found = np.sort(np.mod(high + ROUND, FULL_TURN) - ROUND)
     # The first of them in the turn is where the sign before it ends.
     after = rate(np.array([(found[0] + found[1]) / 2])) if found.size > 1 else -rate(np.array([0.0]))
     return Opposing(size, tuple(map(float, found)), -float(np.sign(after[0])))
 
 
-def _around(signs: Floats) -> tuple[np.ndarray, np.ndarray]:
-    """Indices on both sides of every change of sign."""
-    changes = np.flatnonzero(signs[1:] != signs[:-1])
-    return changes, changes + 1
+def halved(low: Floats, high: Floats, before: Callable[[Floats], Flags], times: int) -> tuple[Floats, Floats]:
+    """The intervals [N] from `low` to `high` halved so often, each towards where `before` ends to be true."""
+    for _ in range(times):
+        middle = (low + high) / 2
+        same = before(middle)
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return low, high
 
 
 # --- sliders of a linkage ---------------------------------------------------------------------------
