@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -33,30 +32,16 @@ class _Diagram(Part):
     reference: Literal["gauge", "absolute"] = "gauge"
     ambient: Pressure = Given(101325.0, 10.1325, "N/cm2", "10.1325 N/cm2")
 
-    @property
-    @abstractmethod
-    def one(self) -> float:
-        """What 1 in the table stands for (Pa)."""
-
-    def gauge(self, row: tuple[float, ...]) -> tuple[float, ...]:
-        """Values of the table as gauge pressures (Pa)."""
+    def gauge(self, row: tuple[float, ...], one: Given) -> tuple[float, ...]:
+        """Values of the table as gauge pressures (Pa), `one` being what 1 stands for."""
         below = self.ambient.si if self.reference == "absolute" else 0.0
-        return tuple(value * self.one - below for value in row)
+        return tuple(value * one.si - below for value in row)
 
 
-class _InUnit(_Diagram):
-    """A table of pressures in one unit."""
-
-    unit: PressureUnit
-
-    @property
-    def one(self) -> float:
-        return self.unit.si
-
-
-class ByStroke(_InUnit):
+class ByStroke(_Diagram):
     """A row of pressures for each stroke, over s/H of the piston."""
 
+    unit: PressureUnit
     by: Literal["stroke"]
     s: Fractions
     intake: Values
@@ -67,12 +52,13 @@ class ByStroke(_InUnit):
     @property
     def table(self) -> StrokeIndicator:
         """The diagram in gauge pressures (Pa)."""
-        return StrokeIndicator(self.s, *(self.gauge(getattr(self, row)) for row in STROKES))
+        return StrokeIndicator(self.s, *(self.gauge(getattr(self, row), self.unit) for row in STROKES))
 
 
-class ByCrankAngle(_InUnit):
+class ByCrankAngle(_Diagram):
     """Pressures over the cycle angle, from the top dead centre at the start of intake."""
 
+    unit: PressureUnit
     by: Literal["crank_angle"]
     angle: CycleAngles
     p: Values
@@ -80,7 +66,7 @@ class ByCrankAngle(_InUnit):
     @property
     def table(self) -> AngleIndicator:
         """The diagram in gauge pressures (Pa)."""
-        return AngleIndicator(tuple(angle.si for angle in self.angle), self.gauge(self.p))
+        return AngleIndicator(tuple(angle.si for angle in self.angle), self.gauge(self.p, self.unit))
 
 
 class ByOrdinates(_Diagram):
@@ -92,13 +78,9 @@ class ByOrdinates(_Diagram):
     height: Values
 
     @property
-    def one(self) -> float:
-        return self.scale.si
-
-    @property
     def table(self) -> AngleIndicator:
         """The diagram in gauge pressures (Pa)."""
-        return AngleIndicator(tuple(angle.si for angle in self.angle), self.gauge(self.height))
+        return AngleIndicator(tuple(angle.si for angle in self.angle), self.gauge(self.height, self.scale))
 
 
 Diagram = Annotated[ByStroke | ByCrankAngle | ByOrdinates, Field(discriminator="by")]

@@ -196,11 +196,12 @@ def _loads(given: file.Parameters, linkage: Linkage, motion_at: MotionAt) -> tup
         link = load.link
         if isinstance(load, file.OverStroke | file.Gas):
             found.append(_on_slider(load, given, linkage, motion_at, _name("P", link, found)))
-        elif load.at is None:
-            found.append(Torque(_name("M", link, found), link, _turning(load, given.driver, motion_at)))
+            continue
+        direction = cmath.exp(1j * load.direction.si)
+        law = _law(load, direction, given.driver, motion_at)
+        if load.at is None:
+            found.append(Torque(_name("M", link, found), link, law))
         else:
-            direction = cmath.exp(1j * load.direction.si)
-            law = _pushing(load, load.at, direction, given.driver, motion_at)
             found.append(Applied(_name("P", link, found), link, load.at, direction, law))
     return tuple(found)
 
@@ -226,42 +227,29 @@ def _on_slider(
     return Applied(name, load.link, dyad.middle, cmath.exp(1j * guide.angle), TableLaw(way, table, turns=1))
 
 
-def _pushing(
-    load: file.Constant | file.OverAngle | file.OverWay,
-    point: str,
-    direction: complex,
-    driver: file.Driver,
-    motion_at: MotionAt,
+def _law(
+    load: file.Constant | file.OverAngle | file.OverWay, direction: complex, driver: file.Driver, motion_at: MotionAt
 ) -> Law:
+    """How a force along `direction` varies, or a torque where the load has no point."""
     if not isinstance(load, file.Constant):
-        return _by_driver(load, load.unit.si if load.unit else 1.0, driver)
-    assert load.F is not None
+        unit = load.torque_unit if load.at is None else load.unit
+        assert unit is not None, "a table without its unit is refused by the kind's checks"
+        values = tuple(value * unit.si for value in load.values)
+        if isinstance(load, file.OverAngle):
+            return AngleLaw(tuple(angle.si for angle in load.angle), values)
+        assert isinstance(driver, file.SlideDriver), "a file with another driver is refused by the kind's checks"
+        return WayLaw(tuple(way.si for way in load.way), values, driver.span)
+    size = load.M if load.at is None else load.F
+    assert size is not None, "a load without its size is refused by the kind's checks"
+    if not load.against:
+        return Constant(size.si)
 
     def rate(motion: Motion) -> Floats:
-        return np.asarray(np.real(np.conj(direction) * motion.points[point].v))
+        if load.at is None:
+            return motion.links[load.link].omega
+        return np.asarray(np.real(np.conj(direction) * motion.points[load.at].v))
 
-    return _constant(load, load.F.si, rate, motion_at)
-
-
-def _turning(load: file.Constant | file.OverAngle | file.OverWay, driver: file.Driver, motion_at: MotionAt) -> Law:
-    if not isinstance(load, file.Constant):
-        return _by_driver(load, load.torque_unit.si if load.torque_unit else 1.0, driver)
-    assert load.M is not None
-    return _constant(load, load.M.si, lambda motion: motion.links[load.link].omega, motion_at)
-
-
-def _constant(load: file.Constant, size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt) -> Law:
-    if not load.against:
-        return Constant(size)
-    found = opposing(abs(size), lambda angle: rate(motion_at(angle)))
+    found = opposing(abs(size.si), lambda angle: rate(motion_at(angle)))
     # A crank has an angular velocity of its own, a slide has none.
     turns = bool(np.any(motion_at(np.zeros(1)).links[DRIVER].omega))
-    return found if turns else Resistance(abs(size), rate, found.reversals)
-
-
-def _by_driver(load: file.OverAngle | file.OverWay, one: float, driver: file.Driver) -> Law:
-    values = tuple(value * one for value in load.values)
-    if isinstance(load, file.OverAngle):
-        return AngleLaw(tuple(angle.si for angle in load.angle), values)
-    assert isinstance(driver, file.SlideDriver), "a file with another driver is refused by the kind's checks"
-    return WayLaw(tuple(way.si for way in load.way), values, driver.span)
+    return found if turns else Resistance(abs(size.si), rate, found.reversals)
