@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.assignment.common import Positions
-from reportgen.cycle import AngleIndicator, Cutting, Indicator, StrokeIndicator
+from reportgen.cycle import AngleIndicator, Indicator, StrokeIndicator, crossings
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
 
@@ -29,6 +29,9 @@ STEPS = 720
 HALVINGS = 50
 ROUND = 1e-9
 """Angles (rad) this near below the end of the cycle, or below a turning point, belong to what begins there."""
+
+EDGE = 1e-9
+"""A share of the stroke this near to the tool's way in or out is rounding of it."""
 
 MotionAt = Callable[[Floats], Motion]
 """The machine's motion at cycle angles [N] that grow from one to the next."""
@@ -164,17 +167,29 @@ class WayLaw:
 
 @dataclass(frozen=True)
 class CuttingLaw:
-    """The cutting force on the ram over the machine's cycle angles."""
+    """`force` (N) on the ram while the tool cuts, which it does on the way from the top of the ram's `course`.
+
+    It runs free over the share `free` of the stroke at each end of that way.
+    """
 
     course: Course
-    cutting: Cutting
+    force: float
+    free: float
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
-        return self.cutting.at(self.course.phase + angle, self.course.fraction(motion))
+        """The force (N) [N]; at a dead centre that of the stroke which begins there."""
+        turned = np.mod(self.course.phase + angle + ROUND, FULL_TURN) - ROUND
+        working = turned < self.course.bottom_angle - ROUND
+        share = self.course.fraction(motion)
+        cuts = (share >= self.free - EDGE) & (share <= 1 - self.free + EDGE)
+        return np.where(working & cuts, self.force, 0.0)
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
-        corners = self.cutting.breaks(self.course.share_at(motion_at))
-        return (corner - self.course.phase for corner in corners)
+        course, corners = self.course, np.array([0.0, self.course.bottom_angle])
+        if self.free:
+            wanted, share_at = np.array([self.free, 1 - self.free]), course.share_at(motion_at)
+            corners = crossings(lambda angle: share_at(angle) - wanted, np.zeros(2), np.full(2, course.bottom_angle))
+        return (corner - course.phase for corner in corners)
 
 
 @dataclass(frozen=True)

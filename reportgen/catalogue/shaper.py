@@ -17,7 +17,6 @@ from reportgen.catalogue.loads import Applied, CuttingLaw
 from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.slotted import HIGHEST, Ram, SlottedCrank
-from reportgen.cycle import Cutting
 from reportgen.errors import Finding
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import nice_up
@@ -129,7 +128,7 @@ def machine(assignment: Assignment) -> Machine:
 
     applied: tuple[Applied, ...] = ()
     if cutting is not None:
-        law = CuttingLaw(course, Cutting(cutting.F.si, course.bottom_angle, cutting.free.si))
+        law = CuttingLaw(course, cutting.F.si, cutting.free.si)
         applied = (Applied("P5", 5, "E", -course.inward, law),)
     return driven(
         assignment,
