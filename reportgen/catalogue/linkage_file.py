@@ -36,7 +36,7 @@ from reportgen.assignment.fields import (
 from reportgen.catalogue.driven import Flywheel
 from reportgen.catalogue.given_loads import Diagram
 from reportgen.errors import Where
-from reportgen.mechanism.structure import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
+from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 from reportgen.units import Given
 
 MOST_GROUPS = 12
@@ -252,7 +252,6 @@ class RPP(Part):
 
 
 Group = Annotated[RRR | RRP | RPR | PRP | RPP, Field(discriminator="type")]
-ORDER: tuple[DyadKind, ...] = ("RRR", "RRP", "RPR", "PRP", "RPP")
 
 
 def rails(group: Group) -> list[tuple[int, GuideSection, Where]]:

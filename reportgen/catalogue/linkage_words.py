@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from reportgen.catalogue import linkage_file as file
@@ -22,8 +23,8 @@ class GroupRow:
     links: tuple[int, int]
     kind: DyadKind
     joints: tuple[str, ...]
-    lengths: tuple[tuple[str, Number], ...]
-    choice: str
+    lengths: tuple[tuple[str, Number], ...] = ()
+    choice: str = ""
     """Which of two ways it is assembled: left, right, far, near, towards, away, or ""."""
     offset: Number | None = None
     across: Number | None = None
@@ -151,21 +152,19 @@ def number(given: Given) -> Number:
 
 
 def _group(group: file.Group) -> GroupRow:
-    links, joints = (group.links[0], group.links[1]), group.joints
+    joints = group.joints
+    row = partial(GroupRow, group.dyad.links, group.type, joints)
     match group:
         case file.RRR():
             ends = f"{joints[0]}{joints[1]}", f"{joints[2]}{joints[1]}"
-            lengths = tuple(zip(ends, map(number, group.lengths), strict=True))
-            return GroupRow(links, "RRR", joints, lengths, group.side)
+            return row(tuple(zip(ends, map(number, group.lengths), strict=True)), group.side)
         case file.RRP():
-            rod = f"{joints[0]}{joints[1]}", number(group.length)
-            return GroupRow(links, "RRP", joints, (rod,), group.end)
+            return row(((f"{joints[0]}{joints[1]}", number(group.length)),), group.end)
         case file.RPR():
-            offset = number(group.offset) if group.offset.si else None
-            return GroupRow(links, "RPR", joints, (), group.axis, offset=offset)
+            return row(choice=group.axis, offset=number(group.offset) if group.offset.si else None)
         case file.RPP():
-            return GroupRow(links, "RPP", joints, (), "", across=number(group.across))
-    return GroupRow(links, "PRP", joints, (), "")
+            return row(across=number(group.across))
+    return row()
 
 
 def _guides(given: file.Parameters) -> Iterator[GuideRow]:
