@@ -141,10 +141,7 @@ def evaluate(node: Expression, values: Mapping[str, Value] | None = None) -> Val
         case Sum(terms):
             return sum(evaluate(term, values) for term in terms)
         case Product(factors):
-            result: Value = 1.0
-            for factor in factors:
-                result = result * evaluate(factor, values)
-            return result
+            return math.prod((evaluate(factor, values) for factor in factors), start=1.0)
         case Negative(of):
             return -evaluate(of, values)
         case Fraction(top, bottom):
