@@ -249,6 +249,11 @@ def asin(of: Operand) -> Call:
     return call("arcsin", of)
 
 
+def size(of: Operand) -> Call:
+    """|of| of a number with a sign, printed as it stands; abs is measured on a drawing."""
+    return call("size", of)
+
+
 def acos(of: Operand) -> Call:
     return call("arccos", of)
 
