@@ -8,10 +8,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from reportgen.document.groups import GroupView
+from reportgen.document.groups import Contact, GroupView
 from reportgen.document.report import FUNCTIONS, Report, function, listed, lower_digits
 from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Reference, Text, Value
-from reportgen.ledger.forces.polygon import Edge
+from reportgen.ledger.forces.polygon import Edge, Polygon
 from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.structure import mobility
 from reportgen.notation import vocabulary
@@ -160,6 +160,55 @@ def force_list(report: Report, group: GroupView, position: int) -> Inlines:
             force = InlineMath(report.force_symbol(edge.name))
             shown += [*((Text(", "),) if shown else ()), *length, Text(" ("), force, Text(")")]
     return tuple(shown)
+
+
+# --- the sense of forces
+
+
+@function
+def assumed(report: Report, group: GroupView, position: int) -> Inlines:
+    """The reactions of a group that are drawn on its links in an assumed sense."""
+    ids = (id for id in group.assumed if not report.is_zero(id, position))
+    return listed(InlineMath(vocabulary.vector(report.ledger.symbol(id))) for id in ids)
+
+
+@function
+def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
+    """Where the reactions of some joints point, in words and by their angles; those that are nothing left out."""
+    words = report.words["headings"]
+    shown: list[Inline] = []
+    for digits in joints:
+        if not report.is_zero(f"R.{digits}", position):
+            vector, angle = report.force_vector(f"R{digits}"), report.ledger.number(f"dir.R{digits}", position)
+            way = Text(f" {words[_eighth(angle.shown)]} (")
+            shown += [*((Text("; "),) if shown else ()), InlineMath(vector), way, Value(angle), Text(")")]
+    return tuple(shown)
+
+
+def _eighth(degrees: float) -> int:
+    """The axis or the quadrant that an angle lies in: 0 along +x, 1 between +x and +y, 2 along +y, …."""
+    quadrant, within = divmod(degrees % 360.0, 90.0)
+    return int(2 * quadrant) + (within > 0)
+
+
+@function
+def opposites(report: Report, polygon: Polygon, position: int) -> Equation:
+    """The reactions on a plan's links that other groups have left there: R42 = −R24 as vectors, then their size."""
+    rows: list[Expression] = []
+    for edge in polygon.carried:
+        size = report.force_symbol(edge.name)
+        (source,) = refs(report.ledger[f"F.{edge.name}"].definition or Number(0.0))
+        vectors = vocabulary.vector(size), -report.force_vector(source.removeprefix("F."))
+        rows += [Chain(vectors), report.ledger.chain(f"R.{edge.name.removeprefix('R')}", position)]
+    return Equation(tuple(rows))
+
+
+@function
+def through_pin(report: Report, contact: Contact, position: int) -> Equation:
+    """ΣM about the pin of a slide that nothing tends to turn: R x = 0, hence x = 0."""
+    reaction, place = report.ledger.symbol(f"R.{contact.digits}"), report.ledger.symbol(contact.place)
+    moments = Chain((Symbol("ΣM", str(contact.pin)), reaction * place, Number(0.0)))
+    return Equation((moments, Chain((place, Number(0.0)))))
 
 
 # --- lines

@@ -227,13 +227,13 @@ class GroupView:
         return found
 
     def similar(self, what: str) -> list[str]:
-        """Segments that the similarity theorem gives, e.g. as₂, and be where E is off the line of joints."""
+        """A link's segment ab and what the similarity theorem gives: as₂, and be where E is off the line of joints."""
         ids: list[str] = []
         for place in self.points:
             for side in self.sides:
                 if side.turns and side.link == place.link:
                     ends = "p" if side.still else image(side.base), image(self.M)
-                    ids += [f"seg.{what}.{end}{image(place.name)}" for end in ends]
+                    ids += [f"seg.{what}.{''.join(ends)}", *(f"seg.{what}.{end}{image(place.name)}" for end in ends)]
         return self.ledger.known(ids)
 
     def base(self, what: str, side: Side, k: int) -> str:
@@ -295,6 +295,11 @@ class GroupView:
         return [f"R.{name}" for name in joints[self.kind]]
 
     @property
+    def joints(self) -> tuple[str, str, str]:
+        """The digits of the reactions in the two outer joints and the inner one."""
+        return self.outer, self.guide, self.inner
+
+    @property
     def contacts(self) -> list[Contact]:
         """The reactions of slides, whose place on the slide is to be found."""
         first, last = (self.inner, self.P, self.i), (self.guide, self.Q, self.j)
@@ -307,15 +312,20 @@ class GroupView:
         moments = [*arms, moment] if displaced else arms
         return Contact(digits, pin, link, moment, f"x.{digits}", moments, displaced)
 
-    def reversed(self, k: int) -> bool:
-        """Whether the component found by moments has the sense opposite to the one assumed."""
-        id = f"R.{self.across}.s" if self.kind == "RPR" else f"R.{self.outer}.t"
-        return self.ledger.number(id, k).value < 0
+    @property
+    def by_slot(self) -> str:
+        """The reaction of the block on a slotted link, which moments give with its sign."""
+        return f"R.{self.across}.s"
+
+    @property
+    def assumed(self) -> list[str]:
+        """What moments give, each drawn in an assumed sense, so that it has a sign."""
+        return self.ledger.known((f"R.{self.outer}.t", f"R.{self.guide}.t", self.by_slot))
 
     def components(self, k: int) -> int:
         """How many components are found by moments; none where all of them are zero."""
-        digits = {"RRP": (self.outer,), "RRR": (self.outer, self.guide)}.get(self.kind, ())
-        return len(digits) * any(self.ledger.number(f"R.{name}.t", k).value != 0 for name in digits)
+        found = [id for id in self.assumed if id != self.by_slot]
+        return len(found) * any(self.ledger.number(id, k).value != 0 for id in found)
 
     @property
     def last_known(self) -> str:

@@ -123,6 +123,8 @@ def _expression(node: Expression, em: float) -> Box:
         case Root(of):
             inner = Box(0.85 * em, 0.2 * em, 0.0).beside(_expression(of, em))
             return Box(inner.width, inner.height + 0.1 * em, inner.depth - 0.1 * em)
+        case Call("abs" | "size", (argument,)):
+            return _text("||", em).beside(_expression(argument, em))
         case Call(name, arguments):
             inner = _joined([_expression(argument, em) for argument in arguments], em, 0.5)
             return _text(name + "()", em).beside(inner)

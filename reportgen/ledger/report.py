@@ -26,6 +26,7 @@ from reportgen.ledger.kinematics import centres, enter_kinematics
 from reportgen.mechanism.structure import Linkage
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import PI, Expression, Symbol, call, refs, total
+from reportgen.notation.expressions import size as size_of
 from reportgen.notation.sheet import ZERO, Family, Sheet, is_short
 from reportgen.notation.vocabulary import Chapter
 
@@ -285,7 +286,7 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
     q.give("M.least", least, Symbol(letter, "min"), kind, exact=False, scale=size)
     q.give("M.greatest", greatest, Symbol(letter, "max"), kind, exact=False, scale=size)
     work = q.give("W", _without_dust(summary.work, size * machine.way), exact=False)
-    q.define("power", abs(mean) * rate)
+    q.define("power", size_of(mean) * rate)
     q.define("M.energy", work / way, Symbol(letter, "W"), kind)
 
 

@@ -97,6 +97,7 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "arctan": np.arctan,
     "arctan2": np.arctan2,
     "abs": np.abs,
+    "size": np.abs,
     "sign": np.sign,
     "re": np.real,
     "im": np.imag,

@@ -242,6 +242,11 @@ acos = partial(call, "arccos")
 atan = partial(call, "arctan")
 
 
+def size(of: Operand) -> Call:
+    """|of| of a number with a sign, printed as it stands; abs is measured on a drawing."""
+    return call("size", of)
+
+
 def atan2(across: Operand, along: Operand) -> Call:
     return call("arctan2", across, along)
 

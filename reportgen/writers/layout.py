@@ -41,6 +41,9 @@ TOGETHER = 3
 UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
 """A unit with a slash inside a text."""
 
+Column = tuple[str, str, tuple[Expression | str | None, ...]]
+"""Of a vector equation: the sign before a term, the term itself, what is known of it."""
+
 # --- formulas -------------------------------------------------------------------------------------
 
 RELATION, SUM, PRODUCT, QUOTIENT, MARKED, ATOM = range(6)
@@ -136,7 +139,7 @@ class Formulas(ABC):
 
     def call(self, node: Call, exponent: str = "") -> str:
         match node.name, node.arguments:
-            case "abs", (argument,):
+            case (("abs" | "size"), (argument,)):
                 return self.ABSOLUTE % self.math(argument)
             case ("cross" | "dot") as product, (left, right):
                 sign = self.CROSS if product == "cross" else self.DOT
@@ -145,6 +148,20 @@ class Formulas(ABC):
                 return f"{self.function(name)}{exponent} {self.math(argument)}"
             case name, arguments:
                 return f"{self.function(name)}{exponent}{self.arguments(arguments)}"
+
+    def columns(self, equation: VectorEquation) -> list[Column]:
+        """The columns of a vector equation: what is printed before a term, the term, what is known of it.
+
+        A last "= 0", of which nothing is known, stands with the term before it: no row is broken between them.
+        """
+        found: list[Column] = []
+        for sign, term in self.signed(equation):
+            if found and sign.startswith("=") and not any(entry != "" for entry in term.known):
+                before, shown, known = found[-1]
+                found[-1] = before, f"{shown} {sign} {self.symbol(term.symbol)}", known
+            else:
+                found.append((sign, self.symbol(term.symbol), term.known))
+        return found
 
     def signed(self, equation: VectorEquation) -> Iterator[tuple[str, Term]]:
         """Each term with what is printed before it: "=" at the head of a later side, then its sign."""

@@ -279,7 +279,8 @@ class _Blocks:
         """A displayed row: the parts between "=", each in the pieces between which it may break."""
         parts = row.parts if isinstance(row, Chain) else (row,)
         printed = [self.formulas.pieces(part) for part in parts]
-        if layout.short_end(row) and len(printed) > 1:
+        # The first relation is where rows are aligned.
+        if layout.short_end(row) and len(printed) > 2:
             end = printed.pop()
             printed[-1][-1] += f" = {' '.join(end)}"
         printed[-1][-1] += self.formulas.note(row)
@@ -287,10 +288,10 @@ class _Blocks:
 
     def vector_equation(self, equation: VectorEquation) -> str:
         terms = []
-        for sign, term in self.formulas.signed(equation):
-            known = (*term.known, *("",) * (len(equation.rows) - len(term.known)))
+        for sign, shown, known in self.formulas.columns(equation):
+            known = (*known, *("",) * (len(equation.rows) - len(known)))
             entries = (self.formulas.content("?" if e is None else e) for e in known[: len(equation.rows)])
-            terms.append(_array((f"${sign}$", self.formulas.content(term.symbol), *entries)))
+            terms.append(_array((f"${sign}$", f"${shown}$", *entries)))
         return ",".join((_array(map(literal, equation.rows)), *terms))
 
     def table(self, table: tree.Table) -> str:

@@ -54,6 +54,11 @@ class Polygon:
     edges: tuple[Edge, ...]
     reads: tuple[Edge, ...] = ()
 
+    @property
+    def carried(self) -> tuple[Edge, ...]:
+        """The reactions that groups solved before have left on these links."""
+        return tuple(edge for edge in self.edges if edge.is_reaction and not edge.unknown and not edge.part)
+
 
 class Path:
     """The known forces of a plan laid head to tail from vertex e."""
