@@ -26,8 +26,6 @@ TOGETHER = 0.3
 CROWDED = 24
 """With more positions than this only the emphasised one is numbered."""
 DOT = 0.55
-PATH = Stroke(0.25, style.BLUE)
-NORMAL = Stroke(0.18, style.RED, (1.8, 1.0))
 BEYOND = 3.0
 """How far (mm) a normal goes on beyond the centre."""
 
@@ -76,7 +74,7 @@ def position_plan(
         items += _links(bones, style.THIN)
     for name in shows.paths:
         curve = dense.points[name].p[dense.reachable] * scale
-        items.append(Polyline(tuple(complex(p) for p in curve), PATH))
+        items.append(Polyline(tuple(complex(p) for p in curve), style.PATH))
         # The name of a path stands anywhere along it.
         places = [complex(p) for p in curve[:: max(1, len(curve) // 10)]]
         requests.append(label(places, vocabulary.point(name)))
@@ -114,7 +112,7 @@ def centre_plan(
         for start in (bones.points[name] for name in centre.points):
             way = centre.at - start
             if abs(way) > style.JOINT:
-                normals.append(Line(start, centre.at + way / abs(way) * BEYOND, NORMAL))
+                normals.append(Line(start, centre.at + way / abs(way) * BEYOND, style.NORMAL))
         marks.append(Circle(centre.at, DOT, Stroke(0.2, style.RED), style.PAPER))
         names.append(label(centre.at, centre.name, gap=DOT + 0.5))
     whole = Draft((*normals, *draft.items, *marks), (*draft.requests, *names))

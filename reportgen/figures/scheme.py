@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from reportgen.figures import style
-from reportgen.figures.draft import Draft, finish
+from reportgen.figures.draft import Draft, finish, settle
 from reportgen.figures.geometry import Complexes, Floats, clusters, polar
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.scene import Arc, Circle, Content, Item, Line, Scene, Stroke
@@ -174,6 +174,29 @@ def groups(
     return tuple(finish(part, title=title) for part, title in zip(parts, titles or [""] * len(parts), strict=True))
 
 
+THUMBNAIL = 34.0, 40.0
+"""What a small mechanism beside a plan fills at most, across and upwards, mm."""
+
+
+def thumbnail(linkage: Linkage, motion: Motion, index: int) -> Draft:
+    """The mechanism at position `index` as a small sketch, not to scale: links, joints and their names."""
+    whole = skeleton(linkage, motion, index, 1.0)
+    ends = np.array([*whole.points.values(), *(end for s in whole.slides if s.on == GROUND for end in (s.low, s.high))])
+    size = max(float(np.ptp(ends.real)) / THUMBNAIL[0], float(np.ptp(ends.imag)) / THUMBNAIL[1])
+    bones = skeleton(linkage, motion, index, 1.0 / size)
+    items: list[Item] = []
+    for slide in bones.slides:
+        if abs(slide.high - slide.low) > 0:
+            items.append(Line(slide.low, slide.high, style.THIN if slide.on == GROUND else style.KNOWN))
+    for link in linkage.links:
+        items += style.body(_body_points(bones, link), style.KNOWN, fill=None)
+    items += [style.block(slide.at, slide.angle, style.SMALL_BLOCK) for slide in bones.slides]
+    items += [item for name in bones.pivots for item in style.small_pivot(bones.points[name])]
+    joints = [name for name in bones.joints if name not in bones.pivots]
+    items += [Circle(bones.points[name], style.POINT, style.THIN, style.PAPER) for name in joints]
+    return settle(Draft(tuple(items), tuple(_names([*bones.pivots, *joints], bones, style.SMALL, style.POINT))))
+
+
 def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Draft:
     """The shown links with their joints, names and numbers; with link 0 its pivots and guides."""
     rails: list[Item] = []
@@ -285,9 +308,11 @@ def _number(bones: Skeleton, link: int, looks: Looks) -> list[Request]:
     return [label(places, str(link), prefer=(across, across + math.pi), gap=gap, size=style.SMALL, ring=True)]
 
 
-def _names(names: Sequence[str], bones: Skeleton) -> list[Request]:
-    """One label for points that coincide."""
+def _names(
+    names: Sequence[str], bones: Skeleton, size: float = style.LABEL, radius: float = style.JOINT
+) -> list[Request]:
+    """One label for points that coincide, clear of the circles drawn there."""
     return [
-        label(bones.points[group[0]], *joined(map(vocabulary.point, group), " ≡ "), gap=style.JOINT + 0.5)
+        label(bones.points[group[0]], *joined(map(vocabulary.point, group), " ≡ "), gap=radius + 0.5, size=size)
         for group in clusters(dict.fromkeys(names), 0.3, bones.points.__getitem__)
     ]

@@ -27,13 +27,19 @@ AXIS = Stroke(0.13, GRAY, (5.0, 1.0, 0.8, 1.0))
 CONSTRUCTION = Stroke(0.13, GRAY, (1.6, 1.0))
 """Auxiliary directions of a plan, which go a little beyond their end."""
 LEADER = Stroke(0.1, GRAY)
-KNOWN = Stroke(0.3)
-RELATIVE = Stroke(0.3, BLUE)
-FOUND = Stroke(0.3, RED, (2.4, 0.9))
-"""A vector that a plan gives by closing; dashed, to be distinguished without colour."""
-ACTIVE = Stroke(0.3, BLUE)
-REACTION = Stroke(0.3, RED)
-NEW = Stroke(0.45, BLUE)
+SOLID, DASHED, CHAIN, DOTTED = (), (2.4, 0.9), (3.6, 0.8, 0.6, 0.8), (0.9, 0.7)
+"""What tells lines apart that are printed without colour, beside their widths."""
+KNOWN = Stroke(0.35)
+RELATIVE = Stroke(0.3, BLUE, CHAIN)
+FOUND = Stroke(0.3, RED, DASHED)
+"""A vector that a plan gives by closing."""
+ACTIVE = Stroke(0.5, BLUE)
+REACTION = Stroke(0.3, RED, DASHED)
+PATH = Stroke(0.3, BLUE, CHAIN)
+"""The curve that a point describes."""
+NORMAL = Stroke(0.18, RED, (1.8, 1.0))
+"""A normal to a velocity, through an instant centre."""
+NEW = Stroke(0.5, BLUE)
 """What a stage of a construction adds."""
 OLD = Stroke(0.2, GRAY)
 DIMENSION = Stroke(0.13)
@@ -50,6 +56,8 @@ POINT = 0.7
 """Radius of a point that is no joint."""
 BLOCK = (9.0, 5.0)
 """Length along the guide and width of a block, mm."""
+SMALL_BLOCK = (4.0, 2.2)
+"""The same in a small sketch."""
 STRIP = 1.7
 """Width of a strip of ground."""
 PLAY = 0.35
@@ -75,6 +83,16 @@ def pivot(at: complex) -> tuple[Item, ...]:
         Polyline((at, left, right), VISIBLE, closed=True, fill=PAPER),
         *ground(at + complex(-4.6, -5), at + complex(4.6, -5), -1),
         joint(at),
+    )
+
+
+def small_pivot(at: complex) -> tuple[Item, ...]:
+    """A revolute joint on the ground in a small sketch."""
+    left, right = at + complex(-1.3, -2.4), at + complex(1.3, -2.4)
+    return (
+        Polyline((at, left, right), THIN, closed=True, fill=PAPER),
+        Line(left - 0.8, right + 0.8, VISIBLE),
+        Circle(at, POINT, VISIBLE, PAPER),
     )
 
 
