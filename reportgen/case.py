@@ -38,7 +38,7 @@ class Case:
         """Every number by its id, with the units of the assignment's language."""
         from reportgen.ledger.report import write_ledger
 
-        return write_ledger(self.analysis, self.words["units"])
+        return write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions)
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:

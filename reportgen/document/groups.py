@@ -38,7 +38,8 @@ class DriverView:
 
     A sliding driver has neither centre nor arm.  `velocity_lines` and `acceleration_lines` are those of its
     points; `drawn`, `velocity`, `velocity_segment` and `acceleration_segment` the ids of the arm's drawn
-    length, of the pin's velocity and of the segments that stand for the pin's velocity and acceleration.
+    length, of the pin's velocity and of the segments that stand for the pin's velocity and acceleration;
+    `round_velocity` and `round_acceleration` say that the scale of a plan was chosen from the series.
     """
 
     def __init__(self, linkage: Linkage, ledger: Ledger) -> None:
@@ -50,6 +51,7 @@ class DriverView:
         self.arm = f"{self.centre}{self.pin}" if self.centre else ""
         self.drawn, self.velocity = f"drawn.{self.arm}", f"v.{self.pin}"
         self.velocity_segment, self.acceleration_segment = (f"seg.{what}.p{image(self.pin)}" for what in "va")
+        self.round_velocity, self.round_acceleration = (ledger[f"mu.{what}"].definition is None for what in "va")
         self.velocity_lines, self.acceleration_lines = (
             [id for name in self.names if (id := f"{what}.{name}") in ledger] for what in "va"
         )

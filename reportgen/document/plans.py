@@ -13,6 +13,8 @@ from reportgen.document.groups import GroupView
 from reportgen.document.report import Report
 from reportgen.figures.draft import sheets
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
+from reportgen.figures.scene import Scene
+from reportgen.figures.scheme import thumbnail
 from reportgen.ledger.forces.polygon import Edge, Polygon
 from reportgen.ledger.kinematics.linkage import POLES, What
 from reportgen.ledger.kinematics.sides import Side, image
@@ -32,7 +34,7 @@ def _register(name: str, what: What) -> None:
         return motion_plan(report, what, k)
 
     def whole(report: Report, k: int) -> Drawn:
-        return Drawn((plan(drawing(report, k)),))
+        return on_paper(_worked(report, drawing(report, k), k))
 
     def in_stages(report: Report, k: int) -> Drawn:
         return _stages(report, drawing(report, k), f"mu.{what}")
@@ -65,26 +67,34 @@ def motion_plan(report: Report, what: What, k: int) -> Plan:
     return Plan(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, f"mu.{what}"))
 
 
-def _scale(report: Report, id: str) -> Chain:
+def _worked(report: Report, drawing: Plan, k: int) -> Scene:
+    """A worked plan with the mechanism beside it."""
+    small = thumbnail(report.machine.linkage, report.analysis.motion, k - 1)
+    return plan(drawing, beside=(small,), width=TEXT_BLOCK[0])
+
+
+def _scale(report: Report, id: str, k: int | None = None) -> Chain:
     """A scale as a figure prints it: μ_v = 0.2189 m/(s·mm)."""
-    return Chain((report.ledger.symbol(id), report.ledger.number(id)))
+    return Chain((report.ledger.symbol(id), report.ledger.number(id, k)))
 
 
-def _stages(report: Report, drawing: Plan, scale: str) -> Drawn:
+def _stages(report: Report, drawing: Plan, scale: str, k: int | None = None) -> Drawn:
     """The stages of a plan at half its size, with twice its scale."""
-    number = report.ledger.number(scale)
+    number = report.ledger.number(scale, k)
     doubled = replace(number, value=float(f"{number.shown / HALF:.9g}"), decimals=None)
     return Drawn(stages(drawing, HALF), note=Chain((report.ledger.symbol(scale), doubled)))
 
 
-def _plates(report: Report, drawing: Callable[[Report, int], Plan], positions: Sequence[int], scale: str) -> Drawn:
-    """Plans of one scale: as a figure if they fit one text block, else on A3 sheets."""
+def _plates(
+    report: Report, drawing: Callable[[Report, int], Plan], positions: Sequence[int], scale: str, at: int | None = None
+) -> Drawn:
+    """Plans of one scale, that of the position `at`: as a figure if they fit one text block, else on A3 sheets."""
     word = report.words["table"]["position"]
     scenes = [
         plan(replace(drawing(report, k), scale=None, lines=()), title=f"{word} {report.machine.position(k)}")
         for k in positions
     ]
-    note = _scale(report, scale)
+    note = _scale(report, scale, at)
     on_page = sheets(scenes, *TEXT_BLOCK, note)
     return Drawn(on_page) if in_text(*on_page) else Drawn(sheets(scenes, *SHEET, note), A3_ACROSS)
 
@@ -153,7 +163,7 @@ class _Sketch:
 @figure("forces", "fig.R")
 def forces(report: Report, k: int, group: GroupView) -> Drawn:
     assert group.polygon is not None
-    return on_paper(plan(force_plan(report, group.polygon, k)))
+    return on_paper(_worked(report, force_plan(report, group.polygon, k), k))
 
 
 @figure("force-stages", "fig.R.stages")
@@ -177,14 +187,21 @@ def force_stages(report: Report, k: int, group: GroupView) -> Drawn:
         vectors=tuple(replace(v, stage=step(v.stage)) for v in drawing.vectors),
         points=tuple(replace(p, stage=reached(p.at)) for p in drawing.points),
     )
-    return _stages(report, steps, group.scale)
+    return _stages(report, steps, group.scale, k)
 
 
 @figure("force-plates", "fig.R.plates")
 def force_plates(report: Report, group: GroupView) -> Drawn:
+    """The force plans of all positions at one scale: the largest of those that they have by themselves."""
     polygon = group.polygon
     assert polygon is not None
-    return _plates(report, lambda report, k: force_plan(report, polygon, k), report.plates, group.scale)
+    scales = {k: float(report.ledger[group.scale].at(k)) for k in report.plates}
+    common = max(scales, key=lambda k: scales[k])
+
+    def drawing(report: Report, k: int) -> Plan:
+        return force_plan(report, polygon, k).scaled(scales[k] / scales[common])
+
+    return _plates(report, drawing, report.plates, group.scale, common)
 
 
 def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
@@ -205,4 +222,4 @@ def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
         vectors.append(PlanVector(edge.start + edge.end, start, end, style, label, stage))
         stage_of.setdefault(edge.end, stage)
     points = tuple(PlanPoint(Symbol(letter), corner(letter), stage) for letter, stage in stage_of.items())
-    return Plan(tuple(vectors), points, (), _scale(report, f"mu.R{polygon.name}"), pole=False)
+    return Plan(tuple(vectors), points, (), _scale(report, f"mu.R{polygon.name}", k), pole=False)

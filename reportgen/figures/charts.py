@@ -28,9 +28,9 @@ POLAR_SIZE = 110.0
 """Of a polar diagram at most, either way, mm."""
 PENS = (
     Stroke(0.4, style.BLUE),
-    Stroke(0.4, style.RED, (2.4, 0.9)),
-    Stroke(0.4, style.BLACK, (3.2, 0.8, 0.6, 0.8)),
-    Stroke(0.4, style.GRAY, (0.9, 0.7)),
+    Stroke(0.4, style.RED, style.DASHED),
+    Stroke(0.4, style.BLACK, style.CHAIN),
+    Stroke(0.4, style.GRAY, style.DOTTED),
 )
 """One curve after the other, distinguished by dashes as well as by colour."""
 GRID = Stroke(0.1, style.PALE)

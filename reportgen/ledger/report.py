@@ -9,7 +9,7 @@ contribution first, as far as their kind allows; where that is not enough the re
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from functools import cache
@@ -201,8 +201,11 @@ TERMS = 4
 """More terms than these are no longer one line of a page."""
 
 
-def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None) -> Ledger:
-    """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures."""
+def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = ()) -> Ledger:
+    """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
+
+    The plans of the `worked` positions fill their paper, of all positions if none is named.
+    """
     machine = analysis.machine
     q = Sheet(machine.positions)
     if machine.span:
@@ -210,7 +213,7 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None) -> 
     else:
         q.give("phi.1", machine.angles(analysis.cycle_angle))
     q.extend(machine.sheet)
-    enter_kinematics(q, machine.linkage, machine.turn)
+    enter_kinematics(q, machine.linkage, machine.turn, worked)
     with q.within(Chapter.formulas):
         machine.formulas(q)
     polygons: tuple[Polygon, ...] = ()

@@ -289,13 +289,14 @@ def _laid(statics: Statics, own: tuple[LoadOn, ...]) -> Path:
 def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
     """Zhukovsky's lever: the velocity plan turned 90° against ω₁, every load at its image, balanced by M_cb.
 
-    Σ F v cos α + M_cb ω₁ = 0 with v = μ_v · (segment) and μ_v = ω₁ μ_l gives M_cb = −Σ F h′ μ_l; h′ is the
-    signed arm of a load about the pole.  For a sliding driver P_cb = −Σ F h′ μ_v/v_A.  Enters the arms
-    `h.X.p`, what each load contributes, `M.X.p`, and `M.vw`.
+    Σ F v cos α + M_cb ω₁ = 0 with v = μ_v · (segment) gives M_cb = −Σ F h′ μ_v/ω₁, where μ_v/ω₁ = μ_l if pa is
+    the drawn crank; h′ is the signed arm of a load about the pole.  For a sliding driver P_cb = −Σ F h′ μ_v/v_A.
+    Enters the arms `h.X.p`, what each load contributes, `M.X.p`, and `M.vw`.
     """
     q, turning = statics.q, isinstance(statics.scheme.linkage.driver, Crank)
     rate = q["omega.1"] if turning else q[f"v.{statics.scheme.linkage.driver.pin}"]
-    per = q["mu.l"] if turning else q["mu.v"] / rate
+    # Where pa is the drawn crank, μ_v/ω₁ is μ_l.
+    per = q["mu.v"] / rate if q.families["mu.v"].definition is None else q["mu.l"]
     letter, kind, scale = ("M", "torque", statics.torque) if turning else ("P", "force", statics.force)
     parts: list[Expression] = []
 
