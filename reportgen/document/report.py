@@ -407,6 +407,10 @@ class Report:
     def force_vector(self, name: str) -> Symbol:
         return vocabulary.vector(self.force_symbol(name))
 
+    def named(self, symbol: Symbol) -> Symbol:
+        """A symbol that is no quantity's, with its indices in the report's language."""
+        return vocabulary.in_language(symbol, self.words["symbols"])
+
     def is_zero(self, id: str, k: int | None = None) -> bool:
         return bool(self.ledger.number(id, k).value == 0)
 
