@@ -23,6 +23,7 @@ from reportgen.notation.expressions import (
     Symbol,
     Term,
     VectorEquation,
+    rebuild,
     refs,
     substitute,
 )
@@ -43,7 +44,7 @@ def math(report: Report, text: str) -> Symbol:
         return report.ledger.symbol(text)
     base = re.match(r"[^\W\d_]*", text)
     assert base is not None
-    return Symbol(base[0], text[base.end() :].removeprefix("_"))
+    return report.named(Symbol(base[0], text[base.end() :].removeprefix("_")))
 
 
 @function
@@ -105,7 +106,7 @@ def letters(report: Report, base: str, sub: str | int = "", sup: str = "") -> Sy
 @function
 def vector(report: Report, base: str, sub: str | int = "", sup: str = "") -> Symbol:
     """Any symbol under an arrow."""
-    return Symbol(base, str(sub), sup, "vector")
+    return report.named(Symbol(base, str(sub), sup, "vector"))
 
 
 @function
@@ -117,7 +118,7 @@ def v(report: Report, of: str | Side) -> Symbol:
 @function
 def a(report: Report, of: str | Side, part: str = "") -> Symbol:
     """The acceleration of a point, or a part of it, as a vector; of a side, the relative one."""
-    return Symbol("a", of if isinstance(of, str) else of.pair, part, "vector")
+    return report.named(Symbol("a", of if isinstance(of, str) else of.pair, part, "vector"))
 
 
 @function
@@ -252,7 +253,10 @@ def equations(report: Report, name: str, position: int | None = None) -> Equatio
         number = report.ledger.number(ref.id, position)
         return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
 
-    return Equation(tuple(substitute(row, number_of) for row in report.machine.equations[name]))
+    def in_words(node: Expression) -> Expression:
+        return report.named(node) if isinstance(node, Symbol) else rebuild(node, in_words)
+
+    return Equation(tuple(in_words(substitute(row, number_of)) for row in report.machine.equations[name]))
 
 
 @function
@@ -299,13 +303,13 @@ def _equation(report: Report, sides: Sequence[tuple[Term, ...]], rows: str, key:
     return Equation((VectorEquation(tuple(sides), tuple(report.words["vector"][rows])),), key)
 
 
-def _term(base: str, sub: str, sup: str, *known: Expression | str | None) -> Term:
-    return Term(Symbol(base, sub, sup, "vector"), known)
+def _term(report: Report, base: str, sub: str, sup: str, *known: Expression | str | None) -> Term:
+    return Term(report.named(Symbol(base, sub, sup, "vector")), known)
 
 
 def _unknown(report: Report, base: str, sub: str, sup: str, side: Side | None) -> Term:
     """A vector of which only the direction is known, that of what is sought on a side."""
-    return _term(base, sub, sup, None if side is None else _direction(report, side), None, None)
+    return _term(report, base, sub, sup, None if side is None else _direction(report, side), None, None)
 
 
 def _direction(report: Report, side: Side) -> str:
@@ -322,12 +326,12 @@ def _relative(report: Report, side: Side) -> tuple[Term, ...]:
     if side.turns:
         size = ledger.symbol(side.velocity) ** 2 / ledger.symbol(f"l.{side.rod}")
         way = f"{lower_digits(side.point)} → {lower_digits(side.base)}"
-        return _term("a", side.pair, "n", f"∥ {lower_digits(side.rod)}", way, size), sought
+        return _term(report, "a", side.pair, "n", f"∥ {lower_digits(side.rod)}", way, size), sought
     if not side.turning:
         return (sought,)
     twice = 2 * ledger.symbol(side.omega) * ledger.symbol(side.velocity)
     across = words["across_slot" if side.carrier is None else "across_guide"]
-    return _term("a", side.pair, "k", across, words["turned"], twice), sought
+    return _term(report, "a", side.pair, "k", across, words["turned"], twice), sought
 
 
 def _base(report: Report, side: Side, what: str) -> Term:
@@ -335,12 +339,13 @@ def _base(report: Report, side: Side, what: str) -> Term:
     words, ledger = report.words["vector"], report.ledger
     arm = f"{report.driver.centre}{side.base}"
     if not report.driver.centre or f"l.{arm}" not in ledger or not _on_crank(report, side.base):
-        return _term(what, side.shown, "", words["given"], words["given"], words["given"])
+        return _term(report, what, side.shown, "", words["given"], words["given"], words["given"])
     length, omega = ledger.symbol(f"l.{arm}"), ledger.symbol("omega.1")
     if what == "v":
-        return _term("v", side.shown, "", f"⊥ {arm}", words["with_crank"], omega * length)
+        return _term(report, "v", side.shown, "", f"⊥ {lower_digits(arm)}", words["with_crank"], omega * length)
     size = omega**2 * length
-    return _term("a", side.shown, "", f"∥ {arm}", f"{side.base} → {report.driver.centre}", size)
+    way = lower_digits(f"{side.base} → {report.driver.centre}")
+    return _term(report, "a", side.shown, "", f"∥ {lower_digits(arm)}", way, size)
 
 
 def _on_crank(report: Report, name: str) -> bool:

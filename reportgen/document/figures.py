@@ -260,7 +260,7 @@ def indicator(report: Report) -> Drawn:
     side = _free_side(machine)
     start, end, mu = indicator_figure.beside(top, bottom, side, 75.0, highest)
     note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
-    frame = indicator_figure.Frame(start, end, side, mu, report.words["figure"]["pressure"], note)
+    frame = indicator_figure.Frame(start, end, side, mu, Chain((Symbol("p"),), "N/cm²"), note)
     branches = [
         indicator_figure.Branch(name, x, tuple(p / unit for p in pressures))
         for name, x, pressures in _branches(first, machine, report.words["strokes"])
@@ -324,7 +324,7 @@ def coriolis(report: Report, k: int, group: GroupView, side: Side) -> Drawn:
     sliding = Sliding(
         vocabulary.point(side.point),
         (Symbol("v", side.pair, over="vector"), relative),
-        (Symbol("a", side.pair, "k", "vector"), 1j * omega * relative),
+        (report.named(Symbol("a", side.pair, "k", "vector")), 1j * omega * relative),
         (ledger.symbol(side.omega), float(np.sign(omega))),
     )
     return Drawn((coriolis_figure(sliding),))

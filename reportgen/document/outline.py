@@ -30,13 +30,12 @@ def compose(case: Case) -> Document:
         else:
             blocks += report.prose.render(f"{section}.md", names)
     assignment = case.assignment
-    course = assignment.report.course or words["cover"]["course"]
     return number(
         Document(
             assignment.language,
             f"{words['cover']['title']} – {case.title}",
             assignment.report.student.name or "",
-            (words["header"].format(course=course), variant_line(case)),
+            (words["header"].format(course=case.course), variant_line(case)),
             ("", words["document"]["page"]),
             Words(**words["document"]),
             tuple(blocks),
@@ -74,7 +73,7 @@ def _cover(report: Report) -> Cover:
     )
     return Cover(
         tuple(part for part in (given.university, given.faculty, given.department) if part),
-        (labels["title"], given.course or labels["course"]),
+        (labels["title"], report.case.course),
         (
             *((f"{labels['variant']}: {report.variant}",) if report.variant else ()),
             f"{labels['machine']}: {report.case.title}",

@@ -103,7 +103,7 @@ class _Sketch:
     """A velocity or acceleration plan while its vectors are collected."""
 
     def __init__(self, report: Report, what: What, position: int) -> None:
-        self.ledger, self.what, self.k = report.ledger, what, position
+        self.ledger, self.what, self.k, self.named = report.ledger, what, position, report.named
         self.vectors: list[PlanVector] = []
         self.points: list[PlanPoint] = []
         self.lines: list[PlanLine] = []
@@ -119,7 +119,7 @@ class _Sketch:
 
     def relative(self, side: Side, part: str, start: complex, end: complex, stage: int) -> None:
         """Enter what a side adds to the velocity or acceleration of its base, or a part of it."""
-        label = Symbol(self.what, side.pair, part, "vector")
+        label = self.named(Symbol(self.what, side.pair, part, "vector"))
         self.vectors.append(PlanVector(part + side.relative, start, end, "relative", label, stage))
 
     def group(self, group: GroupView, stage: int) -> int:

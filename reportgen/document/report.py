@@ -419,6 +419,10 @@ class Report:
         """M_cb or P_cb, whichever of the two ways it is reached by."""
         return replace(self.ledger.symbol("M.eq"), sup="")
 
+    def named(self, symbol: Symbol) -> Symbol:
+        """A symbol that is no quantity's, with its indices in the report's language."""
+        return vocabulary.in_language(symbol, self.words["symbols"])
+
     def is_zero(self, id: str, k: int | None = None) -> bool:
         return bool(self.ledger.number(id, k).value == 0)
 

@@ -27,6 +27,7 @@ from reportgen.notation.expressions import (
     VectorEquation,
 )
 from reportgen.notation.numbers import write
+from reportgen.notation.vocabulary import numbered, runs
 
 POINT = 25.4 / 72.27
 """One printer's point in mm."""
@@ -87,11 +88,22 @@ def _scripts(base: Box, sub: Box, sup: Box, em: float, cut: float = 1.0) -> Box:
 
 
 def _symbol(symbol: Symbol, em: float) -> Box:
-    base = _text(symbol.base, em, italic=True)
+    base = _letters(symbol.base, em)
     if symbol.over:
         base = Box(max(base.width, 0.5 * em), base.height + OVER * em, base.depth)
     sub, sup = (_text(script, SCRIPT * em) for script in (symbol.sub, symbol.sup))
+    if any(number for _, number in numbered(symbol.sub)):
+        sub = Box(sub.width, sub.height, sub.depth + SUB_SHIFT * SCRIPT * em)
     return _scripts(base, sub, sup, em, SMALL_CUT)
+
+
+def _letters(text: str, em: float) -> Box:
+    """Letters of formulas, digits that stand below them in the size of scripts."""
+    whole = Box(0.0, 0.0, 0.0)
+    for letters, digits in runs(text):
+        below = _text(digits, SCRIPT * em)
+        whole = whole.beside(_scripts(_text(letters, em, italic=True), below, Box(0.0, 0.0, 0.0), em, SMALL_CUT))
+    return whole
 
 
 def _expression(node: Expression, em: float) -> Box:

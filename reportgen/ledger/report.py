@@ -311,9 +311,9 @@ def _flywheel(q: Sheet, linkage: Linkage, regulated: flywheel.Flywheel, position
     at = np.searchsorted(regulated.angle, positions - 1e-9)
     inertia = _reduced(q, linkage)
     if inertia is not None:
-        q.define("J.r", inertia)
+        q.define("J.r", inertia, Symbol("J", "tt"))
     largest, δ, ω1 = float(np.abs(regulated.torque).max()), q["unevenness"], q["omega.1"]
-    q.give("M.r", regulated.torque[at], exact=False, scale=largest)
+    q.give("M.r", regulated.torque[at], Symbol("M", "tt"), exact=False, scale=largest)
     q.give("M.c", regulated.constant, exact=False, scale=largest)
     most = float(np.abs(regulated.work).max())
     q.give("A.excess", regulated.work[at], "A", "work", exact=False, scale=most)
@@ -347,5 +347,5 @@ def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:
         return None
     if len(terms) <= TERMS or len(parts) == 1:
         return total(terms) / ω1**2
-    each = [q.define(f"J.r.{link}", total(own) / ω1**2, Symbol("J", f"r{link}")) for link, own in parts.items()]
+    each = [q.define(f"J.r.{link}", total(own) / ω1**2, Symbol("J", f"tt{link}")) for link, own in parts.items()]
     return total(each)

@@ -241,13 +241,21 @@ class LatexFormulas(Formulas):
     def symbol(self, node: Symbol) -> str:
         letters = node.base.rstrip("".join(PRIMES))
         above = node.base[len(letters) :] + node.sup
-        base = letters if len(letters) == 1 and _is_mathematical(letters) else _word(letters, "it")
+        base = letters if len(letters) == 1 and _is_mathematical(letters) else self.lettered(letters)
         if node.over == "vector":
             base = rf"\vec{{{base}}}" if len(letters) == 1 else rf"\overrightarrow{{{base}}}"
-        elif node.over == "segment":
-            base = rf"\overline{{{base}}}"
-        below = f"_{{{_word(node.sub)}}}" if node.sub else ""
-        return base + below + (self.RAISED % _word(above) if above else "")
+        below = f"_{{{self.index(node.sub)}}}" if node.sub else ""
+        marked = base + below + (self.RAISED % _word(above) if above else "")
+        return rf"\overline{{{marked}}}" if node.over == "segment" else marked
+
+    def italic(self, text: str) -> str:
+        return _word(text, "it")
+
+    def upright(self, text: str) -> str:
+        return _word(text)
+
+    def lowered(self, text: str) -> str:
+        return rf"_{{\scriptstyle{{{_word(text)}}}}}"
 
     def parentheses(self, node: Expression) -> str:
         inner = self.math(node)

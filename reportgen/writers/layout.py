@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import ClassVar
 
@@ -29,6 +29,7 @@ from reportgen.notation.expressions import (
     VectorEquation,
 )
 from reportgen.notation.numbers import Language
+from reportgen.notation.vocabulary import numbered, runs
 
 TEXT_WIDTH = 160.0
 """Of the A4 text block, mm."""
@@ -170,11 +171,32 @@ class Formulas(ABC):
                 sign = self.NEGATIVE if term.sign < 0 else "+" if index else ""
                 yield ("=" + sign if side and not index else sign), term
 
+    def lettered(self, text: str) -> str:
+        """A symbol's letters in italics, those of points with their digits below: O₁A."""
+        return self._pieces(runs(text), self.italic)
+
+    def index(self, text: str) -> str:
+        """A symbol's index upright, the digits of the points it names set lower again: O1A of l, Pqt5 of h."""
+        return self._pieces(numbered(text), self.upright)
+
+    def _pieces(self, pieces: Iterable[tuple[str, str]], set_letters: Callable[[str], str]) -> str:
+        return "".join(set_letters(part) + (self.lowered(number) if number else "") for part, number in pieces)
+
     @abstractmethod
     def text(self, text: str) -> str: ...
 
     @abstractmethod
     def symbol(self, node: Symbol) -> str: ...
+
+    @abstractmethod
+    def italic(self, text: str) -> str: ...
+
+    @abstractmethod
+    def upright(self, text: str) -> str: ...
+
+    @abstractmethod
+    def lowered(self, text: str) -> str:
+        """Upright letters below the line, no smaller than an index."""
 
     @abstractmethod
     def number(self, node: Number) -> str: ...

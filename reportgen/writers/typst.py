@@ -49,14 +49,24 @@ class TypstFormulas(Formulas):
         return written(number.value, number.decimals, self.language) + gap + number.unit
 
     def symbol(self, node: Symbol) -> str:
-        """A symbol with its marks: base in italics, sub- and superscript upright."""
+        """A symbol with its marks: base in italics, sub- and superscript upright, a bar over the whole of it."""
         letters = node.base.rstrip("".join(PRIMES))
-        base = letters if len(letters) == 1 and letters.isalpha() else f"italic({literal(letters)})"
-        if node.over:
-            base = f"{'arrow' if node.over == 'vector' else 'overline'}({base})"
-        below = f"_{literal(node.sub)}" if node.sub else ""
+        base = letters if len(letters) == 1 and letters.isalpha() else self.lettered(letters)
+        if node.over == "vector":
+            base = f"arrow({base})"
+        below = f"_({self.index(node.sub)})" if node.sub else ""
         above = node.base[len(letters) :] + node.sup
-        return base + below + (self.RAISED % _superscript(above) if above else "")
+        marked = base + below + (self.RAISED % _superscript(above) if above else "")
+        return f"overline({marked})" if node.over == "segment" else marked
+
+    def italic(self, text: str) -> str:
+        return f"italic({literal(text)})"
+
+    def upright(self, text: str) -> str:
+        return literal(text)
+
+    def lowered(self, text: str) -> str:
+        return f"_(script({literal(text)}))"
 
     def parentheses(self, node: Expression) -> str:
         return f"({self.math(node)})"
