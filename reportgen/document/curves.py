@@ -67,7 +67,8 @@ def motion(report: Report) -> Drawn:
         (of_links("ω", "omega"), axis(Symbol("ω"), "angular velocity")),
         (of_links("ε", "epsilon"), axis(Symbol("ε"), "angular acceleration")),
     )
-    return Drawn(tuple(_over_a_turn(report, curves, title) for curves, title in drawings if curves))
+    shown = [(curves, title) for curves, title in drawings if curves]
+    return Drawn(tuple(_over_a_turn(report, curves, title, half=len(shown) > 1) for curves, title in shown))
 
 
 @figure("displacement")
@@ -96,13 +97,15 @@ def _across(report: Report) -> np.ndarray:
     return angle * (span * MM / FULL_TURN) if span else np.degrees(angle)
 
 
-def _over_a_turn(report: Report, curves: Sequence[tuple[Symbol, np.ndarray]], title: Chain) -> Scene:
+def _over_a_turn(
+    report: Report, curves: Sequence[tuple[Symbol, np.ndarray]], title: Chain, half: bool = False
+) -> Scene:
     """Curves over one turn of the driver, the numbered positions marked."""
     count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME))
     slides = bool(report.machine.span)
     x, marks = _across(report)[:count], _marks(report)[: report.count]
     series = [charts.Series(shown, x, values[:count], marks) for shown, values in curves]
-    return charts.chart(series, _driver_axis(report, "angle"), title, turn=not slides)
+    return charts.chart(series, _driver_axis(report, "angle"), title, turn=not slides, half=half)
 
 
 # --- torque and forces over the cycle
@@ -124,15 +127,17 @@ def polar(report: Report) -> Drawn:
     fine = report.dense_cycle
     numbers = tuple(map(str, report.all_positions))
     assert report.driver_polygon is not None
+    pins = [edge for edge in report.driver_polygon.edges if edge.is_reaction and not edge.unknown]
+    size = charts.POLAR_SIZE if len(pins) == 1 else charts.POLAR_HALF
     scenes = []
-    for edge in report.driver_polygon.edges:
-        if edge.unknown or not edge.is_reaction:
-            continue
+    for edge in pins:
         pin = next(group.P for group in report.groups if edge.name == f"R{group.i}{DRIVER}")
         radius = fine.motion.points[pin].p - fine.motion.points[report.driver.centre].p
         load = fine.forces.reactions[edge.name].force * np.conj(radius / np.abs(radius)) * 1j
         series = charts.Series(report.force_vector(edge.name), load.real, load.imag, _marks(report), numbers)
-        scenes.append(charts.polar(series, "N", title=f"{report.words['figure']['pin']} {lower_digits(pin)}"))
+        scenes.append(
+            charts.polar(series, "N", title=f"{report.words['figure']['pin']} {lower_digits(pin)}", size=size)
+        )
     return Drawn(tuple(scenes))
 
 
@@ -145,11 +150,15 @@ def _wheel(report: Report) -> Flywheel:
 
 
 def _over_cycle(
-    report: Report, values: np.ndarray, title: Content, levels: tuple[tuple[float, Symbol], ...] = ()
+    report: Report,
+    values: np.ndarray,
+    title: Content,
+    levels: tuple[tuple[float, Symbol], ...] = (),
+    half: bool = False,
 ) -> Scene:
     kept = np.union1d(np.arange(0, values.size, THINNED), values.size - 1)
     curve = charts.Series("", np.degrees(_wheel(report).angle[kept]), values[kept])
-    return charts.chart((curve,), _driver_axis(report), title, levels=levels)
+    return charts.chart((curve,), _driver_axis(report), title, levels=levels, half=half)
 
 
 @figure("flywheel-torque", "fig.Mr")
@@ -164,8 +173,10 @@ def flywheel_torque(report: Report) -> Drawn:
 def flywheel_work(report: Report) -> Drawn:
     """J_r, if moving links have mass, and A over the cycle."""
     wheel = _wheel(report)
-    inertia = (_over_cycle(report, wheel.inertia, _axis_of(report, "J.r")),) if report.has_reduced_inertia else ()
-    return Drawn((*inertia, _over_cycle(report, wheel.work, _axis_of(report, "A.excess"))))
+    drawings = [(wheel.inertia, "J.r")] if report.has_reduced_inertia else []
+    drawings.append((wheel.work, "A.excess"))
+    half = len(drawings) > 1
+    return Drawn(tuple(_over_cycle(report, values, _axis_of(report, id), half=half) for values, id in drawings))
 
 
 @figure("wittenbauer")

@@ -143,9 +143,9 @@ def drawing_scale(report: Report) -> float:
     return MM / float(report.ledger["mu.l"].values[0])
 
 
-def scale_note(report: Report, id: str, factor: float = 1.0) -> Chain:
+def scale_note(report: Report, id: str, factor: float = 1.0, k: int | None = None) -> Chain:
     """A scale as printed below a figure; a figure drawn smaller by `factor` has a scale that much larger."""
-    number = report.ledger.number(id)
+    number = report.ledger.number(id, k)
     return Chain((report.ledger.symbol(id), short(replace(number, value=number.value / factor))))
 
 

@@ -9,18 +9,20 @@ from __future__ import annotations
 import cmath
 import math
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from reportgen.figures import style
-from reportgen.figures.draft import Draft, finish, settle
+from reportgen.figures.draft import MARGIN, Draft, finish, settle
 from reportgen.figures.geometry import bounds, clipped, clusters, corners_of, unit
 from reportgen.figures.labels import Request, label
 from reportgen.figures.scene import Arrow, Circle, Content, Item, Label, Line, Polyline, Scene, Stroke
 from reportgen.notation.numbers import SERIES
 
 Style = Literal["known", "relative", "found"]
+Titles = Callable[[range, int], str]
+"""What stands below a panel, of the stages that it draws and its own number from 0."""
 PENS: dict[Style, Stroke] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
 
 NOTHING = 1e-9
@@ -140,8 +142,21 @@ class Plan:
         )
 
 
-def plan(drawing: Plan, *, title: str = "", beside: Sequence[Draft] = (), width: float = math.inf) -> Scene:
-    """The scene of a plan in true size, vectors under 3 mm repeated in enlarged insets.
+def lettered(stages: range, number: int) -> str:
+    """a), b), …: panels that are told in the text one after another."""
+    return f"{chr(ord('a') + number)})"
+
+
+def plan(
+    drawing: Plan,
+    *,
+    title: str = "",
+    beside: Sequence[Draft] = (),
+    width: float = math.inf,
+    enlarged: bool = True,
+    margin: float = MARGIN,
+) -> Scene:
+    """The scene of a plan in true size; `enlarged` repeats vectors under 3 mm in insets.
 
     The drawings `beside` it, their labels placed, and the insets are stacked to its right; where that would be
     wider than `width` (mm), they stand in rows below it.
@@ -149,27 +164,30 @@ def plan(drawing: Plan, *, title: str = "", beside: Sequence[Draft] = (), width:
     vectors = drawing.drawn()
     draft = Draft((*_lines(drawing), *_arrows(vectors), *_marks(drawing)), _labels(drawing, vectors, style.LABEL))
     notes = () if drawing.scale is None else (drawing.scale,)
-    parts, marks = insets(drawing)
+    parts, marks = insets(drawing) if enlarged else ((), Draft())
     further = [*beside, *parts]
     if not further:
-        return finish(draft, notes=notes, title=title)
+        return finish(draft, notes=notes, title=title, margin=margin)
     draft += marks
-    scene = finish(draft + _stacked(further, draft), notes=notes, title=title)
+    scene = finish(draft + _stacked(further, draft), notes=notes, title=title, margin=margin)
     if scene.width <= width:
         return scene
     return finish(draft + _below(further, draft), notes=notes, title=title, margin=CLOSE)
 
 
-def stages(drawing: Plan, factor: float = 1.0) -> tuple[Scene, ...]:
+def stages(drawing: Plan, factor: float = 1.0, titles: Titles = lettered, begin: int = 0) -> tuple[Scene, ...]:
     """The construction step by step, `factor` times as large: a panel a stage, what is new in blue.
 
-    All panels have one size.  A stage that would draw nothing new is drawn together with the next one.
+    All panels have one size.  A stage that would draw nothing new is drawn together with the next one; stages
+    before `begin` are not shown by themselves.
     """
-    whole = merged(drawing.scaled(factor))
+    scaled = drawing.scaled(factor)
+    kept = kept_stages(scaled)
+    whole = merged(scaled)
     corner = bounds((*_lines(whole), *_arrows(whole.drawn())))
     pad = complex(4, 4)
-    panels = []
-    for stage in range(whole.last_stage + 1):
+    panels: list[Scene] = []
+    for stage in range(bisect_left(kept, begin), whole.last_stage + 1):
         part = whole.until(stage)
         vectors = tuple(v for v in whole.drawn() if v.stage <= stage)
         items = (
@@ -177,7 +195,8 @@ def stages(drawing: Plan, factor: float = 1.0) -> tuple[Scene, ...]:
             *_arrows(vectors, [style.NEW if v.stage == stage else style.OLD for v in vectors]),
             *_marks(part),
         )
-        title = f"{chr(ord('a') + stage)})"
+        before = kept[stage - 1] if stage else -1
+        title = titles(range(max(before + 1, begin), kept[stage] + 1 if kept else 1), len(panels))
         draft = Draft(items, _labels(part, vectors, style.SMALL))
         panels.append(finish(draft, title=title, margin=2.0, frame=(corner[0] - pad, corner[1] + pad)))
     width = max(panel.width for panel in panels)
@@ -187,14 +206,7 @@ def stages(drawing: Plan, factor: float = 1.0) -> tuple[Scene, ...]:
 
 def merged(drawing: Plan) -> Plan:
     """The plan with its stages renumbered, so that each draws an arrow or a line that was not there before."""
-    least = NOTHING * drawing.size
-    arrows = [(v.stage, v.start, v.end) for v in drawing.drawn()]
-    lines = [(k.stage, k.start, k.end) for k in drawing.lines if abs(k.end - k.start) > least]
-
-    def repeats(stage: int, start: complex, end: complex) -> bool:
-        return any(s < stage and abs(start - p) + abs(end - q) < SAME for s, p, q in arrows)
-
-    kept = sorted({piece[0] for piece in lines} | {piece[0] for piece in arrows if not repeats(*piece)})
+    kept = kept_stages(drawing)
 
     def number(stage: int) -> int:
         return min(bisect_left(kept, stage), max(len(kept) - 1, 0))
@@ -205,6 +217,18 @@ def merged(drawing: Plan) -> Plan:
         points=tuple(replace(p, stage=number(p.stage)) for p in drawing.points),
         lines=tuple(replace(k, stage=number(k.stage)) for k in drawing.lines),
     )
+
+
+def kept_stages(drawing: Plan) -> list[int]:
+    """The stages that draw an arrow or a line that was not there before, in order."""
+    least = NOTHING * drawing.size
+    arrows = [(v.stage, v.start, v.end) for v in drawing.drawn()]
+    lines = [(k.stage, k.start, k.end) for k in drawing.lines if abs(k.end - k.start) > least]
+
+    def repeats(stage: int, start: complex, end: complex) -> bool:
+        return any(s < stage and abs(start - p) + abs(end - q) < SAME for s, p, q in arrows)
+
+    return sorted({piece[0] for piece in lines} | {piece[0] for piece in arrows if not repeats(*piece)})
 
 
 def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
