@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
@@ -35,10 +35,11 @@ class Case:
 
     @cached_property
     def ledger(self) -> Ledger:
-        """Every number by its id, with the units of the assignment's language."""
+        """Every number by its id, with the symbols and the units of the assignment's language."""
         from reportgen.ledger.report import write_ledger
 
-        return write_ledger(self.analysis, self.words["units"])
+        written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions)
+        return written.in_language(self.words["symbols"])
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:
@@ -60,6 +61,14 @@ class Case:
     def words(self) -> Mapping[str, Any]:
         """The short words of `words.yaml`.  Raises `TemplateError`."""
         return load_words(self.directories)
+
+    @property
+    def course(self) -> str:
+        """The course as the assignment names it; by its standard name, whatever the language, in the case's own."""
+        standard: str = self.words["cover"]["course"]
+        names = {load_words(search_path(language))["cover"]["course"] for language in get_args(Language)}
+        given = self.assignment.report.course
+        return given if given and given not in names else standard
 
     @property
     def title(self) -> str:

@@ -1,6 +1,6 @@
-"""What is applied to a machine over its cycle: the gas pressure of an engine, the cutting force of a tool.
+"""The gas pressure of a four-stroke engine over its cycle, from a table.
 
-The pressure of a four-stroke engine comes from a table.  A cycle angle (rad) is the crank's turn from the
+A cycle angle (rad) is the crank's turn from the
 piston's own top dead centre at the start of intake, in the direction of rotation; a fraction is s/H, the
 piston's way from its top dead centre over the stroke.  Pressures (Pa) are gauge and push the piston towards
 the crank when positive.
@@ -22,15 +22,12 @@ STROKES: tuple[Stroke, ...] = get_args(Stroke)
 OUTWARD = (1, -1, 1, -1)
 """Whether the piston leaves (+1) or nears (−1) its top dead centre in each stroke."""
 
-TURN, CYCLE = 2 * math.pi, 4 * math.pi
+CYCLE = 4 * math.pi
 DEAD_CENTRES = (0.0, math.pi, 2 * math.pi, 3 * math.pi)
 """Where the strokes begin in a machine whose guide passes through the crank's centre."""
 
 AT_DEAD_CENTRE = 1e-9
 """An angle this near below a dead centre (rad) is rounding of the dead centre itself."""
-
-EDGE = 1e-9
-"""A share of the stroke this near to the tool's way in or out is rounding of it."""
 
 HALVINGS = 60
 """A stroke halved so often is below the spacing of floats there."""
@@ -175,34 +172,6 @@ def indicated_work(
     if isinstance(indicator, StrokeIndicator):
         return indicator.work(area, stroke)
     return indicator.work(lambda angle: area * stroke * fraction_rate(angle))
-
-
-@dataclass(frozen=True, slots=True)
-class Cutting:
-    """`force` (N) while the tool cuts; it runs free over the share `free` at each end of the working stroke.
-
-    Angles (rad) are the crank's turn from the beginning of the working stroke, which ends at the angle
-    `reversal`; a share is the way since then over the whole stroke.
-    """
-
-    force: float
-    reversal: float
-    free: float = 0.0
-
-    def at(self, angle: Floats, share: Floats) -> Floats:
-        """The force (N) [N]; at a dead centre that of the stroke which begins there."""
-        turned = np.mod(angle + AT_DEAD_CENTRE, TURN) - AT_DEAD_CENTRE
-        working = turned < self.reversal - AT_DEAD_CENTRE
-        cuts = (share >= self.free - EDGE) & (share <= 1 - self.free + EDGE)
-        return np.where(working & cuts, self.force, 0.0)
-
-    def breaks(self, share_at: Callable[[Floats], Floats]) -> tuple[float, ...]:
-        """The angles in [0, 2π) where the force jumps, rising; `share_at` gives shares at angles [N]."""
-        if self.free == 0:
-            return 0.0, self.reversal
-        wanted = np.array([self.free, 1 - self.free])
-        low, high = np.zeros(2), np.full(2, self.reversal)
-        return tuple(map(float, crossings(lambda angle: share_at(angle) - wanted, low, high)))
 
 
 def crossings(rise: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -110,10 +109,6 @@ def _possible(analysis: Analysis) -> float:
     return (force * fastest + couple * turning) / abs(motion.rate)
 
 
-def _torque_at(machine: Machine, angle: np.ndarray) -> np.ndarray:
-    return reduced_torque(analyse(machine, angle))
-
-
 def flywheel(machine: Machine, unevenness: float) -> Flywheel:
     """The flywheel for the unevenness δ, over angles among which are all positions and corners of the loads."""
     whole = machine.turns * FULL_TURN
@@ -127,7 +122,7 @@ def flywheel(machine: Machine, unevenness: float) -> Flywheel:
     return regulate(
         angle,
         np.zeros_like(torque) if idle else torque,
-        np.zeros_like(torque) if idle else accumulated(partial(_torque_at, machine), angle),
+        np.zeros_like(torque) if idle else accumulated(lambda angle: reduced_torque(analyse(machine, angle)), angle),
         reduced_inertia(machine, analysis.motion),
         machine.speed,
         unevenness,

@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -295,8 +295,10 @@ def make_key(case: Case) -> Key:
             family.of if family.is_signed_rotation else "",
         )
 
-    parts = list(Chapter)
-    rows = sorted(map(row, filter(partial(_is_shown, ledger), ledger.families)), key=lambda row: parts.index(row.part))
+    parts, families = list(Chapter), ledger.families.values()
+    # No rows for points, optional quantities and the sizes of signed rotations.
+    shown = (one.id for one in families if not (one.hidden or one.is_plane or one.optional or one.id in ledger.signed))
+    rows = sorted(map(row, shown), key=lambda row: parts.index(row.part))
     student = assignment.report.student
     fields = {"name": student.name, "id": student.id, "class": student.class_}
     return Key(
@@ -308,12 +310,6 @@ def make_key(case: Case) -> Key:
         tuple(str(machine.position(k)) for k in range(1, machine.positions + 1)),
         tuple(rows),
     )
-
-
-def _is_shown(ledger: Ledger, id: str) -> bool:
-    """Whether a key has a row for it: not for points, optional quantities and the sizes of signed rotations."""
-    family = ledger[id]
-    return not (family.hidden or family.is_plane or family.optional or id in ledger.signed)
 
 
 def _role(ledger: Ledger, family: Family) -> Role:

@@ -133,8 +133,9 @@ def task(case: Case, key: Key) -> Document:
         *given,
         *prose.render("task.md", names),
     ]
-    course = about.course or words["cover"]["course"]
-    return paper(case.assignment.language, words, course, blocks, about.student.name or "", case.assignment.variant)
+    return paper(
+        case.assignment.language, words, case.course, blocks, about.student.name or "", case.assignment.variant
+    )
 
 
 def answer_tables(key: Key) -> Iterator[Table]:

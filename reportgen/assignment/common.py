@@ -16,7 +16,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, create_model, model_validator
 
 from reportgen.assignment.fields import Angle, Date, Line, SchoolFolder, Whole, WorkedPositions, quantity
-from reportgen.errors import Finding, Where
+from reportgen.errors import Finding
 from reportgen.notation.numbers import Language
 from reportgen.units import Given, QuantityFault, read_number, read_quantity
 
@@ -83,6 +83,10 @@ class Positions(Part):
         """+1 anticlockwise, −1 clockwise."""
         return 1 if self.direction == "anticlockwise" else -1
 
+    def start_or(self, natural: float = 0.0) -> float:
+        """The driver's angle in position 1 (rad): as given, else its natural one."""
+        return natural if self.start is None else self.start.si
+
 
 class Drawing(Part):
     """Lengths on paper that were asked for; what is None is chosen."""
@@ -96,6 +100,13 @@ class Draft:
 
     raw: Mapping[str, Any]
     sections: Mapping[str, Any]
+
+    def at(self, *where: str) -> Any:
+        """What stands in the file at a place; None if nothing does."""
+        content: Any = self.raw
+        for key in where:
+            content = content.get(key) if isinstance(content, dict) else None
+        return content
 
 
 Check = Callable[[Draft], Iterator[Finding]]
@@ -220,30 +231,44 @@ def worked_positions(turns: int, added: Added = none_added) -> Check:
     return check
 
 
-def one_of(section: str, *names: str, required: bool = True) -> Check:
-    """Of several keys that say the same thing, one stands in the section (at most one unless `required`)."""
+def of_parameters(look: Callable[[Any], Iterator[Finding]]) -> Check:
+    """A check of the parameters alone, made where each of them is in order by itself."""
 
     def check(draft: Draft) -> Iterator[Finding]:
-        content = draft.raw.get(section)
+        if "parameters" in draft.sections:
+            yield from look(draft.sections["parameters"])
+
+    return check
+
+
+def one_of(section: str, *names: str, required: bool = True) -> Check:
+    """Of several keys that say the same thing, one stands in the section (at most one unless `required`).
+
+    A section of a section is named by its path, as "parameters.driver".
+    """
+    where = tuple(section.split("."))
+
+    def check(draft: Draft) -> Iterator[Finding]:
+        content = draft.at(*where)
         if not isinstance(content, dict):
             return
         given = [name for name, value in content.items() if name in names and value is not None]
         if len(given) > 1:
             first, second = given[:2]
-            yield Finding("both-given", (section, second), {"first": first, "second": second}, at="key")
+            yield Finding("both-given", (*where, second), {"first": first, "second": second}, at="key")
         elif required and not given:
-            yield Finding("missing-key", (section, names[0]), {"key": " | ".join(names)})
+            yield Finding("missing-key", (*where, names[0]), {"key": " | ".join(names)})
 
     return check
 
 
 def same_length(section: str, key: str, rows: Sequence[str]) -> Check:
     """The rows have as many values as the list `key`: those that differ from most of them are at fault."""
+    where = tuple(section.split("."))
 
     def check(draft: Draft) -> Iterator[Finding]:
-        content = draft.raw.get(section)
-        found = {row: _list(content, row) for row in (key, *rows)}
-        lengths = {row: len(values) for row, values in found.items() if values is not None}
+        found = {row: draft.at(*where, row) for row in (key, *rows)}
+        lengths = {row: len(values) for row, values in found.items() if isinstance(values, list)}
         if not lengths:
             return
         wanted = mode(lengths.values())
@@ -251,37 +276,32 @@ def same_length(section: str, key: str, rows: Sequence[str]) -> Check:
         for row, length in lengths.items():
             if length != wanted:
                 counts = {"key": row, "given": str(length), "other": other, "wanted": str(wanted)}
-                yield Finding("row-length", (section, row), counts)
+                yield Finding("row-length", (*where, row), counts)
 
     return check
 
 
 def increasing(section: str, key: str, first: float, last: float, unit: str = "") -> Check:
     """The list grows strictly from `first` to `last` (in `unit`)."""
+    where = (*section.split("."), key)
 
     def check(draft: Draft) -> Iterator[Finding]:
-        texts = _list(draft.raw.get(section), key)
-        values = [_size(text, unit) for text in texts or ()]
-        if not values or None in values:
-            return
+        texts = draft.at(*where)
+        values = [_size(text, unit) for text in texts] if isinstance(texts, list) else []
         sizes = [value for value in values if value is not None]
+        if not sizes or len(sizes) < len(values):
+            return
         falls = [index + 1 for index, (one, next_one) in enumerate(pairwise(sizes)) if next_one <= one]
         if falls:
-            yield Finding("not-increasing", (section, key, falls[0]), {"key": key})
+            yield Finding("not-increasing", (*where, falls[0]), {"key": key})
             return
         for index, value, wanted in ((0, sizes[0], first), (len(sizes) - 1, sizes[-1], last)):
             # Ends are exact but for the rounding of a unit (2 turn for 720 deg).
             if abs(value - wanted) > 1e-10 * (last - first):
                 end = f"{wanted:g} {unit}".strip()
-                place: Where = (section, key, index)
-                yield Finding("table-end", place, {"key": key, "end": end})
+                yield Finding("table-end", (*where, index), {"key": key, "end": end})
 
     return check
-
-
-def _list(content: Any, key: str) -> list[Any] | None:
-    values = content.get(key) if isinstance(content, dict) else None
-    return values if isinstance(values, list) else None
 
 
 def _size(text: Any, unit: str) -> float | None:

@@ -14,7 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
 from reportgen.units import NUMBER, Given, QuantityFault, read_quantity, read_ratio, read_unit
@@ -268,10 +268,15 @@ def quantity(unit: str, **ends: float) -> Quantity:
 Line = Annotated[str, Text()]
 Date = Annotated[datetime.date, Day()]
 Length = Annotated[Given, quantity("mm", above=0, below=1e5)]
+Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
+Offset = Annotated[Given, quantity("mm", least=0, below=1e5)]
 Angle = Annotated[Given, quantity("deg", least=-360, most=360)]
 CycleAngle = Annotated[Given, quantity("deg", least=0, most=720)]
 RotationalSpeed = Annotated[Given, quantity("rpm", above=0, most=1e5)]
 AngularVelocity = Annotated[Given, quantity("rad/s", above=0, most=1e5)]
+Force = Annotated[Given, quantity("N", least=-1e9, most=1e9)]
+ForceSize = Annotated[Given, quantity("N", least=0, most=1e9)]
+ForceUnit = Annotated[Given, UnitOf("N")]
 Weight = Annotated[Given, quantity("N", least=0, most=1e7)]
 Mass = Annotated[Given, quantity("kg", least=0, most=1e6)]
 MomentOfInertia = Annotated[Given, quantity("kg m2", least=0, most=1e7)]
@@ -280,5 +285,8 @@ Pressure = Annotated[Given, quantity("N/cm2", least=0, most=1e5)]
 RodRatio = Annotated[Given, Ratio(Interval(above=0, below=1), inverse="inverse-ratio")]
 Share = Annotated[Given, Ratio(Interval(least=0, most=1))]
 PressureUnit = Annotated[Given, UnitOf("N/cm2")]
-Fraction = Annotated[float, Decimal(Interval(least=0, most=1))]
-PressureValue = Annotated[float, Decimal(Interval(least=-1e9, most=1e9))]
+Nodes = Field(min_length=2, max_length=2000)
+"""How many nodes a table may have."""
+Fractions = Annotated[tuple[Annotated[float, Decimal(Interval(least=0, most=1))], ...], Nodes]
+CycleAngles = Annotated[tuple[CycleAngle, ...], Nodes]
+Values = Annotated[tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9))], ...], Nodes]

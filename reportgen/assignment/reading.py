@@ -128,8 +128,7 @@ def _section(key: str, type_: Any, content: Any) -> tuple[Any, list[Finding]]:
     schema = adapter.json_schema() if any(one["type"] == "extra_forbidden" for one in details) else {}
     findings = [_finding(key, detail, content, schema) for detail in details]
     if all(detail["type"] == "extra_forbidden" for detail in details):
-        places = [finding.where[1:] for finding in findings]
-        return adapter.validate_python(_without(content, places)), findings
+        return adapter.validate_python(content, extra="ignore"), findings
     return None, findings
 
 
@@ -185,19 +184,6 @@ def _real(location: Where, content: Any) -> Iterator[str | int]:
         elif isinstance(content, list) and isinstance(step, int) and step < len(content):
             content = content[step]
         yield step
-
-
-def _without(content: Any, places: Sequence[Where]) -> Any:
-    """The content without the keys at `places`."""
-
-    def inside(step: str | int) -> list[Where]:
-        return [place[1:] for place in places if place[0] == step and len(place) > 1]
-
-    if isinstance(content, list):
-        return [_without(value, inside(index)) for index, value in enumerate(content)]
-    if isinstance(content, dict):
-        return {key: _without(value, inside(key)) for key, value in content.items() if (key,) not in places}
-    return content
 
 
 @cache

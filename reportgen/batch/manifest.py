@@ -15,6 +15,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+from pydantic import TypeAdapter, ValidationError
+
 from reportgen import api
 from reportgen.batch.pool import Job, Outcome
 
@@ -44,6 +46,9 @@ class Entry:
             and (self.folder, self.made_of) == (job.folder, made_of(job))
             and all(_hash(out / self.folder / name) == known for name, known in self.files.items())
         )
+
+
+_ENTRY = TypeAdapter(Entry)
 
 
 def entry(job: Job, outcome: Outcome) -> Entry:
@@ -115,17 +120,11 @@ def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
 def _entry(line: dict[str, Any]) -> Entry | None:
     """The entry of a line, unless the line is not of the form that `journal` gives."""
-    student, folder, product = (line.get(name) for name in ("student", "folder", "product"))
-    files, problems = line.get("files", {}), line.get("problems", [])
-    if not (isinstance(student, str) and isinstance(folder, str) and isinstance(product, str)):
+    try:
+        entry = _ENTRY.validate_python({**line, "made_of": {key: line.get(key) for key in MADE_OF}})
+    except ValidationError:
         return None
-    if not (isinstance(files, dict) and isinstance(problems, list)):
-        return None
-    if any(Path(name).name != name for name in files):
-        return None
-    made = {key: line.get(key) for key in MADE_OF}
-    names = {str(name): str(known) for name, known in files.items()}
-    return Entry(student, folder, product, made, names, tuple(map(str, problems)))
+    return entry if all(Path(name).name == name for name in entry.files) else None
 
 
 def _parsed(text: str) -> dict[str, Any]:

@@ -39,7 +39,7 @@ OWN_KEYS = ("variants", "salt")
 DRAWN_SECTIONS = ("parameters", "positions", "drawing", "indicator")
 RANGE_KEYS = ("from", "to", "step")
 MOST_CHOICES = 10_000
-_TYPED = re.compile(rf"({NUMBER})\s*(\S.*)?", re.DOTALL)
+_LEADING_NUMBER = re.compile(rf"{NUMBER}\s*")
 _DUST = Decimal("1e-9")
 """Shares of a step below which an end counts as met: what is left of a change of units."""
 
@@ -250,7 +250,7 @@ def _stepped(node: Table, faults: list[Fault]) -> tuple[Scalar, ...]:
     if len(ends) < len(RANGE_KEYS):
         return ()
     first, last, _ = ends
-    unit = _number_and_unit(first.text)[1]
+    unit = _LEADING_NUMBER.sub("", first.text.strip().replace("\N{MINUS SIGN}", "-"), count=1)
     numbers = []
     for end in ends:
         try:
@@ -288,21 +288,9 @@ def _ends(node: Table, faults: list[Fault]) -> Iterator[Scalar]:
 
 def _number(text: str, unit: str) -> Decimal:
     """The number of an end in `unit`; raises `QuantityFault`."""
-    number, own_unit = _number_and_unit(text)
-    if not unit:
-        read_number(text)
-        return Decimal(number)
-    si = read_quantity(text, unit).si
-    if own_unit == unit:
-        return Decimal(number)
-    # Another unit of the same kind: 12 digits are more than anyone types and fewer than rounding reaches.
-    return Decimal(f"{si / read_unit(unit, unit):.12g}")
-
-
-def _number_and_unit(text: str) -> tuple[str, str]:
-    """A quantity as typed, taken apart; empty where it is none."""
-    match = _TYPED.fullmatch(text.strip().replace("\N{MINUS SIGN}", "-"))
-    return (match[1], (match[2] or "").strip()) if match else ("", "")
+    number = read_quantity(text, unit).si / read_unit(unit, unit) if unit else read_number(text)
+    # 12 digits are more than anyone types and fewer than rounding reaches.
+    return Decimal(f"{number:.12g}")
 
 
 def _typed(number: Decimal) -> str:

@@ -15,6 +15,7 @@ from reportgen.assignment.common import Assignment, Check, Draft, Part, Position
 from reportgen.assignment.fields import (
     Acceleration,
     AngularVelocity,
+    Coordinate,
     Interval,
     Mass,
     MomentOfInertia,
@@ -22,7 +23,6 @@ from reportgen.assignment.fields import (
     RotationalSpeed,
     Share,
     Weight,
-    quantity,
 )
 from reportgen.catalogue.machine import Machine
 from reportgen.errors import Finding
@@ -42,9 +42,6 @@ MIDDLE = 0.5
 FULL_TURN = 2 * np.pi
 
 Unevenness = Annotated[Given, Ratio(Interval(above=0, most=0.5))]
-
-
-Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
 
 
 class FixedPoint(Part):
@@ -121,10 +118,8 @@ def needs_loads(keys: Iterable[str]) -> Check:
     known = tuple(keys)
 
     def check(draft: Draft) -> Iterator[Finding]:
-        content = draft.raw.get("parameters")
-        if not isinstance(content, dict) or content.get("flywheel") is None:
-            return
-        if not any(content.get(key) for key in known):
+        wanted = draft.at("parameters", "flywheel") is not None
+        if wanted and not any(draft.at("parameters", key) for key in known):
             yield Finding("flywheel-without-loads", ("parameters", "flywheel"), at="key")
 
     return check

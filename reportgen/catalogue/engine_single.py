@@ -13,8 +13,8 @@ from typing import Annotated
 
 import numpy as np
 
-from reportgen.assignment.common import Assignment, Draft, Positions, one_of
-from reportgen.assignment.fields import Acceleration, Interval, Length, Ratio, Share, quantity
+from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters, one_of
+from reportgen.assignment.fields import Acceleration, Interval, Length, Offset, Ratio, Share
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.driven import CRANK_DRAWN, Driven, GivenSheet, driven
 from reportgen.catalogue.loads import Piston, gas_forces
@@ -36,7 +36,6 @@ UP = math.pi / 2
 MOST_LETTERED = 4
 """Two dead centres and two greatest speeds."""
 
-Offset = Annotated[Given, quantity("mm", least=0, below=1e5)]
 TimeRatio = Annotated[Given, Ratio(Interval(above=1, below=2))]
 GyrationRatio = Annotated[Given, Ratio(Interval(above=0, most=1))]
 Indicator = given_loads.Diagram
@@ -113,9 +112,9 @@ def _cannot_turn(given: Parameters) -> Finding | None:
     return None
 
 
-def _check_turning(draft: Draft) -> Iterator[Finding]:
-    given = draft.sections.get("parameters")
-    found = None if given is None else _cannot_turn(given)
+@of_parameters
+def _check_turning(given: Parameters) -> Iterator[Finding]:
+    found = _cannot_turn(given)
     if found is not None:
         yield found
 

@@ -73,9 +73,7 @@ def possible_phases(crank_angle: float, positions: Positions) -> dict[tuple[Stro
 
     Each piston may be a whole turn further on in its cycle than the crank shows.
     """
-    start = 0.0
-    if positions.start is not None:
-        start = positions.sign * (positions.start.si - UP) % (2 * math.pi)
+    start = positions.sign * (positions.start_or(UP) - UP) % (2 * math.pi)
     possible: dict[tuple[Stroke, ...], tuple[float, float]] = {}
     for first in (start, start + 2 * math.pi):
         for second in (first + crank_angle, first + crank_angle + 2 * math.pi):
@@ -147,7 +145,7 @@ def machine(assignment: Assignment) -> Machine:
         assignment,
         q,
         linkage,
-        UP if positions.start is None else positions.start.si,
+        positions.start_or(UP),
         {"sizes": "synthesis", "load": "cycle"},
         formulas=formulas,
         pistons=pistons,

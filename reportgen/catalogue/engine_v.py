@@ -12,8 +12,8 @@ from typing import Annotated
 
 import numpy as np
 
-from reportgen.assignment.common import Assignment, Draft, Positions
-from reportgen.assignment.fields import Angle, Length, Whole, quantity
+from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters
+from reportgen.assignment.fields import Angle, Length, Offset, Whole, quantity
 from reportgen.catalogue import given_loads, reach
 from reportgen.catalogue.driven import Driven, GivenSheet, driven
 from reportgen.catalogue.loads import Applied, Constant, Piston, course, crank_motion, gas_forces
@@ -31,7 +31,6 @@ TURNS = 1
 
 Indicator = given_loads.Diagram
 INDICATOR_OPTIONAL = True
-Articulation = Annotated[Given, quantity("mm", least=0, below=1e5)]
 Force = Annotated[Given, quantity("N", least=-1e7, most=1e7)]
 
 
@@ -40,7 +39,7 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loa
 
     AB: Length
     BC: Length
-    BD: Articulation = Given(0.0, 0.0, "mm", "0 mm")
+    BD: Offset = Given(0.0, 0.0, "mm", "0 mm")
     DE: Length
     alpha: Angle
     beta: Angle
@@ -60,14 +59,9 @@ class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loa
         return 2 if self.D is not None else 1
 
 
-def _start(positions: Positions) -> float:
-    """The crank's angle at the first position: horizontal unless the file says otherwise."""
-    return 0.0 if positions.start is None else positions.start.si
-
-
 def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...], tuple[str, ...]]:
     """The even positions, and lettered those where the main piston is at a dead point."""
-    top = positions.sign * (given.alpha.si - _start(positions))
+    top = positions.sign * (given.alpha.si - positions.start_or())
     return lettered(positions.count, given.turns, (top, top + math.pi))
 
 
@@ -94,11 +88,9 @@ def _check_loads(draft: Draft) -> Iterator[Finding]:
         yield Finding("missing-key", ("parameters", "D"), {"key": "D"})
 
 
-def _check_assembly(draft: Draft) -> Iterator[Finding]:
+@of_parameters
+def _check_assembly(given: Parameters) -> Iterator[Finding]:
     """Both pistons follow the crank through a whole turn; the articulation lies on the main rod."""
-    given: Parameters | None = draft.sections.get("parameters")
-    if given is None:
-        return
     if given.BD.si >= given.BC.si:
         most = f"< BC = {given.BC.si * 1e3:g} mm"
         yield Finding("out-of-range", ("parameters", "BD"), {"text": given.BD.text, "range": most})
@@ -159,7 +151,7 @@ def machine(assignment: Assignment) -> Machine:
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
     q = _sheet(given, turn, assignment.drawing.crank)
-    linkage, start = _linkage(given, q), _start(positions)
+    linkage, start = _linkage(given, q), positions.start_or()
     places, labels = _places(given, positions)
 
     motion_at = crank_motion(linkage, positions, start, given.speed)

@@ -11,13 +11,12 @@ right of it: φ₂ = sβ − δ, φ₃ = 180° − δ − sγ.  The closed loop,
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
-from typing import Annotated, Literal
+from typing import Literal
 
-from reportgen.assignment.common import Assignment, Draft, Part
-from reportgen.assignment.fields import Angle, Length, quantity
+from reportgen.assignment.common import Assignment, Part, of_parameters
+from reportgen.assignment.fields import Angle, Coordinate, ForceSize, Length
 from reportgen.catalogue import reach
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
@@ -45,16 +44,6 @@ from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
 
 STRAIGHT = Number(180.0, None, "°")
-
-
-@dataclass(frozen=True, slots=True)
-class FourBar:
-    """Crank angles φ₁ from x [N], points of the coupler, the rotation ±1, the side ±1 on which C lies in these axes."""
-
-    φ1: Floats
-    points: tuple[LinkPoint, ...]
-    turn: int
-    side: int
 
 
 def _rocks(q: Sheet) -> bool:
@@ -106,14 +95,14 @@ def triangle(q: Sheet, name: str) -> None:
 # --- the analytic method --------------------------------------------------------------------------
 
 
-def analytic_method(q: Sheet, bar: FourBar) -> None:
-    """Enter positions, entries of the matrices and rates.
+def analytic_method(q: Sheet, angle: Floats, points: Iterable[LinkPoint], turn: int, side: int) -> None:
+    """Enter positions, entries of the matrices and rates at φ₁ = `angle` [N], C on the `side` ±1 of BD in these axes.
 
     Ids: `f.phi.1`, `l.BD`, `f.phi.2`, `f.phi.3`; entries `A.11`, `B.1`, `dA.11`, `dB.1`; `A.det`;
     `f.omega.2`, …, `q.2`, `f.eps.3`; of every coupler point `f.x.E.v`, `f.y.E.v`, `f.v.E`, likewise for a.
     """
     AB, BC, CD, ω1 = q["l.AB"], q["l.BC"], q["l.DC"], q["omega.1"]
-    φ1, φ2, φ3 = _positions(q, bar)
+    φ1, φ2, φ3 = _positions(q, angle, side)
     a, b = partial(_entries, q, "A", "a", "length", 0.1), partial(_entries, q, "B", "b", "length", 0.1)
     a({"11": -BC * sin(φ2), "12": CD * sin(φ3), "21": BC * cos(φ2), "22": -CD * cos(φ3)})
     b({"1": AB * sin(φ1), "2": -AB * cos(φ1)})
@@ -129,20 +118,20 @@ def analytic_method(q: Sheet, bar: FourBar) -> None:
     for link, top, length in (("2", top2, BC), ("3", top3, CD)):
         q_k = q.define(f"q.{link}", top, Symbol("q", link), "acceleration", scale=1.0)
         q.define(f"f.eps.{link}", -q_k / (length * sin(φ2 - φ3)), scale=1.0)
-    for point in bar.points:
-        _coupler_point(q, point, bar.turn)
+    for point in points:
+        _coupler_point(q, point, turn)
 
 
-def _positions(q: Sheet, bar: FourBar) -> tuple[Ref, Ref, Ref]:
+def _positions(q: Sheet, angle: Floats, side: int) -> tuple[Ref, Ref, Ref]:
     """BD, then φ₂ = sβ − δ and φ₃ = 180° − δ − sγ, each from BD at once: sums of rounded angles lose a digit."""
     AB, BC, CD, AD = q["l.AB"], q["l.BC"], q["l.DC"], q["l.AD"]
-    φ1 = q.angle("f.phi.1", bar.φ1)
+    φ1 = q.angle("f.phi.1", angle)
     across, along = AB * sin(φ1), AD - AB * cos(φ1)
     δ = atan(across / along) if _rocks(q) else atan2(across, along)
     BD = q.define("l.BD", sqrt(AB**2 + AD**2 - 2 * AB * AD * cos(φ1)))
     β, γ = acos(_cosine(BC, BD, CD)), acos(_cosine(CD, BD, BC))
-    φ2 = q.define("f.phi.2", β - δ if bar.side > 0 else -β - δ, scale=1.0)
-    φ3 = q.define("f.phi.3", STRAIGHT - δ - γ if bar.side > 0 else STRAIGHT - δ + γ, scale=1.0)
+    φ2 = q.define("f.phi.2", β - δ if side > 0 else -β - δ, scale=1.0)
+    φ3 = q.define("f.phi.3", STRAIGHT - δ - γ if side > 0 else STRAIGHT - δ + γ, scale=1.0)
     return φ1, φ2, φ3
 
 
@@ -201,21 +190,19 @@ def equations() -> dict[str, tuple[Chain, ...]]:
 TURNS = 1
 LINKS = {1: ("A", "B"), 2: ("B", "C"), 3: ("D", "C")}
 """The bars by the pins at their ends."""
-Offset = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
-Size = Annotated[Given, quantity("N", least=0, most=1e9)]
 
 
 class CouplerPoint(Part):
     """A point of the coupler: its distances from B along BC, and across it to the left."""
 
-    along: Offset
-    across: Offset = Given(0.0, 0.0, "mm", "0 mm")
+    along: Coordinate
+    across: Coordinate = Given(0.0, 0.0, "mm", "0 mm")
 
 
 class LinkForce(Part):
     """A force on link 3 at C, in a direction fixed in the plane."""
 
-    P: Size
+    P: ForceSize
     angle: Angle
 
 
@@ -282,11 +269,9 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
     )
 
 
-def _check_turning(draft: Draft) -> Iterator[Finding]:
+@of_parameters
+def _check_turning(given: Parameters) -> Iterator[Finding]:
     """The crank turns fully, without dead points, and link 3 does what the file says of it."""
-    given: Parameters | None = draft.sections.get("parameters")
-    if given is None:
-        return
     linkage = _linkage(given, _sheet(given))
     found = list(reach.findings(linkage, {(2, 3): reach.Member("BC, CD", ("parameters", "BC"))}))
     yield from found
@@ -306,7 +291,7 @@ def machine(assignment: Assignment) -> Machine:
     positions, turn = assignment.positions, assignment.positions.sign
     q = _sheet(given, assignment.drawing.crank)
     linkage, frame, force = _linkage(given, q), given.frame.si, given.force
-    start = frame if positions.start is None else positions.start.si
+    start = positions.start_or(frame)
     points = tuple(point for point in linkage.points if point.link == 2)
     names = [point.name for point in points]
     φ1 = turn * (start + turn * even_angles(positions) - frame)
@@ -316,7 +301,7 @@ def machine(assignment: Assignment) -> Machine:
         q,
         linkage,
         start,
-        formulas=lambda q: analytic_method(q, FourBar(φ1, points, turn, turn * given.side)),
+        formulas=lambda q: analytic_method(q, φ1, points, turn, turn * given.side),
         applied=()
         if force is None
         else (Applied("P3", 3, "C", cmath.rect(1.0, force.angle.si), Constant(force.P.si)),),

@@ -2,38 +2,28 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
-from collections.abc import Iterator
-from dataclasses import replace
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from reportgen.assignment.common import Check, Draft, Part, Positions, increasing, same_length
+from reportgen.assignment.common import Part, Positions, increasing, same_length
 from reportgen.assignment.fields import (
-    CycleAngle,
-    Decimal,
-    Fraction,
-    Interval,
+    CycleAngles,
+    Force,
+    ForceUnit,
+    Fractions,
+    Nodes,
     Pressure,
     PressureUnit,
-    PressureValue,
-    UnitOf,
+    Values,
     quantity,
 )
 from reportgen.catalogue.loads import Constant, Law, Torque, by_angle, by_stroke, crank_motion, opposing
 from reportgen.cycle import STROKES, AngleIndicator, Indicator, StrokeIndicator
-from reportgen.errors import Finding
 from reportgen.mechanism.structure import Linkage
 from reportgen.units import Given
 
-MOST_NODES = 2000
-Fractions = Annotated[tuple[Fraction, ...], Field(min_length=2, max_length=MOST_NODES)]
-
 # --- the indicator diagram of a four-stroke engine --------------------------------------------------
-
-Pressures = Annotated[tuple[PressureValue, ...], Field(min_length=2, max_length=MOST_NODES)]
-CycleAngles = Annotated[tuple[CycleAngle, ...], Field(min_length=2, max_length=MOST_NODES)]
 
 
 class _Diagram(Part):
@@ -42,54 +32,41 @@ class _Diagram(Part):
     reference: Literal["gauge", "absolute"] = "gauge"
     ambient: Pressure = Given(101325.0, 10.1325, "N/cm2", "10.1325 N/cm2")
 
-    @property
-    @abstractmethod
-    def one(self) -> float:
-        """What 1 in the table stands for (Pa)."""
-
-    def gauge(self, row: tuple[float, ...]) -> tuple[float, ...]:
-        """Values of the table as gauge pressures (Pa)."""
+    def gauge(self, row: tuple[float, ...], one: Given) -> tuple[float, ...]:
+        """Values of the table as gauge pressures (Pa), `one` being what 1 stands for."""
         below = self.ambient.si if self.reference == "absolute" else 0.0
-        return tuple(value * self.one - below for value in row)
+        return tuple(value * one.si - below for value in row)
 
 
-class _InUnit(_Diagram):
-    """A table of pressures in one unit."""
-
-    unit: PressureUnit
-
-    @property
-    def one(self) -> float:
-        return self.unit.si
-
-
-class ByStroke(_InUnit):
+class ByStroke(_Diagram):
     """A row of pressures for each stroke, over s/H of the piston."""
 
+    unit: PressureUnit
     by: Literal["stroke"]
     s: Fractions
-    intake: Pressures
-    compression: Pressures
-    expansion: Pressures
-    exhaust: Pressures
+    intake: Values
+    compression: Values
+    expansion: Values
+    exhaust: Values
 
     @property
     def table(self) -> StrokeIndicator:
         """The diagram in gauge pressures (Pa)."""
-        return StrokeIndicator(self.s, *(self.gauge(getattr(self, row)) for row in STROKES))
+        return StrokeIndicator(self.s, *(self.gauge(getattr(self, row), self.unit) for row in STROKES))
 
 
-class ByCrankAngle(_InUnit):
+class ByCrankAngle(_Diagram):
     """Pressures over the cycle angle, from the top dead centre at the start of intake."""
 
+    unit: PressureUnit
     by: Literal["crank_angle"]
     angle: CycleAngles
-    p: Pressures
+    p: Values
 
     @property
     def table(self) -> AngleIndicator:
         """The diagram in gauge pressures (Pa)."""
-        return AngleIndicator(tuple(angle.si for angle in self.angle), self.gauge(self.p))
+        return AngleIndicator(tuple(angle.si for angle in self.angle), self.gauge(self.p, self.unit))
 
 
 class ByOrdinates(_Diagram):
@@ -98,16 +75,12 @@ class ByOrdinates(_Diagram):
     by: Literal["ordinates"]
     scale: Pressure
     angle: CycleAngles
-    height: Pressures
-
-    @property
-    def one(self) -> float:
-        return self.scale.si
+    height: Values
 
     @property
     def table(self) -> AngleIndicator:
         """The diagram in gauge pressures (Pa)."""
-        return AngleIndicator(tuple(angle.si for angle in self.angle), self.gauge(self.height))
+        return AngleIndicator(tuple(angle.si for angle in self.angle), self.gauge(self.height, self.scale))
 
 
 Diagram = Annotated[ByStroke | ByCrankAngle | ByOrdinates, Field(discriminator="by")]
@@ -122,12 +95,7 @@ DIAGRAM_CHECKS = (
 
 # --- a working force on a slider ---------------------------------------------------------------------
 
-Force = Annotated[Given, quantity("N", least=-1e9, most=1e9)]
-ForceUnit = Annotated[Given, UnitOf("N")]
-ForceValue = Annotated[float, Decimal(Interval(least=-1e9, most=1e9))]
-Forces = Annotated[tuple[ForceValue, ...], Field(min_length=2, max_length=MOST_NODES)]
-TurnAngle = Annotated[Given, quantity("deg", least=0, most=360)]
-TurnAngles = Annotated[tuple[TurnAngle, ...], Field(min_length=2, max_length=MOST_NODES)]
+TurnAngles = Annotated[tuple[Annotated[Given, quantity("deg", least=0, most=360)], ...], Nodes]
 
 
 class ConstantForce(Part):
@@ -151,8 +119,8 @@ class OverStroke(Part):
     by: Literal["stroke"]
     unit: ForceUnit
     s: Fractions
-    inward: Forces
-    outward: Forces
+    inward: Values
+    outward: Values
 
     @property
     def table(self) -> Indicator:
@@ -167,7 +135,7 @@ class OverAngle(Part):
     by: Literal["crank_angle"]
     unit: ForceUnit
     angle: TurnAngles
-    F: Forces
+    F: Values
 
     @property
     def table(self) -> Indicator:
@@ -180,7 +148,7 @@ class PressingForce(Part):
 
     unit: ForceUnit
     s: Fractions
-    P: Forces
+    P: Values
 
     @property
     def table(self) -> Indicator:
@@ -192,30 +160,13 @@ class PressingForce(Part):
 WorkingForce = Annotated[ConstantForce | OverStroke | OverAngle, Field(discriminator="by")]
 
 
-def _inside(check: Check, section: str) -> Check:
-    """The check of a section, for a section of the parameters."""
-
-    def nested(draft: Draft) -> Iterator[Finding]:
-        parameters = draft.raw.get("parameters")
-        content = parameters.get(section) if isinstance(parameters, dict) else None
-        for finding in check(Draft({section: content}, {})):
-            yield replace(finding, where=("parameters", *finding.where))
-
-    return nested
-
-
-FORCE_CHECKS = tuple(
-    _inside(check, "force")
-    for check in (
-        same_length("force", "s", ("inward", "outward")),
-        same_length("force", "angle", ("F",)),
-        increasing("force", "s", 0, 1),
-        increasing("force", "angle", 0, 360, "deg"),
-    )
+FORCE_CHECKS = (
+    same_length("parameters.force", "s", ("inward", "outward")),
+    same_length("parameters.force", "angle", ("F",)),
+    increasing("parameters.force", "s", 0, 1),
+    increasing("parameters.force", "angle", 0, 360, "deg"),
 )
-PRESS_CHECKS = tuple(
-    _inside(check, "press") for check in (same_length("press", "s", ("P",)), increasing("press", "s", 0, 1))
-)
+PRESS_CHECKS = (same_length("parameters.press", "s", ("P",)), increasing("parameters.press", "s", 0, 1))
 
 
 # --- a torque on a link ------------------------------------------------------------------------------

@@ -6,12 +6,12 @@ Ground 0, crank 1 (BA), coupler 2 (AC), rocker 3 (DC), rod 4 (EF), slider 5 (at 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Literal
 
-from reportgen.assignment.common import Assignment, Draft, Part, Positions
-from reportgen.assignment.fields import Length, quantity
+from reportgen.assignment.common import Assignment, Part, Positions, of_parameters
+from reportgen.assignment.fields import Coordinate, ForceSize, Length
 from reportgen.catalogue import reach
-from reportgen.catalogue.driven import CRANK_DRAWN, Coordinate, Driven, FixedPoint, GivenSheet, driven
+from reportgen.catalogue.driven import CRANK_DRAWN, Driven, FixedPoint, GivenSheet, driven
 from reportgen.catalogue.loads import Applied, Constant, Law, crank_motion, opposing
 from reportgen.catalogue.machine import Machine
 from reportgen.errors import Finding
@@ -23,13 +23,12 @@ from reportgen.units import Given
 TURNS = 1
 BARS = {1: ("B", "A"), 2: ("A", "C"), 3: ("D", "C"), 4: ("E", "F")}
 """The bars by the pins at their ends."""
-Size = Annotated[Given, quantity("N", least=0, most=1e9)]
 
 
 class SliderForce(Part):
     """A force on the slider along its guide, of one sense or against its motion."""
 
-    P: Size
+    P: ForceSize
     sense: Literal["opposing", "right", "left"] = "opposing"
 
 
@@ -86,11 +85,9 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
     )
 
 
-def _check_turning(draft: Draft) -> Iterator[Finding]:
+@of_parameters
+def _check_turning(given: Parameters) -> Iterator[Finding]:
     """The crank turns fully, without dead points, and CD is a rocker."""
-    given: Parameters | None = draft.sections.get("parameters")
-    if given is None:
-        return
     if given.CE.si > given.AC.si:
         upper = f"≤ AC = {given.AC.text}"
         yield Finding("out-of-range", ("parameters", "CE"), {"text": given.CE.text, "range": upper})
@@ -122,8 +119,7 @@ def machine(assignment: Assignment) -> Machine:
     given: Parameters = assignment.parameters
     positions = assignment.positions
     q = _sheet(given, assignment.drawing.crank)
-    linkage = _linkage(given, q)
-    start = 0.0 if positions.start is None else positions.start.si
+    linkage, start = _linkage(given, q), positions.start_or()
     return driven(
         assignment,
         q,

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.assignment.common import Assignment, Draft, Positions
+from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters, one_of
 from reportgen.catalogue import linkage_checks, linkage_words
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.driven import GivenSheet, needs_loads, outline
@@ -54,22 +54,14 @@ STEPS = 72
 
 def _check_speed(draft: Draft) -> Iterator[Finding]:
     """A crank has a speed, in one way."""
-    parameters = draft.raw.get("parameters")
-    driver = parameters.get("driver") if isinstance(parameters, dict) else None
-    if not isinstance(driver, dict) or driver.get("type") != "crank":
-        return
-    given = [key for key in driver if key in {"n", "omega1"} and driver[key] is not None]
-    if len(given) > 1:
-        both = {"first": given[0], "second": given[1]}
-        yield Finding("both-given", ("parameters", "driver", given[1]), both, at="key")
-    elif not given:
-        yield Finding("missing-key", ("parameters", "driver", "n"), {"key": "n | omega1"})
+    if draft.at("parameters", "driver", "type") == "crank":
+        yield from one_of("parameters.driver", "n", "omega1")(draft)
 
 
-def _check_flywheel(draft: Draft) -> Iterator[Finding]:
+@of_parameters
+def _check_flywheel(given: Parameters) -> Iterator[Finding]:
     """A flywheel turns with a crank."""
-    given: Parameters | None = draft.sections.get("parameters")
-    if given is not None and given.flywheel is not None and isinstance(given.driver, file.SlideDriver):
+    if given.flywheel is not None and isinstance(given.driver, file.SlideDriver):
         yield Finding("flywheel-of-slide", ("parameters", "flywheel"), at="key")
 
 
@@ -83,16 +75,11 @@ def added_positions(parameters: Parameters, positions: Positions) -> int:
     return each * parameters.turns - positions.count
 
 
-def _start(positions: Positions) -> float:
-    """The crank's angle at the first position: along +x unless the file says otherwise."""
-    return 0.0 if positions.start is None else positions.start.si
-
-
 def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...], tuple[str, ...]]:
     """Uneven positions and their labels; none where every position is an even one."""
     if not given.also_at or not isinstance(given.driver, file.CrankDriver):
         return (), ()
-    extra = (positions.sign * (angle.si - _start(positions)) for angle in dict.fromkeys(given.also_at))
+    extra = (positions.sign * (angle.si - positions.start_or()) for angle in dict.fromkeys(given.also_at))
     return lettered(positions.count, given.turns, extra)
 
 
@@ -105,7 +92,7 @@ def machine(assignment: Assignment) -> Machine:
     positions, driver, linkage = assignment.positions, given.driver, given.linkage
     places, labels = _places(given, positions)
     crank = isinstance(driver, file.CrankDriver)
-    start, turn, span = _start(positions), positions.sign, 0.0
+    start, turn, span = positions.start_or(), positions.sign, 0.0
     if isinstance(driver, file.SlideDriver):
         start, span = driver.start.si, driver.span
         turn = 1 if driver.end.si > start else -1
@@ -209,11 +196,12 @@ def _loads(given: file.Parameters, linkage: Linkage, motion_at: MotionAt) -> tup
         link = load.link
         if isinstance(load, file.OverStroke | file.Gas):
             found.append(_on_slider(load, given, linkage, motion_at, _name("P", link, found)))
-        elif load.at is None:
-            found.append(Torque(_name("M", link, found), link, _turning(load, given.driver, motion_at)))
+            continue
+        direction = cmath.exp(1j * load.direction.si)
+        law = _law(load, direction, given.driver, motion_at)
+        if load.at is None:
+            found.append(Torque(_name("M", link, found), link, law))
         else:
-            direction = cmath.exp(1j * load.direction.si)
-            law = _pushing(load, load.at, direction, given.driver, motion_at)
             found.append(Applied(_name("P", link, found), link, load.at, direction, law))
     return tuple(found)
 
@@ -239,42 +227,29 @@ def _on_slider(
     return Applied(name, load.link, dyad.middle, cmath.exp(1j * guide.angle), TableLaw(way, table, turns=1))
 
 
-def _pushing(
-    load: file.Constant | file.OverAngle | file.OverWay,
-    point: str,
-    direction: complex,
-    driver: file.Driver,
-    motion_at: MotionAt,
+def _law(
+    load: file.Constant | file.OverAngle | file.OverWay, direction: complex, driver: file.Driver, motion_at: MotionAt
 ) -> Law:
+    """How a force along `direction` varies, or a torque where the load has no point."""
     if not isinstance(load, file.Constant):
-        return _by_driver(load, load.unit.si if load.unit else 1.0, driver)
-    assert load.F is not None
+        unit = load.torque_unit if load.at is None else load.unit
+        assert unit is not None, "a table without its unit is refused by the kind's checks"
+        values = tuple(value * unit.si for value in load.values)
+        if isinstance(load, file.OverAngle):
+            return AngleLaw(tuple(angle.si for angle in load.angle), values)
+        assert isinstance(driver, file.SlideDriver), "a file with another driver is refused by the kind's checks"
+        return WayLaw(tuple(way.si for way in load.way), values, driver.span)
+    size = load.M if load.at is None else load.F
+    assert size is not None, "a load without its size is refused by the kind's checks"
+    if not load.against:
+        return Constant(size.si)
 
     def rate(motion: Motion) -> Floats:
-        return np.asarray(np.real(np.conj(direction) * motion.points[point].v))
+        if load.at is None:
+            return motion.links[load.link].omega
+        return np.asarray(np.real(np.conj(direction) * motion.points[load.at].v))
 
-    return _constant(load, load.F.si, rate, motion_at)
-
-
-def _turning(load: file.Constant | file.OverAngle | file.OverWay, driver: file.Driver, motion_at: MotionAt) -> Law:
-    if not isinstance(load, file.Constant):
-        return _by_driver(load, load.torque_unit.si if load.torque_unit else 1.0, driver)
-    assert load.M is not None
-    return _constant(load, load.M.si, lambda motion: motion.links[load.link].omega, motion_at)
-
-
-def _constant(load: file.Constant, size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt) -> Law:
-    if not load.against:
-        return Constant(size)
-    found = opposing(abs(size), lambda angle: rate(motion_at(angle)))
+    found = opposing(abs(size.si), lambda angle: rate(motion_at(angle)))
     # A crank has an angular velocity of its own, a slide has none.
     turns = bool(np.any(motion_at(np.zeros(1)).links[DRIVER].omega))
-    return found if turns else Resistance(abs(size), rate, found.reversals)
-
-
-def _by_driver(load: file.OverAngle | file.OverWay, one: float, driver: file.Driver) -> Law:
-    values = tuple(value * one for value in load.values)
-    if isinstance(load, file.OverAngle):
-        return AngleLaw(tuple(angle.si for angle in load.angle), values)
-    assert isinstance(driver, file.SlideDriver), "a file with another driver is refused by the kind's checks"
-    return WayLaw(tuple(way.si for way in load.way), values, driver.span)
+    return found if turns else Resistance(abs(size.si), rate, found.reversals)

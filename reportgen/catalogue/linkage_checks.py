@@ -49,9 +49,8 @@ def _of_a_crank(draft: Draft, given: file.Parameters) -> Iterator[Finding]:
     if not isinstance(given.driver, file.SlideDriver):
         return
     for section, keys in (("positions", ("start", "direction")), ("drawing", ("crank",)), TURNING):
-        written = draft.raw.get(section)
         for key in keys:
-            if isinstance(written, dict) and written.get(key) is not None:
+            if draft.at(section, key) is not None:
                 yield Finding("no-crank", (section, key), {"key": key}, at="key")
 
 
@@ -110,14 +109,10 @@ def _structure(given: file.Parameters) -> Iterator[Finding]:
     for name, point in given.points.items():
         if point.link not in placed.links:
             where = (*TOP, "points", name, "link")
-            yield Finding("no-such-link", where, {"text": str(point.link), "known": _moving(placed)})
+            yield Finding("no-such-link", where, {"text": str(point.link), "known": _listed(placed.links - {GROUND})})
     for index, name in enumerate(given.paths):
         if name not in placed.points:
             yield from placed.need(name, (*TOP, "paths", index))
-
-
-def _moving(placed: _Placed) -> str:
-    return _listed(placed.links - {GROUND})
 
 
 def _fixed_points(given: file.Parameters, link: int, placed: _Placed) -> Iterator[Finding]:
@@ -137,8 +132,8 @@ def _group(given: file.Parameters, group: file.Group, at: Where, placed: _Placed
     for index, name in enumerate(group.joints):
         if index != middle:
             yield from placed.need(name, (*joints, index))
-    for guide, where in _guides(group, at):
-        yield from placed.carrier(guide.on, (*where, "on"))
+    for _, guide, where in file.rails(group):
+        yield from placed.carrier(guide.on, (*at, *where, "on"))
     yield from placed.enter(group.joints[middle], (*joints, middle))
     if group.type == "RPR":
         placed.passing.add(group.joints[middle])
@@ -155,20 +150,11 @@ def _pins(given: file.Parameters) -> dict[int, set[str]]:
     if isinstance(driver, file.CrankDriver):
         found[DRIVER].add(driver.centre)
     for group in given.groups:
-        first, second = group.links
-        names = group.joints
-        match group.type:
-            case "RRR":
-                own: tuple[set[str], set[str]] = {names[0], names[1]}, {names[1], names[2]}
-            case "RRP":
-                own = {names[0], names[1]}, {names[1]}
-            case "RPR":
-                own = {names[0]}, {names[2]}
-            case "PRP":
-                own = {names[0]}, {names[0]}
-            case _:
-                own = {names[0]}, {names[1]}
-        found[first], found[second] = own
+        dyad = group.dyad
+        pinned = {"RPR": (), "RPP": dyad.links[1:]}.get(dyad.kind, dyad.links)
+        for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True):
+            found[link] = {end} if isinstance(end, str) else set()
+            found[link] |= {dyad.middle} if link in pinned else set()
     for name, point in given.points.items():
         found.setdefault(point.link, set()).add(name)
     return found
@@ -203,7 +189,8 @@ def _bodies(given: file.Parameters) -> Iterator[Finding]:
 
 def _loads(given: file.Parameters) -> Iterator[Finding]:
     pins = _pins(given)
-    sliders = {link for group in given.groups for link in _rail_links(group)}
+    rails = (rail for group in given.groups for rail in file.rails(group))
+    sliders = {link for link, guide, _ in rails if guide.on == GROUND}
     for index, load in enumerate(given.loads):
         at = (*TOP, "loads", index)
         slides = isinstance(given.driver, file.SlideDriver)
@@ -217,7 +204,7 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
             if load.link not in sliders:
                 yield Finding("no-slider", (*at, "link"), {"text": str(load.link), "known": _listed(sliders) or "–"})
             if isinstance(load, file.OverStroke):
-                yield from _table(at, "s", load.s, (1.0,), inward=load.inward, outward=load.outward)
+                yield from _table(at, "s", load.s, 1.0, inward=load.inward, outward=load.outward)
             elif given.turns != 2:
                 yield Finding("gas-needs-two-turns", (*at, "by"))
             continue
@@ -225,11 +212,11 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
         if not isinstance(load, file.Constant):
             if isinstance(load, file.OverAngle):
                 angles = tuple(math.degrees(angle.si) for angle in load.angle)
-                yield from _table(at, "angle", angles, (360.0 * given.turns,), " deg", values=load.values)
+                yield from _table(at, "angle", angles, 360.0 * given.turns, " deg", values=load.values)
             else:
                 assert isinstance(given.driver, file.SlideDriver)
                 ways = tuple(way.si * 1e3 for way in load.way)
-                yield from _table(at, "way", ways, (given.driver.span * 1e3,), " mm", values=load.values)
+                yield from _table(at, "way", ways, given.driver.span * 1e3, " mm", values=load.values)
             key, other = ("unit", "torque_unit") if load.at else ("torque_unit", "unit")
             if getattr(load, key) is None:
                 yield Finding("missing-key", at, {"key": key})
@@ -243,15 +230,8 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
                 yield Finding("force-or-torque", (*at, other), at="key")
 
 
-def _rail_links(group: file.Group) -> list[int]:
-    if isinstance(group, file.PRP):
-        return [link for link, guide in zip(group.links, group.guides, strict=True) if guide.on == GROUND]
-    on_frame = isinstance(group, file.RRP | file.RPP) and group.guide.on == GROUND
-    return [group.links[1]] if on_frame else []
-
-
 def _table(
-    at: Where, key: str, nodes: tuple[float, ...], last: tuple[float], unit: str = "", **rows: tuple[float, ...]
+    at: Where, key: str, nodes: tuple[float, ...], last: float, unit: str = "", **rows: tuple[float, ...]
 ) -> Iterator[Finding]:
     """Nodes grow from 0 to `last` and every row has a value for each."""
     for name, row in rows.items():
@@ -262,8 +242,8 @@ def _table(
     if fall is not None:
         yield Finding("not-increasing", (*at, key, fall), {"key": key})
         return
-    for index, wanted in ((0, 0.0), (len(nodes) - 1, last[0])):
-        if abs(nodes[index] - wanted) > 1e-9 * last[0]:
+    for index, wanted in ((0, 0.0), (len(nodes) - 1, last)):
+        if abs(nodes[index] - wanted) > 1e-9 * last:
             yield Finding("table-end", (*at, key, index), {"key": key, "end": f"{wanted:g}{unit}"})
 
 
@@ -291,13 +271,6 @@ def _declared(given: file.Parameters) -> Iterator[Finding]:
 # --- assembly -------------------------------------------------------------------------------------
 
 
-def _guides(group: file.Group, at: Where) -> list[tuple[file.GuideSection, Where]]:
-    """The guides of a group, each with its place in the file."""
-    if isinstance(group, file.PRP):
-        return [(guide, (*at, "guides", index)) for index, guide in enumerate(group.guides)]
-    return [(group.guide, (*at, "guide"))] if isinstance(group, file.RRP | file.RPP) else []
-
-
 def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]:
     """The first group that does not follow the driver; else blocks that leave their slots, sliders of tables."""
     made = given.linkage
@@ -312,7 +285,7 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
     yield from found
     if found:
         return
-    motion_at = crank_motion(made, positions, 0.0 if positions.start is None else positions.start.si)
+    motion_at = crank_motion(made, positions, positions.start_or())
     yield from _slots(given, made, motion_at(np.linspace(0.0, 2 * np.pi, STEPS + 1)))
     for index, load in enumerate(given.loads):
         if isinstance(load, file.OverStroke | file.Gas):
@@ -353,13 +326,7 @@ def _slots(given: file.Parameters, made: Linkage, motion: Motion) -> Iterator[Fi
     for index, group in enumerate(given.groups):
         at = (*TOP, "groups", index)
         i, j = group.links
-        watched = [
-            (guide, where, (guide.on, link))
-            for (guide, where), link in zip(
-                _guides(group, at), group.links if group.type == "PRP" else (j,), strict=False
-            )
-        ]
-        ways = [(guide.slot, (*where, "slot"), key) for guide, where, key in watched]
+        ways = [(guide.slot, (*at, *where, "slot"), (guide.on, link)) for link, guide, where in file.rails(group)]
         if isinstance(group, file.RPR):
             ways.append((group.slot, (*at, "slot"), (j, i)))
         for slot, where, key in ways:

@@ -14,27 +14,33 @@ from reportgen.assignment.fields import (
     Acceleration,
     Angle,
     AngularVelocity,
-    Decimal,
-    Interval,
+    Coordinate,
+    CycleAngles,
+    Force,
+    ForceUnit,
+    Fractions,
     Length,
     Mass,
     MomentOfInertia,
+    Nodes,
+    Offset,
     Reader,
     RotationalSpeed,
     UnitOf,
+    Values,
     Weight,
     Whole,
     fault,
     quantity,
 )
 from reportgen.catalogue.driven import Flywheel
-from reportgen.catalogue.given_loads import CycleAngles, Diagram, Fractions
-from reportgen.mechanism.structure import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
+from reportgen.catalogue.given_loads import Diagram
+from reportgen.errors import Where
+from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 from reportgen.units import Given
 
 MOST_GROUPS = 12
 MOST_NAMES = 60
-MOST_NODES = 2000
 LAST_LINK = 40
 _NAME = re.compile(r"[A-OR-Z][0-9]{0,2}|[PQ][0-9]{1,2}")
 
@@ -56,16 +62,9 @@ Name = Annotated[str, PointName()]
 Link = Annotated[int, Whole(1, LAST_LINK)]
 Carrier = Annotated[int, Whole(0, LAST_LINK)]
 GroupLink = Annotated[int, Whole(2, LAST_LINK)]
-Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
 Speed = Annotated[Given, quantity("m/s", above=0, most=1e3)]
-Force = Annotated[Given, quantity("N", least=-1e9, most=1e9)]
 Torque = Annotated[Given, quantity("N m", least=-1e9, most=1e9)]
-Row = Annotated[
-    tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9))], ...], Field(min_length=2, max_length=MOST_NODES)
-]
-DriverWays = Annotated[
-    tuple[Annotated[Given, quantity("mm", least=0, below=1e5)], ...], Field(min_length=2, max_length=MOST_NODES)
-]
+DriverWays = Annotated[tuple[Offset, ...], Nodes]
 
 NOWHERE = Given(0.0, 0.0, "mm", "0 mm")
 LEVEL = Given(0.0, 0.0, "deg", "0 deg")
@@ -253,7 +252,16 @@ class RPP(Part):
 
 
 Group = Annotated[RRR | RRP | RPR | PRP | RPP, Field(discriminator="type")]
-ORDER: tuple[DyadKind, ...] = ("RRR", "RRP", "RPR", "PRP", "RPP")
+
+
+def rails(group: Group) -> list[tuple[int, GuideSection, Where]]:
+    """The guides of a group: the link that slides on each, the guide, its place in the group's section."""
+    match group:
+        case PRP(links=links, guides=guides):
+            return [(links[index], guide, ("guides", index)) for index, guide in enumerate(guides)]
+        case RRP() | RPP():
+            return [(group.links[1], group.guide, ("guide",))]
+    return []
 
 
 # --- points, masses, loads ------------------------------------------------------------------------
@@ -299,10 +307,10 @@ class OverAngle(Part):
     link: Link
     at: Name | None = None
     direction: Angle = LEVEL
-    unit: Annotated[Given, UnitOf("N")] | None = None
+    unit: ForceUnit | None = None
     torque_unit: Annotated[Given, UnitOf("N m")] | None = None
     angle: CycleAngles
-    values: Row
+    values: Values
 
 
 class OverWay(Part):
@@ -312,10 +320,10 @@ class OverWay(Part):
     link: Link
     at: Name | None = None
     direction: Angle = LEVEL
-    unit: Annotated[Given, UnitOf("N")] | None = None
+    unit: ForceUnit | None = None
     torque_unit: Annotated[Given, UnitOf("N m")] | None = None
     way: DriverWays
-    values: Row
+    values: Values
 
 
 class OverStroke(Part):
@@ -323,10 +331,10 @@ class OverStroke(Part):
 
     by: Literal["stroke"]
     link: Link
-    unit: Annotated[Given, UnitOf("N")]
+    unit: ForceUnit
     s: Fractions
-    inward: Row
-    outward: Row
+    inward: Values
+    outward: Values
 
 
 class Gas(Part):

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from reportgen.catalogue import linkage_file as file
-from reportgen.mechanism.structure import DyadKind
+from reportgen.mechanism.structure import DyadKind, Guide
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Number
 from reportgen.units import Given
@@ -22,8 +23,8 @@ class GroupRow:
     links: tuple[int, int]
     kind: DyadKind
     joints: tuple[str, ...]
-    lengths: tuple[tuple[str, Number], ...]
-    choice: str
+    lengths: tuple[tuple[str, Number], ...] = ()
+    choice: str = ""
     """Which of two ways it is assembled: left, right, far, near, towards, away, or ""."""
     offset: Number | None = None
     across: Number | None = None
@@ -80,7 +81,7 @@ class MotionRow:
 
 def facts(given: file.Parameters, loads: tuple[str, ...]) -> dict[str, Any]:
     """What the words of the kind name; `loads` are the ids of the loads in the order of the file."""
-    rows = groups(given)
+    rows = tuple(map(_group, given.groups))
     crank = given.driver
     arms = [f"{crank.centre}{crank.pin}"] if isinstance(crank, file.CrankDriver) else []
     arms += [rod for row in rows for rod, _ in row.lengths]
@@ -90,8 +91,8 @@ def facts(given: file.Parameters, loads: tuple[str, ...]) -> dict[str, Any]:
         "frame": [(vocabulary.point(name), *map(number, at)) for name, at in given.frame.items()],
         "quantities": tuple(_quantities(given, rows)),
         "groups": rows,
-        "guides": guides(given),
-        "points": points(given),
+        "guides": tuple(_guides(given)),
+        "points": tuple(PointRow(name, one.link, *map(number, one.at)) for name, one in given.points.items()),
         "motions": tuple(_motions(given)),
         "arms": arms,
         "bodies": bool(given.masses),
@@ -123,10 +124,7 @@ def _origins(given: file.Parameters) -> dict[int, str]:
     driver = given.driver
     found = {1: driver.centre if isinstance(driver, file.CrankDriver) else driver.pin}
     for group in given.groups:
-        first, second = group.links
-        names = group.joints
-        found[first] = names[0]
-        found[second] = names[2] if len(names) == 3 else names[-1]
+        found |= dict(zip(group.links, (group.joints[0], group.joints[-1]), strict=True))
     return found
 
 
@@ -134,22 +132,14 @@ def _motions(given: file.Parameters) -> Iterator[MotionRow]:
     # Links that do not turn: the frame, a sliding driver, and what slides on such a link.
     level = {0} if isinstance(given.driver, file.CrankDriver) else {0, 1}
     for group in given.groups:
-        names = group.joints
-        ends: list[str | file.GuideSection]
-        match group:
-            case file.RRR() | file.RPR():
-                ends = [names[0], names[2]]
-            case file.PRP():
-                ends = list(group.guides)
-            case _:
-                ends = [names[0], group.guide]
+        dyad = group.dyad
         turns_alike = isinstance(group, file.RPP) and group.guide.on in level
-        for link, end in zip(group.links, ends, strict=True):
-            slides_level = isinstance(end, file.GuideSection) and end.on in level
+        for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True):
+            slides_level = isinstance(end, Guide) and end.link in level
             if turns_alike or slides_level:
                 level.add(link)
-            if isinstance(end, file.GuideSection):
-                yield MotionRow(link, "translation" if end.on == 0 else "shift" if slides_level else "plane")
+            if isinstance(end, Guide):
+                yield MotionRow(link, "translation" if end.link == 0 else "shift" if slides_level else "plane")
             elif turns_alike:
                 yield MotionRow(link, "shift")
             else:
@@ -161,50 +151,31 @@ def number(given: Given) -> Number:
     return Number(given.value, unit=UNITS.get(given.unit, given.unit))
 
 
-def groups(given: file.Parameters) -> tuple[GroupRow, ...]:
-    return tuple(map(_group, given.groups))
-
-
 def _group(group: file.Group) -> GroupRow:
-    links, joints = (group.links[0], group.links[1]), group.joints
+    joints = group.joints
+    row = partial(GroupRow, group.dyad.links, group.type, joints)
     match group:
         case file.RRR():
             ends = f"{joints[0]}{joints[1]}", f"{joints[2]}{joints[1]}"
-            lengths = tuple(zip(ends, map(number, group.lengths), strict=True))
-            return GroupRow(links, "RRR", joints, lengths, group.side)
+            return row(tuple(zip(ends, map(number, group.lengths), strict=True)), group.side)
         case file.RRP():
-            rod = f"{joints[0]}{joints[1]}", number(group.length)
-            return GroupRow(links, "RRP", joints, (rod,), group.end)
+            return row(((f"{joints[0]}{joints[1]}", number(group.length)),), group.end)
         case file.RPR():
-            offset = number(group.offset) if group.offset.si else None
-            return GroupRow(links, "RPR", joints, (), group.axis, offset=offset)
+            return row(choice=group.axis, offset=number(group.offset) if group.offset.si else None)
         case file.RPP():
-            return GroupRow(links, "RPP", joints, (), "", across=number(group.across))
-    return GroupRow(links, "PRP", joints, (), "")
-
-
-def guides(given: file.Parameters) -> tuple[GuideRow, ...]:
-    return tuple(_guides(given))
+            return row(across=number(group.across))
+    return row()
 
 
 def _guides(given: file.Parameters) -> Iterator[GuideRow]:
     if isinstance(given.driver, file.SlideDriver):
         yield _guide(1, given.driver.guide)
     for group in given.groups:
-        if isinstance(group, file.PRP):
-            yield from (_guide(link, guide) for link, guide in zip(group.links, group.guides, strict=True))
-        elif isinstance(group, file.RRP | file.RPP):
-            yield _guide(group.links[1], group.guide)
+        yield from (_guide(link, guide) for link, guide, _ in file.rails(group))
 
 
 def _guide(slider: int, guide: file.GuideSection) -> GuideRow:
-    return GuideRow(slider, guide.on, number(guide.at[0]), number(guide.at[1]), number(guide.angle))
-
-
-def points(given: file.Parameters) -> tuple[PointRow, ...]:
-    return tuple(
-        PointRow(name, point.link, number(point.at[0]), number(point.at[1])) for name, point in given.points.items()
-    )
+    return GuideRow(slider, guide.on, *map(number, (*guide.at, guide.angle)))
 
 
 def _load(load: file.Loading, name: str) -> LoadRow:
@@ -213,20 +184,10 @@ def _load(load: file.Loading, name: str) -> LoadRow:
             return LoadRow(name, load.link, "stroke", False, nodes=load.s, rows=(load.inward, load.outward))
         case file.Gas():
             return LoadRow(name, load.link, "gas", False, bore=number(load.D))
-        case file.OverAngle() | file.OverWay():
-            given = load.angle if isinstance(load, file.OverAngle) else load.way
-            nodes = tuple(node.value for node in given)
-            torque, way = load.at is None, number(load.direction)
-            return LoadRow(name, load.link, load.by, torque, load.at or "", way, nodes=nodes, rows=(load.values,))
-    size = load.F or load.M
-    assert size is not None
-    return LoadRow(
-        name,
-        load.link,
-        "constant",
-        load.at is None,
-        load.at or "",
-        number(load.direction),
-        number(size),
-        load.against is not None,
-    )
+    torque, way = load.at is None, number(load.direction)
+    if isinstance(load, file.Constant):
+        size = load.F or load.M
+        assert size is not None
+        return LoadRow(name, load.link, load.by, torque, load.at or "", way, number(size), load.against is not None)
+    nodes = tuple(node.value for node in (load.angle if isinstance(load, file.OverAngle) else load.way))
+    return LoadRow(name, load.link, load.by, torque, load.at or "", way, nodes=nodes, rows=(load.values,))

@@ -17,17 +17,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.assignment.common import Positions
-from reportgen.cycle import AngleIndicator, Cutting, Indicator, StrokeIndicator
+from reportgen.cycle import AngleIndicator, Indicator, StrokeIndicator, crossings
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
 
 Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 FULL_TURN = 2 * np.pi
 STEPS = 720
 """Steps of a turn in which a link is watched for turning back."""
 HALVINGS = 50
 ROUND = 1e-9
 """Angles (rad) this near below the end of the cycle, or below a turning point, belong to what begins there."""
+
+EDGE = 1e-9
+"""A share of the stroke this near to the tool's way in or out is rounding of it."""
 
 MotionAt = Callable[[Floats], Motion]
 """The machine's motion at cycle angles [N] that grow from one to the next."""
@@ -163,17 +167,29 @@ class WayLaw:
 
 @dataclass(frozen=True)
 class CuttingLaw:
-    """The cutting force on the ram over the machine's cycle angles."""
+    """`force` (N) on the ram while the tool cuts, which it does on the way from the top of the ram's `course`.
+
+    It runs free over the share `free` of the stroke at each end of that way.
+    """
 
     course: Course
-    cutting: Cutting
+    force: float
+    free: float
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
-        return self.cutting.at(self.course.phase + angle, self.course.fraction(motion))
+        """The force (N) [N]; at a dead centre that of the stroke which begins there."""
+        turned = np.mod(self.course.phase + angle + ROUND, FULL_TURN) - ROUND
+        working = turned < self.course.bottom_angle - ROUND
+        share = self.course.fraction(motion)
+        cuts = (share >= self.free - EDGE) & (share <= 1 - self.free + EDGE)
+        return np.where(working & cuts, self.force, 0.0)
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
-        corners = self.cutting.breaks(self.course.share_at(motion_at))
-        return (corner - self.course.phase for corner in corners)
+        course, corners = self.course, np.array([0.0, self.course.bottom_angle])
+        if self.free:
+            wanted, share_at = np.array([self.free, 1 - self.free]), course.share_at(motion_at)
+            corners = crossings(lambda angle: share_at(angle) - wanted, np.zeros(2), np.full(2, course.bottom_angle))
+        return (corner - course.phase for corner in corners)
 
 
 @dataclass(frozen=True)
@@ -226,22 +242,23 @@ def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
     """What resists a `rate` over the cycle angle (0…2π) with a constant size."""
     edges = np.linspace(0.0, FULL_TURN, STEPS + 1) - FULL_TURN / STEPS / np.pi
     signs = np.sign(rate(edges))
-    low, high = (edges[chosen] for chosen in _around(signs))
-    first = signs[_around(signs)[0]]
-    for _ in range(HALVINGS if low.size else 0):
-        middle = (low + high) / 2
-        same = np.sign(rate(middle)) == first
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    changes = np.flatnonzero(signs[1:] != signs[:-1])
+    first = signs[changes]
+    halvings = HALVINGS if changes.size else 0
+    _, high = halved(edges[changes], edges[changes + 1], lambda angle: np.sign(rate(angle)) == first, halvings)
     found = np.sort(np.mod(high + ROUND, FULL_TURN) - ROUND)
     # The first of them in the turn is where the sign before it ends.
     after = rate(np.array([(found[0] + found[1]) / 2])) if found.size > 1 else -rate(np.array([0.0]))
     return Opposing(size, tuple(map(float, found)), -float(np.sign(after[0])))
 
 
-def _around(signs: Floats) -> tuple[np.ndarray, np.ndarray]:
-    """Indices on both sides of every change of sign."""
-    changes = np.flatnonzero(signs[1:] != signs[:-1])
-    return changes, changes + 1
+def halved(low: Floats, high: Floats, before: Callable[[Floats], Flags], times: int) -> tuple[Floats, Floats]:
+    """The intervals [N] from `low` to `high` halved so often, each towards where `before` ends to be true."""
+    for _ in range(times):
+        middle = (low + high) / 2
+        same = before(middle)
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return low, high
 
 
 # --- sliders of a linkage ---------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.catalogue.loads import FULL_TURN, MotionAt, NotToAndFro, course
+from reportgen.catalogue.loads import FULL_TURN, MotionAt, NotToAndFro, course, halved
 from reportgen.errors import Finding, Where
 from reportgen.mechanism.dyads import SINGULAR, Complexes, Floats, cross, unit
 from reportgen.mechanism.motion import Motion, solve_motion
@@ -167,13 +167,8 @@ def _gap(clear: Clear, places: Floats, inside: np.ndarray) -> tuple[float, float
 
 def _edge(clear: Clear, inside: float, outside: float) -> float:
     """The place between a reachable and an unreachable one at which the links just reach each other."""
-    for _ in range(HALVINGS):
-        middle = (inside + outside) / 2
-        if clear(np.array([middle]))[0] >= 0:
-            inside = middle
-        else:
-            outside = middle
-    return inside
+    reached, _ = halved(np.array([inside]), np.array([outside]), lambda place: clear(place) >= 0, HALVINGS)
+    return float(reached[0])
 
 
 def _least(clear: Clear, way: Way, places: Floats, found: Floats) -> tuple[float, float]:

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator
 from typing import Annotated
 
-from reportgen.assignment.common import Assignment, Draft, Part
+from reportgen.assignment.common import Assignment, Part, of_parameters
 from reportgen.assignment.fields import Interval, Length, Ratio, Share, quantity
 from reportgen.catalogue import reach, slotted
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
@@ -17,7 +17,6 @@ from reportgen.catalogue.loads import Applied, CuttingLaw
 from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.slotted import HIGHEST, Ram, SlottedCrank
-from reportgen.cycle import Cutting
 from reportgen.errors import Finding
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import nice_up
@@ -89,11 +88,9 @@ def _geometry(given: Parameters, q: GivenSheet, turn: int) -> Ram:
     return Ram(crank, q.si("l.CD"), q.si("l.DE"), q.si("b"))
 
 
-def _check_assembly(draft: Draft) -> Iterator[Finding]:
+@of_parameters
+def _check_assembly(given: Parameters) -> Iterator[Finding]:
     """The rocker swings, the block stays in it, and link 4 reaches from D to the ram's line all through the turn."""
-    given: Parameters | None = draft.sections.get("parameters")
-    if given is None:
-        return
     geometry = _geometry(given, _sheet(given), 1)
     crank = geometry.crank.r
     block = {"block": "2", "link": "3", "group": "(2, 3)", "pivot": "C"}
@@ -131,7 +128,7 @@ def machine(assignment: Assignment) -> Machine:
 
     applied: tuple[Applied, ...] = ()
     if cutting is not None:
-        law = CuttingLaw(course, Cutting(cutting.F.si, course.bottom_angle, cutting.free.si))
+        law = CuttingLaw(course, cutting.F.si, cutting.free.si)
         applied = (Applied("P5", 5, "E", -course.inward, law),)
     return driven(
         assignment,

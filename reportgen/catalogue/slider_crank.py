@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator
-from typing import Annotated
 
-from reportgen.assignment.common import Assignment, Draft
-from reportgen.assignment.fields import Angle, Length, Share, quantity
+from reportgen.assignment.common import Assignment, of_parameters
+from reportgen.assignment.fields import Angle, Coordinate, Length, Share
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.driven import MIDDLE, Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.loads import Applied, TableLaw
@@ -27,7 +26,6 @@ from reportgen.errors import Finding
 from reportgen.units import Given
 
 TURNS = 1
-Offset = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
 
 
 class Parameters(Driven, masses=(2, 3), moments=(2,), loads=("force",)):
@@ -35,16 +33,16 @@ class Parameters(Driven, masses=(2, 3), moments=(2,), loads=("force",)):
 
     r: Length
     l: Length  # noqa: E741 - the length's own letter
-    e: Offset = Given(0.0, 0.0, "mm", "0 mm")
+    e: Coordinate = Given(0.0, 0.0, "mm", "0 mm")
     guide: Angle = Given(0.0, 0.0, "deg", "0 deg")
     s: Share | None = None
     force: given_loads.WorkingForce | None = None
 
 
-def _check_turning(draft: Draft) -> Iterator[Finding]:
+@of_parameters
+def _check_turning(given: Parameters) -> Iterator[Finding]:
     """The crank turns fully: l > r + |e|."""
-    given = draft.sections.get("parameters")
-    if given is not None and given.l.si <= given.r.si + abs(given.e.si):
+    if given.l.si <= given.r.si + abs(given.e.si):
         least = f"> r + |e| = {(given.r.si + abs(given.e.si)) * 1e3:g} mm"
         yield Finding("out-of-range", ("parameters", "l"), {"text": given.l.text, "range": least})
 

@@ -20,7 +20,7 @@ from functools import partial
 
 import numpy as np
 
-from reportgen.catalogue.loads import FULL_TURN, Course, Floats
+from reportgen.catalogue.loads import FULL_TURN, Course, Floats, halved
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol, asin, cos, sin, sqrt, tan
 from reportgen.notation.sheet import Sheet
@@ -161,10 +161,7 @@ class OffsetSlider:
         low = np.array([self.stretched, self.folded])
         high = np.array([self.folded, self.stretched + FULL_TURN])
         before = self.acceleration(low)
-        for _ in range(HALVINGS):
-            middle = (low + high) / 2
-            same = before * self.acceleration(middle) > 0
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        low, _ = halved(low, high, lambda phi: before * self.acceleration(phi) > 0, HALVINGS)
         return float(low[0]), float(low[1])
 
     def course(self, start: float, turns: int) -> Course:

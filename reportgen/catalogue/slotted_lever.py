@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from reportgen.assignment.common import Assignment, Draft
+from reportgen.assignment.common import Assignment, of_parameters
 from reportgen.assignment.fields import Angle, Length
 from reportgen.catalogue import slotted
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
@@ -38,11 +38,9 @@ class Parameters(Driven, masses=(2, 3), moments=(3,), shares=(3,), loads=("torqu
     torque: LinkTorque | None = None
 
 
-def _check_block(draft: Draft) -> Iterator[Finding]:
+@of_parameters
+def _check_block(given: Parameters) -> Iterator[Finding]:
     """The block stays on the lever, and clear of the lever's own pivot."""
-    given: Parameters | None = draft.sections.get("parameters")
-    if given is None:
-        return
     geometry = SlottedCrank(given.AB.si, given.AC.si, given.axis.si, 1)
     if given.AB.si == given.AC.si:
         near = math.degrees(geometry.crank_angle(-math.pi / 2)) % 360

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator
 from typing import Literal
 
-from reportgen.assignment.common import Assignment, Draft, Positions
+from reportgen.assignment.common import Assignment, Positions, of_parameters
 from reportgen.assignment.fields import Length
 from reportgen.catalogue import given_loads, reach
 from reportgen.catalogue.driven import Driven, FixedPoint, GivenSheet, driven, even_angles, natural_lines
@@ -65,11 +65,9 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
     )
 
 
-def _check_turning(draft: Draft) -> Iterator[Finding]:
+@of_parameters
+def _check_turning(given: Parameters) -> Iterator[Finding]:
     """The crank turns fully, without dead points, B stays below D, and the slider goes once down and up."""
-    given: Parameters | None = draft.sections.get("parameters")
-    if given is None:
-        return
     linkage = _linkage(given, _sheet(given))
     members = {(2, 3): reach.Member("AB, BD", ("parameters", "AB")), (4, 5): reach.Member("BC", ("parameters", "BD"))}
     motion_at = crank_motion(linkage, Positions(), 0.0)
@@ -89,7 +87,7 @@ def machine(assignment: Assignment) -> Machine:
     given: Parameters = assignment.parameters
     positions, turn, press = assignment.positions, assignment.positions.sign, given.press
     q = _sheet(given, assignment.drawing.crank)
-    linkage, start = _linkage(given, q), 0.0 if positions.start is None else positions.start.si
+    linkage, start = _linkage(given, q), positions.start_or()
     minus = (given.B == "left") == (turn > 0)
     sliders = () if press is None else (course(linkage, 5, crank_motion(linkage, positions, start)),)
 

@@ -13,7 +13,7 @@ import typer
 from reportgen.errors import AssignmentError, ReportgenError
 from reportgen.notation.numbers import Language
 
-AT_FAULT, USAGE, SYSTEM, INTERRUPTED = 1, 2, 3, 130
+AT_FAULT, SYSTEM, INTERRUPTED = 1, 3, 130
 
 app = typer.Typer(
     name="reportgen",

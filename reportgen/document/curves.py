@@ -9,18 +9,38 @@ import numpy as np
 from reportgen.analysis import FULL_TURN
 from reportgen.document.figures import MM, Drawn, figure
 from reportgen.document.groups import GroupView
-from reportgen.document.report import SAME, Report
+from reportgen.document.report import SAME, Report, lower_digits
 from reportgen.figures import charts
-from reportgen.figures.scene import Scene
+from reportgen.figures.scene import Content, Scene
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import DRIVER, GROUND
-from reportgen.notation.expressions import Symbol
+from reportgen.notation.expressions import Chain, Symbol
+from reportgen.notation.vocabulary import KINDS
 
 THINNED = 4
 """Every fourth of the samples is enough for a curve of the flywheel."""
 NARROW = 1e-3
 """Below this share of J_r its variation is no width for a diagram, and the lines are drawn from the axis on."""
+
+# --- axes
+
+
+def axis(shown: Symbol, kind: str) -> Chain:
+    """What an axis shows, as the text calls it, and its unit in parentheses."""
+    return Chain((shown,), KINDS[kind].unit)
+
+
+def _axis_of(report: Report, id: str) -> Chain:
+    """The axis of a quantity."""
+    return axis(report.ledger.symbol(id), report.ledger[id].kind)
+
+
+def _driver_axis(report: Report, angle: str = "cycle_angle") -> Chain:
+    """The axis along which the driver moves: its angle, of a sliding driver its way."""
+    words, slides = report.words["figure"], bool(report.machine.span)
+    return Chain((Symbol("s"),), words["way"]) if slides else Chain((Symbol("φ"),), words[angle])
+
 
 # --- motion over a turn
 
@@ -28,7 +48,7 @@ NARROW = 1e-3
 @figure("motion")
 def motion(report: Report) -> Drawn:
     """Velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
-    names, moved = report.words["figure"], report.dense_cycle.motion
+    moved = report.dense_cycle.motion
     # Along its guide a slider's course counts away from the crank.
     along = {group.Q: np.exp(1j * float(report.analysis.motion.links[group.j].angle[0])) for group in _sliding(report)}
     spins = scheme(report.machine.linkage).spins
@@ -42,12 +62,13 @@ def motion(report: Report) -> Drawn:
         return [(Symbol(base, str(link)), getattr(moved.links[link], quantity)) for link in turning]
 
     drawings = (
-        (of_points("v"), names["velocity"]),
-        (of_points("a"), names["acceleration"]),
-        (of_links("ω", "omega"), names["omega"]),
-        (of_links("ε", "epsilon"), names["epsilon"]),
+        (of_points("v"), axis(Symbol("v"), "velocity")),
+        (of_points("a"), axis(Symbol("a"), "acceleration")),
+        (of_links("ω", "omega"), axis(Symbol("ω"), "angular velocity")),
+        (of_links("ε", "epsilon"), axis(Symbol("ε"), "angular acceleration")),
     )
-    return Drawn(tuple(_over_a_turn(report, curves, title) for curves, title in drawings if curves))
+    shown = [(curves, title) for curves, title in drawings if curves]
+    return Drawn(tuple(_over_a_turn(report, curves, title, half=len(shown) > 1) for curves, title in shown))
 
 
 @figure("displacement")
@@ -55,7 +76,7 @@ def displacement(report: Report) -> Drawn:
     """The coordinates of what slides on the ground, along its guide, over one turn."""
     slides = report.dense_cycle.motion.slides
     curves = [(Symbol("x", group.Q), MM * slides[GROUND, group.j].s) for group in _sliding(report)]
-    return Drawn((_over_a_turn(report, curves, report.words["figure"]["displacement"]),))
+    return Drawn((_over_a_turn(report, curves, axis(Symbol("x"), "segment")),))
 
 
 def _sliding(report: Report) -> tuple[GroupView, ...]:
@@ -76,13 +97,15 @@ def _across(report: Report) -> np.ndarray:
     return angle * (span * MM / FULL_TURN) if span else np.degrees(angle)
 
 
-def _over_a_turn(report: Report, curves: Sequence[tuple[Symbol, np.ndarray]], title: str) -> Scene:
+def _over_a_turn(
+    report: Report, curves: Sequence[tuple[Symbol, np.ndarray]], title: Chain, half: bool = False
+) -> Scene:
     """Curves over one turn of the driver, the numbered positions marked."""
     count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME))
-    slides, names = bool(report.machine.span), report.words["figure"]
+    slides = bool(report.machine.span)
     x, marks = _across(report)[:count], _marks(report)[: report.count]
     series = [charts.Series(shown, x, values[:count], marks) for shown, values in curves]
-    return charts.chart(series, names["way"] if slides else names["angle"], title, turn=not slides)
+    return charts.chart(series, _driver_axis(report, "angle"), title, turn=not slides, half=half)
 
 
 # --- torque and forces over the cycle
@@ -91,11 +114,11 @@ def _over_a_turn(report: Report, curves: Sequence[tuple[Symbol, np.ndarray]], ti
 @figure("torque", "fig.M")
 def torque(report: Report) -> Drawn:
     """What balances the driver: a torque over the angle of a crank, a force over the way of a slider."""
-    ledger, names, slides = report.ledger, report.words["figure"], bool(report.machine.span)
+    ledger, slides = report.ledger, bool(report.machine.span)
     curve = charts.Series(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
-    title, across = ("balancing_force", "way") if slides else ("torque", "cycle_angle")
     levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),)
-    return Drawn((charts.chart((curve,), names[across], names[title], levels=levels, turn=not slides),))
+    title = _axis_of(report, "M.eq")
+    return Drawn((charts.chart((curve,), _driver_axis(report), title, levels=levels, turn=not slides),))
 
 
 @figure("polar")
@@ -104,15 +127,17 @@ def polar(report: Report) -> Drawn:
     fine = report.dense_cycle
     numbers = tuple(map(str, report.all_positions))
     assert report.driver_polygon is not None
+    pins = [edge for edge in report.driver_polygon.edges if edge.is_reaction and not edge.unknown]
+    size = charts.POLAR_SIZE if len(pins) == 1 else charts.POLAR_HALF
     scenes = []
-    for edge in report.driver_polygon.edges:
-        if edge.unknown or not edge.is_reaction:
-            continue
+    for edge in pins:
         pin = next(group.P for group in report.groups if edge.name == f"R{group.i}{DRIVER}")
         radius = fine.motion.points[pin].p - fine.motion.points[report.driver.centre].p
         load = fine.forces.reactions[edge.name].force * np.conj(radius / np.abs(radius)) * 1j
         series = charts.Series(report.force_vector(edge.name), load.real, load.imag, _marks(report), numbers)
-        scenes.append(charts.polar(series, "N", title=f"{report.words['figure']['pin']} {pin}"))
+        scenes.append(
+            charts.polar(series, "N", title=f"{report.words['figure']['pin']} {lower_digits(pin)}", size=size)
+        )
     return Drawn(tuple(scenes))
 
 
@@ -124,11 +149,16 @@ def _wheel(report: Report) -> Flywheel:
     return report.flywheel
 
 
-def _over_cycle(report: Report, values: np.ndarray, name: str, levels: tuple[tuple[float, Symbol], ...] = ()) -> Scene:
-    names = report.words["figure"]
+def _over_cycle(
+    report: Report,
+    values: np.ndarray,
+    title: Content,
+    levels: tuple[tuple[float, Symbol], ...] = (),
+    half: bool = False,
+) -> Scene:
     kept = np.union1d(np.arange(0, values.size, THINNED), values.size - 1)
     curve = charts.Series("", np.degrees(_wheel(report).angle[kept]), values[kept])
-    return charts.chart((curve,), names["cycle_angle"], names[name], levels=levels)
+    return charts.chart((curve,), _driver_axis(report), title, levels=levels, half=half)
 
 
 @figure("flywheel-torque", "fig.Mr")
@@ -136,21 +166,23 @@ def flywheel_torque(report: Report) -> Drawn:
     """M_r and the torque that balances its mean."""
     wheel = _wheel(report)
     level = (-wheel.constant, Symbol("−M", "c"))
-    return Drawn((_over_cycle(report, wheel.torque, "reduced_torque", (level,)),))
+    return Drawn((_over_cycle(report, wheel.torque, _axis_of(report, "M.r"), (level,)),))
 
 
 @figure("flywheel-work", "fig.Jr")
 def flywheel_work(report: Report) -> Drawn:
     """J_r, if moving links have mass, and A over the cycle."""
     wheel = _wheel(report)
-    inertia = (_over_cycle(report, wheel.inertia, "reduced_inertia"),) if report.has_reduced_inertia else ()
-    return Drawn((*inertia, _over_cycle(report, wheel.work, "excess_work")))
+    drawings = [(wheel.inertia, "J.r")] if report.has_reduced_inertia else []
+    drawings.append((wheel.work, "A.excess"))
+    half = len(drawings) > 1
+    return Drawn(tuple(_over_cycle(report, values, _axis_of(report, id), half=half) for values, id in drawings))
 
 
 @figure("wittenbauer")
 def wittenbauer(report: Report) -> Drawn:
     """A over J_r with the two lines whose slopes are half the squares of the bounds of speed."""
-    wheel, names = _wheel(report), report.words["figure"]
+    wheel = _wheel(report)
     ends = np.array([wheel.inertia.min(), wheel.inertia.max()])
     if np.ptp(ends) < NARROW * ends[1]:
         ends = np.array([0.0, 1.2 * ends[1]])
@@ -159,7 +191,8 @@ def wittenbauer(report: Report) -> Drawn:
         for id, height, bound in (("omega.max", wheel.upper, wheel.fastest), ("omega.min", wheel.lower, wheel.slowest))
     ]
     curve = charts.Series(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
-    return Drawn((charts.chart((curve, *lines), names["reduced_inertia"], names["excess_work"], turn=False),))
+    across, up = _axis_of(report, "J.r"), _axis_of(report, "A.excess")
+    return Drawn((charts.chart((curve, *lines), across, up, turn=False),))
 
 
 @figure("flywheel-speed", "fig.speed")
@@ -167,4 +200,4 @@ def flywheel_speed(report: Report) -> Drawn:
     """How far the speed is from its mean, in percent, with the flywheel."""
     wheel = _wheel(report)
     mean = (wheel.fastest + wheel.slowest) / 2
-    return Drawn((_over_cycle(report, (wheel.speed / mean - 1) * 100, "speed_deviation"),))
+    return Drawn((_over_cycle(report, (wheel.speed / mean - 1) * 100, report.words["figure"]["speed_deviation"]),))

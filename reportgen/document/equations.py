@@ -8,10 +8,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from reportgen.document.groups import GroupView
+from reportgen.document.groups import Contact, GroupView
 from reportgen.document.report import FUNCTIONS, Report, function, listed, lower_digits
 from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Reference, Text, Value
-from reportgen.ledger.forces.polygon import Edge
+from reportgen.ledger.forces.polygon import Edge, Polygon
 from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.structure import mobility
 from reportgen.notation import vocabulary
@@ -23,6 +23,7 @@ from reportgen.notation.expressions import (
     Symbol,
     Term,
     VectorEquation,
+    rebuild,
     refs,
     substitute,
 )
@@ -43,7 +44,7 @@ def math(report: Report, text: str) -> Symbol:
         return report.ledger.symbol(text)
     base = re.match(r"[^\W\d_]*", text)
     assert base is not None
-    return Symbol(base[0], text[base.end() :].removeprefix("_"))
+    return report.named(Symbol(base[0], text[base.end() :].removeprefix("_")))
 
 
 @function
@@ -105,7 +106,7 @@ def letters(report: Report, base: str, sub: str | int = "", sup: str = "") -> Sy
 @function
 def vector(report: Report, base: str, sub: str | int = "", sup: str = "") -> Symbol:
     """Any symbol under an arrow."""
-    return Symbol(base, str(sub), sup, "vector")
+    return report.named(Symbol(base, str(sub), sup, "vector"))
 
 
 @function
@@ -117,7 +118,7 @@ def v(report: Report, of: str | Side) -> Symbol:
 @function
 def a(report: Report, of: str | Side, part: str = "") -> Symbol:
     """The acceleration of a point, or a part of it, as a vector; of a side, the relative one."""
-    return Symbol("a", of if isinstance(of, str) else of.pair, part, "vector")
+    return report.named(Symbol("a", of if isinstance(of, str) else of.pair, part, "vector"))
 
 
 @function
@@ -162,6 +163,55 @@ def force_list(report: Report, group: GroupView, position: int) -> Inlines:
     return tuple(shown)
 
 
+# --- the sense of forces
+
+
+@function
+def assumed(report: Report, group: GroupView, position: int) -> Inlines:
+    """The reactions of a group that are drawn on its links in an assumed sense."""
+    ids = (id for id in group.assumed if not report.is_zero(id, position))
+    return listed(InlineMath(vocabulary.vector(report.ledger.symbol(id))) for id in ids)
+
+
+@function
+def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
+    """Where the reactions of some joints point, in words and by their angles; those that are nothing left out."""
+    words = report.words["headings"]
+    shown: list[Inline] = []
+    for digits in joints:
+        if not report.is_zero(f"R.{digits}", position):
+            vector, angle = report.force_vector(f"R{digits}"), report.ledger.number(f"dir.R{digits}", position)
+            way = Text(f" {words[_eighth(angle.shown)]} (")
+            shown += [*((Text("; "),) if shown else ()), InlineMath(vector), way, Value(angle), Text(")")]
+    return tuple(shown)
+
+
+def _eighth(degrees: float) -> int:
+    """The axis or the quadrant that an angle lies in: 0 along +x, 1 between +x and +y, 2 along +y, …."""
+    quadrant, within = divmod(degrees % 360.0, 90.0)
+    return int(2 * quadrant) + (within > 0)
+
+
+@function
+def opposites(report: Report, polygon: Polygon, position: int) -> Equation:
+    """The reactions on a plan's links that other groups have left there: R42 = −R24 as vectors, then their size."""
+    rows: list[Expression] = []
+    for edge in polygon.carried:
+        size = report.force_symbol(edge.name)
+        (source,) = refs(report.ledger[f"F.{edge.name}"].definition or Number(0.0))
+        vectors = vocabulary.vector(size), -report.force_vector(source.removeprefix("F."))
+        rows += [Chain(vectors), report.ledger.chain(f"R.{edge.name.removeprefix('R')}", position)]
+    return Equation(tuple(rows))
+
+
+@function
+def through_pin(report: Report, contact: Contact, position: int) -> Equation:
+    """ΣM about the pin of a slide that nothing tends to turn: R x = 0, hence x = 0."""
+    reaction, place = report.ledger.symbol(f"R.{contact.digits}"), report.ledger.symbol(contact.place)
+    moments = Chain((Symbol("ΣM", str(contact.pin)), reaction * place, Number(0.0)))
+    return Equation((moments, Chain((place, Number(0.0)))))
+
+
 # --- lines
 
 
@@ -203,7 +253,10 @@ def equations(report: Report, name: str, position: int | None = None) -> Equatio
         number = report.ledger.number(ref.id, position)
         return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
 
-    return Equation(tuple(substitute(row, number_of) for row in report.machine.equations[name]))
+    def in_words(node: Expression) -> Expression:
+        return report.named(node) if isinstance(node, Symbol) else rebuild(node, in_words)
+
+    return Equation(tuple(in_words(substitute(row, number_of)) for row in report.machine.equations[name]))
 
 
 @function
@@ -250,13 +303,13 @@ def _equation(report: Report, sides: Sequence[tuple[Term, ...]], rows: str, key:
     return Equation((VectorEquation(tuple(sides), tuple(report.words["vector"][rows])),), key)
 
 
-def _term(base: str, sub: str, sup: str, *known: Expression | str | None) -> Term:
-    return Term(Symbol(base, sub, sup, "vector"), known)
+def _term(report: Report, base: str, sub: str, sup: str, *known: Expression | str | None) -> Term:
+    return Term(report.named(Symbol(base, sub, sup, "vector")), known)
 
 
 def _unknown(report: Report, base: str, sub: str, sup: str, side: Side | None) -> Term:
     """A vector of which only the direction is known, that of what is sought on a side."""
-    return _term(base, sub, sup, None if side is None else _direction(report, side), None, None)
+    return _term(report, base, sub, sup, None if side is None else _direction(report, side), None, None)
 
 
 def _direction(report: Report, side: Side) -> str:
@@ -273,12 +326,12 @@ def _relative(report: Report, side: Side) -> tuple[Term, ...]:
     if side.turns:
         size = ledger.symbol(side.velocity) ** 2 / ledger.symbol(f"l.{side.rod}")
         way = f"{lower_digits(side.point)} → {lower_digits(side.base)}"
-        return _term("a", side.pair, "n", f"∥ {lower_digits(side.rod)}", way, size), sought
+        return _term(report, "a", side.pair, "n", f"∥ {lower_digits(side.rod)}", way, size), sought
     if not side.turning:
         return (sought,)
     twice = 2 * ledger.symbol(side.omega) * ledger.symbol(side.velocity)
     across = words["across_slot" if side.carrier is None else "across_guide"]
-    return _term("a", side.pair, "k", across, words["turned"], twice), sought
+    return _term(report, "a", side.pair, "k", across, words["turned"], twice), sought
 
 
 def _base(report: Report, side: Side, what: str) -> Term:
@@ -286,12 +339,13 @@ def _base(report: Report, side: Side, what: str) -> Term:
     words, ledger = report.words["vector"], report.ledger
     arm = f"{report.driver.centre}{side.base}"
     if not report.driver.centre or f"l.{arm}" not in ledger or not _on_crank(report, side.base):
-        return _term(what, side.shown, "", words["given"], words["given"], words["given"])
+        return _term(report, what, side.shown, "", words["given"], words["given"], words["given"])
     length, omega = ledger.symbol(f"l.{arm}"), ledger.symbol("omega.1")
     if what == "v":
-        return _term("v", side.shown, "", f"⊥ {arm}", words["with_crank"], omega * length)
+        return _term(report, "v", side.shown, "", f"⊥ {lower_digits(arm)}", words["with_crank"], omega * length)
     size = omega**2 * length
-    return _term("a", side.shown, "", f"∥ {arm}", f"{side.base} → {report.driver.centre}", size)
+    way = lower_digits(f"{side.base} → {report.driver.centre}")
+    return _term(report, "a", side.shown, "", f"∥ {lower_digits(arm)}", way, size)
 
 
 def _on_crank(report: Report, name: str) -> bool:

@@ -2,7 +2,7 @@
 
 A figure is a function of a report and of what it shows.  Registered under a name it is called as
 `figure(name, …)`, with the caption that `words.yaml` has for it under `captions`.  Those of the mechanism are
-its scheme, groups and positions, the gas beside the cylinder, Coriolis acceleration and instant centres.
+its scheme, groups and positions, the gas beside the cylinder, Coriolis acceleration.
 """
 
 from __future__ import annotations
@@ -18,18 +18,17 @@ from reportgen.analysis import FULL_TURN, motion_at
 from reportgen.catalogue.loads import Piston
 from reportgen.catalogue.machine import Machine, Position
 from reportgen.cycle import StrokeIndicator
-from reportgen.document.groups import GroupView, PlaneLink
-from reportgen.document.report import DENSE, FUNCTIONS, SAME, Report, function
+from reportgen.document.groups import GroupView
+from reportgen.document.report import DENSE, FUNCTIONS, SAME, Report
 from reportgen.document.tree import Figure, InlineMath, Plate, Text
 from reportgen.figures import indicator as indicator_figure
 from reportgen.figures import scheme as scheme_figure
 from reportgen.figures.draft import Draft, sheets
 from reportgen.figures.forces import Sliding
 from reportgen.figures.forces import coriolis as coriolis_figure
-from reportgen.figures.positions import Centre, PositionPlan, centre_plan, position_plan
+from reportgen.figures.positions import PositionPlan, position_plan
 from reportgen.figures.scene import Scene
 from reportgen.figures.scheme import Looks
-from reportgen.ledger.kinematics.centres import PREFIX, centre_symbol
 from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.notation import vocabulary
@@ -116,7 +115,7 @@ def in_text(*scenes: Scene) -> bool:
     return len(scenes) == 1 and scenes[0].width <= TEXT_BLOCK[0] and scenes[0].height <= TEXT_BLOCK[1]
 
 
-def _fits(width: float, height: float, paper: tuple[float, float]) -> bool:
+def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
     """Whether a drawing has room on a plate."""
     return width <= paper[0] - WHITE[0] and height <= paper[1] - WHITE[1]
 
@@ -126,7 +125,7 @@ def on_paper(scene: Scene) -> Drawn:
     if in_text(scene):
         return Drawn((scene,))
     for paper in (A3_ACROSS, A3_UPRIGHT):
-        if _fits(scene.width, scene.height, paper):
+        if fits(scene.width, scene.height, paper):
             return Drawn((scene,), paper)
     return Drawn((scene,), (max(scene.width + WHITE[0], 297.0), max(scene.height + WHITE[1], 210.0)))
 
@@ -144,9 +143,9 @@ def drawing_scale(report: Report) -> float:
     return MM / float(report.ledger["mu.l"].values[0])
 
 
-def scale_note(report: Report, id: str, factor: float = 1.0) -> Chain:
+def scale_note(report: Report, id: str, factor: float = 1.0, k: int | None = None) -> Chain:
     """A scale as printed below a figure; a figure drawn smaller by `factor` has a scale that much larger."""
-    number = report.ledger.number(id)
+    number = report.ledger.number(id, k)
     return Chain((report.ledger.symbol(id), short(replace(number, value=number.value / factor))))
 
 
@@ -261,7 +260,7 @@ def indicator(report: Report) -> Drawn:
     side = _free_side(machine)
     start, end, mu = indicator_figure.beside(top, bottom, side, 75.0, highest)
     note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
-    frame = indicator_figure.Frame(start, end, side, mu, report.words["figure"]["pressure"], note)
+    frame = indicator_figure.Frame(start, end, side, mu, Chain((Symbol("p"),), "N/cm²"), note)
     branches = [
         indicator_figure.Branch(name, x, tuple(p / unit for p in pressures))
         for name, x, pressures in _branches(first, machine, report.words["strokes"])
@@ -325,52 +324,7 @@ def coriolis(report: Report, k: int, group: GroupView, side: Side) -> Drawn:
     sliding = Sliding(
         vocabulary.point(side.point),
         (Symbol("v", side.pair, over="vector"), relative),
-        (Symbol("a", side.pair, "k", "vector"), 1j * omega * relative),
+        (report.named(Symbol("a", side.pair, "k", "vector")), 1j * omega * relative),
         (ledger.symbol(side.omega), float(np.sign(omega))),
     )
     return Drawn((coriolis_figure(sliding),))
-
-
-# --- instant centres
-
-
-@function
-def centre_state(report: Report, link: PlaneLink, k: int) -> str:
-    """How a link's centre lies: "found", "shift" (the link does not turn), "rest" (at its base), "far"."""
-    ledger = report.ledger
-    if ledger[link.omega].at(k) == 0:
-        return "shift"
-    if ledger[f"v.{link.base}"].at(k) == 0:
-        return "rest"
-    return "found" if np.isfinite([ledger[id].at(k) for id in link.distances]).all() else "far"
-
-
-@function
-def centres_drawn(report: Report, k: int) -> tuple[PlaneLink, ...]:
-    """The links whose centres stand on the sheet together with the mechanism."""
-    spots = [complex(point.p[k - 1]) * drawing_scale(report) for point in report.analysis.motion.points.values()]
-    kept: list[PlaneLink] = []
-    for link in report.plane_links:
-        if centre_state(report, link, k) == "found":
-            together = np.array([*spots, _place(report, link, k)])
-            size = float(np.ptp(together.real)) + ROOM, float(np.ptp(together.imag)) + ROOM
-            if any(_fits(*size, paper) for paper in (A3_ACROSS, A3_UPRIGHT)):
-                spots.append(together[-1])
-                kept.append(link)
-    return tuple(kept)
-
-
-def _place(report: Report, link: PlaneLink, k: int) -> complex:
-    return complex(report.ledger[f"{PREFIX}{link.link}"].at(k)) * drawing_scale(report)
-
-
-@figure("centres")
-def centres(report: Report, k: int) -> Drawn:
-    """The mechanism at a position, true to μ_l, with the normals that meet in the centres."""
-    linkage, scale = report.machine.linkage, drawing_scale(report)
-    marks = [
-        Centre(centre_symbol(link.link), _place(report, link, k), (link.base, link.point))
-        for link in centres_drawn(report, k)
-    ]
-    motion = report.analysis.motion
-    return on_paper(centre_plan(linkage, motion, k - 1, scale, marks, looks(report, scale)))

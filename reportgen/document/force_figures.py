@@ -24,7 +24,7 @@ from reportgen.ledger.forces.polygon import Polygon
 from reportgen.mechanism.forces import Load, as_single_force, percussion_meeting
 from reportgen.mechanism.structure import DRIVER
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Chain, Symbol
+from reportgen.notation.expressions import Chain, Expression, Symbol, size
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,10 @@ class _Bodies:
                 continue
             torque = _is_torque(report, load)
             if torque or report.is_zero(load.name, self.k):
-                shown = report.ledger.symbol(load.name if torque else f"M.{load.name}")
+                shown: Expression = report.ledger.symbol(load.name if torque else f"M.{load.name}")
+                if torque and load.couple[index] < 0:
+                    # The arc shows the true sense: a torque with a minus acts so with its size.
+                    shown = size(shown)
                 result.append(Couple(shown, complex(load.point[index]) * self.scale, float(load.couple[index])))
         return result
 
@@ -84,16 +87,15 @@ class _Bodies:
     # --- reactions
 
     def reaction(self, name: str, at: complex) -> Force:
-        """A reaction R12, or a component of it R12.t."""
-        vector = self.report.ledger[f"F.{name}"]
-        direction = 0j if self.report.is_zero(vector.of, self.k) else complex(vector.at(self.k))
+        """A reaction R12 in its true sense, or a component R12.t with a sign in the sense assumed."""
+        direction = drawn_sense(self.report, name, self.k)
         return Force(self.report.force_vector(name), at, direction, "reaction", name)
 
     def found_before(self, polygon: Polygon) -> list[Force]:
         """Reactions of other groups on the links of a force plan, found before."""
         found = []
-        for edge in polygon.edges:
-            if edge.is_reaction and edge.link in self.links and not edge.unknown and edge.part != "t":
+        for edge in polygon.carried:
+            if edge.link in self.links:
                 at = complex(self.report.analysis.forces.reactions[edge.name].point[self.k - 1]) * self.scale
                 force = self.reaction(edge.name, at)
                 found.append(force if force.direction and np.isfinite(at) else replace(force, at=0j, direction=0j))
@@ -108,12 +110,26 @@ class _Bodies:
         return [self.reaction(f"R{digits}{part}", self.at(pin)) for part in parts]
 
     def inner(self, group: GroupView, link: int) -> Force:
-        """The reaction in the inner joint on one link of the group, as it is read from the plan."""
-        read = self.reaction(f"R{group.inner}", self.at(group.Q))
-        if link == group.i:
-            return read
-        opposite = Symbol("R", group.across, over="vector")
-        return replace(read, label=opposite, direction=-read.direction, id=f"R{group.across}")
+        """The reaction in the inner joint on one link of the group: as moments assume it, else as the plan gives it."""
+        at, on_i = self.at(group.Q), link == group.i
+        if group.by_slot in self.report.ledger:
+            sense = drawn_sense(self.report, f"R{group.across}.s", self.k) * (-1 if on_i else 1)
+        else:
+            sense = drawn_sense(self.report, f"R{group.inner}", self.k) * (1 if on_i else -1)
+        digits = group.inner if on_i else group.across
+        return Force(Symbol("R", digits, over="vector"), at, sense, "reaction", f"R{digits}")
+
+
+def drawn_sense(report: Report, name: str, k: int) -> complex:
+    """How a reaction is drawn on a separated link: as its formula assumes it if it has a sign; 0 where it is nothing.
+
+    The formula's value times the arrow drawn is then the true force.
+    """
+    ledger, vector = report.ledger, report.ledger[f"F.{name}"]
+    if report.is_zero(vector.of, k):
+        return 0j
+    assumed = ledger.known((f"assumed.{name}", f"F.{name}"))[0]
+    return complex(ledger[assumed].at(k))
 
 
 # --- groups and the driver
@@ -163,7 +179,8 @@ def driver(report: Report, k: int) -> Drawn:
     closing = (body.reaction(edge.name, pin) for edge in polygon.edges if edge.unknown)
     forces = [*body.loads(), *body.found_before(polygon), *closing]
     if centre:
-        balance = Couple(report.balance_symbol(), pin, float(np.sign(report.ledger.number("M.eq", k).value)))
+        # Assumed anticlockwise, as its formula counts it.
+        balance = Couple(report.balance_symbol(), pin, float(not report.is_zero("M.eq", k)))
         drawing = body.scene(forces, arms=body.arms(report.crank_arms, centre), turning=(balance,))
     else:
         drawing = body.scene(forces)
@@ -241,7 +258,7 @@ def lever(report: Report, k: int) -> Drawn:
         # The force that balances a sliding driver acts on the lever too; that of a crank is a torque.
         image = complex(motion.points[report.driver.pin].v[index]) * per
         shown = vocabulary.vector(report.balance_symbol())
-        forces.append(Force(shown, image, complex(ledger["F.Rcb"].at(k)), "reaction", "Rcb"))
+        forces.append(Force(shown, image, drawn_sense(report, "Rcb", k), "reaction", "Rcb"))
         arms.append(ArmOf(ledger.symbol(report.driver.velocity_segment), 0j, "Rcb"))
     scale = Chain((ledger.symbol("mu.v"), ledger.number("mu.v")))
     drawing = motion_plan(report, "v", k)

@@ -38,7 +38,8 @@ class DriverView:
 
     A sliding driver has neither centre nor arm.  `velocity_lines` and `acceleration_lines` are those of its
     points; `drawn`, `velocity`, `velocity_segment` and `acceleration_segment` the ids of the arm's drawn
-    length, of the pin's velocity and of the segments that stand for the pin's velocity and acceleration.
+    length, of the pin's velocity and of the segments that stand for the pin's velocity and acceleration;
+    `round_velocity` and `round_acceleration` say that the scale of a plan was chosen from the series.
     """
 
     def __init__(self, linkage: Linkage, ledger: Ledger) -> None:
@@ -50,6 +51,7 @@ class DriverView:
         self.arm = f"{self.centre}{self.pin}" if self.centre else ""
         self.drawn, self.velocity = f"drawn.{self.arm}", f"v.{self.pin}"
         self.velocity_segment, self.acceleration_segment = (f"seg.{what}.p{image(self.pin)}" for what in "va")
+        self.round_velocity, self.round_acceleration = (ledger[f"mu.{what}"].definition is None for what in "va")
         self.velocity_lines, self.acceleration_lines = (
             [id for name in self.names if (id := f"{what}.{name}") in ledger] for what in "va"
         )
@@ -227,13 +229,13 @@ class GroupView:
         return found
 
     def similar(self, what: str) -> list[str]:
-        """Segments that the similarity theorem gives, e.g. as₂, and be where E is off the line of joints."""
+        """A link's segment ab and what the similarity theorem gives: as₂, and be where E is off the line of joints."""
         ids: list[str] = []
         for place in self.points:
             for side in self.sides:
                 if side.turns and side.link == place.link:
                     ends = "p" if side.still else image(side.base), image(self.M)
-                    ids += [f"seg.{what}.{end}{image(place.name)}" for end in ends]
+                    ids += [f"seg.{what}.{''.join(ends)}", *(f"seg.{what}.{end}{image(place.name)}" for end in ends)]
         return self.ledger.known(ids)
 
     def base(self, what: str, side: Side, k: int) -> str:
@@ -295,6 +297,11 @@ class GroupView:
         return [f"R.{name}" for name in joints[self.kind]]
 
     @property
+    def joints(self) -> tuple[str, str, str]:
+        """The digits of the reactions in the two outer joints and the inner one."""
+        return self.outer, self.guide, self.inner
+
+    @property
     def contacts(self) -> list[Contact]:
         """The reactions of slides, whose place on the slide is to be found."""
         first, last = (self.inner, self.P, self.i), (self.guide, self.Q, self.j)
@@ -307,15 +314,20 @@ class GroupView:
         moments = [*arms, moment] if displaced else arms
         return Contact(digits, pin, link, moment, f"x.{digits}", moments, displaced)
 
-    def reversed(self, k: int) -> bool:
-        """Whether the component found by moments has the sense opposite to the one assumed."""
-        id = f"R.{self.across}.s" if self.kind == "RPR" else f"R.{self.outer}.t"
-        return self.ledger.number(id, k).value < 0
+    @property
+    def by_slot(self) -> str:
+        """The reaction of the block on a slotted link, which moments give with its sign."""
+        return f"R.{self.across}.s"
+
+    @property
+    def assumed(self) -> list[str]:
+        """What moments give, each drawn in an assumed sense, so that it has a sign."""
+        return self.ledger.known((f"R.{self.outer}.t", f"R.{self.guide}.t", self.by_slot))
 
     def components(self, k: int) -> int:
         """How many components are found by moments; none where all of them are zero."""
-        digits = {"RRP": (self.outer,), "RRR": (self.outer, self.guide)}.get(self.kind, ())
-        return len(digits) * any(self.ledger.number(f"R.{name}.t", k).value != 0 for name in digits)
+        found = [id for id in self.assumed if id != self.by_slot]
+        return len(found) * any(self.ledger.number(id, k).value != 0 for id in found)
 
     @property
     def last_known(self) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 from reportgen.case import Case
 
 # Importing a module registers its figures, tables and functions.
-from reportgen.document import curves, equations, figures, force_figures, plans, result_tables  # noqa: F401
+from reportgen.document import centres, curves, equations, figures, force_figures, plans, result_tables  # noqa: F401
 from reportgen.document.numbering import number
 from reportgen.document.report import Report
 from reportgen.document.tree import Block, Contents, Cover, Document, PageBreak, Words
@@ -30,13 +30,12 @@ def compose(case: Case) -> Document:
         else:
             blocks += report.prose.render(f"{section}.md", names)
     assignment = case.assignment
-    course = assignment.report.course or words["cover"]["course"]
     return number(
         Document(
             assignment.language,
             f"{words['cover']['title']} – {case.title}",
             assignment.report.student.name or "",
-            (words["header"].format(course=course), variant_line(case)),
+            (words["header"].format(course=case.course), variant_line(case)),
             ("", words["document"]["page"]),
             Words(**words["document"]),
             tuple(blocks),
@@ -74,7 +73,7 @@ def _cover(report: Report) -> Cover:
     )
     return Cover(
         tuple(part for part in (given.university, given.faculty, given.department) if part),
-        (labels["title"], given.course or labels["course"]),
+        (labels["title"], report.case.course),
         (
             *((f"{labels['variant']}: {report.variant}",) if report.variant else ()),
             f"{labels['machine']}: {report.case.title}",

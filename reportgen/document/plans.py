@@ -8,11 +8,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from reportgen.document.figures import A3_ACROSS, HALF, MM, TEXT_BLOCK, Drawn, figure, in_text, on_paper
+import numpy as np
+
+from reportgen.document.figures import A3_ACROSS, HALF, MM, TEXT_BLOCK, Drawn, figure, on_paper, scale_note
 from reportgen.document.groups import GroupView
 from reportgen.document.report import Report
 from reportgen.figures.draft import sheets
-from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, plan, stages
+from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, Titles, lettered, plan, stages
+from reportgen.figures.scene import Scene
+from reportgen.figures.scheme import thumbnail
 from reportgen.ledger.forces.polygon import Edge, Polygon
 from reportgen.ledger.kinematics.linkage import POLES, What
 from reportgen.ledger.kinematics.sides import Side, image
@@ -20,7 +24,16 @@ from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Chain, Symbol
 
 SHEET = (385.0, 232.0)
-"""What of an A3 page (landscape) a plate may fill."""
+"""What of an A3 page (landscape) plans may fill."""
+SHARES = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1)
+"""How much smaller the force plans of all positions may be drawn than the worked ones: scales stay in their series."""
+LARGEST = (78.0, 105.0)
+"""The largest of these plans (mm): two stand side by side, two rows on a page."""
+CLOSE_MARGIN = 2.0
+"""White around each of many plans (mm)."""
+
+STAGES = 3
+"""Of a group in a plan of velocity or acceleration: what is known, the lines that meet, further points."""
 
 # --- velocity and acceleration
 
@@ -32,10 +45,20 @@ def _register(name: str, what: What) -> None:
         return motion_plan(report, what, k)
 
     def whole(report: Report, k: int) -> Drawn:
-        return Drawn((plan(drawing(report, k)),))
+        return on_paper(_worked(report, drawing(report, k), k))
 
-    def in_stages(report: Report, k: int) -> Drawn:
-        return _stages(report, drawing(report, k), f"mu.{what}")
+    def in_stages(report: Report, k: int, group: GroupView) -> Drawn:
+        """The steps of one group's construction, numbered as in the text; what was drawn before is gray."""
+        begin = STAGES * next(n for n, one in enumerate(report.groups) if one.name == group.name)
+        bounds = np.cumsum([0, *_steps(group, what)])
+        names = report.words["figure"]
+
+        def titles(stages: range, number: int) -> str:
+            first, last = bounds[stages.start - begin] + 1, bounds[stages.stop - begin]
+            return str(names["steps"].format(first, last) if first < last else names["step"].format(last))
+
+        until = drawing(report, k).until(begin + STAGES - 1)
+        return _stages(report, until, f"mu.{what}", titles, begin)
 
     def on_plates(report: Report) -> Drawn:
         one_turn = sorted({(k - 1) % report.count + 1 for k in report.plates})
@@ -60,40 +83,69 @@ def motion_plan(report: Report, what: What, k: int) -> Plan:
             if side.base in report.driver.names and side.base not in drawn:
                 sketch.absolute(side.base, "known", stage)
                 drawn.add(side.base)
-        stage = sketch.group(group, stage) + 1
+        sketch.group(group, stage)
+        stage += STAGES
     points = (PlanPoint(Symbol(POLES[what]), 0j), *sketch.points)
     return Plan(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, f"mu.{what}"))
 
 
-def _scale(report: Report, id: str) -> Chain:
+def _worked(report: Report, drawing: Plan, k: int) -> Scene:
+    """A worked plan with the mechanism beside it."""
+    small = thumbnail(report.machine.linkage, report.analysis.motion, k - 1)
+    return plan(drawing, beside=(small,), width=TEXT_BLOCK[0])
+
+
+def _scale(report: Report, id: str, k: int | None = None) -> Chain:
     """A scale as a figure prints it: μ_v = 0.2189 m/(s·mm)."""
-    return Chain((report.ledger.symbol(id), report.ledger.number(id)))
+    return Chain((report.ledger.symbol(id), report.ledger.number(id, k)))
 
 
-def _stages(report: Report, drawing: Plan, scale: str) -> Drawn:
+def _steps(group: GroupView, what: What) -> tuple[int, int, int]:
+    """How many steps of a group's construction, as the text counts them, each of its stages draws."""
+    bases = 1 if group.kind == "RRP" and group.two.still else len(group.moving)
+    known = sum(bool(side.part) for side in group.sides) if what == "a" else 0
+    return bases + known, len(group.sides), len(group.carried) + bool(group.similar(what))
+
+
+def _stages(
+    report: Report, drawing: Plan, scale: str, titles: Titles = lettered, begin: int = 0, k: int | None = None
+) -> Drawn:
     """The stages of a plan at half its size, with twice its scale."""
-    number = report.ledger.number(scale)
+    number = report.ledger.number(scale, k)
     doubled = replace(number, value=float(f"{number.shown / HALF:.9g}"), decimals=None)
-    return Drawn(stages(drawing, HALF), note=Chain((report.ledger.symbol(scale), doubled)))
+    return Drawn(stages(drawing, HALF, titles, begin), note=Chain((report.ledger.symbol(scale), doubled)))
 
 
-def _plates(report: Report, drawing: Callable[[Report, int], Plan], positions: Sequence[int], scale: str) -> Drawn:
-    """Plans of one scale: as a figure if they fit one text block, else on A3 sheets."""
+def _plates(
+    report: Report,
+    drawing: Callable[[Report, int], Plan],
+    positions: Sequence[int],
+    scale: str,
+    shares: Sequence[float] = (1.0,),
+    at: int | None = None,
+) -> Drawn:
+    """Plans of one scale, that of the position `at`, in rows, at the largest of the `shares` at which each has room.
+
+    If none fits the text block, they stand on A3 sheets.  Insets are for worked plans.
+    """
     word = report.words["table"]["position"]
-    scenes = [
-        plan(replace(drawing(report, k), scale=None, lines=()), title=f"{word} {report.machine.position(k)}")
-        for k in positions
-    ]
-    note = _scale(report, scale)
-    on_page = sheets(scenes, *TEXT_BLOCK, note)
-    return Drawn(on_page) if in_text(*on_page) else Drawn(sheets(scenes, *SHEET, note), A3_ACROSS)
+    plans = {k: replace(drawing(report, k), scale=None, lines=()) for k in positions}
+    for share in shares:
+        scenes = tuple(
+            plan(shown.scaled(share), title=f"{word} {report.machine.position(k)}", enlarged=False, margin=CLOSE_MARGIN)
+            for k, shown in plans.items()
+        )
+        room = LARGEST if share > shares[-1] else TEXT_BLOCK
+        if all(scene.width <= room[0] and scene.height <= room[1] for scene in scenes):
+            return Drawn(scenes, note=scale_note(report, scale, share, at))
+    return Drawn(sheets(scenes, *SHEET, scale_note(report, scale, share, at), trim=0.0), A3_ACROSS)
 
 
 class _Sketch:
     """A velocity or acceleration plan while its vectors are collected."""
 
     def __init__(self, report: Report, what: What, position: int) -> None:
-        self.ledger, self.what, self.k = report.ledger, what, position
+        self.ledger, self.what, self.k, self.named = report.ledger, what, position, report.named
         self.vectors: list[PlanVector] = []
         self.points: list[PlanPoint] = []
         self.lines: list[PlanLine] = []
@@ -109,21 +161,17 @@ class _Sketch:
 
     def relative(self, side: Side, part: str, start: complex, end: complex, stage: int) -> None:
         """Enter what a side adds to the velocity or acceleration of its base, or a part of it."""
-        label = Symbol(self.what, side.pair, part, "vector")
+        label = self.named(Symbol(self.what, side.pair, part, "vector"))
         self.vectors.append(PlanVector(part + side.relative, start, end, "relative", label, stage))
 
-    def group(self, group: GroupView, stage: int) -> int:
-        """Enter a group's construction after the stage that shows its outer pins; gives its last stage."""
+    def group(self, group: GroupView, stage: int) -> None:
+        """Enter a group's construction in three stages: what is known, the lines that meet, further points."""
         for guide in group.under:
-            stage += 1
             self.absolute(guide.base, "known", stage)
         end = self.at(image(group.M))
-        starts = []
-        for side in group.sides:
-            stage, start = self._known(side, stage)
-            starts.append(start)
+        starts = [self._known(side, stage) for side in group.sides]
+        stage += 1
         for start in starts:
-            stage += 1
             self.lines.append(PlanLine(start, end, stage))
         for side, start in zip(group.sides, starts, strict=True):
             if self.what == "a" and side.sought:
@@ -134,17 +182,16 @@ class _Sketch:
         further = [name for name in (group.Q, *(place.name for place in group.points)) if name != group.M]
         for name in further:
             self.absolute(name, "found", stage + 1)
-        return stage + bool(further)
 
-    def _known(self, side: Side, stage: int) -> tuple[int, complex]:
-        """Enter the relative acceleration that is known; gives the stage and where the sought part starts."""
+    def _known(self, side: Side, stage: int) -> complex:
+        """Enter the relative acceleration that is known; gives where the sought part starts."""
         start = 0j if side.still else self.at(image(side.base))
         if self.what == "v" or not side.part:
-            return stage, start
+            return start
         end = self.at(f"{side.part}.{side.relative}")
-        self.relative(side, side.part, start, end, stage + 1)
-        self.points.append(PlanPoint(Symbol(side.part, side.pair), end, stage + 1))
-        return stage + 1, end
+        self.relative(side, side.part, start, end, stage)
+        self.points.append(PlanPoint(Symbol(side.part, side.pair), end, stage))
+        return end
 
 
 # --- forces
@@ -153,7 +200,7 @@ class _Sketch:
 @figure("forces", "fig.R")
 def forces(report: Report, k: int, group: GroupView) -> Drawn:
     assert group.polygon is not None
-    return on_paper(plan(force_plan(report, group.polygon, k)))
+    return on_paper(_worked(report, force_plan(report, group.polygon, k), k))
 
 
 @figure("force-stages", "fig.R.stages")
@@ -177,14 +224,21 @@ def force_stages(report: Report, k: int, group: GroupView) -> Drawn:
         vectors=tuple(replace(v, stage=step(v.stage)) for v in drawing.vectors),
         points=tuple(replace(p, stage=reached(p.at)) for p in drawing.points),
     )
-    return _stages(report, steps, group.scale)
+    return _stages(report, steps, group.scale, k=k)
 
 
 @figure("force-plates", "fig.R.plates")
 def force_plates(report: Report, group: GroupView) -> Drawn:
+    """The force plans of all positions at one scale: the largest of those that they have by themselves."""
     polygon = group.polygon
     assert polygon is not None
-    return _plates(report, lambda report, k: force_plan(report, polygon, k), report.plates, group.scale)
+    scales = {k: float(report.ledger[group.scale].at(k)) for k in report.plates}
+    common = max(scales, key=lambda k: scales[k])
+
+    def drawing(report: Report, k: int) -> Plan:
+        return force_plan(report, polygon, k).scaled(scales[k] / scales[common])
+
+    return _plates(report, drawing, report.plates, group.scale, SHARES, common)
 
 
 def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
@@ -205,4 +259,4 @@ def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
         vectors.append(PlanVector(edge.start + edge.end, start, end, style, label, stage))
         stage_of.setdefault(edge.end, stage)
     points = tuple(PlanPoint(Symbol(letter), corner(letter), stage) for letter, stage in stage_of.items())
-    return Plan(tuple(vectors), points, (), _scale(report, f"mu.R{polygon.name}"), pole=False)
+    return Plan(tuple(vectors), points, (), _scale(report, f"mu.R{polygon.name}", k), pole=False)

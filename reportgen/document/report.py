@@ -29,12 +29,14 @@ from reportgen.ledger.kinematics.centres import links_in_plane_motion
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import Mobility, mobility
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Symbol
+from reportgen.notation.expressions import Number, Symbol, walk
 
 PLATES_UP_TO = 24
 """Above this many positions, plates are drawn for worked positions only."""
 DENSE = 361
 """Samples of a turn from which curves are drawn."""
+UNIFORM = Number(12.0)
+"""What m l² of a uniform rod is divided by."""
 SAME = 1e-9
 """Cycle angles nearer than this are one."""
 
@@ -319,6 +321,12 @@ class Report:
         return [str(link) for link in links if f"m.{link}" not in self.mass_lines]
 
     @property
+    def uniform_rods(self) -> list[str]:
+        """The links whose moment of inertia is that of a uniform rod, J = m l²/12, for want of a given one."""
+        moments = {link: self.ledger[id].definition for link in self.bodies if (id := f"J.{link}") in self.ledger}
+        return [link for link, formula in moments.items() if formula is not None and UNIFORM in walk(formula)]
+
+    @property
     def inertia_lines(self) -> list[str]:
         return self.known(f"{what}{link}" for what in ("Pqt", "M.Pqt") for link in self.bodies)
 
@@ -410,6 +418,10 @@ class Report:
     def balance_symbol(self) -> Symbol:
         """M_cb or P_cb, whichever of the two ways it is reached by."""
         return replace(self.ledger.symbol("M.eq"), sup="")
+
+    def named(self, symbol: Symbol) -> Symbol:
+        """A symbol that is no quantity's, with its indices in the report's language."""
+        return vocabulary.in_language(symbol, self.words["symbols"])
 
     def is_zero(self, id: str, k: int | None = None) -> bool:
         return bool(self.ledger.number(id, k).value == 0)

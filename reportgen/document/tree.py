@@ -320,6 +320,8 @@ def formula(node: ex.Expression, language: Language) -> str:
             return f"{_tight(base, None, language)}^{_tight(exponent, None, language)}"
         case ex.Root(of):
             return f"√({formula(of, language)})"
+        case ex.Call("size", (argument,)):
+            return f"|{formula(argument, language)}|"
         case ex.Call(name, arguments):
             return f"{name}({'; '.join(formula(argument, language) for argument in arguments)})"
         case ex.Matrix(rows):

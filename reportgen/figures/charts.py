@@ -24,13 +24,18 @@ from reportgen.notation.numbers import nice_up
 
 WIDTH, HEIGHT = 128.0, 62.0
 """The area inside the axes of curves, mm; with its text a chart is about 150 × 85 mm."""
-POLAR_SIZE = 110.0
-"""Of a polar diagram at most, either way, mm."""
+HALF_WIDTH, HALF_HEIGHT = 78.0, 46.0
+"""Of a chart with its text and of the area inside its axes, where two charts stand side by side, mm."""
+CHART_MARGIN = 1.5
+AXIS_NAME = 8.0
+"""What the turned name of an axis takes beside its figures, mm."""
+POLAR_SIZE, POLAR_HALF = 110.0, 58.0
+"""Of a polar diagram at most, either way, by itself and with another one beside it, mm."""
 PENS = (
     Stroke(0.4, style.BLUE),
-    Stroke(0.4, style.RED, (2.4, 0.9)),
-    Stroke(0.4, style.BLACK, (3.2, 0.8, 0.6, 0.8)),
-    Stroke(0.4, style.GRAY, (0.9, 0.7)),
+    Stroke(0.4, style.RED, style.DASHED),
+    Stroke(0.4, style.BLACK, style.CHAIN),
+    Stroke(0.4, style.GRAY, style.DOTTED),
 )
 """One curve after the other, distinguished by dashes as well as by colour."""
 GRID = Stroke(0.1, style.PALE)
@@ -92,12 +97,14 @@ def chart(
     *,
     turn: bool = True,
     levels: Sequence[tuple[float, Content]] = (),
+    half: bool = False,
 ) -> Scene:
-    """Curves in one frame.  With `turn` x is an angle in degrees with ticks at multiples of 45 or 90.
+    """Curves in one frame.  With `turn` x is an angle in degrees with ticks at multiples of 45, 90 or 180.
 
-    `levels` are horizontal lines with a name, e.g. a mean.  Raises `ValueError` if no value is finite.
+    `levels` are horizontal lines with a name, e.g. a mean; with `half` two charts stand side by side.  Raises
+    `ValueError` if no value is finite.
     """
-    window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn)
+    window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn, half)
     items = _frame(window, x_ticks, y_ticks, "°" if turn else "")
     requests: list[Request] = []
     for level, name in levels:
@@ -113,15 +120,18 @@ def chart(
         if one.label and len(series) > 1:
             requests.append(label(_places(vertices), one.label))
     items += _titles(window, x_label, y_label, items)
-    return finish(Draft(tuple(items), tuple(requests)), margin=1.5)
+    return finish(Draft(tuple(items), tuple(requests)), margin=CHART_MARGIN)
 
 
-def polar(series: Series, unit: str, *, title: str = "") -> Scene:
-    """The hodograph of a vector (x, y) about the pole with equal scales, its marks named; `unit` is the axes'."""
+def polar(series: Series, unit: str, *, title: str = "", size: float = POLAR_SIZE) -> Scene:
+    """The hodograph of a vector (x, y) about the pole with equal scales, its marks named; `unit` is the axes'.
+
+    Its longer side inside the axes is `size` mm.
+    """
     x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
     step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / 6, (1, 2, 5))
     (x0, x1), (y0, y1) = _rounded(x, step), _rounded(y, step)
-    per = POLAR_SIZE / max(x1 - x0, y1 - y0)
+    per = size / max(x1 - x0, y1 - y0)
     window = _Window((x0, x1), (y0, y1), (x1 - x0) * per, (y1 - y0) * per)
     items = _frame(window, _steps(x0, x1, step), _steps(y0, y1, step), "")
     items += [Line(window.at(x0, 0), window.at(x1, 0), EDGE), Line(window.at(0, y0), window.at(0, y1), EDGE)]
@@ -179,8 +189,10 @@ def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y
 # --- curves ---------------------------------------------------------------------------------------
 
 
-def _window(series: Sequence[Series], levels: Sequence[float], turn: bool) -> tuple[_Window, list[float], list[float]]:
-    """Ranges and ticks: whole multiples of 45 or 90 degrees across, matplotlib's choice upwards."""
+def _window(
+    series: Sequence[Series], levels: Sequence[float], turn: bool, half: bool
+) -> tuple[_Window, list[float], list[float]]:
+    """Ranges and ticks: whole multiples of 45, 90 or 180 degrees across, matplotlib's choice upwards."""
     from matplotlib.ticker import MaxNLocator, MultipleLocator
 
     x = np.concatenate([np.asarray(one.x, dtype=np.float64) for one in series])
@@ -189,15 +201,23 @@ def _window(series: Sequence[Series], levels: Sequence[float], turn: bool) -> tu
         raise ValueError("a chart needs finite values")
     y = np.concatenate((values, [0.0, *levels]))
     x0, x1 = float(np.nanmin(x)), float(np.nanmax(x))
-    ticks = MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(np.nanmin(y), np.nanmax(y))
+    ticks = MaxNLocator(6 if half else 7, steps=[1, 2, 2.5, 5, 10]).tick_values(np.nanmin(y), np.nanmax(y))
     y_ticks = [float(t) for t in ticks]
     if turn:
-        locator = MultipleLocator(45 if x1 - x0 <= 450 else 90)
+        locator = MultipleLocator((45 if x1 - x0 <= 450 else 90) * (2 if half else 1))
         x_ticks = [float(t) for t in locator.tick_values(x0, x1) if x0 - 1e-6 <= t <= x1 + 1e-6]
     else:
-        x_ticks = [float(t) for t in MaxNLocator(9).tick_values(x0, x1)]
+        x_ticks = [float(t) for t in MaxNLocator(5 if half else 9).tick_values(x0, x1)]
         x0, x1 = x_ticks[0], x_ticks[-1]
-    return _Window((x0, x1), (y_ticks[0], y_ticks[-1]), WIDTH, HEIGHT), x_ticks, y_ticks
+    width, height = (HALF_WIDTH - _beside(x_ticks, y_ticks), HALF_HEIGHT) if half else (WIDTH, HEIGHT)
+    return _Window((x0, x1), (y_ticks[0], y_ticks[-1]), width, height), x_ticks, y_ticks
+
+
+def _beside(x_ticks: Sequence[float], y_ticks: Sequence[float]) -> float:
+    """What figures and the turned name of a chart take left and right of its frame (mm)."""
+    widest = max(box(_figure(tick, y_ticks, ""), style.SMALL).width for tick in y_ticks)
+    last = box(_figure(x_ticks[-1], x_ticks, "°"), style.SMALL).width
+    return widest + AXIS_NAME + last / 2 + 2 * CHART_MARGIN
 
 
 def _rounded(values: Vertices, step: float) -> tuple[float, float]:

@@ -22,12 +22,12 @@ from reportgen.figures.scene import Arrow, Circle, Content, Item, Label, Line, P
 from reportgen.notation.numbers import nice_up
 
 STROKES = (
-    Stroke(0.35, style.BLUE),
-    Stroke(0.35, style.BLACK),
-    Stroke(0.35, style.RED),
-    Stroke(0.35, style.BLACK, (2.0, 0.8)),
+    Stroke(0.35, style.BLUE, style.CHAIN),
+    Stroke(0.25, style.BLACK),
+    Stroke(0.5, style.RED),
+    Stroke(0.35, style.BLACK, style.DASHED),
 )
-"""Pens of the branches in their order; the last dashed, to be distinguished without colour."""
+"""Pens of the branches in their order, told apart by dashes and width as well as by colour."""
 WIDTH = 80.0
 """Of the diagram at most, mm."""
 AXIS_PEN = Stroke(0.2)

@@ -27,6 +27,7 @@ from reportgen.notation.expressions import (
     VectorEquation,
 )
 from reportgen.notation.numbers import write
+from reportgen.notation.vocabulary import numbered, runs
 
 POINT = 25.4 / 72.27
 """One printer's point in mm."""
@@ -92,11 +93,22 @@ def _scripts(base: Box, sub: Box, sup: Box, em: float, cut: float = 1.0) -> Box:
 
 
 def _symbol(symbol: Symbol, em: float) -> Box:
-    base = _text(symbol.base, em, italic=True)
+    base = _letters(symbol.base, em)
     if symbol.over:
         base = Box(max(base.width, 0.5 * em), base.height + OVER * em, base.depth)
     sub, sup = (_text(script, SCRIPT * em) for script in (symbol.sub, symbol.sup))
+    if any(number for _, number in numbered(symbol.sub)):
+        sub = Box(sub.width, sub.height, sub.depth + SUB_SHIFT * SCRIPT * em)
     return _scripts(base, sub, sup, em, SMALL_CUT)
+
+
+def _letters(text: str, em: float) -> Box:
+    """Letters of formulas, digits that stand below them in the size of scripts."""
+    whole = Box(0.0, 0.0, 0.0)
+    for letters, digits in runs(text):
+        below = _text(digits, SCRIPT * em)
+        whole = whole.beside(_scripts(_text(letters, em, italic=True), below, Box(0.0, 0.0, 0.0), em, SMALL_CUT))
+    return whole
 
 
 def _expression(node: Expression, em: float) -> Box:
@@ -128,6 +140,8 @@ def _expression(node: Expression, em: float) -> Box:
         case Root(of):
             inner = Box(0.85 * em, 0.2 * em, 0.0).beside(_expression(of, em))
             return Box(inner.width, inner.height + 0.1 * em, inner.depth - 0.1 * em)
+        case Call("abs" | "size", (argument,)):
+            return _text("||", em).beside(_expression(argument, em))
         case Call(name, arguments):
             inner = _joined([_expression(argument, em) for argument in arguments], em, 0.5)
             return _text(name + "()", em).beside(inner)

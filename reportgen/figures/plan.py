@@ -9,24 +9,28 @@ from __future__ import annotations
 import cmath
 import math
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from reportgen.figures import style
-from reportgen.figures.draft import Draft, finish, settle
+from reportgen.figures.draft import MARGIN, Draft, finish, settle
 from reportgen.figures.geometry import bounds, clipped, clusters, corners_of, unit
 from reportgen.figures.labels import Request, label
 from reportgen.figures.scene import Arrow, Circle, Content, Item, Label, Line, Polyline, Scene, Stroke
 from reportgen.notation.numbers import SERIES
 
 Style = Literal["known", "relative", "found"]
+Titles = Callable[[range, int], str]
+"""What stands below a panel, of the stages that it draws and its own number from 0."""
 PENS: dict[Style, Stroke] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
 
 NOTHING = 1e-9
 """A vector below this share of the longest one counts as zero and is not drawn."""
 SAME = 0.05
 """Points nearer than this (mm) look like one point and share a label joined by ≡."""
+ON_LINE = 0.4
+"""A vector whose ends lie no farther than this (mm) from another's line is drawn on that line."""
 CROWDED = 1.2
 """Points nearer than this share a label joined by commas; an inset tells them apart."""
 BEYOND = 6.0
@@ -39,7 +43,11 @@ INVISIBLE = 0.001
 TARGET = 20.0
 """The longest vector of an inset is enlarged to at most this (mm)."""
 SPACE = 8.0
-"""White between the figure and its insets, mm."""
+"""White between the figure and what stands beside it: its insets, a small mechanism; mm."""
+APART_SIDE = 1.6
+"""Arrows on one line are drawn so far apart (mm), the later one beside its line."""
+CLOSE = 2.0
+"""The white margin of a plan that fills its width, mm."""
 LABELS = 5.0
 """How far labels stand out to the right of what they name, mm."""
 ROOM = 6.0
@@ -134,32 +142,61 @@ class Plan:
         )
 
 
-def plan(drawing: Plan, *, title: str = "") -> Scene:
-    """The scene of a plan in true size, vectors under 3 mm repeated in enlarged insets."""
+def lettered(stages: range, number: int) -> str:
+    """a), b), …: panels that are told in the text one after another."""
+    return f"{chr(ord('a') + number)})"
+
+
+def plan(
+    drawing: Plan,
+    *,
+    title: str = "",
+    beside: Sequence[Draft] = (),
+    width: float = math.inf,
+    enlarged: bool = True,
+    margin: float = MARGIN,
+) -> Scene:
+    """The scene of a plan in true size; `enlarged` repeats vectors under 3 mm in insets.
+
+    The drawings `beside` it, their labels placed, and the insets are stacked to its right; where that would be
+    wider than `width` (mm), they stand in rows below it.
+    """
     vectors = drawing.drawn()
     draft = Draft((*_lines(drawing), *_arrows(vectors), *_marks(drawing)), _labels(drawing, vectors, style.LABEL))
-    draft += insets(drawing, draft)
-    return finish(draft, notes=() if drawing.scale is None else (drawing.scale,), title=title)
+    notes = () if drawing.scale is None else (drawing.scale,)
+    parts, marks = insets(drawing) if enlarged else ((), Draft())
+    further = [*beside, *parts]
+    if not further:
+        return finish(draft, notes=notes, title=title, margin=margin)
+    draft += marks
+    scene = finish(draft + _stacked(further, draft), notes=notes, title=title, margin=margin)
+    if scene.width <= width:
+        return scene
+    return finish(draft + _below(further, draft), notes=notes, title=title, margin=CLOSE)
 
 
-def stages(drawing: Plan, factor: float = 1.0) -> tuple[Scene, ...]:
+def stages(drawing: Plan, factor: float = 1.0, titles: Titles = lettered, begin: int = 0) -> tuple[Scene, ...]:
     """The construction step by step, `factor` times as large: a panel a stage, what is new in blue.
 
-    All panels have one size.  A stage that would draw nothing new is drawn together with the next one.
+    All panels have one size.  A stage that would draw nothing new is drawn together with the next one; stages
+    before `begin` are not shown by themselves.
     """
-    whole = merged(drawing.scaled(factor))
+    scaled = drawing.scaled(factor)
+    kept = kept_stages(scaled)
+    whole = merged(scaled)
     corner = bounds((*_lines(whole), *_arrows(whole.drawn())))
     pad = complex(4, 4)
-    panels = []
-    for stage in range(whole.last_stage + 1):
+    panels: list[Scene] = []
+    for stage in range(bisect_left(kept, begin), whole.last_stage + 1):
         part = whole.until(stage)
         vectors = tuple(v for v in whole.drawn() if v.stage <= stage)
         items = (
             *_lines(part, stage),
-            *(Arrow(v.start, v.end, style.NEW if v.stage == stage else style.OLD, style.HEAD, v.name) for v in vectors),
+            *_arrows(vectors, [style.NEW if v.stage == stage else style.OLD for v in vectors]),
             *_marks(part),
         )
-        title = f"{chr(ord('a') + stage)})"
+        before = kept[stage - 1] if stage else -1
+        title = titles(range(max(before + 1, begin), kept[stage] + 1 if kept else 1), len(panels))
         draft = Draft(items, _labels(part, vectors, style.SMALL))
         panels.append(finish(draft, title=title, margin=2.0, frame=(corner[0] - pad, corner[1] + pad)))
     width = max(panel.width for panel in panels)
@@ -169,14 +206,7 @@ def stages(drawing: Plan, factor: float = 1.0) -> tuple[Scene, ...]:
 
 def merged(drawing: Plan) -> Plan:
     """The plan with its stages renumbered, so that each draws an arrow or a line that was not there before."""
-    least = NOTHING * drawing.size
-    arrows = [(v.stage, v.start, v.end) for v in drawing.drawn()]
-    lines = [(k.stage, k.start, k.end) for k in drawing.lines if abs(k.end - k.start) > least]
-
-    def repeats(stage: int, start: complex, end: complex) -> bool:
-        return any(s < stage and abs(start - p) + abs(end - q) < SAME for s, p, q in arrows)
-
-    kept = sorted({piece[0] for piece in lines} | {piece[0] for piece in arrows if not repeats(*piece)})
+    kept = kept_stages(drawing)
 
     def number(stage: int) -> int:
         return min(bisect_left(kept, stage), max(len(kept) - 1, 0))
@@ -187,6 +217,18 @@ def merged(drawing: Plan) -> Plan:
         points=tuple(replace(p, stage=number(p.stage)) for p in drawing.points),
         lines=tuple(replace(k, stage=number(k.stage)) for k in drawing.lines),
     )
+
+
+def kept_stages(drawing: Plan) -> list[int]:
+    """The stages that draw an arrow or a line that was not there before, in order."""
+    least = NOTHING * drawing.size
+    arrows = [(v.stage, v.start, v.end) for v in drawing.drawn()]
+    lines = [(k.stage, k.start, k.end) for k in drawing.lines if abs(k.end - k.start) > least]
+
+    def repeats(stage: int, start: complex, end: complex) -> bool:
+        return any(s < stage and abs(start - p) + abs(end - q) < SAME for s, p, q in arrows)
+
+    return sorted({piece[0] for piece in lines} | {piece[0] for piece in arrows if not repeats(*piece)})
 
 
 def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
@@ -202,8 +244,43 @@ def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
     return result
 
 
-def _arrows(vectors: Sequence[PlanVector]) -> list[Item]:
-    return [Arrow(v.start, v.end, PENS[v.style], style.HEAD, v.name) for v in vectors]
+def _arrows(vectors: Sequence[PlanVector], pens: Sequence[Stroke] = ()) -> list[Item]:
+    """The arrows; one that would lie on an earlier one stands beside it, thin lines from its ends to their places."""
+    result: list[Item] = []
+    pens = pens or [PENS[v.style] for v in vectors]
+    for v, by, pen in zip(vectors, set_apart(vectors), pens, strict=True):
+        if by:
+            result += (Line(end, end + by, style.LEADER) for end in (v.start, v.end))
+        result.append(Arrow(v.start + by, v.end + by, pen, style.HEAD, v.name))
+    return result
+
+
+def set_apart(vectors: Sequence[PlanVector]) -> list[complex]:
+    """By how much (mm) each vector is drawn beside its place, so that none lies on an earlier one."""
+    shifts: list[complex] = []
+    for n, vector in enumerate(vectors):
+        way = vector.end - vector.start
+        on = {round(abs(shifts[m]) / APART_SIDE) for m in range(n) if _on_one_line(vector, vectors[m])}
+        free = next(step for step in range(n + 1) if step not in on)
+        shifts.append(-1j * unit(way) * APART_SIDE * free)
+    return shifts
+
+
+def _on_one_line(one: PlanVector, other: PlanVector) -> bool:
+    """Whether two vectors, long enough to see, cover a part of one line that is longer than an arrow's head."""
+    if min(one.length, other.length) < TINY or _same(one, other):
+        return False
+    u = unit(one.end - one.start)
+    ends = [(end - one.start) * u.conjugate() for end in (other.start, other.end)]
+    if max(abs(end.imag) for end in ends) > ON_LINE:
+        return False
+    low, high = sorted(end.real for end in ends)
+    return min(high, one.length) - max(low, 0.0) > style.HEAD
+
+
+def _same(one: PlanVector, other: PlanVector) -> bool:
+    """Whether two vectors are one arrow with two names."""
+    return abs(one.start - other.start) + abs(one.end - other.end) < SAME
 
 
 def _marks(drawing: Plan) -> list[Item]:
@@ -219,13 +296,14 @@ def _labels(drawing: Plan, vectors: Sequence[PlanVector], size: float) -> tuple[
         at = group[0].at
         gap = 1.1 if drawing.pole and drawing.points[0] in group else 0.7
         requests.append(label(at, *point_names(group), prefer=_outward(at, vectors), gap=gap, size=size))
-    for vector in vectors:
+    for vector, by in zip(vectors, set_apart(vectors), strict=True):
         way = vector.end - vector.start
         if vector.label is None or abs(way) < TINY:
             continue
         across = cmath.phase(way) + math.pi / 2
         places = [vector.start + way * share for share in (0.5, 0.64, 0.36, 0.76, 0.24, 0.88, 0.12)]
-        requests.append(label(places, vector.label, prefer=(across, across - math.pi), size=size))
+        sides = (cmath.phase(by),) if by else (across, across - math.pi)
+        requests.append(label([at + by for at in places], vector.label, prefer=sides, size=size))
     return tuple(requests)
 
 
@@ -254,24 +332,41 @@ def _outward(at: complex, vectors: Sequence[PlanVector]) -> tuple[float, ...]:
 # --- insets ---------------------------------------------------------------------------------------
 
 
-def insets(drawing: Plan, figure: Draft) -> Draft:
-    """Insets for groups of short vectors, stacked to the right of the plan's `figure`; empty if there are none.
+def insets(drawing: Plan) -> tuple[list[Draft], Draft]:
+    """Insets for groups of short vectors, each about its own middle, and the circles that mark what they enlarge.
 
-    Each prints its ratio (e.g. 10:1) and shows what passes through its frame of the plan's other vectors; a
-    thin circle in the figure marks what it enlarges.
+    Each prints its ratio (e.g. 10:1) and shows what passes through its frame of the plan's other vectors.
     """
-    tiny = [vector for vector in drawing.drawn() if INVISIBLE < vector.length < TINY]
-    if not tiny:
-        return Draft()
+    groups = _groups([vector for vector in drawing.drawn() if INVISIBLE < vector.length < TINY])
+    return [_inset(group, drawing) for group in groups], Draft(tuple(map(_mark, groups)))
+
+
+def _stacked(parts: Sequence[Draft], figure: Draft) -> Draft:
+    """The parts in a column to the right of a figure."""
     # The figure's own labels are placed later; they seldom stand out further than LABELS.
     high = bounds(figure.items)[1]
     top = complex(high.real + LABELS + SPACE, high.imag)
     result = Draft()
-    for group in _groups(tiny):
-        part = _inset(group, drawing)
+    for part in parts:
         floor, ceiling = bounds(part.items)
-        result += part.moved(top - complex(floor.real, ceiling.imag)) + Draft((_mark(group),))
+        result += part.moved(top - complex(floor.real, ceiling.imag))
         top -= 1j * ((ceiling - floor).imag + SPACE / 2)
+    return result
+
+
+def _below(parts: Sequence[Draft], figure: Draft) -> Draft:
+    """The parts in rows below a figure, no wider than it."""
+    low, high = bounds(figure.items)
+    left = place = low - 1j * (LABELS + SPACE)
+    deepest, result = 0.0, Draft()
+    for part in parts:
+        floor, ceiling = bounds(part.items)
+        size = ceiling - floor
+        if place != left and (place + size).real > high.real + LABELS:
+            left -= 1j * (deepest + SPACE / 2)
+            place, deepest = left, 0.0
+        result += part.moved(place - complex(floor.real, ceiling.imag))
+        place, deepest = place + size.real + SPACE / 2, max(deepest, size.imag)
     return result
 
 

@@ -12,10 +12,10 @@ import numpy as np
 
 from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
-from reportgen.figures.geometry import clusters
+from reportgen.figures.geometry import Complexes, clusters, polar, unit
 from reportgen.figures.labels import Request, joined, label
-from reportgen.figures.scene import Circle, Content, Item, Line, Polyline, Scene, Stroke
-from reportgen.figures.scheme import Looks, Skeleton, driver_marks, mechanism, skeleton
+from reportgen.figures.scene import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene, Stroke
+from reportgen.figures.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import GROUND, Crank, Linkage
 from reportgen.notation import vocabulary
@@ -26,8 +26,10 @@ TOGETHER = 0.3
 CROWDED = 24
 """With more positions than this only the emphasised one is numbered."""
 DOT = 0.55
-PATH = Stroke(0.25, style.BLUE)
-NORMAL = Stroke(0.18, style.RED, (1.8, 1.0))
+VELOCITY, ANGLE = 20.0, 11.0
+"""Length of a velocity's arrow and radius of an angle's arc (mm) beside instant centres."""
+LEAST_ANGLE = 0.03
+"""A smaller angle (radians) has no arc that can be seen."""
 BEYOND = 3.0
 """How far (mm) a normal goes on beyond the centre."""
 
@@ -67,23 +69,40 @@ def position_plan(
     reached = [bones for bones in every if bones.reached]
     items: list[Item] = []
     requests: list[Request] = []
+    # A point that carries numbers needs no name of its own.
+    unnumbered = [name for name in shows.paths if name not in shows.numbered]
     if isinstance(linkage.driver, Crank):
         centre = linkage.driver.centre
         radii = _radii(dense, centre, shows.numbered, scale)
         items += [Circle(every[0].points[centre], radius, style.THIN) for radius in radii]
     items += [line for bones in reached[:1] for line in _axes(bones)]
     for bones in reached:
-        items += _links(bones, style.THIN)
+        items += _links(bones, style.THIN, shows.numbered)
+    drawn: list[Complexes] = []
     for name in shows.paths:
         curve = dense.points[name].p[dense.reachable] * scale
-        items.append(Polyline(tuple(complex(p) for p in curve), PATH))
-        # The name of a path stands anywhere along it.
-        places = [complex(p) for p in curve[:: max(1, len(curve) // 10)]]
-        requests.append(label(places, vocabulary.point(name)))
+        # Two points that describe one curve share its line, whose dashes would else fill each other's gaps.
+        if not any(_covers(other, curve) for other in drawn):
+            items.append(Polyline(tuple(complex(p) for p in curve), style.PATH))
+            drawn.append(curve)
     if shows.emphasised is not None and every[shows.emphasised].reached:
         bones = every[shows.emphasised]
-        items += _links(bones, style.HEAVY, shows.paths)
+        items += _links(bones, style.HEAVY, (*shows.paths, *shows.numbered))
         items += [style.point(bones.points[name]) for name in shows.paths]
+        requests += [label(bones.points[name], vocabulary.point(name), gap=style.POINT + 0.4) for name in unnumbered]
+    else:
+        for name in unnumbered:
+            # The name of a path stands where it goes farthest out, or elsewhere along it.
+            curve = dense.points[name].p[dense.reachable] * scale
+            far = np.argsort(-np.abs(curve - curve.mean()), kind="stable")
+            requests.append(
+                label([complex(p) for p in curve[far][:: max(1, len(curve) // 10)]], vocabulary.point(name))
+            )
+    if reached:
+        shown = shows.emphasised if shows.emphasised is not None and every[shows.emphasised].reached else None
+        turning = driver_arrow(linkage, motion, every[shown] if shown is not None else reached[0])
+        items += turning.items
+        requests += turning.requests
     for name in reached[0].pivots if reached else ():
         items += style.pivot(reached[0].points[name])
         requests.append(label(reached[0].points[name], vocabulary.point(name), gap=style.JOINT + 0.4))
@@ -101,10 +120,29 @@ class Centre:
     points: tuple[str, str]
 
 
+@dataclass(frozen=True, slots=True)
+class PlaneMotion:
+    """A link in plane motion by two of its points: their velocities (any size), names of the angles with it."""
+
+    points: tuple[str, ...]
+    velocities: tuple[complex, ...]
+    names: tuple[Content, ...]
+    angles: tuple[Content, ...]
+
+
 def centre_plan(
-    linkage: Linkage, motion: Motion, index: int, scale: float, centres: Sequence[Centre], looks: Looks
+    linkage: Linkage,
+    motion: Motion,
+    index: int,
+    scale: float,
+    centres: Sequence[Centre],
+    looks: Looks,
+    moving: Sequence[PlaneMotion] = (),
 ) -> Scene:
-    """The mechanism at position `index` of `motion` with its links' instant centres and the normals to them."""
+    """The mechanism at position `index` of `motion` with its links' instant centres and the normals to them.
+
+    Of links that are `moving` the velocities are drawn, not to scale, with their angles.
+    """
     bones = skeleton(linkage, motion, index, scale)
     draft = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
     normals: list[Item] = []
@@ -114,11 +152,46 @@ def centre_plan(
         for start in (bones.points[name] for name in centre.points):
             way = centre.at - start
             if abs(way) > style.JOINT:
-                normals.append(Line(start, centre.at + way / abs(way) * BEYOND, NORMAL))
+                normals.append(Line(start, centre.at + way / abs(way) * BEYOND, style.NORMAL))
         marks.append(Circle(centre.at, DOT, Stroke(0.2, style.RED), style.PAPER))
         names.append(label(centre.at, centre.name, gap=DOT + 0.5))
     whole = Draft((*normals, *draft.items, *marks), (*draft.requests, *names))
-    return finish(whole, notes=looks.notes)
+    return finish(whole + _inclined(bones, moving), notes=looks.notes)
+
+
+def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Draft:
+    """Velocities at their points and their angles with the links, counted from the way from base to point."""
+    items: list[Item] = []
+    requests: list[Request] = []
+    drawn: list[str] = []
+    for one in moving:
+        base, end = (bones.points[name] for name in one.points)
+        rod = unit(end - base)
+        if one.velocities[1]:
+            items.append(Line(end, end + rod * (ANGLE + BEYOND), style.CONSTRUCTION))
+        for name, v, letter, angle in zip(one.points, one.velocities, one.names, one.angles, strict=True):
+            if v == 0:
+                continue
+            at, along = bones.points[name], unit(v)
+            if name not in drawn:
+                drawn.append(name)
+                items.append(Arrow(at, at + VELOCITY * along, style.ACTIVE, style.HEAD))
+                requests.append(label(at + VELOCITY * along, letter, prefer=(float(np.angle(along)),)))
+            start, turn = float(np.angle(rod)), float(np.angle(along / rod))
+            if abs(turn) > LEAST_ANGLE:
+                items.append(Arc(at, ANGLE, start, start + turn, style.DIMENSION, style.DIMENSION_HEAD))
+            middle = at + ANGLE * polar(start + turn / 2)
+            requests.append(label(middle, angle, prefer=(start + turn / 2,), size=style.SMALL))
+    return Draft(tuple(items), tuple(requests))
+
+
+def _covers(one: Complexes, other: Complexes) -> bool:
+    """Whether a curve lies on another one."""
+    starts, ways = one[:-1], np.diff(one)
+    sizes = np.where(np.abs(ways) > 0, np.abs(ways) ** 2, 1.0)
+    off = other[:, None] - starts
+    share = np.clip((off * ways.conj()).real / sizes, 0.0, 1.0)
+    return bool(np.abs(off - share * ways).min(axis=1).max(initial=0.0) < TOGETHER)
 
 
 def _radii(dense: Motion, centre: str, numbered: Sequence[str], scale: float) -> list[float]:
@@ -145,11 +218,18 @@ def _axes(bones: Skeleton) -> list[Item]:
 
 
 def _links(bones: Skeleton, pen: Stroke, further: Sequence[str] = ()) -> list[Item]:
-    """Bars between the joints of each link; a plate where one of its `further` points lies off them."""
+    """Bars between the joints of each link; a plate where one of its `further` points lies off them.
+
+    A link with a slideway reaches from its joint to the way's near end, as a lever through its pivot does.
+    """
     result: list[Item] = []
     for link, names in bones.bars.items():
         own = [*names, *(name for name in further if bones.owners.get(name) == link and name not in names)]
-        result += style.body([bones.points[name] for name in own], pen, fill=None)
+        points = [bones.points[name] for name in own]
+        for slide in bones.slides:
+            if slide.on == link and points:
+                points.append(min((slide.low, slide.high), key=lambda end: abs(end - points[0])))
+        result += style.body(points, pen, fill=None)
     for slide in bones.slides:
         if slide.on != GROUND:
             result.append(Line(slide.low, slide.high, pen))

@@ -79,11 +79,15 @@ class Polyline:
 
 @dataclass(frozen=True, slots=True)
 class Hatch:
-    """Parallel 45° strokes filling a convex polygon (ground, sections), `spacing` mm apart."""
+    """Parallel strokes filling a convex polygon (ground, sections), `spacing` mm apart.
+
+    They rise at 45° from the direction `turn` (radians).
+    """
 
     points: tuple[complex, ...]
     spacing: float = 1.2
     stroke: Stroke = Stroke(0.13)
+    turn: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

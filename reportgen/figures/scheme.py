@@ -6,11 +6,12 @@ import cmath
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 
 import numpy as np
 
 from reportgen.figures import style
-from reportgen.figures.draft import Draft, finish
+from reportgen.figures.draft import Draft, finish, settle
 from reportgen.figures.geometry import Complexes, Floats, clusters, polar
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.scene import Arc, Circle, Content, Item, Line, Scene, Stroke
@@ -174,6 +175,33 @@ def groups(
     return tuple(finish(part, title=title) for part, title in zip(parts, titles or [""] * len(parts), strict=True))
 
 
+LEGS = math.cos(math.radians(75))
+"""The arrow of ω1 keeps so far (75°) from straight down, where the pivot stands."""
+NUMBER = 6.0
+"""What the number of a link takes beside its bar, mm."""
+THUMBNAIL = 34.0, 40.0
+"""What a small mechanism beside a plan fills at most, across and upwards, mm."""
+
+
+def thumbnail(linkage: Linkage, motion: Motion, index: int) -> Draft:
+    """The mechanism at position `index` as a small sketch, not to scale: links, joints and their names."""
+    whole = skeleton(linkage, motion, index, 1.0)
+    ends = np.array([*whole.points.values(), *(end for s in whole.slides if s.on == GROUND for end in (s.low, s.high))])
+    size = max(float(np.ptp(ends.real)) / THUMBNAIL[0], float(np.ptp(ends.imag)) / THUMBNAIL[1])
+    bones = skeleton(linkage, motion, index, 1.0 / size)
+    items: list[Item] = []
+    for slide in bones.slides:
+        if abs(slide.high - slide.low) > 0:
+            items.append(Line(slide.low, slide.high, style.THIN if slide.on == GROUND else style.KNOWN))
+    for link in linkage.links:
+        items += style.body(_body_points(bones, link), style.KNOWN, fill=None)
+    items += [style.block(slide.at, slide.angle, style.SMALL_BLOCK) for slide in bones.slides]
+    items += [item for name in bones.pivots for item in style.small_pivot(bones.points[name])]
+    joints = [name for name in bones.joints if name not in bones.pivots]
+    items += [Circle(bones.points[name], style.POINT, style.THIN, style.PAPER) for name in joints]
+    return settle(Draft(tuple(items), tuple(_names([*bones.pivots, *joints], bones, style.SMALL, style.POINT))))
+
+
 def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Draft:
     """The shown links with their joints, names and numbers; with link 0 its pivots and guides."""
     rails: list[Item] = []
@@ -183,7 +211,7 @@ def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Draft:
     for slide in bones.slides:
         size = looks.block(slide.link)
         if slide.on in shown and (slide.on != GROUND or slide.link in shown):
-            rails += _rail(slide, size)
+            rails += _rail(slide, size, _bars(bones, shown))
         if slide.link in shown:
             # Where a group is drawn alone, a short piece of its axis stands for the guide.
             if slide.on not in shown:
@@ -199,7 +227,7 @@ def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Draft:
         bars += style.body([*_body_points(bones, link), *(bones.points[name] for name in own)])
         names += [name for name in joints if name not in names]
         if link != GROUND:
-            requests += _number(bones, link, looks)
+            requests += _number(bones, link, looks, [slide for slide in bones.slides if slide.link in shown])
     names += [name for name in bones.joints if name not in names and _on_block(bones, name, shown)]
     # A block that does not turn has no joint in its middle, only a point.
     marked += [s.name for s in bones.slides if s.link in shown and not s.turns and s.name not in names]
@@ -221,26 +249,45 @@ def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton) -> Draft:
     driver = linkage.driver
     if not isinstance(driver, Crank):
         return Draft()
+    centre = bones.points[driver.centre]
+    circle = Circle(centre, abs(bones.points[driver.pin] - centre), style.THIN)
+    return Draft((circle,)) + driver_arrow(linkage, motion, bones)
+
+
+def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Draft:
+    """The arrow of ω1 about a crank's centre; an empty draft for a sliding driver."""
+    driver = linkage.driver
+    if not isinstance(driver, Crank):
+        return Draft()
     centre, pin = bones.points[driver.centre], bones.points[driver.pin]
     radius = abs(pin - centre)
     sense = math.copysign(1.0, motion.rate)
     angle = cmath.phase(pin - centre)
     reach = max(5.0, min(0.45 * radius, 12.0))
-    start, stop = angle + sense * 0.25, angle + sense * 1.15
+    # The arrow begins beside the crank, or a quarter turn on where it would lie on the pivot's legs.
+    starts = [angle + sense * (0.25 + quarter * math.pi / 2) for quarter in (0, 1, 2, 3)]
+    start = next(one for one in starts if math.cos(one + sense * 0.45 + math.pi / 2) < LEGS)
+    stop = start + sense * 0.9
     arrow = Arc(centre, reach, start, stop, Stroke(0.25), style.HEAD)
     places = [centre + reach * polar(start + share * (stop - start)) for share in (0.6, 0.3, 0.9)]
-    omega = label(places, Symbol("ω", "1"), prefer=(angle + sense * 0.7,))
-    return Draft((Circle(centre, radius, style.THIN), arrow), (omega,))
+    omega = label(places, Symbol("ω", "1"), prefer=((start + stop) / 2,))
+    return Draft((arrow,), (omega,))
 
 
-def _rail(slide: Slide, size: tuple[float, float]) -> tuple[Item, ...]:
+def _bars(bones: Skeleton, shown: Sequence[int]) -> list[tuple[complex, complex]]:
+    """The straight lines between the joints of the links."""
+    joints = [[bones.points[name] for name in bones.bars.get(link, ())] for link in shown]
+    return [bar for ends in joints for bar in combinations(ends, 2)]
+
+
+def _rail(slide: Slide, size: tuple[float, float], bars: Sequence[tuple[complex, complex]]) -> tuple[Item, ...]:
     """The guide of a block along its way; if the way has no length, along a short piece of its axis."""
     along = polar(slide.angle)
     if slide.on != GROUND:
         on = along * (size[0] / 2 + 3.0)
         return (Line(slide.low - on, slide.high + on, style.HEAVY),)
     if abs(slide.high - slide.low) > 1e-6:
-        return style.guide(slide.low, slide.high, size)
+        return style.guide(slide.low, slide.high, size, bars)
     return style.guide(slide.at - 0.5 * along, slide.at + 0.5 * along, size)
 
 
@@ -268,14 +315,15 @@ def _on_block(bones: Skeleton, name: str, shown: Sequence[int]) -> bool:
     return any(slide.name == name and slide.link in shown and slide.turns for slide in bones.slides)
 
 
-def _number(bones: Skeleton, link: int, looks: Looks) -> list[Request]:
-    """The link's number in a ring beside its longest bar, or beside its block."""
+def _number(bones: Skeleton, link: int, looks: Looks, slides: Sequence[Slide]) -> list[Request]:
+    """The link's number in a ring beside its longest bar, away from the blocks of the `slides`, or beside its block."""
     joints = [bones.points[name] for name in bones.bars.get(link, ())]
     slide = bones.slide_of(link)
     if len(joints) > 1:
         start, end = max(((a, b) for a in joints for b in joints), key=lambda pair: abs(pair[1] - pair[0]))
         across, gap = cmath.phase(end - start) + math.pi / 2, 0.9
-        places = [start + (end - start) * share for share in (0.6, 0.45, 0.75, 0.3)]
+        along_bar = [start + (end - start) * share for share in (0.6, 0.45, 0.75, 0.3, 0.52, 0.37, 0.2, 0.85)]
+        places = [at for at in along_bar if not any(_near_block(at, slide, looks) for slide in slides)] or along_bar
     elif slide:
         across, gap = slide.angle + math.pi / 2, looks.block(link)[1] / 2 + 1.0
         along = polar(slide.angle) * looks.block(link)[0] / 4
@@ -285,9 +333,18 @@ def _number(bones: Skeleton, link: int, looks: Looks) -> list[Request]:
     return [label(places, str(link), prefer=(across, across + math.pi), gap=gap, size=style.SMALL, ring=True)]
 
 
-def _names(names: Sequence[str], bones: Skeleton) -> list[Request]:
-    """One label for points that coincide."""
+def _near_block(at: complex, slide: Slide, looks: Looks) -> bool:
+    """Whether a number beside a place would stand in a block."""
+    length, width = looks.block(slide.link)
+    off = (at - slide.at) / polar(slide.angle)
+    return abs(off.real) < length / 2 + NUMBER and abs(off.imag) < width / 2 + NUMBER
+
+
+def _names(
+    names: Sequence[str], bones: Skeleton, size: float = style.LABEL, radius: float = style.JOINT
+) -> list[Request]:
+    """One label for points that coincide, clear of the circles drawn there."""
     return [
-        label(bones.points[group[0]], *joined(map(vocabulary.point, group), " ≡ "), gap=style.JOINT + 0.5)
+        label(bones.points[group[0]], *joined(map(vocabulary.point, group), " ≡ "), gap=radius + 0.5, size=size)
         for group in clusters(dict.fromkeys(names), 0.3, bones.points.__getitem__)
     ]

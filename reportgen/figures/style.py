@@ -5,12 +5,13 @@ The mechanism is black, with two accent colours; lines of construction are gray.
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.figures.geometry import polar, rectangle, unit
+from reportgen.figures.geometry import clipped, polar, rectangle, unit
 from reportgen.figures.scene import Circle, Hatch, Item, Line, Polyline, Stroke
 
 BLACK, GRAY, PALE = "#000000", "#6b6b6b", "#a8a8a8"
@@ -27,13 +28,19 @@ AXIS = Stroke(0.13, GRAY, (5.0, 1.0, 0.8, 1.0))
 CONSTRUCTION = Stroke(0.13, GRAY, (1.6, 1.0))
 """Auxiliary directions of a plan, which go a little beyond their end."""
 LEADER = Stroke(0.1, GRAY)
-KNOWN = Stroke(0.3)
-RELATIVE = Stroke(0.3, BLUE)
-FOUND = Stroke(0.3, RED, (2.4, 0.9))
-"""A vector that a plan gives by closing; dashed, to be distinguished without colour."""
-ACTIVE = Stroke(0.3, BLUE)
-REACTION = Stroke(0.3, RED)
-NEW = Stroke(0.45, BLUE)
+SOLID, DASHED, CHAIN, DOTTED = (), (2.4, 0.9), (3.6, 0.8, 0.6, 0.8), (0.9, 0.7)
+"""What tells lines apart that are printed without colour, beside their widths."""
+KNOWN = Stroke(0.35)
+RELATIVE = Stroke(0.3, BLUE, CHAIN)
+FOUND = Stroke(0.3, RED, DASHED)
+"""A vector that a plan gives by closing."""
+ACTIVE = Stroke(0.5, BLUE)
+REACTION = Stroke(0.3, RED, DASHED)
+PATH = Stroke(0.3, BLUE, CHAIN)
+"""The curve that a point describes."""
+NORMAL = Stroke(0.18, RED, (1.8, 1.0))
+"""A normal to a velocity, through an instant centre."""
+NEW = Stroke(0.5, BLUE)
 """What a stage of a construction adds."""
 OLD = Stroke(0.2, GRAY)
 DIMENSION = Stroke(0.13)
@@ -50,8 +57,14 @@ POINT = 0.7
 """Radius of a point that is no joint."""
 BLOCK = (9.0, 5.0)
 """Length along the guide and width of a block, mm."""
+SMALL_BLOCK = (4.0, 2.2)
+"""The same in a small sketch."""
 STRIP = 1.7
 """Width of a strip of ground."""
+OPEN = 1.0
+"""White between a bar and the wall it passes, mm."""
+SHORTEST_WALL = 3.0
+"""A shorter piece of wall (mm) between two bars is left out."""
 PLAY = 0.35
 """White between a block and its guide."""
 CENTRE = 1.2
@@ -78,19 +91,58 @@ def pivot(at: complex) -> tuple[Item, ...]:
     )
 
 
+def small_pivot(at: complex) -> tuple[Item, ...]:
+    """A revolute joint on the ground in a small sketch."""
+    left, right = at + complex(-1.3, -2.4), at + complex(1.3, -2.4)
+    return (
+        Polyline((at, left, right), THIN, closed=True, fill=PAPER),
+        Line(left - 0.8, right + 0.8, VISIBLE),
+        Circle(at, POINT, VISIBLE, PAPER),
+    )
+
+
 def ground(start: complex, end: complex, side: int) -> tuple[Item, ...]:
-    """A standing edge with its hatching to the left (+1) or right (−1) of the way from start to end."""
-    out = unit(end - start) * 1j * side * STRIP
-    return Hatch((start, end, end + out, start + out)), Line(start, end, VISIBLE)
+    """A standing edge with its hatching, at 45° to it, to the left (+1) or right (−1) of the way from start to end."""
+    u = unit(end - start)
+    out = u * 1j * side * STRIP
+    turn = math.remainder(cmath.phase(u), math.pi / 2)
+    return Hatch((start, end, end + out, start + out), turn=turn), Line(start, end, VISIBLE)
 
 
-def guide(low: complex, high: complex, size: tuple[float, float]) -> tuple[Item, ...]:
-    """Walls on both sides of the way of a block, half a block longer than the way."""
+def guide(
+    low: complex, high: complex, size: tuple[float, float], bars: Sequence[tuple[complex, complex]] = ()
+) -> tuple[Item, ...]:
+    """Walls on both sides of the way of a block, half a block longer than the way, open where `bars` cross them."""
     u = unit(high - low)
     away = u * 1j * (size[1] / 2 + PLAY)
     on = u * (size[0] / 2 + 2.0)
-    start, end = low - on, high + on
-    return (*ground(start + away, end + away, 1), *ground(start - away, end - away, -1))
+    walls = [(low - on + side * away, high + on + side * away, side) for side in (1, -1)]
+    return tuple(
+        item
+        for start, end, side in walls
+        for piece in _uncrossed(start, end, side, bars)
+        for item in ground(*piece, side)
+    )
+
+
+def _uncrossed(
+    start: complex, end: complex, side: int, bars: Sequence[tuple[complex, complex]]
+) -> list[tuple[complex, complex]]:
+    """The pieces of a wall that are left clear by the bars that cross its strip."""
+    u, length = unit(end - start), abs(end - start)
+    gaps = []
+    for bar in bars:
+        # In coordinates along the wall and out of it, which the strip fills from 0 to STRIP.
+        a, b = (complex(p.real, side * p.imag) for p in ((point - start) * u.conjugate() for point in bar))
+        if part := clipped(a, b, complex(-OPEN, 0.0), complex(length + OPEN, STRIP)):
+            low, high = sorted(p.real for p in part)
+            gaps.append((low - OPEN, high + OPEN))
+    pieces, at = [], 0.0
+    for low, high in [*sorted(gaps), (length, length)]:
+        if low - at >= SHORTEST_WALL or (at == 0.0 and low >= length):
+            pieces.append((start + u * at, start + u * min(low, length)))
+        at = max(at, high)
+    return pieces
 
 
 def block(at: complex, angle: float, size: tuple[float, float]) -> Item:

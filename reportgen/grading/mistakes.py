@@ -43,7 +43,7 @@ class Mistake:
     changes: Mapping[str, Change]
 
 
-def mistakes_in(guide: Guide, id: str, scales: Mapping[str, float]) -> Iterator[Mistake]:
+def mistakes_in(guide: Guide, id: str, scales: Values) -> Iterator[Mistake]:
     """All mistakes that can be made in working out one quantity; `scales` are the student's own, in SI.
 
     What stands printed for every position (the crank's angle) can only be taken at another one.
@@ -73,7 +73,7 @@ def general_mistakes(guide: Guide) -> Iterator[Mistake]:
             yield Mistake("no-coriolis", id, {id: _times(0)})
 
 
-def _changes_of(guide: Guide, family: Family, scales: Mapping[str, float]) -> Iterator[tuple[str, Change]]:
+def _changes_of(guide: Guide, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
     """What one quantity becomes with each mistake, by name."""
     id = family.id
     if family.definition is not None:
@@ -94,7 +94,7 @@ def _changes_of(guide: Guide, family: Family, scales: Mapping[str, float]) -> It
 
 
 def _in_a_definition(
-    guide: Guide, family: Family, definition: Expression, scales: Mapping[str, float]
+    guide: Guide, family: Family, definition: Expression, scales: Values
 ) -> Iterator[tuple[str, Change]]:
     used = [guide.ledger[ref] for ref in dict.fromkeys(refs(definition))]
     for given in used:
@@ -110,7 +110,7 @@ def _in_a_definition(
 
 
 def _with_a_wrong_input(
-    guide: Guide, family: Family, definition: Expression, given: Family, scales: Mapping[str, float]
+    guide: Guide, family: Family, definition: Expression, given: Family, scales: Values
 ) -> Iterator[tuple[str, Change]]:
     """Mistakes about one input of a definition."""
     ledger, id = guide.ledger, given.id
@@ -137,7 +137,7 @@ def _with_a_wrong_input(
     elif given.kind == "mass" and (weight := _weight(guide, given)):
         yield "weight-for-mass", instead(lambda values: values[weight])
     elif given.kind.endswith("scale") and not family.constructed and (power := _power(guide, definition, id)):
-        number = scales.get(id, float(given.values[0])) / given.how.scale
+        number = scales.get(id, given.values) / given.how.scale
         # v = seg and v = μ²·seg instead of v = μ·seg.
         yield "scale-forgotten", _times(number**-power)
         yield "scale-twice", _times(number**power)
@@ -193,7 +193,7 @@ def _whole_rod(guide: Guide, id: str) -> str | None:
 # --- changes ----------------------------------------------------------------------------------------
 
 
-def _times(factor: float) -> Change:
+def _times(factor: float | np.ndarray) -> Change:
     return lambda value, _: value * factor
 
 

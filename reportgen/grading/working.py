@@ -128,7 +128,7 @@ class Working:
 
     guide: Guide
     values: Values
-    scales: Mapping[str, float]
+    scales: Values
 
     def own_values(
         self, blank_from_key: bool = False, changes: Mapping[str, Change] | None = None
@@ -197,21 +197,25 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
     values = {row.id: _column(guide, row, submission) for row in guide.key.asked}
     values = {id: column for id, column in values.items() if not np.isnan(column).all()}
     asked = [row.id for row in guide.key.asked if row.role is Role.scale and row.kind != "segment"]
-    stated = {scale: float(values[scale][0]) for scale in asked if scale in values}
-    scales: dict[str, float] = {}
+    scales: dict[str, np.ndarray] = {}
     for scale in asked:
-        usual = float(guide.ledger[scale].values[0])
+        usual = guide.ledger[scale].values
         plan = [id for id in values if vocabulary.plan(id) == scale]
         first = next((id for id in plan if _makes_scale(guide, id, scale)), None)
-        tried = [stated.get(scale, usual) / usual, 1.0]
-        if first is not None:
-            with np.errstate(divide="ignore"):
-                tried.insert(0, float(guide.ledger[first].values[0] / values[first][0]))
-        factor = _drawn_at(guide, values, [id for id in plan if id != first], tried)
+        stated = values.get(scale, np.full(len(usual), np.nan))
+        factor = np.ones(len(usual))
+        for place in range(len(usual)):
+            tried = [float(one) for one in (stated[place] / usual[place], 1.0)]
+            if first is not None:
+                with np.errstate(divide="ignore"):
+                    tried.insert(0, float(guide.ledger[first].values[0] / values[first][0]))
+            # A scale for all positions is judged by all lengths, a position's own by those of its plan.
+            own = slice(None) if len(usual) == 1 else place
+            factor[place] = _drawn_at(guide, values, [id for id in plan if id != first], tried, own)
         scales[scale] = factor * usual
         values |= {id: values[id] * factor for id in plan}
-        if scale in stated:
-            values[scale] = np.array([stated[scale] / factor])
+        if scale in values:
+            values[scale] = stated / factor
     return Working(guide, values, scales)
 
 
@@ -237,13 +241,18 @@ def _makes_scale(guide: Guide, id: str, scale: str) -> bool:
     return isinstance(definition, Ref) and ledger[definition.id].definition is None
 
 
-def _drawn_at(guide: Guide, values: Values, plan: Sequence[str], tried: Sequence[float]) -> float:
-    """The scale of a plan over the report's: of those `tried` the first that another confirms, else the best."""
+def _drawn_at(
+    guide: Guide, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice | int = slice(None)
+) -> float:
+    """The scale of a plan over the report's: of those `tried` the first that another confirms, else the best.
+
+    Only the lengths of the plan at a `place` of their columns count, if one is named.
+    """
 
     def right(factor: float) -> int:
         """How many lengths of the plan are right at that scale."""
         return sum(
-            int((np.abs(np.abs(values[id]) * factor - np.abs(guide.ledger[id].values)) <= guide.bands[id]).sum())
+            int((np.abs(np.abs(values[id]) * factor - np.abs(guide.ledger[id].values)) <= guide.bands[id])[place].sum())
             for id in plan
         )
 

@@ -21,6 +21,7 @@ import numpy as np
 
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.forces.polygon import Polygon
+from reportgen.notation import vocabulary
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import (
     Call,
@@ -82,6 +83,11 @@ class Ledger:
         """The id of a signed rotation's size; any other quantity is its own size."""
         family = self.families[id]
         return family.of if family.is_signed_rotation else id
+
+    def in_language(self, names: Mapping[str, str]) -> Ledger:
+        """The same ledger with its symbols in a language; `names` are the indices as that language has them."""
+        shown = {id: vocabulary.in_language(family.symbol, names) for id, family in self.families.items()}
+        return replace(self, families={id: replace(one, symbol=shown[id]) for id, one in self.families.items()})
 
     def __contains__(self, id: str) -> bool:
         return id in self.families

@@ -9,7 +9,7 @@ contribution first, as far as their kind allows; where that is not enough the re
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from functools import cache
@@ -26,6 +26,7 @@ from reportgen.ledger.kinematics import centres, enter_kinematics
 from reportgen.mechanism.structure import Linkage
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import PI, Expression, Symbol, call, refs, total
+from reportgen.notation.expressions import size as size_of
 from reportgen.notation.sheet import ZERO, Family, Sheet, is_short
 from reportgen.notation.vocabulary import Chapter
 
@@ -200,8 +201,11 @@ TERMS = 4
 """More terms than these are no longer one line of a page."""
 
 
-def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None) -> Ledger:
-    """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures."""
+def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = ()) -> Ledger:
+    """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
+
+    The plans of the `worked` positions fill their paper, of all positions if none is named.
+    """
     machine = analysis.machine
     q = Sheet(machine.positions)
     if machine.span:
@@ -209,7 +213,7 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None) -> 
     else:
         q.give("phi.1", machine.angles(analysis.cycle_angle))
     q.extend(machine.sheet)
-    enter_kinematics(q, machine.linkage, machine.turn)
+    enter_kinematics(q, machine.linkage, machine.turn, worked)
     with q.within(Chapter.formulas):
         machine.formulas(q)
     polygons: tuple[Polygon, ...] = ()
@@ -285,7 +289,7 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
     q.give("M.least", least, Symbol(letter, "min"), kind, exact=False, scale=size)
     q.give("M.greatest", greatest, Symbol(letter, "max"), kind, exact=False, scale=size)
     work = q.give("W", _without_dust(summary.work, size * machine.way), exact=False)
-    q.define("power", abs(mean) * rate)
+    q.define("power", size_of(mean) * rate)
     q.define("M.energy", work / way, Symbol(letter, "W"), kind)
 
 
@@ -307,9 +311,9 @@ def _flywheel(q: Sheet, linkage: Linkage, regulated: flywheel.Flywheel, position
     at = np.searchsorted(regulated.angle, positions - 1e-9)
     inertia = _reduced(q, linkage)
     if inertia is not None:
-        q.define("J.r", inertia)
+        q.define("J.r", inertia, Symbol("J", "tt"))
     largest, δ, ω1 = float(np.abs(regulated.torque).max()), q["unevenness"], q["omega.1"]
-    q.give("M.r", regulated.torque[at], exact=False, scale=largest)
+    q.give("M.r", regulated.torque[at], Symbol("M", "tt"), exact=False, scale=largest)
     q.give("M.c", regulated.constant, exact=False, scale=largest)
     most = float(np.abs(regulated.work).max())
     q.give("A.excess", regulated.work[at], "A", "work", exact=False, scale=most)
@@ -343,5 +347,5 @@ def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:
         return None
     if len(terms) <= TERMS or len(parts) == 1:
         return total(terms) / ω1**2
-    each = [q.define(f"J.r.{link}", total(own) / ω1**2, Symbol("J", f"r{link}")) for link, own in parts.items()]
+    each = [q.define(f"J.r.{link}", total(own) / ω1**2, Symbol("J", f"tt{link}")) for link, own in parts.items()]
     return total(each)

@@ -70,24 +70,16 @@ def inertia_loads(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
     )
 
 
-def as_single_force(load: Load, negligible: float = 0.0) -> Complexes:
+def as_single_force(load: Load) -> Complexes:
     """Where a force F at S with couple M acts as the force alone: the point S − i F M / F².
 
     It lies at the distance |M|/|F| = J|ε|/(m|a_S|) from S, square to the force, on the side that gives
-    M.  It is S itself where M = 0, and nan where |F| ≤ `negligible` (N) with M ≠ 0: a pure couple.
+    M.  It is S itself where M = 0, and nan where F = 0 with M ≠ 0: a pure couple.
     """
     square = np.abs(load.force) ** 2
     with np.errstate(divide="ignore", invalid="ignore"):
-        arm = -1j * load.force * (load.couple / np.where(square > negligible**2, square, np.nan))
+        arm = -1j * load.force * (load.couple / np.where(square > 0, square, np.nan))
     return np.where(load.couple == 0, load.point, load.point + arm)
-
-
-def percussion_centre(l_as: float, mass: float, moment: float) -> float:
-    """The distance from S to the centre of percussion K, l_SK = J/(m l_AS).
-
-    Raises `ZeroDivisionError` for a massless link or A at S: there is no such point.
-    """
-    return moment / (mass * l_as)
 
 
 def percussion_meeting(a: Complexes, s: Complexes, a_a: Complexes, a_s: Complexes, l_sk: float) -> Complexes:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import Literal, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.mechanism.dyads import (
-    Assembled,
     Complexes,
     End,
     Flags,
@@ -25,31 +24,15 @@ from reportgen.mechanism.dyads import (
 )
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
 
-__all__ = ["LinkMotion", "Motion", "PointMotion", "SlideMotion", "Unreachable", "solve_motion"]
+__all__ = ["LinkMotion", "Motion", "PointMotion", "SlideMotion", "solve_motion"]
 
 SUBSTEP = np.radians(2.0)
 """Largest step of a crank between two positions, so that angles unwrap the way the links really turn."""
 SUBSTEPS_OF_A_SLIDE = 180
 
-Reason = Literal["gap", "singular"]
-REASONS: tuple[Reason, Reason] = ("gap", "singular")
 Places = NDArray[np.int64] | slice
 
 Arrays = TypeVar("Arrays", LinkMotion, PointMotion, SlideMotion)
-
-
-@dataclass(frozen=True, slots=True)
-class Unreachable:
-    """A run of positions that a group cannot take: from driver coordinate `first` to `last`.
-
-    `reason` is "gap" where the links do not reach each other, "singular" where they do but the rates
-    have no one answer (two known directions are parallel).
-    """
-
-    links: tuple[int, int]
-    first: float
-    last: float
-    reason: Reason
 
 
 @dataclass(frozen=True)
@@ -68,7 +51,6 @@ class Motion:
     slides: Mapping[tuple[int, int], SlideMotion]
     origins: Mapping[int, PointMotion]
     reachable: Flags
-    unreachable: tuple[Unreachable, ...]
 
     def of(self, link: int, at: Complexes | complex) -> PointMotion:
         """The material point of `link` that lies at `at` now: v = v_O + iω r, a = a_O + (iε − ω²) r."""
@@ -119,7 +101,6 @@ class _State:
         self.origins: dict[int, PointMotion] = {GROUND: self._fixed(0)}
         self.points = {name: self._fixed(p) for name, p in linkage.ground.items()}
         self.slides: dict[tuple[int, int], SlideMotion] = {}
-        self.blocked: dict[tuple[int, int], tuple[Flags, Flags]] = {}
         self.reachable = np.isfinite(path)
         self._drive()
 
@@ -160,19 +141,12 @@ class _State:
         """Assemble one group and note where it cannot be."""
         sign = np.full(self.path.shape, float(dyad.sign))
         group = assemble(dyad, self._end(dyad.start), self._end(dyad.end), sign)
-        self._note(dyad, group)
+        parts = (group.middle.p, group.middle.a, *(part for link in group.links for part in (link.angle, link.epsilon)))
+        self.reachable = self.reachable & np.isfinite(parts).all(axis=0)
         self.points[dyad.middle] = group.middle
         self.slides.update(group.slides)
         for number, link, origin in zip(dyad.links, group.links, group.origins, strict=True):
             self._place(number, LinkMotion(_continuous(link.angle), link.omega, link.epsilon), origin)
-
-    def _note(self, dyad: Dyad, group: Assembled) -> None:
-        placed = np.isfinite(group.middle.p) & np.isfinite(group.links[0].angle) & np.isfinite(group.links[1].angle)
-        moves = placed & np.isfinite(group.middle.a)
-        for link in group.links:
-            moves &= np.isfinite(link.epsilon)
-        self.blocked[dyad.links] = (self.reachable & ~placed, self.reachable & placed & ~moves)
-        self.reachable = self.reachable & moves
 
     def motion(self, driver: Floats, kept: Places) -> Motion:
         """The result at the positions asked for; the substeps are dropped."""
@@ -184,12 +158,6 @@ class _State:
             slides={key: _take(slide, kept) for key, slide in self.slides.items()},
             origins={number: _take(origin, kept) for number, origin in self.origins.items()},
             reachable=self.reachable[kept],
-            unreachable=tuple(
-                Unreachable(links, float(driver[first]), float(driver[last]), reason)
-                for links, (gap, singular) in self.blocked.items()
-                for flags, reason in zip((gap[kept], singular[kept]), REASONS, strict=True)
-                for first, last in _runs(flags)
-            ),
         )
 
 
@@ -197,12 +165,6 @@ def _take(motion: Arrays, kept: Places) -> Arrays:
     if isinstance(kept, slice):
         return motion
     return type(motion)(*(getattr(motion, field.name)[kept] for field in fields(motion)))
-
-
-def _runs(flags: Flags) -> list[tuple[int, int]]:
-    """First and last index of every run of True."""
-    edges = np.diff(np.concatenate(([False], flags, [False])).astype(np.int8))
-    return list(zip(np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1, strict=True))
 
 
 def _continuous(angle: Floats) -> Floats:

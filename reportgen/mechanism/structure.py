@@ -147,30 +147,20 @@ class Mobility:
 
     n: int
     lower_pairs: int
-    higher_pairs: int
-    passive: int
-    redundant: int
     W: int
     joints: tuple[Joint, ...]
     groups: tuple[Dyad, ...]
     mechanism_class: int
+    higher_pairs: int = 0
+    passive: int = 0
+    redundant: int = 0
 
 
-def mobility(linkage: Linkage, *, passive: int = 0, redundant: int = 0) -> Mobility:
-    """Count links and joints: W = 3n − (2t + c) + r − s; class II with any dyad, else I."""
+def mobility(linkage: Linkage) -> Mobility:
+    """Count links and joints, all of them lower pairs: W = 3n − 2t; class II with any dyad, else I."""
     listed = joints(linkage)
     n, pairs = len(linkage.links), len(listed)
-    return Mobility(
-        n=n,
-        lower_pairs=pairs,
-        higher_pairs=0,
-        passive=passive,
-        redundant=redundant,
-        W=3 * n - 2 * pairs + passive - redundant,
-        joints=listed,
-        groups=linkage.dyads,
-        mechanism_class=2 if linkage.dyads else 1,
-    )
+    return Mobility(n, pairs, 3 * n - 2 * pairs, listed, linkage.dyads, 2 if linkage.dyads else 1)
 
 
 def owners(linkage: Linkage) -> Mapping[str, int]:

@@ -97,6 +97,7 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "arctan": np.arctan,
     "arctan2": np.arctan2,
     "abs": np.abs,
+    "size": np.abs,
     "sign": np.sign,
     "re": np.real,
     "im": np.imag,
@@ -141,10 +142,7 @@ def evaluate(node: Expression, values: Mapping[str, Value] | None = None) -> Val
         case Sum(terms):
             return sum(evaluate(term, values) for term in terms)
         case Product(factors):
-            result: Value = 1.0
-            for factor in factors:
-                result = result * evaluate(factor, values)
-            return result
+            return math.prod((evaluate(factor, values) for factor in factors), start=1.0)
         case Negative(of):
             return -evaluate(of, values)
         case Fraction(top, bottom):

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Literal
 
 from reportgen.notation.numbers import printed
@@ -233,28 +234,17 @@ def sqrt(of: Operand) -> Root:
     return Root(as_expression(of))
 
 
-def sin(angle: Operand) -> Call:
-    return call("sin", angle)
+sin = partial(call, "sin")
+cos = partial(call, "cos")
+tan = partial(call, "tan")
+asin = partial(call, "arcsin")
+acos = partial(call, "arccos")
+atan = partial(call, "arctan")
 
 
-def cos(angle: Operand) -> Call:
-    return call("cos", angle)
-
-
-def tan(angle: Operand) -> Call:
-    return call("tan", angle)
-
-
-def asin(of: Operand) -> Call:
-    return call("arcsin", of)
-
-
-def acos(of: Operand) -> Call:
-    return call("arccos", of)
-
-
-def atan(of: Operand) -> Call:
-    return call("arctan", of)
+def size(of: Operand) -> Call:
+    """|of| of a number with a sign, printed as it stands; abs is measured on a drawing."""
+    return call("size", of)
 
 
 def atan2(across: Operand, along: Operand) -> Call:
@@ -279,44 +269,22 @@ def circle_circle(c1: Operand, r1: Operand, c2: Operand, r2: Operand, sign: floa
     return call("circle_circle", c1, r1, c2, r2, sign)
 
 
-def turned(vector: Operand) -> Call:
-    """A vector turned by 90° anticlockwise."""
-    return call("turned", vector)
-
-
-def cross(a: Operand, b: Operand) -> Call:
-    """The z-component of a × b."""
-    return call("cross", a, b)
-
-
-def dot(a: Operand, b: Operand) -> Call:
-    """The scalar product."""
-    return call("dot", a, b)
-
-
-def cis(angle: Operand) -> Call:
-    """The unit vector at an angle from +x."""
-    return call("cis", angle)
-
-
-def arg(vector: Operand) -> Call:
-    """A vector's direction from +x, in (−π, π]."""
-    return call("arg", vector)
-
-
-def heading(vector: Operand) -> Call:
-    """A vector's direction from +x, in [0, 2π)."""
-    return call("heading", vector)
-
-
-def sign(of: Operand) -> Call:
-    """+1, 0 or −1."""
-    return call("sign", of)
-
-
-def quotient(a: Operand, b: Operand) -> Call:
-    """a / b, and 0 where b is 0: the arm of a force that is not there."""
-    return call("quotient", a, b)
+turned = partial(call, "turned")
+"""A vector turned by 90° anticlockwise."""
+cross = partial(call, "cross")
+"""The z-component of a × b."""
+dot = partial(call, "dot")
+"""The scalar product."""
+cis = partial(call, "cis")
+"""The unit vector at an angle from +x."""
+arg = partial(call, "arg")
+"""A vector's direction from +x, in (−π, π]."""
+heading = partial(call, "heading")
+"""A vector's direction from +x, in [0, 2π)."""
+sign = partial(call, "sign")
+"""+1, 0 or −1."""
+quotient = partial(call, "quotient")
+"""a / b, and 0 where b is 0: the arm of a force that is not there."""
 
 
 # --- passes ---------------------------------------------------------------------------------------
@@ -325,22 +293,14 @@ def quotient(a: Operand, b: Operand) -> Call:
 def children(node: Expression) -> tuple[Expression, ...]:
     """The direct sub-expressions of a node, in printed order."""
     match node:
-        case Sum(terms):
-            return terms
-        case Product(factors):
-            return factors
+        case Sum(parts) | Product(parts) | Call(_, parts) | Chain(parts):
+            return parts
         case Negative(of) | Root(of):
             return (of,)
-        case Fraction(top, bottom):
-            return (top, bottom)
-        case Power(base, exponent):
-            return (base, exponent)
-        case Call(_, arguments):
-            return arguments
+        case Fraction(first, second) | Power(first, second):
+            return (first, second)
         case Matrix(rows):
             return tuple(entry for row in rows for entry in row)
-        case Chain(parts):
-            return parts
         case VectorEquation(sides):
             return tuple(term.symbol for side in sides for term in side)
         case _:
@@ -350,18 +310,12 @@ def children(node: Expression) -> tuple[Expression, ...]:
 def rebuild(node: Expression, change: Callable[[Expression], Expression]) -> Expression:
     """The node with `change` applied to each direct sub-expression."""
     match node:
-        case Sum(terms):
-            return Sum(tuple(map(change, terms)))
-        case Product(factors):
-            return Product(tuple(map(change, factors)))
-        case Negative(of):
-            return Negative(change(of))
-        case Root(of):
-            return Root(change(of))
-        case Fraction(top, bottom):
-            return Fraction(change(top), change(bottom))
-        case Power(base, exponent):
-            return Power(change(base), change(exponent))
+        case Sum(parts) | Product(parts):
+            return type(node)(tuple(map(change, parts)))
+        case Negative(of) | Root(of):
+            return type(node)(change(of))
+        case Fraction(first, second) | Power(first, second):
+            return type(node)(change(first), change(second))
         case Call(name, arguments):
             return Call(name, tuple(map(change, arguments)))
         case Matrix(rows):

@@ -65,3 +65,12 @@ def nice_up(value: float, series: Sequence[float] = SERIES) -> float:
     choices = (float(f"{step}e{power}") for power in (decade, decade + 1, decade + 2) for step in sorted(series))
     # A value that is a member but for its last binary digits is that member.
     return next(choice for choice in choices if choice >= value * (1 - 1e-12))
+
+
+def nice_down(value: float, series: Sequence[float] = SERIES) -> float:
+    """The largest s·10ⁿ, s of the series, that is not above `value`; raises `ValueError` as `nice_up` does."""
+    if not (value > 0 and math.isfinite(value)):
+        raise ValueError("a scale is a positive number")
+    decade = math.floor(math.log10(value))
+    choices = (float(f"{step}e{power}") for power in (decade + 1, decade, decade - 1) for step in sorted(series)[::-1])
+    return next(choice for choice in choices if choice <= value * (1 + 1e-12))

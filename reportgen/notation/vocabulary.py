@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property, lru_cache
 
@@ -91,12 +92,38 @@ def vector(symbol: Symbol) -> Symbol:
     return Symbol(symbol.base, symbol.sub, symbol.sup, "vector")
 
 
+def in_language(symbol: Symbol, names: Mapping[str, str]) -> Symbol:
+    """The symbol with its indices as a language has them: with cb → bal, M_cb is M_bal; h_Pqt5 has the qt of P_qt5."""
+    sub = _WORDS.sub(lambda found: names.get(found[0], found[0]), symbol.sub)
+    return replace(symbol, sub=sub, sup=names.get(symbol.sup, symbol.sup))
+
+
+_WORDS = re.compile("[a-z]+")
+
+
 def lowered(text: str) -> str:
     """Digits of point names as lowered digits: B3 → B₃."""
     return text.translate(_LOWERED)
 
 
-_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_DIGITS, _BELOW = "0123456789", "₀₁₂₃₄₅₆₇₈₉"
+_LOWERED, _RAISED = str.maketrans(_DIGITS, _BELOW), str.maketrans(_BELOW, _DIGITS)
+_RUN = re.compile(f"([^{_BELOW}]*)([{_BELOW}]*)")
+_NUMBERED = re.compile(r"([A-Z])([a-z]*\d+)")
+
+
+def runs(text: str) -> list[tuple[str, str]]:
+    """Letters with the digits that stand below them: O₁A is O with 1, then A."""
+    return [(letters, digits.translate(_RAISED)) for letters, digits in _RUN.findall(text) if letters or digits]
+
+
+def numbered(index: str) -> list[tuple[str, str]]:
+    """An index in names with their numbers and what stands between: O1A is O with 1, then A; h_Pqt5 has P with qt5."""
+    between, *named = _NUMBERED.split(index)
+    pieces = [(between, "")]
+    for letter, number, after in zip(named[::3], named[1::3], named[2::3], strict=True):
+        pieces += [(letter, number), (after, "")]
+    return [piece for piece in pieces if piece[0]]
 
 
 def segment(first: Symbol | str, second: Symbol | str) -> Symbol:

@@ -88,4 +88,4 @@ def guarded(text: str) -> str:
 def unguarded(text: str) -> str:
     """The text that `guarded` was given."""
     rest = text[1:]
-    return rest if text.startswith("'") and _LIVE.match(rest) and not _NUMBER.fullmatch(rest) else text
+    return rest if text.startswith("'") and guarded(rest) != rest else text

@@ -90,14 +90,15 @@ def arc_with_head(arc: Arc) -> tuple[list[Bezier], Triangle | None]:
     return arc_to_beziers(arc.centre, arc.radius, arc.start, arc.stop - 0.7 * angle), triangle
 
 
-def clip_hatch(points: Sequence[complex], spacing: float) -> list[Segment]:
-    """Strokes at 45° inside a convex polygon, `spacing` mm apart, counted from the sheet's origin.
+def clip_hatch(points: Sequence[complex], spacing: float, turn: float = 0.0) -> list[Segment]:
+    """Strokes at 45° to `turn` (radians) inside a convex polygon, `spacing` mm apart, counted from the sheet's origin.
 
     Neighbouring hatches thus run into each other.  Raises `ValueError` for a spacing that is not positive.
     """
     if spacing <= 0:
         raise ValueError("the spacing of a hatch must be positive")
-    turned = [point * cmath.exp(-0.25j * math.pi) for point in points]
+    along = cmath.exp(1j * (turn + math.pi / 4))
+    turned = [point / along for point in points]
     heights = [point.imag for point in turned]
     if not turned:
         return []
@@ -111,8 +112,7 @@ def clip_hatch(points: Sequence[complex], spacing: float) -> list[Segment]:
         ]
         if len(crossings) == 2 and abs(crossings[0] - crossings[1]) > 1e-6:
             left, right = sorted(crossings)
-            back = cmath.exp(0.25j * math.pi)
-            strokes.append((complex(left, height) * back, complex(right, height) * back))
+            strokes.append((complex(left, height) * along, complex(right, height) * along))
     return strokes
 
 
@@ -161,8 +161,8 @@ def _calls(item: Item, scene: Scene, pens: Mapping[Stroke | None, str], formulas
         case Polyline(points, outline, closed, fill):
             name = "C" if closed else "Y"
             return [f"{name}({pens[outline]},{_rgb(fill)},{at(*points)})"] if points else []
-        case Hatch(points, spacing, stroke):
-            strokes = clip_hatch(points, spacing)
+        case Hatch(points, spacing, stroke, turn):
+            strokes = clip_hatch(points, spacing, turn)
             ends = ",".join(at(*segment) for segment in strokes)
             return [f"H({pens[stroke]},{ends})"] if strokes else []
         case Label():
@@ -249,8 +249,8 @@ def _shape(item: Item) -> tuple[Stroke | None, str | None, str]:
             return stroke, stroke.colour if triangle else None, _curve(pieces) + " S" + _head(triangle)
         case Polyline(points, pen, closed, fill):
             return pen, fill, _path(points, "h" if closed else "") + _paint(pen, fill)
-        case Hatch(points, spacing, stroke):
-            return stroke, None, "\n".join(_path(pair, "S") for pair in clip_hatch(points, spacing))
+        case Hatch(points, spacing, stroke, turn):
+            return stroke, None, "\n".join(_path(pair, "S") for pair in clip_hatch(points, spacing, turn))
         case _:
             return None, None, ""
 

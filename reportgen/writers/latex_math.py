@@ -12,12 +12,9 @@ from collections.abc import Sequence
 from typing import Literal
 
 from reportgen.errors import TypesetterError
-from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Root, Symbol, Term, VectorEquation, walk
+from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Root, Symbol, VectorEquation, walk
 from reportgen.notation.numbers import MINUS, write
-from reportgen.writers.layout import NAMED, PRIMES, UNSPACED, Formulas, short_end
-
-SignedTerm = tuple[str, Term]
-"""A term of a vector equation with the sign or relation printed before it."""
+from reportgen.writers.layout import NAMED, PRIMES, UNSPACED, Column, Formulas, short_end
 
 NARROW_TERMS = 5
 """A vector equation of at most so many terms fits any line."""
@@ -244,13 +241,21 @@ class LatexFormulas(Formulas):
     def symbol(self, node: Symbol) -> str:
         letters = node.base.rstrip("".join(PRIMES))
         above = node.base[len(letters) :] + node.sup
-        base = letters if len(letters) == 1 and _is_mathematical(letters) else _word(letters, "it")
+        base = letters if len(letters) == 1 and _is_mathematical(letters) else self.lettered(letters)
         if node.over == "vector":
             base = rf"\vec{{{base}}}" if len(letters) == 1 else rf"\overrightarrow{{{base}}}"
-        elif node.over == "segment":
-            base = rf"\overline{{{base}}}"
-        below = f"_{{{_word(node.sub)}}}" if node.sub else ""
-        return base + below + (self.RAISED % _word(above) if above else "")
+        below = f"_{{{self.index(node.sub)}}}" if node.sub else ""
+        marked = base + below + (self.RAISED % _word(above) if above else "")
+        return rf"\overline{{{marked}}}" if node.over == "segment" else marked
+
+    def italic(self, text: str) -> str:
+        return _word(text, "it")
+
+    def upright(self, text: str) -> str:
+        return _word(text)
+
+    def lowered(self, text: str) -> str:
+        return rf"_{{\scriptstyle{{{_word(text)}}}}}"
 
     def parentheses(self, node: Expression) -> str:
         inner = self.math(node)
@@ -285,7 +290,7 @@ class LatexFormulas(Formulas):
         """
         match node:
             case VectorEquation(rows=rows):
-                return "", self._vector_equation(list(self.signed(node)), rows)
+                return "", self._vector_equation(self.columns(node), rows)
             case Chain((first, *others), note):
                 rest = [r" \relbreak= " + self.math(part) for part in others]
                 if rest and short_end(node):
@@ -297,7 +302,7 @@ class LatexFormulas(Formulas):
 
     # --- vector equations -------------------------------------------------------------------------
 
-    def _vector_equation(self, terms: Sequence[SignedTerm], rows: Sequence[str]) -> str:
+    def _vector_equation(self, terms: Sequence[Column], rows: Sequence[str]) -> str:
         """A grid; if it is too wide for the line, two grids of half the terms, one below the other."""
         whole = self._grid(terms, rows)
         if len(terms) <= NARROW_TERMS:
@@ -306,11 +311,11 @@ class LatexFormulas(Formulas):
         upper, lower = (self._vector_equation(part, rows) for part in (terms[:half], terms[half:]))
         return rf"\fitting{{{whole}}}{{\storeys{{{upper}}}{{{lower}}}}}"
 
-    def _grid(self, terms: Sequence[SignedTerm], rows: Sequence[str]) -> str:
+    def _grid(self, terms: Sequence[Column], rows: Sequence[str]) -> str:
         """Terms on top, below each what is known of it; "?" marks an unknown."""
-        lines = ["&" + "&".join(f"{sign}&{self.symbol(term.symbol)}" for sign, term in terms)]
+        lines = ["&" + "&".join(f"{sign}&{shown}" for sign, shown, _ in terms)]
         for row, name in enumerate(rows):
-            entries = (term.known[row] if row < len(term.known) else "" for _, term in terms)
+            entries = (known[row] if row < len(known) else "" for _, _, known in terms)
             known = "&".join(rf"&\known{{{self.content('?' if e is None else e)}}}" for e in entries)
             lines.append(rf"\rowname{{{escape(name)}}}&{known}")
         if rows:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import ClassVar
 
@@ -29,6 +29,7 @@ from reportgen.notation.expressions import (
     VectorEquation,
 )
 from reportgen.notation.numbers import Language
+from reportgen.notation.vocabulary import numbered, runs
 
 TEXT_WIDTH = 160.0
 """Of the A4 text block, mm."""
@@ -40,6 +41,9 @@ TOGETHER = 3
 """A longer table has at least this many rows on each of its pages."""
 UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
 """A unit with a slash inside a text."""
+
+Column = tuple[str, str, tuple[Expression | str | None, ...]]
+"""Of a vector equation: the sign before a term, the term itself, what is known of it."""
 
 # --- formulas -------------------------------------------------------------------------------------
 
@@ -136,7 +140,7 @@ class Formulas(ABC):
 
     def call(self, node: Call, exponent: str = "") -> str:
         match node.name, node.arguments:
-            case "abs", (argument,):
+            case (("abs" | "size"), (argument,)):
                 return self.ABSOLUTE % self.math(argument)
             case ("cross" | "dot") as product, (left, right):
                 sign = self.CROSS if product == "cross" else self.DOT
@@ -146,6 +150,20 @@ class Formulas(ABC):
             case name, arguments:
                 return f"{self.function(name)}{exponent}{self.arguments(arguments)}"
 
+    def columns(self, equation: VectorEquation) -> list[Column]:
+        """The columns of a vector equation: what is printed before a term, the term, what is known of it.
+
+        A last "= 0", of which nothing is known, stands with the term before it: no row is broken between them.
+        """
+        found: list[Column] = []
+        for sign, term in self.signed(equation):
+            if found and sign.startswith("=") and not any(entry != "" for entry in term.known):
+                before, shown, known = found[-1]
+                found[-1] = before, f"{shown} {sign} {self.symbol(term.symbol)}", known
+            else:
+                found.append((sign, self.symbol(term.symbol), term.known))
+        return found
+
     def signed(self, equation: VectorEquation) -> Iterator[tuple[str, Term]]:
         """Each term with what is printed before it: "=" at the head of a later side, then its sign."""
         for side, terms in enumerate(equation.sides):
@@ -153,11 +171,32 @@ class Formulas(ABC):
                 sign = self.NEGATIVE if term.sign < 0 else "+" if index else ""
                 yield ("=" + sign if side and not index else sign), term
 
+    def lettered(self, text: str) -> str:
+        """A symbol's letters in italics, those of points with their digits below: O₁A."""
+        return self._pieces(runs(text), self.italic)
+
+    def index(self, text: str) -> str:
+        """A symbol's index upright, the digits of the points it names set lower again: O1A of l, Pqt5 of h."""
+        return self._pieces(numbered(text), self.upright)
+
+    def _pieces(self, pieces: Iterable[tuple[str, str]], set_letters: Callable[[str], str]) -> str:
+        return "".join(set_letters(part) + (self.lowered(number) if number else "") for part, number in pieces)
+
     @abstractmethod
     def text(self, text: str) -> str: ...
 
     @abstractmethod
     def symbol(self, node: Symbol) -> str: ...
+
+    @abstractmethod
+    def italic(self, text: str) -> str: ...
+
+    @abstractmethod
+    def upright(self, text: str) -> str: ...
+
+    @abstractmethod
+    def lowered(self, text: str) -> str:
+        """Upright letters below the line, no smaller than an index."""
 
     @abstractmethod
     def number(self, node: Number) -> str: ...

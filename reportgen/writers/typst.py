@@ -51,14 +51,24 @@ class TypstFormulas(Formulas):
         return written(number.value, number.decimals, self.language) + gap + number.unit
 
     def symbol(self, node: Symbol) -> str:
-        """A symbol with its marks: base in italics, sub- and superscript upright."""
+        """A symbol with its marks: base in italics, sub- and superscript upright, a bar over the whole of it."""
         letters = node.base.rstrip("".join(PRIMES))
-        base = letters if len(letters) == 1 and letters.isalpha() else f"italic({literal(letters)})"
-        if node.over:
-            base = f"{'arrow' if node.over == 'vector' else 'overline'}({base})"
-        below = f"_{literal(node.sub)}" if node.sub else ""
+        base = letters if len(letters) == 1 and letters.isalpha() else self.lettered(letters)
+        if node.over == "vector":
+            base = f"arrow({base})"
+        below = f"_({self.index(node.sub)})" if node.sub else ""
         above = node.base[len(letters) :] + node.sup
-        return base + below + (self.RAISED % _superscript(above) if above else "")
+        marked = base + below + (self.RAISED % _superscript(above) if above else "")
+        return f"overline({marked})" if node.over == "segment" else marked
+
+    def italic(self, text: str) -> str:
+        return f"italic({literal(text)})"
+
+    def upright(self, text: str) -> str:
+        return literal(text)
+
+    def lowered(self, text: str) -> str:
+        return f"_(script({literal(text)}))"
 
     def parentheses(self, node: Expression) -> str:
         return f"({self.math(node)})"
@@ -294,7 +304,8 @@ class _Blocks:
         """A displayed row: the parts between "=", each in the pieces between which it may break."""
         parts = row.parts if isinstance(row, Chain) else (row,)
         printed = [self.formulas.pieces(part) for part in parts]
-        if layout.short_end(row) and len(printed) > 1:
+        # The first relation is where rows are aligned.
+        if layout.short_end(row) and len(printed) > 2:
             end = printed.pop()
             printed[-1][-1] += f" = {' '.join(end)}"
         printed[-1][-1] += self.formulas.note(row)
@@ -302,10 +313,10 @@ class _Blocks:
 
     def vector_equation(self, equation: VectorEquation) -> str:
         terms = []
-        for sign, term in self.formulas.signed(equation):
-            known = (*term.known, *("",) * (len(equation.rows) - len(term.known)))
+        for sign, shown, known in self.formulas.columns(equation):
+            known = (*known, *("",) * (len(equation.rows) - len(known)))
             entries = (self.formulas.content("?" if e is None else e) for e in known[: len(equation.rows)])
-            terms.append(_array((f"${sign}$", self.formulas.content(term.symbol), *entries)))
+            terms.append(_array((f"${sign}$", f"${shown}$", *entries)))
         return ",".join((_array(map(literal, equation.rows)), *terms))
 
     def table(self, table: tree.Table) -> str:

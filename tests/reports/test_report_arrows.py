@@ -8,8 +8,10 @@ from collections.abc import Iterator
 
 import pytest
 
+from reportgen.document.tree import InlineMath
 from reportgen.figures.scene import Arrow
 from reportgen.mechanism.structure import DRIVER
+from reportgen.notation.expressions import Chain, Number
 from tests.reports import built, pages
 from tests.reports.built import Report, Written
 
@@ -20,8 +22,6 @@ RULER = 0.1
 MM = 1e3
 VANISHING = 0.005
 """Millimetres: shorter vectors may vanish in the thousandths that are written."""
-STAGES = 0.5
-"""Stages are drawn at half the size of the plan; their caption prints the scale twice as large."""
 
 
 def drawn(written: Written) -> list[tuple[str, Arrow]]:
@@ -65,7 +65,7 @@ def segment(name: str, plan: str) -> str:
 def segments(written: Written, key: str) -> dict[str, list[float]]:
     """Lengths (mm) at the positions of one plan's figure by the vector's name; none for other figures."""
     ledger = written.case.ledger
-    motion = re.fullmatch(r"fig\.([va])\.(?:stages\.)?(\w+?)(?:\.\d+)?", key)
+    motion = re.fullmatch(r"fig\.([va])\.(?:stages\.\w+\.)?(\w+?)(?:\.\d+)?", key)
     forces = re.fullmatch(
         r"fig\.R\.(?:plates\.(\w+)(?:\.\d+)?|(?:stages\.)?(\w+)\.(\w+))", key.replace("fig.crank.", f"fig.R.{DRIVER}.")
     )
@@ -84,10 +84,19 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
         return {}
     count = written.case.analysis.machine.count if motion else written.case.analysis.machine.positions
     positions = range(1, count + 1) if position == "plates" else [worked(written, position, count)]
-    scale = STAGES if ".stages." in key else 1.0
+    scale = share(written, key, f"mu.{motion[1]}" if motion else f"mu.R{polygon.name}")
     return {
         name: [abs(complex(ledger[id].at(k))) * MM * scale for id in of for k in positions] for name, of in ids.items()
     }
+
+
+def share(written: Written, key: str, scale: str) -> float:
+    """How much smaller than at the ledger's scale a figure is drawn, by the scale that its caption prints."""
+    captions = [block.caption for block in built.walk(written.document.blocks) if getattr(block, "key", "") == key]
+    match captions:
+        case [(*_, InlineMath(Chain((_, Number(value)))))]:
+            return written.case.ledger.number(scale).value / value
+    return 1.0
 
 
 def worked(written: Written, label: str, count: int) -> int:

@@ -50,7 +50,7 @@ def said(inlines: Inlines) -> set[object]:
     for inline in inlines:
         match inline:
             case InlineMath(expression):
-                result.add(re.sub(r"[,.]|vg/ph|rpm", "", formula(expression, "en")))
+                result.add(re.sub(r"[,.]|vg/ph|rpm", "", in_english(formula(expression, "en"))))
             case Value(number):
                 result.add(number.shown)
             case Reference(key):
@@ -58,6 +58,17 @@ def said(inlines: Inlines) -> set[object]:
             case Emph(of) | Strong(of):
                 result |= said(of)
     return result
+
+
+INDICES = [load_words(search_path(language))["symbols"] for language in built.LANGUAGES]
+IN_ENGLISH = dict(zip(INDICES[0].values(), (INDICES[1][name] for name in INDICES[0]), strict=True))
+
+
+def in_english(formula: str) -> str:
+    """A formula with its indices in English: J_tt2 as J_r2."""
+    return re.sub(
+        r"(?<=[_^])\w+", lambda index: re.sub("[^\\W\\d_A-Z]+", lambda w: IN_ENGLISH.get(w[0], w[0]), index[0]), formula
+    )
 
 
 def shape(block: Block) -> tuple[Any, ...]:

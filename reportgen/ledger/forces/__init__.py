@@ -1,6 +1,7 @@
 """Forces group by group, as the textbook solves them: definitions from the dyad kinds alone.
 
-Ids: `R.12.t`, `R.12.n`, `R.12` sizes of reactions and `F.R12` their vectors; `M.03`, `x.03` the moment about
+Ids: `R.12.t`, `R.12.n`, `R.12` sizes of reactions and `F.R12` their vectors; `assumed.R12.t` the unit vector of
+the sense in which a signed component counts as positive, and is drawn on its link; `M.03`, `x.03` the moment about
 the pin that a slide's reaction balances and its distance from the pin.  A group's force plan has vertices
 `plan.R23.e`, … (metres on paper) and a scale `mu.R23`.  Arms are signed, anticlockwise moments positive, in
 metres on paper (lengths drawn at μ_l).  `M.eq` and `M.vw` balance the driver.  A plan is laid out in `Polygon`.

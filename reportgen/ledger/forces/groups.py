@@ -100,8 +100,8 @@ def _rpr(g: Group) -> Polygon:
     known = [*(moment.terms if isinstance(moment, Sum) else [moment] if moment else []), *([couple] if couple else [])]
     size = total(known) / _reach(g) if known else 0.0
     found = q.define(f"R.{across}.s", size, Symbol("R", across), scale=g.statics.force)
-    sense = -float(g.dyad.sign)
-    laid = q.construct(f"F.R{across}.s", found * sense * turned(q[f"slot.{g.j}"]), of=found.id)
+    assumed = q.construct(f"assumed.R{across}.s", -float(g.dyad.sign) * turned(q[f"slot.{g.j}"]))
+    laid = q.construct(f"F.R{across}.s", found * assumed, of=found.id)
     polygon = _close(g, None, None, laid=laid)
     _offset(g, g.inner)
     return polygon
@@ -135,7 +135,8 @@ def _tangential(g: Group, link: int, digits: str, pin: str, middle: str, loads: 
     q, length = g.q, g.q[f"l.{pin}{middle}"]
     moment = moments(g.statics, loads, middle)
     size = q.define(f"R.{digits}.t", 0.0 if moment is None else moment / length, scale=g.statics.force)
-    q.construct(f"F.R{digits}.t", size * turned(q[f"rod.{link}"] / length), of=size.id)
+    assumed = q.construct(f"assumed.R{digits}.t", turned(q[f"rod.{link}"] / length))
+    q.construct(f"F.R{digits}.t", size * assumed, of=size.id)
 
 
 def _reach(g: Group) -> Ref:
@@ -268,7 +269,7 @@ def _driving_slide(statics: Statics, pin: str, own: tuple[LoadOn, ...]) -> Polyg
     drawn_edges(statics, "1", path.edges)
     read(statics, "1", "R01", Symbol("R", "01"), "R.01", path.last, "n")
     read(statics, "1", "Rcb", Symbol("P", "cb"), "R.cb", "n", path.first)
-    along = sign(dot(q["F.Rcb"], guide))
+    along = sign(dot(q["F.Rcb"], q.construct("assumed.Rcb", guide)))
     q.define("M.eq", q["R.cb"] * along, Symbol("P", "cb", "(1)"), "force", scale=statics.force)
     total = moments(statics, own, pin)
     if total is not None:
@@ -288,13 +289,14 @@ def _laid(statics: Statics, own: tuple[LoadOn, ...]) -> Path:
 def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
     """Zhukovsky's lever: the velocity plan turned 90° against ω₁, every load at its image, balanced by M_cb.
 
-    Σ F v cos α + M_cb ω₁ = 0 with v = μ_v · (segment) and μ_v = ω₁ μ_l gives M_cb = −Σ F h′ μ_l; h′ is the
-    signed arm of a load about the pole.  For a sliding driver P_cb = −Σ F h′ μ_v/v_A.  Enters the arms
-    `h.X.p`, what each load contributes, `M.X.p`, and `M.vw`.
+    Σ F v cos α + M_cb ω₁ = 0 with v = μ_v · (segment) gives M_cb = −Σ F h′ μ_v/ω₁, where μ_v/ω₁ = μ_l if pa is
+    the drawn crank; h′ is the signed arm of a load about the pole.  For a sliding driver P_cb = −Σ F h′ μ_v/v_A.
+    Enters the arms `h.X.p`, what each load contributes, `M.X.p`, and `M.vw`.
     """
     q, turning = statics.q, isinstance(statics.scheme.linkage.driver, Crank)
     rate = q["omega.1"] if turning else q[f"v.{statics.scheme.linkage.driver.pin}"]
-    per = q["mu.l"] if turning else q["mu.v"] / rate
+    # Where pa is the drawn crank, μ_v/ω₁ is μ_l.
+    per = q["mu.v"] / rate if q.families["mu.v"].definition is None else q["mu.l"]
     letter, kind, scale = ("M", "torque", statics.torque) if turning else ("P", "force", statics.force)
     parts: list[Expression] = []
 

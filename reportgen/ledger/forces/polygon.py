@@ -1,4 +1,4 @@
-"""Force plans: vertices head to tail, one scale for all positions, forces read between vertices."""
+"""Force plans: vertices head to tail, a scale for each position, forces read between vertices."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.ledger.forces.loads import Statics
+from reportgen.ledger.scales import extents, own_scales
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Expression, Number, Symbol, heading
-from reportgen.notation.numbers import nice_up
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import segment
 
-PLAN_BOX = (0.160, 0.200)
-"""Every force plan of a group fits into this box on paper (m): one scale serves them all."""
+LEAST_PLAN = 0.100
+"""A force plan is drawn at least so wide or high (m), if it fits its page so."""
 LETTERS = "efghijklmqrtuvwxyzabcd"
 """Vertices of a force plan in the order of drawing; n is where the unknown edges meet."""
 
@@ -54,6 +54,11 @@ class Polygon:
     edges: tuple[Edge, ...]
     reads: tuple[Edge, ...] = ()
 
+    @property
+    def carried(self) -> tuple[Edge, ...]:
+        """The reactions that groups solved before have left on these links."""
+        return tuple(edge for edge in self.edges if edge.is_reaction and not edge.unknown and not edge.part)
+
 
 class Path:
     """The known forces of a plan laid head to tail from vertex e."""
@@ -74,16 +79,11 @@ class Path:
 
 
 def force_plan(statics: Statics, name: str, title: str, corners: Mapping[str, Expression]) -> None:
-    """Choose μ_R so that the plan fits its box at every position, and enter the vertices on paper."""
+    """Choose μ_R for each position so that its plan fills its space, and enter the vertices on paper."""
     q = statics.q
     values = {id: family.values for id, family in q.families.items()}
-    places = np.array([np.broadcast_to(evaluate(corner, values), (q.positions,)) for corner in corners.values()])
-    places = places[:, np.isfinite(places).all(axis=0)]
-    needed = 0.0
-    if places.size:
-        width, height = np.ptp(places.real, axis=0).max(), np.ptp(places.imag, axis=0).max()
-        needed = max(width / PLAN_BOX[0], height / PLAN_BOX[1])
-    μ = q.give(f"mu.R{name}", nice_up(max(needed, 1e-9) / 1e3) * 1e3, Symbol("μ", title))
+    sizes = extents([np.asarray(evaluate(corner, values)) for corner in corners.values()], q.positions)
+    μ = q.give(f"mu.R{name}", own_scales(sizes, LEAST_PLAN), Symbol("μ", title))
     for letter, corner in corners.items():
         q.construct(f"plan.R{name}.{letter}", corner / μ)
 
@@ -92,8 +92,7 @@ def read(statics: Statics, plan: str, name: str, symbol: Symbol, id: str, start:
     """A force read from a plan between two vertices: its segment, its size, its vector and its direction."""
     q, scale = statics.q, statics.force
     μ, along = q[f"mu.R{plan}"], q[f"plan.R{plan}.{end}"] - q[f"plan.R{plan}.{start}"]
-    on_paper = scale / q.si(μ)
-    drawn = q.define(f"seg.{plan}.{name}", abs(along), segment(start, end), scale=on_paper, of=f"F.{name}")
+    drawn = q.define(f"seg.{plan}.{name}", abs(along), segment(start, end), scale=LEAST_PLAN, of=f"F.{name}")
     q.define(id, μ * drawn, symbol, scale=scale)
     vector = q.construct(f"F.{name}", μ * along, of=id)
     q.define(f"dir.{name}", heading(vector), Symbol("α", symbol.sub), scale=1.0, of=id)
@@ -105,4 +104,4 @@ def drawn_edges(statics: Statics, plan: str, edges: Iterable[Edge]) -> None:
     for edge in edges:
         drawn = abs(q[f"F.{edge.name}"] / q[f"mu.R{plan}"])
         letters = segment(edge.start, edge.end)
-        q.define(f"seg.{plan}.{edge.name}", drawn, letters, scale=PLAN_BOX[1], of=f"F.{edge.name}")
+        q.define(f"seg.{plan}.{edge.name}", drawn, letters, scale=LEAST_PLAN, of=f"F.{edge.name}")

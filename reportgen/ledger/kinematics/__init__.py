@@ -13,35 +13,35 @@ speed `v.A` of its pin.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 from reportgen.ledger.kinematics.centres import enter_centres
 from reportgen.ledger.kinematics.groups import group, images, places
-from reportgen.ledger.kinematics.linkage import Kinematics, crank, fitting_scale, slide
+from reportgen.ledger.kinematics.linkage import Kinematics, chosen_scale, crank, slide
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import DRIVER, Crank, Linkage
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import point
 
 
-def enter_kinematics(q: Sheet, linkage: Linkage, turn: int) -> None:
+def enter_kinematics(q: Sheet, linkage: Linkage, turn: int, worked: Sequence[int] = ()) -> None:
     """Enter every kinematic quantity of a linkage, link by link in order of assembly.
 
-    With a sliding driver the plans are solved once on trial, to find the scales that fit the paper.
+    The plans are solved once on trial, to find the scales with which those of the `worked` positions (all of
+    them if none is named) fill their paper.
     """
-    scales = None
-    if not isinstance(linkage.driver, Crank):
-        trial = _enter(q.copy(), linkage, turn)
-        scales = fitting_scale(trial, "v"), fitting_scale(trial, "a")
-    _enter(q, linkage, turn, scales)
+    trial = _enter(q.copy(), linkage, turn)
+    _enter(q, linkage, turn, {what: chosen_scale(trial, what, worked) for what in ("v", "a")})
 
 
-def _enter(q: Sheet, linkage: Linkage, turn: int, scales: tuple[float, float] | None = None) -> Kinematics:
+def _enter(q: Sheet, linkage: Linkage, turn: int, scales: Mapping[str, float | None] | None = None) -> Kinematics:
     for name, at in linkage.ground.items():
         q.give(f"p.{name}", complex(at), point(name), "length")
     plan = scheme(linkage)
     if isinstance(linkage.driver, Crank):
-        k = crank(q, plan, linkage.driver, turn)
+        k = crank(q, plan, linkage.driver, turn, scales or {})
     else:
-        k = slide(q, plan, linkage.driver, turn, scales)
+        k = slide(q, plan, linkage.driver, turn, scales or {})
         places(k, DRIVER, None)
         for what in ("v", "a"):
             images(k, what, DRIVER, None)

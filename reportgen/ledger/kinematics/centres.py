@@ -1,22 +1,27 @@
 """Instant centres of velocity, and what they and the projections on a link say of its motion.
 
 For each link k with two moving points B (its base) and C: `ic.k` the centre P, where the normals to both
-velocities meet; `ic.seg.k.B`, `ic.seg.k.C` its distances as drawn, nan where they are too short or too long to
-measure; `ic.omega.k` = v_B/(μ_l·PB), `ic.v.k` = v_B·PC/PB; `ic.angle.k.B`, `ic.angle.k.C` the angles between
-the velocities and BC, `ic.along.k.B` = v_B cos ψ_B, `ic.along.k.C` = v_C cos ψ_C.
+velocities meet; `ic.seg.k.B`, `ic.seg.k.C` its distances as drawn, nan where they are too short to measure or P
+lies off every sheet that holds the mechanism; `ic.omega.k` = v_B/(μ_l·PB), `ic.v.k` = v_B·PC/PB; `ic.angle.k.B`,
+`ic.angle.k.C` the angles between the velocities and BC, `ic.along.k.B` = v_B cos ψ_B, `ic.along.k.C` = v_C cos ψ_C.
 """
 
 from __future__ import annotations
 
+import numpy as np
+
 from reportgen.ledger.kinematics.linkage import Kinematics
 from reportgen.ledger.kinematics.sides import Scheme, Side, image, sides
+from reportgen.ledger.scales import SHEET_BOXES, extents
 from reportgen.mechanism.structure import DRIVER, Crank
 from reportgen.notation.expressions import Expression, Symbol, arg, call, cos, meet, quotient, turned
 from reportgen.notation.vocabulary import point, segment
 
 PREFIX = "ic."
-NEAREST, FARTHEST = 0.002, 0.3
-"""Distances from a centre (m on paper) that are measured: a shorter one has no exact length, a longer one no sheet."""
+NEAREST = 0.002
+"""The shortest distance of a centre from the base (m on paper) that is measured: a shorter one has no exact length."""
+FARTHEST = 0.4
+"""No sheet holds a longer distance (m on paper)."""
 
 
 def links_in_plane_motion(scheme: Scheme) -> tuple[Side, ...]:
@@ -41,8 +46,10 @@ def _enter_centre(k: Kinematics, turn: Side) -> None:
     normals = k.place(base), _normal(k, base), k.place(end), _normal(k, end)
     centre, μ_l = q.construct(f"ic.{link}", meet(*normals)), q["mu.l"]
 
+    reach = q.give(f"ic.reach.{link}", _reach(k, q.value(centre)), Symbol("reach"), "ratio", hidden=True)
+
     def distance(name: str, nearest: float) -> Expression:
-        within = call("within", abs(k.place(name) - centre) / μ_l, nearest, FARTHEST)
+        within = call("within", abs(k.place(name) - centre) / μ_l, nearest, reach)
         return q.define(f"ic.seg.{link}.{name}", within, segment(centre_symbol(link), point(name)), scale=k.span())
 
     PB, PC, v = distance(base, NEAREST), distance(end, 0.0), q[f"v.{base}"]
@@ -54,6 +61,15 @@ def _enter_centre(k: Kinematics, turn: Side) -> None:
     for name in (base, end):
         along = q[f"v.{name}"] * cos(q[f"ic.angle.{link}.{name}"])
         q.define(f"ic.along.{link}.{name}", along, scale=sizes.velocity)
+
+
+def _reach(k: Kinematics, centre: np.ndarray) -> np.ndarray:
+    """How far a centre may lie (m on paper) at each position: 0 where no sheet holds it and the mechanism."""
+    q = k.q
+    points = [family.values for id, family in q.families.items() if id.startswith("p.")]
+    sizes = extents([*points, centre], q.positions) / q.si("mu.l")
+    fits = [(sizes <= np.array(box)[:, None]).all(axis=0) for box in SHEET_BOXES]
+    return np.where(np.any(fits, axis=0), FARTHEST, 0.0)
 
 
 def _normal(k: Kinematics, name: str) -> Expression:

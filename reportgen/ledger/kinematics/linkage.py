@@ -6,12 +6,14 @@ The driver is a crank at constant ω₁ or a slide at constant speed; it fixes t
 from __future__ import annotations
 
 import cmath
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
 
 from reportgen.ledger.kinematics.sides import Scheme, image
+from reportgen.ledger.scales import PER_MM, common_scale, extents
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Guide, Linkage, SlidingDriver
 from reportgen.notation.expressions import Expression, Number, Ref, Symbol, cis, heading, turned
 from reportgen.notation.numbers import nice_up
@@ -64,6 +66,13 @@ class Kinematics:
     vertices: dict[What, list[Ref]] = field(default_factory=lambda: {"v": [], "a": []})
     """All points of the plans."""
 
+    @property
+    def arm_length(self) -> Ref:
+        """The length of the crank."""
+        driver = self.scheme.linkage.driver
+        assert isinstance(driver, Crank)
+        return self.q[f"l.{driver.centre}{driver.pin}"]
+
     # --- points and their images
 
     def place(self, name: str) -> Ref:
@@ -91,7 +100,7 @@ class Kinematics:
         q, placed = self.q, self.links[link]
         base = self.image(what, placed.origin)
         if link == DRIVER and placed.omega is not None:
-            drawn = arm / q["mu.l"]
+            drawn = arm * (q[f"seg.{what}.p{image(self.scheme.linkage.driver.pin)}"] / self.arm_length)
             return self.turn * turned(drawn) if what == "v" else -drawn
         if placed.tip:
             ratio = arm / (self.place(placed.tip) - self.place(placed.origin))
@@ -215,12 +224,12 @@ DRAWN = 0.05
 """Drawn length of the crank (m on paper) when the machine does not say."""
 LONGEST_DRAWN = 0.08
 """A sliding driver's mechanism is drawn with its longest length no longer than this (m on paper)."""
-PLAN_BOX = (0.120, 0.160)
-"""Plans of a sliding driver fit into this box on paper (m)."""
+LEAST_PLAN = 0.060
+"""A worked plan is drawn at least so wide or high (m)."""
 
 
-def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int) -> Kinematics:
-    """v_A = ω₁ l, a_A = ω₁² l; μ_v = ω₁ μ_l and μ_a = ω₁² μ_l, so that pa and πa′ equal the drawn crank."""
+def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[str, float | None]) -> Kinematics:
+    """v_A = ω₁ l, a_A = ω₁² l; without chosen `scales` μ_v = ω₁ μ_l, μ_a = ω₁² μ_l, and pa, πa′ are the drawn crank."""
     centre, pin = driver.centre, driver.pin
     k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
     φ1, ω1, length = q["phi.1"], q["omega.1"], k.length(centre, pin, driver.length)
@@ -237,16 +246,22 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int) -> Kinematics:
         k.drawn(centre, place.name)
 
     q.define(f"v.{pin}", ω1 * length)
-    q.define(f"seg.v.p{image(pin)}", drawn, segment("p", on_plan(pin)), exact=exact)
-    μ_v = q.define("mu.v", ω1 * μ_l)
     q.define(f"a.{pin}", ω1**2 * length)
-    q.define(f"seg.a.p{image(pin)}", drawn, segment("π", on_plan(pin, True)), exact=exact)
-    μ_a = q.define("mu.a", ω1**2 * μ_l)
+    plans: tuple[tuple[What, Expression], ...] = ("v", ω1 * μ_l), ("a", ω1**2 * μ_l)
+    for what, by_crank in plans:
+        letters, chosen = segment(POLES[what], on_plan(pin, what == "a")), scales.get(what)
+        if chosen is None:
+            q.define(f"seg.{what}.p{image(pin)}", drawn, letters, exact=exact)
+            q.define(f"mu.{what}", by_crank)
+        else:
+            q.define(f"seg.{what}.p{image(pin)}", q[f"{what}.{pin}"] / q.give(f"mu.{what}", chosen), letters)
+    μ_v, μ_a = q["mu.v"], q["mu.a"]
 
+    k.put(DRIVER, centre, None)
     for name in (pin, *(place.name for place in further)):
-        arm = (k.place(name) - k.place(centre)) / μ_l
-        k.vertex("v", image(name), turn * turned(arm))
-        k.vertex("a", image(name), -arm)
+        arm = k.place(name) - k.place(centre)
+        k.vertex("v", image(name), k.image_at("v", DRIVER, arm))
+        k.vertex("a", image(name), k.image_at("a", DRIVER, arm))
         if name != pin:
             own = q[f"l.{centre}{name}"]
             v, a = q.define(f"v.{name}", ω1 * own), q.define(f"a.{name}", ω1**2 * own)
@@ -258,8 +273,8 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int) -> Kinematics:
     return k
 
 
-def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: tuple[float, float] | None) -> Kinematics:
-    """The pin moves along its guide at constant v_A, a_A = 0; `scales` are μ_v and μ_a, None for a trial.
+def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: Mapping[str, float | None]) -> Kinematics:
+    """The pin moves along its guide at constant v_A, a_A = 0; `scales` are μ_v and μ_a, none for a trial.
 
     Expects the driver's coordinate `s.1` and the size of its speed, `v.` and the pin's name.
     """
@@ -270,9 +285,8 @@ def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: tu
     along = k.constant("guide.1", cmath.exp(1j * driver.guide.angle))
     at = k.constant("guide.1.at", driver.guide.at)
     q.construct(f"p.{pin}", at + q["s.1"] * along)
-    mu_v, mu_a = scales or (1e3, 1e3)
-    μ_v = q.give("mu.v", mu_v)
-    q.give("mu.a", mu_a)
+    μ_v = q.give("mu.v", scales.get("v") or PER_MM)
+    q.give("mu.a", scales.get("a") or PER_MM)
     drawn = q.define(f"seg.v.p{image(pin)}", q[f"v.{pin}"] / μ_v, segment("p", on_plan(pin)))
     k.vertex("v", image(pin), turn * drawn * along)
     q.give(f"a.{pin}", 0.0)
@@ -282,12 +296,12 @@ def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: tu
     return k
 
 
-def fitting_scale(k: Kinematics, what: What) -> float:
-    """The smallest scale of the series with which the trial's plans, drawn at 10³ a metre, fit their box."""
-    plans = [np.zeros(1), *(k.q.value(vertex) for vertex in k.vertices[what])]
-    points = np.array([np.broadcast_to(plan, (k.q.positions,)) for plan in plans])
-    points = points[:, np.isfinite(points).all(axis=0)]
-    if not points.size:
-        return 1e3
-    needed = max(np.ptp(points.real, axis=0).max() / PLAN_BOX[0], np.ptp(points.imag, axis=0).max() / PLAN_BOX[1])
-    return nice_up(needed) * 1e3 if needed > 0 else 1e3
+def chosen_scale(trial: Kinematics, what: What, worked: Sequence[int]) -> float | None:
+    """The scale of all plans (SI), from a trial; None if the crank's gives the worked ones their size already."""
+    q, μ = trial.q, trial.q.si(f"mu.{what}")
+    sizes = extents([np.zeros(1), *map(q.value, trial.vertices[what])], q.positions) * μ
+    shown = sizes[:, [k - 1 for k in worked]] if worked else sizes
+    least = np.nanmin(shown.max(axis=0), initial=np.inf) / μ
+    if isinstance(trial.scheme.linkage.driver, Crank) and least >= LEAST_PLAN:
+        return None
+    return common_scale(sizes, worked, LEAST_PLAN)

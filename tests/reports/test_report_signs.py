@@ -1,0 +1,181 @@
+"""Signs: an arrow on a separated link times its formula's value is the true force; no number lacks its line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from reportgen import api
+from reportgen.case import Case
+from reportgen.document import force_figures, outline, result_tables
+from reportgen.document.report import Report
+from reportgen.document.tree import Block, Equation, InlineMath, Paragraph
+from reportgen.figures.forces import COUPLE_RADIUS
+from reportgen.figures.scene import Arc, Arrow, Scene
+from reportgen.notation.evaluation import evaluate
+from reportgen.notation.expressions import Chain, Expression, Number, Symbol, VectorEquation, walk
+from reportgen.notation.vocabulary import vector
+from reportgen.writers.latex_math import LatexFormulas
+from reportgen.writers.typst import TypstFormulas
+from tests.document.test_rare_groups import SLOTTED, TRANSLATED
+from tests.reports import built
+
+RARE = {"slotted": SLOTTED, "translated": TRANSLATED}
+SAME = 1e-9
+"""Of the largest load: two ways of calculation of some hundred operations each."""
+FURTHER = 4
+"""Positions looked at beside the worked ones."""
+
+
+@pytest.fixture(scope="module", params=[*built.FILES, *RARE], ids=lambda one: getattr(one, "stem", one))
+def report(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Report:
+    """Every file of the repository and the groups that none of them has; those with loads only."""
+    path = request.param
+    if isinstance(path, str):
+        file = tmp_path_factory.mktemp(path) / "linkage.yaml"
+        file.write_text(RARE[path].strip() + "\n", encoding="utf-8")
+        path = file
+    found = outline.open_report(Case(api.load(path)))
+    if not found.has_forces:
+        pytest.skip("nothing loads this machine")
+    return found
+
+
+@pytest.fixture(scope="module")
+def blocks(report: Report) -> list[Block]:
+    return list(built.walk(outline.compose(report.case).blocks))
+
+
+def positions(report: Report) -> list[int]:
+    further = range(1, report.cycle_count + 1, max(report.cycle_count // FURTHER, 1))
+    return sorted({*map(int, report.worked_forces), *further})
+
+
+def value(report: Report, name: str, k: int) -> float:
+    """What the formula or the plan of a reaction gives: with the sign of its moments if it has one."""
+    ledger, digits = report.ledger, name.removeprefix("R")
+    if name == "Rcb":
+        return float(ledger["M.eq"].at(k))
+    both = (digits, digits[::-1])
+    ids = ledger.known([*(f"R.{one}.s" for one in both), *(f"R.{one}" for one in both)])
+    return float(ledger[ids[0]].at(k))
+
+
+def true(report: Report, name: str, k: int) -> complex:
+    """The force on the link by the equations of equilibrium, which know neither plans nor assumed senses."""
+    analysis = report.analysis
+    if name == "Rcb":
+        guide = report.machine.linkage.driver.guide  # type: ignore[union-attr]
+        return complex(analysis.torque[k - 1] * np.exp(1j * guide.angle))
+    digits = name.removeprefix("R").partition(".")[0]
+    reactions = analysis.forces.reactions
+    if f"R{digits}" in reactions:
+        return complex(reactions[f"R{digits}"].force[k - 1])
+    return -complex(reactions[f"R{digits[::-1]}"].force[k - 1])
+
+
+def off(report: Report, scene: Scene, k: int) -> list[str]:
+    """The reactions of a scene whose arrow, times the value, is not their true force along the arrow."""
+    wrong = []
+    for item in scene.items:
+        if isinstance(item, Arrow) and item.name.startswith("R"):
+            along = (item.end - item.start) / abs(item.end - item.start)
+            force = true(report, item.name, k)
+            largest = max(abs(force), np.nanmax(np.abs(report.analysis.loads[0].force)), 1.0)
+            if abs((force * along.conjugate()).real - value(report, item.name, k)) > 1e3 * SAME * largest:
+                wrong.append(f"{item.name} at {k}")
+    return wrong
+
+
+def test_an_arrow_times_its_value_is_the_true_force(report: Report) -> None:
+    found, seen = [], 0
+    for k in positions(report):
+        for group in report.groups:
+            for scene in force_figures.bodies(report, k, group).scenes:
+                found += off(report, scene, k)
+                seen += sum(isinstance(item, Arrow) and item.name.startswith("R") for item in scene.items)
+    assert found == []
+    assert seen > 0
+
+
+def test_what_balances_the_driver_is_drawn_in_the_sense_assumed(report: Report) -> None:
+    for k in positions(report):
+        drawing = force_figures.driver(report, k).scenes[0]
+        assert off(report, drawing, k) == []
+        arcs = [item for item in drawing.items if isinstance(item, Arc) and item.radius == COUPLE_RADIUS]
+        if report.driver.centre and not report.is_zero("M.eq", k) and not report.machine.torques:
+            (arc,) = arcs
+            assert np.sign(arc.stop - arc.start) * report.ledger["M.eq"].at(k) == pytest.approx(
+                report.analysis.torque[k - 1], rel=1e-9
+            )
+
+
+# --- every number has its line
+
+
+def chains(blocks: list[Block]) -> Iterator[Chain]:
+    for block in blocks:
+        if isinstance(block, Equation):
+            yield from (row for row in block.rows if isinstance(row, Chain))
+
+
+def test_every_reaction_of_the_table_has_a_worked_line(report: Report, blocks: list[Block]) -> None:
+    printed = [chain.parts for chain in chains(blocks) if len(chain.parts) > 1]
+    first = {parts[0] for parts in printed}
+    symbols = {report.ledger.symbol(id) for id in result_tables.reactions(report)}
+    assert symbols <= first
+    relations = {parts[0] for parts in printed if len(parts) == 2 and parts[0] != parts[1]}
+    carried = {vector(report.force_symbol(edge.name)) for polygon in report.case.polygons for edge in polygon.carried}
+    assert carried <= relations
+
+
+def test_the_power_recomputes_from_its_line(report: Report, blocks: list[Block]) -> None:
+    (parts,) = [chain.parts for chain in chains(blocks) if chain.parts[0] == report.ledger.symbol("power")]
+    *_, numbers, result = parts
+    assert isinstance(result, Number)
+    factors = [node for node in walk(numbers) if isinstance(node, Number)]
+    if result.shown == 0:
+        return
+    assert len(factors) == 2
+    # Half a unit of the last digit of each printed number, by the product rule.
+    product = float(evaluate(numbers))
+    allowed = result.half_unit + sum(one.half_unit * abs(product / one.shown) for one in factors if one.shown)
+    assert abs(product - result.shown) <= allowed * (1 + 1e-9)
+
+
+def test_no_segment_is_used_before_it_is_measured(blocks: list[Block]) -> None:
+    known: set[Expression] = set()
+    for block in blocks:
+        if isinstance(block, Paragraph):
+            known |= {inline.expression for inline in block.inlines if isinstance(inline, InlineMath)}
+        if not isinstance(block, Equation):
+            continue
+        for row in block.rows:
+            if not isinstance(row, Chain):
+                continue
+            shown, formula = row.parts[0], row.parts[1] if len(row.parts) > 2 else Number(0.0)
+            if isinstance(shown, Symbol) and shown.over == "segment":
+                used = {node for node in walk(formula) if isinstance(node, Symbol) and node.over == "segment"}
+                assert used <= known, (shown, used - known)
+            known.add(shown)
+
+
+# --- equations in one piece
+
+
+@pytest.mark.parametrize("formulas", [TypstFormulas("en"), LatexFormulas("en")], ids=["typst", "latex"])
+def test_no_column_of_a_vector_equation_is_zero_alone(
+    blocks: list[Block], formulas: TypstFormulas | LatexFormulas
+) -> None:
+    equations = [
+        row for block in blocks if isinstance(block, Equation) for row in block.rows if isinstance(row, VectorEquation)
+    ]
+    balances = [one for one in equations if one.sides[-1][0].symbol == Symbol("0", over="vector")]
+    assert balances
+    for balance in balances:
+        columns = formulas.columns(balance)
+        # Rows are broken between columns, and every column has a force.
+        assert len(columns) == len(balance.sides[0])
+        assert "=" in columns[-1][1]
