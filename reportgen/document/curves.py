@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import cmath
+import math
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from reportgen.analysis import FULL_TURN
+from reportgen.document.equations import heading_words
 from reportgen.document.figures import MM, Drawn, figure
-from reportgen.document.groups import GroupView
 from reportgen.document.report import SAME, Report
 from reportgen.figures import charts
 from reportgen.figures.scene import Scene
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.kinematics.sides import scheme
-from reportgen.mechanism.structure import DRIVER, GROUND
+from reportgen.mechanism.structure import DRIVER, GROUND, Crank
 from reportgen.notation.expressions import Symbol
 
 THINNED = 4
@@ -29,8 +31,7 @@ NARROW = 1e-3
 def motion(report: Report) -> Drawn:
     """Velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
     names, moved = report.words["figure"], report.dense_cycle.motion
-    # Along its guide a slider's course counts away from the crank.
-    along = {group.Q: np.exp(1j * float(report.analysis.motion.links[group.j].angle[0])) for group in _sliding(report)}
+    along = report.slider_senses
     spins = scheme(report.machine.linkage).spins
     turning = [link for link, other in spins.items() if link == other > DRIVER]
 
@@ -41,27 +42,34 @@ def motion(report: Report) -> Drawn:
     def of_links(base: str, quantity: str) -> list[tuple[Symbol, np.ndarray]]:
         return [(Symbol(base, str(link)), getattr(moved.links[link], quantity)) for link in turning]
 
+    one_way = headings(report, along.values())
+    way = one_way[0] if len(one_way) == 1 else ""
+    rotation = report.sense(1)
     drawings = (
-        (of_points("v"), names["velocity"]),
-        (of_points("a"), names["acceleration"]),
-        (of_links("ω", "omega"), names["omega"]),
-        (of_links("ε", "epsilon"), names["epsilon"]),
+        (of_points("v"), _positive(report, names["velocity"], way)),
+        (of_points("a"), _positive(report, names["acceleration"], way)),
+        (of_links("ω", "omega"), _positive(report, names["omega"], rotation)),
+        (of_links("ε", "epsilon"), _positive(report, names["epsilon"], rotation)),
     )
     return Drawn(tuple(_over_a_turn(report, curves, title) for curves, title in drawings if curves))
+
+
+def headings(report: Report, ways: Iterable[complex]) -> list[str]:
+    """The ways in words, each once."""
+    return list(dict.fromkeys(heading_words(report, math.degrees(cmath.phase(way))) for way in ways))
+
+
+def _positive(report: Report, title: str, sense: str) -> str:
+    """The title of an axis with the sense in which its quantity is positive; plain where curves differ in it."""
+    return str(report.words["figure"]["positive"]).format(title=title, sense=sense) if sense else title
 
 
 @figure("displacement")
 def displacement(report: Report) -> Drawn:
     """The coordinates of what slides on the ground, along its guide, over one turn."""
     slides = report.dense_cycle.motion.slides
-    curves = [(Symbol("x", group.Q), MM * slides[GROUND, group.j].s) for group in _sliding(report)]
+    curves = [(Symbol("x", group.Q), MM * slides[GROUND, group.j].s) for group in report.sliding]
     return Drawn((_over_a_turn(report, curves, report.words["figure"]["displacement"]),))
-
-
-def _sliding(report: Report) -> tuple[GroupView, ...]:
-    """Groups whose last link slides along a fixed guide."""
-    on_ground = {slider for carrier, slider in report.analysis.motion.slides if carrier == GROUND}
-    return tuple(group for group in report.groups if group.kind in ("RRP", "RPP") and group.j in on_ground)
 
 
 def _marks(report: Report) -> tuple[int, ...]:
@@ -95,7 +103,10 @@ def torque(report: Report) -> Drawn:
     curve = charts.Series(ledger.symbol("M.eq"), _across(report), report.dense_cycle.torque, _marks(report))
     title, across = ("balancing_force", "way") if slides else ("torque", "cycle_angle")
     levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),)
-    return Drawn((charts.chart((curve,), names[across], names[title], levels=levels, turn=not slides),))
+    driver = report.machine.linkage.driver
+    sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
+    up = _positive(report, names[title], sense)
+    return Drawn((charts.chart((curve,), names[across], up, levels=levels, turn=not slides),))
 
 
 @figure("polar")

@@ -17,7 +17,7 @@ from reportgen.cycle import StrokeIndicator
 from reportgen.document.report import FUNCTIONS, Function, Report, function, listed, lower_digits
 from reportgen.document.tree import FIRST_COLUMN, TEXT_WIDTH, Cell, Column, InlineMath, Inlines, Table, Text, Value
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Expression, Fraction, Number, Symbol, refs
+from reportgen.notation.expressions import Expression, Fraction, Number, Symbol, refs, size
 
 MM = 1e3
 WIDEST_COLUMN = 26.0
@@ -143,6 +143,12 @@ def _columns(report: Report, key: str, caption: str, ids: Sequence[str], positio
     return Table(columns, head, rows, report.prose.inlines(caption), key)
 
 
+def head_symbol(report: Report, id: str) -> Expression:
+    """The symbol over a column: |v| over magnitudes, read from plans, of what has a direction of its own."""
+    symbol = report.ledger.symbol(id)
+    return size(symbol) if id.startswith(("v.", "a.")) else symbol
+
+
 @function
 def tables(report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]) -> tuple[Table, ...]:
     """Quantities at positions: one table, or several below one another where the columns are too many."""
@@ -150,7 +156,7 @@ def tables(report: Report, key: str, caption: str, ids: Sequence[str], positions
     for id in ids:
         unit = report.ledger[id].how.unit
         unit = report.ledger.units.get(unit, unit)
-        columns.append([report.ledger.symbol(id), unit, *(bare(report, id, k) for k in at)])
+        columns.append([head_symbol(report, id), unit, *(bare(report, id, k) for k in at)])
     titles = [report.words["table"]["position"], "", *map(str, at)]
     return side_by_side(report, key, caption, Column(FIRST_COLUMN), titles, columns, MOST_COLUMNS - 1, heads=2)
 

@@ -249,6 +249,13 @@ def asin(of: Operand) -> Call:
     return call("arcsin", of)
 
 
+def signed(sense: float, of: Expression) -> Expression:
+    """An expression as it stands, or with the other sign where `sense` is negative."""
+    if sense > 0:
+        return of
+    return of.of if isinstance(of, Negative) else Negative(of)
+
+
 def size(of: Operand) -> Call:
     """|of| of a number with a sign, printed as it stands; abs is measured on a drawing."""
     return call("size", of)
