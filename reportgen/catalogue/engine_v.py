@@ -164,8 +164,8 @@ def machine(assignment: Assignment) -> Machine:
     on_rod = given.joint == "D"
 
     def formulas(q: Sheet) -> None:
-        centred_slider(q, 2, 3, "C", angle, "l.BD", "D" if on_rod else "")
-        second_cylinder(q, given.joint)
+        centred_slider(q, turn, 2, 3, "C", angle, "l.BD", "D" if on_rod else "")
+        second_cylinder(q, turn, given.joint)
 
     plans = ("v.C", "omega.2", "v.E", "omega.4", "a.C", "eps.2", "a.E", "eps.4", *(("v.D", "a.D") if on_rod else ()))
     return driven(
@@ -179,6 +179,7 @@ def machine(assignment: Assignment) -> Machine:
         pistons=pistons,
         applied=gas_forces(pistons) if pistons else _constant(given),
         sliders=courses,
+        positive={"C": -cmath.exp(1j * given.alpha.si), "E": -cmath.exp(1j * given.beta.si)},
         paths=("D",) if on_rod else (),
         compared=compared(plans),
         places=places,

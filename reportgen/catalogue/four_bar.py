@@ -37,6 +37,7 @@ from reportgen.notation.expressions import (
     atan2,
     column,
     cos,
+    signed,
     sin,
     sqrt,
 )
@@ -98,6 +99,8 @@ def triangle(q: Sheet, name: str) -> None:
 def analytic_method(q: Sheet, angle: Floats, points: Iterable[LinkPoint], turn: int, side: int) -> None:
     """Enter positions, entries of the matrices and rates at φ₁ = `angle` [N], C on the `side` ±1 of BD in these axes.
 
+    ω and ε are positive anticlockwise, φ with the crank.
+
     Ids: `f.phi.1`, `l.BD`, `f.phi.2`, `f.phi.3`; entries `A.11`, `B.1`, `dA.11`, `dB.1`; `A.det`;
     `f.omega.2`, …, `q.2`, `f.eps.3`; of every coupler point `f.x.E.v`, `f.y.E.v`, `f.v.E`, likewise for a.
     """
@@ -105,19 +108,20 @@ def analytic_method(q: Sheet, angle: Floats, points: Iterable[LinkPoint], turn: 
     φ1, φ2, φ3 = _positions(q, angle, side)
     a, b = partial(_entries, q, "A", "a", "length", 0.1), partial(_entries, q, "B", "b", "length", 0.1)
     a({"11": -BC * sin(φ2), "12": CD * sin(φ3), "21": BC * cos(φ2), "22": -CD * cos(φ3)})
-    b({"1": AB * sin(φ1), "2": -AB * cos(φ1)})
+    b({"1": signed(turn, AB * sin(φ1)), "2": signed(-turn, AB * cos(φ1))})
     q.define("A.det", BC * CD * sin(φ2 - φ3), "Δ", "product of lengths")
     # Cramer's rule, with what stands in both numerators and in Δ left out.
-    ω2 = q.define("f.omega.2", ω1 * AB * sin(φ3 - φ1) / (BC * sin(φ2 - φ3)), scale=1.0)
-    ω3 = q.define("f.omega.3", ω1 * AB * sin(φ2 - φ1) / (CD * sin(φ2 - φ3)), scale=1.0)
+    ω2 = q.define("f.omega.2", signed(turn, ω1 * AB * sin(φ3 - φ1) / (BC * sin(φ2 - φ3))), scale=1.0)
+    ω3 = q.define("f.omega.3", signed(turn, ω1 * AB * sin(φ2 - φ1) / (CD * sin(φ2 - φ3))), scale=1.0)
     a, b = partial(_entries, q, "dA", "ȧ", "velocity", 1.0), partial(_entries, q, "dB", "ḃ", "velocity", 1.0)
-    a({"11": -ω2 * BC * cos(φ2), "12": ω3 * CD * cos(φ3), "21": -ω2 * BC * sin(φ2), "22": ω3 * CD * sin(φ3)})
-    b({"1": ω1 * AB * cos(φ1), "2": ω1 * AB * sin(φ1)})
+    a({"11": signed(-turn, ω2 * BC * cos(φ2)), "12": signed(turn, ω3 * CD * cos(φ3))})
+    a({"21": signed(-turn, ω2 * BC * sin(φ2)), "22": signed(turn, ω3 * CD * sin(φ3))})
+    b({"1": signed(turn, ω1 * AB * cos(φ1)), "2": signed(turn, ω1 * AB * sin(φ1))})
     top2 = ω1**2 * AB * cos(φ1 - φ3) + ω2**2 * BC * cos(φ2 - φ3) - ω3**2 * CD
     top3 = ω1**2 * AB * cos(φ1 - φ2) + ω2**2 * BC - ω3**2 * CD * cos(φ2 - φ3)
     for link, top, length in (("2", top2, BC), ("3", top3, CD)):
         q_k = q.define(f"q.{link}", top, Symbol("q", link), "acceleration", scale=1.0)
-        q.define(f"f.eps.{link}", -q_k / (length * sin(φ2 - φ3)), scale=1.0)
+        q.define(f"f.eps.{link}", signed(-turn, q_k / (length * sin(φ2 - φ3))), scale=1.0)
     for point in points:
         _coupler_point(q, point, turn)
 
@@ -150,24 +154,31 @@ def _coupler_point(q: Sheet, point: LinkPoint, turn: int) -> None:
         x, y = q[f"{name}.along"], q[f"{name}.across"]
         slope = atan(y / x) if point.local.real > 0 else atan2(y, x)
         φ = φ + q.define(f"eta.{name}", slope if turn > 0 else -slope, Symbol("η", name), "angle", scale=1.0)
-    components(q, "v", name, -(ω1 * AB * sin(φ1) + ω2 * BP * sin(φ)), ω1 * AB * cos(φ1) + ω2 * BP * cos(φ))
-    a_x = -(ω1**2 * AB * cos(φ1) + ε2 * BP * sin(φ) + ω2**2 * BP * cos(φ))
-    a_y = ε2 * BP * cos(φ) - ω1**2 * AB * sin(φ1) - ω2**2 * BP * sin(φ)
+    v, a = signed(turn, ω2), signed(turn, ε2)
+    components(q, "v", name, -(ω1 * AB * sin(φ1) + v * BP * sin(φ)), ω1 * AB * cos(φ1) + v * BP * cos(φ))
+    a_x = -(ω1**2 * AB * cos(φ1) + a * BP * sin(φ) + ω2**2 * BP * cos(φ))
+    a_y = a * BP * cos(φ) - ω1**2 * AB * sin(φ1) - ω2**2 * BP * sin(φ)
     components(q, "a", name, a_x, a_y)
 
 
 # --- what the words show --------------------------------------------------------------------------
 
 
-def equations() -> dict[str, tuple[Chain, ...]]:
+def equations(turn: int) -> dict[str, tuple[Chain, ...]]:
     """The closed loop by components; the matrix equations in symbols, and `-numbers` with entries to fill in."""
     AB, BC, CD, AD = (Symbol("l", name) for name in ("AB", "BC", "CD", "AD"))
     φ1, φ2, φ3 = (Symbol("φ", link) for link in "123")
     ω1, ω2, ω3 = (Symbol("ω", link) for link in "123")
     ω, ε = column(ω2, ω3), column(Symbol("ε", "2"), Symbol("ε", "3"))
     A = Matrix(((-BC * sin(φ2), CD * sin(φ3)), (BC * cos(φ2), -CD * cos(φ3))))
-    dA = Matrix(((-ω2 * BC * cos(φ2), ω3 * CD * cos(φ3)), (-ω2 * BC * sin(φ2), ω3 * CD * sin(φ3))))
-    B, dB = column(AB * sin(φ1), -AB * cos(φ1)), column(ω1 * AB * cos(φ1), ω1 * AB * sin(φ1))
+    dA = Matrix(
+        (
+            (signed(-turn, ω2 * BC * cos(φ2)), signed(turn, ω3 * CD * cos(φ3))),
+            (signed(-turn, ω2 * BC * sin(φ2)), signed(turn, ω3 * CD * sin(φ3))),
+        )
+    )
+    B = column(signed(turn, AB * sin(φ1)), signed(-turn, AB * cos(φ1)))
+    dB = column(signed(turn, ω1 * AB * cos(φ1)), signed(turn, ω1 * AB * sin(φ1)))
     a11, a12, a21, a22 = (Symbol("a", place) for place in ("11", "12", "21", "22"))
     filled_A, filled_dA = (
         Matrix(tuple(tuple(Ref(f"{name}.{i}{j}") for j in "12") for i in "12")) for name in ("A", "dA")
@@ -308,6 +319,6 @@ def machine(assignment: Assignment) -> Machine:
         torques=torque_on(given.torque, 3, linkage, positions, start),
         paths=tuple(names),
         compared=compared(plans),
-        equations=equations(),
+        equations=equations(turn),
         facts={"left": turn * given.side > 0},
     )

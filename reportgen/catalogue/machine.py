@@ -66,6 +66,8 @@ class Machine:
     """Torques other than inertia couples."""
     sliders: tuple[Course, ...] = ()
     """Sliders with dead centres, the pistons among them."""
+    positive: Mapping[str, complex] = field(default_factory=dict)
+    """Unit vectors along which the motion of sliders counts as positive, by their pins; else along their guides."""
     paths: tuple[str, ...] = ()
     """Points whose paths the position plan shows."""
     compared: tuple[tuple[str, str], ...] = ()

@@ -124,7 +124,7 @@ def machine(assignment: Assignment) -> Machine:
         q.define("drawn.AC", q["a"] / q["mu.l"], drawn_length("A", "C"))
         slotted.swing(q, q["H"] / (2 * q["l.CD"]))
         slotted.strokes(q, q["H"])
-        slotted.ram_formulas(q, start + even_angles(positions))
+        slotted.ram_formulas(q, positions.sign, start + even_angles(positions))
 
     applied: tuple[Applied, ...] = ()
     if cutting is not None:
@@ -141,5 +141,5 @@ def machine(assignment: Assignment) -> Machine:
         sliders=(course,),
         paths=("D",),
         compared=slotted.RAM_COMPARED,
-        equations=slotted.ram_equations(),
+        equations=slotted.ram_equations(positions.sign),
     )

@@ -83,12 +83,12 @@ def machine(assignment: Assignment) -> Machine:
         q,
         linkage,
         geometry.crank_angle(start),
-        formulas=lambda q: offset_slider(q, start + even_angles(positions), offset, has_centre),
+        formulas=lambda q: offset_slider(q, turn, start + even_angles(positions), offset, has_centre),
         applied=()
         if given.force is None
         else (Applied("P3", 3, "C", cmath.rect(1.0, geometry.axis), TableLaw(course, given.force.table, turns=TURNS)),),
         sliders=(course,),
         paths=("S2",) if has_centre else (),
         compared=compared((*OFFSET_PLANS, *(CENTRE_PLANS if has_centre else ()))),
-        equations=loop_equations(offset is not None),
+        equations=loop_equations(turn, offset is not None),
     )

@@ -92,7 +92,7 @@ def machine(assignment: Assignment) -> Machine:
         q.define("drawn.AC", d / q["mu.l"], drawn_length("A", "C"))
         if geometry.swings:
             slotted.swing(q, r / d)
-        slotted.lever_end(q, start + even_angles(positions))
+        slotted.lever_end(q, positions.sign, start + even_angles(positions))
 
     return driven(
         assignment,
@@ -103,5 +103,5 @@ def machine(assignment: Assignment) -> Machine:
         torques=torque_on(given.torque, 3, linkage, positions, geometry.crank_angle(start)),
         paths=("D",),
         compared=slotted.LEVER_COMPARED,
-        equations=slotted.lever_equations(Symbol("l", "AB"), Symbol("l", "AC")),
+        equations=slotted.lever_equations(positions.sign, Symbol("l", "AB"), Symbol("l", "AC")),
     )

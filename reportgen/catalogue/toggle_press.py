@@ -19,7 +19,7 @@ from reportgen.catalogue.loads import Applied, TableLaw, course, crank_motion
 from reportgen.catalogue.machine import Machine
 from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage
-from reportgen.notation.expressions import Symbol, acos, atan2, cos, sin, sqrt
+from reportgen.notation.expressions import Symbol, acos, atan2, cos, signed, sin, sqrt
 from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
 
@@ -103,12 +103,12 @@ def machine(assignment: Assignment) -> Machine:
         φ3 = line("f.phi.3", atan2(y, x) - δ if minus else atan2(y, x) + δ)
         φ2 = line("f.phi.2", atan2(l * sin(φ3) - y, l * cos(φ3) - x))
         line("f.y.C", y_D + 2 * l * sin(φ3))
-        ω2 = line("f.omega.2", ω1 * r * sin(φ1 - φ3) / (b * sin(φ3 - φ2)))
-        ω3 = line("f.omega.3", ω1 * r * sin(φ1 - φ2) / (l * sin(φ3 - φ2)))
+        ω2 = line("f.omega.2", signed(turn, ω1 * r * sin(φ1 - φ3) / (b * sin(φ3 - φ2))))
+        ω3 = line("f.omega.3", signed(turn, ω1 * r * sin(φ1 - φ2) / (l * sin(φ3 - φ2))))
         line("f.v.C", 2 * l * ω3 * cos(φ3))
         top = ω1**2 * r * cos(φ1 - φ2) + ω2**2 * b - ω3**2 * l * cos(φ3 - φ2)
-        ε3 = line("f.eps.3", line("f.q", top, "q", "acceleration") / (l * sin(φ3 - φ2)))
-        line("f.a.C", 2 * l * (ε3 * cos(φ3) - ω3**2 * sin(φ3)))
+        ε3 = line("f.eps.3", signed(turn, line("f.q", top, "q", "acceleration") / (l * sin(φ3 - φ2))))
+        line("f.a.C", 2 * l * (ε3 * cos(φ3) + signed(-turn, ω3**2 * sin(φ3))))
 
     return driven(
         assignment,

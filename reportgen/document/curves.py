@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import cmath
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from reportgen.analysis import FULL_TURN
+from reportgen.document.equations import heading_words
 from reportgen.document.figures import MM, Drawn, figure
-from reportgen.document.groups import GroupView
 from reportgen.document.report import SAME, Report, lower_digits
 from reportgen.figures import charts
 from reportgen.figures.scene import Content, Scene
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.kinematics.sides import scheme
-from reportgen.mechanism.structure import DRIVER, GROUND
+from reportgen.mechanism.structure import DRIVER, GROUND, Crank
 from reportgen.notation.expressions import Chain, Symbol
 from reportgen.notation.vocabulary import KINDS
 
@@ -49,8 +52,7 @@ def _driver_axis(report: Report, angle: str = "cycle_angle") -> Chain:
 def motion(report: Report) -> Drawn:
     """Velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
     moved = report.dense_cycle.motion
-    # Along its guide a slider's course counts away from the crank.
-    along = {group.Q: np.exp(1j * float(report.analysis.motion.links[group.j].angle[0])) for group in _sliding(report)}
+    along = report.slider_senses
     spins = scheme(report.machine.linkage).spins
     turning = [link for link, other in spins.items() if link == other > DRIVER]
 
@@ -61,28 +63,36 @@ def motion(report: Report) -> Drawn:
     def of_links(base: str, quantity: str) -> list[tuple[Symbol, np.ndarray]]:
         return [(Symbol(base, str(link)), getattr(moved.links[link], quantity)) for link in turning]
 
+    one_way = headings(report, along.values())
+    way = one_way[0] if len(one_way) == 1 else ""
+    rotation = report.sense(1)
     drawings = (
-        (of_points("v"), axis(Symbol("v"), "velocity")),
-        (of_points("a"), axis(Symbol("a"), "acceleration")),
-        (of_links("ω", "omega"), axis(Symbol("ω"), "angular velocity")),
-        (of_links("ε", "epsilon"), axis(Symbol("ε"), "angular acceleration")),
+        (of_points("v"), _positive(report, axis(Symbol("v"), "velocity"), way)),
+        (of_points("a"), _positive(report, axis(Symbol("a"), "acceleration"), way)),
+        (of_links("ω", "omega"), _positive(report, axis(Symbol("ω"), "angular velocity"), rotation)),
+        (of_links("ε", "epsilon"), _positive(report, axis(Symbol("ε"), "angular acceleration"), rotation)),
     )
     shown = [(curves, title) for curves, title in drawings if curves]
     return Drawn(tuple(_over_a_turn(report, curves, title, half=len(shown) > 1) for curves, title in shown))
+
+
+def headings(report: Report, ways: Iterable[complex]) -> list[str]:
+    """The ways in words, each once."""
+    return list(dict.fromkeys(heading_words(report, math.degrees(cmath.phase(way))) for way in ways))
+
+
+def _positive(report: Report, title: Chain, sense: str) -> Chain:
+    """The title of an axis with the sense in which its quantity is positive; plain where curves differ in it."""
+    told = str(report.words["figure"]["positive"]).format(title=title.note, sense=sense)
+    return replace(title, note=told) if sense else title
 
 
 @figure("displacement")
 def displacement(report: Report) -> Drawn:
     """The coordinates of what slides on the ground, along its guide, over one turn."""
     slides = report.dense_cycle.motion.slides
-    curves = [(Symbol("x", group.Q), MM * slides[GROUND, group.j].s) for group in _sliding(report)]
+    curves = [(Symbol("x", group.Q), MM * slides[GROUND, group.j].s) for group in report.sliding]
     return Drawn((_over_a_turn(report, curves, axis(Symbol("x"), "segment")),))
-
-
-def _sliding(report: Report) -> tuple[GroupView, ...]:
-    """Groups whose last link slides along a fixed guide."""
-    on_ground = {slider for carrier, slider in report.analysis.motion.slides if carrier == GROUND}
-    return tuple(group for group in report.groups if group.kind in ("RRP", "RPP") and group.j in on_ground)
 
 
 def _marks(report: Report) -> tuple[int, ...]:
@@ -117,7 +127,9 @@ def torque(report: Report) -> Drawn:
     ledger, slides = report.ledger, bool(report.machine.span)
     curve = charts.Series(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
     levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),)
-    title = _axis_of(report, "M.eq")
+    driver = report.machine.linkage.driver
+    sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
+    title = _positive(report, _axis_of(report, "M.eq"), sense)
     return Drawn((charts.chart((curve,), _driver_axis(report), title, levels=levels, turn=not slides),))
 
 

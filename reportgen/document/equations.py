@@ -8,6 +8,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from reportgen.document.groups import Contact, GroupView
 from reportgen.document.report import FUNCTIONS, Report, function, listed, lower_digits
 from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Reference, Text, Value
@@ -176,20 +178,31 @@ def assumed(report: Report, group: GroupView, position: int) -> Inlines:
 @function
 def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
     """Where the reactions of some joints point, in words and by their angles; those that are nothing left out."""
-    words = report.words["headings"]
     shown: list[Inline] = []
     for digits in joints:
         if not report.is_zero(f"R.{digits}", position):
             vector, angle = report.force_vector(f"R{digits}"), report.ledger.number(f"dir.R{digits}", position)
-            way = Text(f" {words[_eighth(angle.shown)]} (")
+            way = Text(f" {heading_words(report, angle.shown)} (")
             shown += [*((Text("; "),) if shown else ()), InlineMath(vector), way, Value(angle), Text(")")]
     return tuple(shown)
 
 
-def _eighth(degrees: float) -> int:
-    """The axis or the quadrant that an angle lies in: 0 along +x, 1 between +x and +y, 2 along +y, …."""
-    quadrant, within = divmod(degrees % 360.0, 90.0)
-    return int(2 * quadrant) + (within > 0)
+@function
+def slider_ways(report: Report) -> Inlines:
+    """In which direction the velocity and the acceleration of each slider are positive, with its angle from +x."""
+    shown: list[Inline] = []
+    for pin, way in report.slider_senses.items():
+        degrees = round(float(np.degrees(np.angle(way))), 2) % 360.0
+        symbols = InlineMath(Symbol("v", pin)), Text(", "), InlineMath(Symbol("a", pin))
+        place = Text(f" {heading_words(report, degrees)} ("), Value(Number(degrees, unit="°")), Text(")")
+        shown += [*((Text("; "),) if shown else ()), *symbols, *place]
+    return tuple(shown)
+
+
+def heading_words(report: Report, degrees: float) -> str:
+    """The axis or the quadrant that an angle from +x lies in, in words: to the right, to the right and up, …."""
+    quadrant, within = divmod(round(degrees, 2) % 360.0, 90.0)
+    return str(report.words["headings"][int(2 * quadrant) + (within > 0)])
 
 
 @function

@@ -322,11 +322,16 @@ class GroupView:
     @property
     def assumed(self) -> list[str]:
         """What moments give, each drawn in an assumed sense, so that it has a sign."""
-        return self.ledger.known((f"R.{self.outer}.t", f"R.{self.guide}.t", self.by_slot))
+        return [*self.tangential, *self.ledger.known([self.by_slot])]
+
+    @property
+    def tangential(self) -> list[str]:
+        """The components across links that moments give."""
+        return self.ledger.known((f"R.{self.outer}.t", f"R.{self.guide}.t"))
 
     def components(self, k: int) -> int:
         """How many components are found by moments; none where all of them are zero."""
-        found = [id for id in self.assumed if id != self.by_slot]
+        found = self.tangential
         return len(found) * any(self.ledger.number(id, k).value != 0 for id in found)
 
     @property

@@ -27,7 +27,7 @@ from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics.centres import links_in_plane_motion
 from reportgen.ledger.kinematics.sides import scheme
-from reportgen.mechanism.structure import Mobility, mobility
+from reportgen.mechanism.structure import GROUND, Mobility, mobility
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Number, Symbol, walk
 
@@ -302,6 +302,18 @@ class Report:
         owner = {link: group.name for group in self.groups for link in (group.i, group.j)}
         turns = links_in_plane_motion(scheme(self.machine.linkage))
         return tuple(PlaneLink(turn, owner[turn.link]) for turn in turns)
+
+    @property
+    def sliding(self) -> tuple[GroupView, ...]:
+        """Groups whose last link slides along a fixed guide."""
+        on_ground = {slider for carrier, slider in self.analysis.motion.slides if carrier == GROUND}
+        return tuple(group for group in self.groups if group.kind in ("RRP", "RPP") and group.j in on_ground)
+
+    @property
+    def slider_senses(self) -> Mapping[str, complex]:
+        """The unit vectors along which the motion of sliders on the ground counts as positive, by their pins."""
+        angles = {group.Q: float(self.analysis.motion.links[group.j].angle[0]) for group in self.sliding}
+        return {pin: self.machine.positive.get(pin, complex(np.exp(1j * angle))) for pin, angle in angles.items()}
 
     # --- forces
 

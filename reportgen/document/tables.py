@@ -28,7 +28,7 @@ from reportgen.document.tree import (
     Value,
 )
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Symbol, refs
+from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Symbol, refs, size
 
 MM = 1e3
 WIDEST_COLUMN = 26.0
@@ -140,6 +140,12 @@ def bare(report: Report, id: str, position: int | None, size: bool = False) -> I
     return (Value(Number(number.value, number.decimals, "")),)
 
 
+def head_symbol(report: Report, id: str) -> Expression:
+    """The symbol over a column: |v| over magnitudes, read from plans, of what has a direction of its own."""
+    symbol = report.ledger.symbol(id)
+    return size(symbol) if id.startswith(("v.", "a.")) else symbol
+
+
 @function
 def tables(
     report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]
@@ -154,7 +160,7 @@ def tables(
     for id in shown:
         unit = report.ledger[id].how.unit
         unit = report.ledger.units.get(unit, unit)
-        columns.append([report.ledger.symbol(id), unit, *(bare(report, id, k) for k in at)])
+        columns.append([head_symbol(report, id), unit, *(bare(report, id, k) for k in at)])
     titles = [report.words["table"]["position"], "", *map(str, at)]
     found = side_by_side(report, key, caption, Column(FIRST_COLUMN), titles, columns, MOST_COLUMNS - 1, heads=2)
     if not zeros or shown == list(ids):

@@ -242,6 +242,13 @@ acos = partial(call, "arccos")
 atan = partial(call, "arctan")
 
 
+def signed(sense: float, of: Expression) -> Expression:
+    """An expression as it stands, or with the other sign where `sense` is negative."""
+    if sense > 0:
+        return of
+    return of.of if isinstance(of, Negative) else Negative(of)
+
+
 def size(of: Operand) -> Call:
     """|of| of a number with a sign, printed as it stands; abs is measured on a drawing."""
     return call("size", of)
