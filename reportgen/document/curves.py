@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from reportgen.analysis import FULL_TURN
+from reportgen.document.comments import sliders
 from reportgen.document.figures import MM, Drawn, figure
 from reportgen.document.groups import GroupView
 from reportgen.document.report import SAME, Report, lower_digits
@@ -47,7 +48,7 @@ def _driver_axis(report: Report, angle: str = "cycle_angle") -> Chain:
 
 @figure("motion")
 def motion(report: Report) -> Drawn:
-    """Velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
+    """Displacement, velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
     moved = report.dense_cycle.motion
     # Along its guide a slider's course counts away from the crank.
     along = {group.Q: np.exp(1j * float(report.analysis.motion.links[group.j].angle[0])) for group in _sliding(report)}
@@ -62,6 +63,7 @@ def motion(report: Report) -> Drawn:
         return [(Symbol(base, str(link)), getattr(moved.links[link], quantity)) for link in turning]
 
     drawings = (
+        (_displacements(report), axis(Symbol("s"), "segment")),
         (of_points("v"), axis(Symbol("v"), "velocity")),
         (of_points("a"), axis(Symbol("a"), "acceleration")),
         (of_links("ω", "omega"), axis(Symbol("ω"), "angular velocity")),
@@ -70,12 +72,16 @@ def motion(report: Report) -> Drawn:
     return Drawn(tuple(_over_a_turn(report, curves, title) for curves, title in drawings if curves))
 
 
-@figure("displacement")
-def displacement(report: Report) -> Drawn:
-    """The coordinates of what slides on the ground, along its guide, over one turn."""
-    slides = report.dense_cycle.motion.slides
-    curves = [(Symbol("x", group.Q), MM * slides[GROUND, group.j].s) for group in _sliding(report)]
-    return Drawn((_over_a_turn(report, curves, axis(Symbol("x"), "segment")),))
+def _displacements(report: Report) -> list[tuple[Symbol, np.ndarray]]:
+    """How far (mm) each slider is from its dead centre, the one at the far end of its guide if it has no first."""
+    courses = {course.link: course for course in report.machine.sliders}
+    moved, found = report.dense_cycle.motion, []
+    for slider in sliders(report):
+        place = moved.slides[GROUND, slider.link].s
+        course = courses.get(slider.link)
+        way = place.max() - place if course is None else course.fraction(moved) * course.stroke
+        found.append((Symbol("s", str(slider.link)), MM * way))
+    return found
 
 
 def _sliding(report: Report) -> tuple[GroupView, ...]:
