@@ -65,6 +65,7 @@ class LoadRow:
     nodes: tuple[float, ...] = ()
     rows: tuple[tuple[float, ...], ...] = ()
     bore: Number | None = None
+    intake: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,7 +213,7 @@ def _load(load: file.Loading, name: str) -> LoadRow:
         case file.OverStroke():
             return LoadRow(name, load.link, "stroke", False, nodes=load.s, rows=(load.inward, load.outward))
         case file.Gas():
-            return LoadRow(name, load.link, "gas", False, bore=number(load.D))
+            return LoadRow(name, load.link, "gas", False, bore=number(load.D), intake=load.intake)
         case file.OverAngle() | file.OverWay():
             given = load.angle if isinstance(load, file.OverAngle) else load.way
             nodes = tuple(node.value for node in given)

@@ -45,9 +45,9 @@ HALF = 0.5
 CLOSE = 5.5
 """What of their margins (mm) scenes of one figure give up to stand side by side."""
 SCHEME_BOX = (120.0, 130.0)
-SCHEME_HEIGHT = 75.0
-"""Of a scheme with its labels at most, mm."""
-REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 10, 20, 25, 40, 50, 100, 1000))
+SMALL_SCHEME = 79.0
+"""Height with its labels at most of a scheme that stands among tables, mm."""
+REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
 SHOWN_AT = 1
 """The position (from 0) at which schemes are drawn: the first one away from the start."""
 ROOM = 24.0
@@ -175,9 +175,14 @@ def short(number: Number) -> Number:
 
 @figure("scheme")
 def scheme(report: Report) -> Drawn:
-    """In the largest round reduction at which it stands with the given data, or with the results, on one page."""
+    return Drawn((_scheme(report, _reduction(report)),))
+
+
+@figure("scheme.small")
+def small_scheme(report: Report) -> Drawn:
+    """The scheme, small enough to stand on one page with the results."""
     drawn = (_scheme(report, factor) for factor in REDUCTIONS if factor <= _reduction(report))
-    return Drawn((next(one for one in drawn if one.height <= SCHEME_HEIGHT),))
+    return Drawn((next(one for one in drawn if one.height <= SMALL_SCHEME),))
 
 
 def _scheme(report: Report, factor: float) -> Scene:

@@ -276,9 +276,10 @@ def working_force(report: Report, key: str, caption: str, head: Sequence[str]) -
 @table("gas.law")
 def gas_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
     """The gauge pressure (N/cm²) on a piston as given: by stroke, or against the cycle angle."""
-    piston = next(piston for piston in report.machine.pistons if piston.name == name)
-    caption = caption.format(link=piston.link)
-    return _law_table(report, piston.law, key, caption, report.words["strokes"], Symbol("p"), 1e4)
+    gas = next(load for load in report.machine.applied if load.name == name)
+    assert isinstance(gas.law, TableLaw)
+    caption = caption.format(link=gas.link)
+    return _law_table(report, gas.law, key, caption, report.words["strokes"], Symbol("p"), 1e4)
 
 
 @table("law")
