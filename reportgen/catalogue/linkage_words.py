@@ -66,6 +66,7 @@ class LoadRow:
     nodes: tuple[float, ...] = ()
     rows: tuple[tuple[float, ...], ...] = ()
     bore: Number | None = None
+    intake: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,7 +184,7 @@ def _load(load: file.Loading, name: str) -> LoadRow:
         case file.OverStroke():
             return LoadRow(name, load.link, "stroke", False, nodes=load.s, rows=(load.inward, load.outward))
         case file.Gas():
-            return LoadRow(name, load.link, "gas", False, bore=number(load.D))
+            return LoadRow(name, load.link, "gas", False, bore=number(load.D), intake=load.intake)
     torque, way = load.at is None, number(load.direction)
     if isinstance(load, file.Constant):
         size = load.F or load.M

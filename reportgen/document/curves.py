@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from reportgen.analysis import FULL_TURN
+from reportgen.document.comments import sliders
 from reportgen.document.equations import heading_words
 from reportgen.document.figures import MM, Drawn, figure
 from reportgen.document.report import SAME, Report, lower_digits
@@ -50,7 +51,7 @@ def _driver_axis(report: Report, angle: str = "cycle_angle") -> Chain:
 
 @figure("motion")
 def motion(report: Report) -> Drawn:
-    """Velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
+    """Displacement, velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
     moved = report.dense_cycle.motion
     along = report.slider_senses
     spins = scheme(report.machine.linkage).spins
@@ -67,6 +68,7 @@ def motion(report: Report) -> Drawn:
     way = one_way[0] if len(one_way) == 1 else ""
     rotation = report.sense(1)
     drawings = (
+        (_displacements(report), axis(Symbol("s"), "segment")),
         (of_points("v"), _positive(report, axis(Symbol("v"), "velocity"), way)),
         (of_points("a"), _positive(report, axis(Symbol("a"), "acceleration"), way)),
         (of_links("ω", "omega"), _positive(report, axis(Symbol("ω"), "angular velocity"), rotation)),
@@ -87,12 +89,16 @@ def _positive(report: Report, title: Chain, sense: str) -> Chain:
     return replace(title, note=told) if sense else title
 
 
-@figure("displacement")
-def displacement(report: Report) -> Drawn:
-    """The coordinates of what slides on the ground, along its guide, over one turn."""
-    slides = report.dense_cycle.motion.slides
-    curves = [(Symbol("x", group.Q), MM * slides[GROUND, group.j].s) for group in report.sliding]
-    return Drawn((_over_a_turn(report, curves, axis(Symbol("x"), "segment")),))
+def _displacements(report: Report) -> list[tuple[Symbol, np.ndarray]]:
+    """How far (mm) each slider is from its dead centre, the one at the far end of its guide if it has no first."""
+    courses = {course.link: course for course in report.machine.sliders}
+    moved, found = report.dense_cycle.motion, []
+    for slider in sliders(report):
+        place = moved.slides[GROUND, slider.link].s
+        course = courses.get(slider.link)
+        way = place.max() - place if course is None else course.fraction(moved) * course.stroke
+        found.append((Symbol("s", str(slider.link)), MM * way))
+    return found
 
 
 def _marks(report: Report) -> tuple[int, ...]:

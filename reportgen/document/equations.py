@@ -344,7 +344,8 @@ def _relative(report: Report, side: Side) -> tuple[Term, ...]:
         return (sought,)
     twice = 2 * ledger.symbol(side.omega) * ledger.symbol(side.velocity)
     across = words["across_slot" if side.carrier is None else "across_guide"]
-    return _term(report, "a", side.pair, "k", across, words["turned"], twice), sought
+    turned = words["turned"].format(link=lower_digits(str(side.turning)))
+    return _term(report, "a", side.pair, "k", across, Chain((ledger.symbol(side.velocity),), turned), twice), sought
 
 
 def _base(report: Report, side: Side, what: str) -> Term:

@@ -44,6 +44,9 @@ HALF = 0.5
 CLOSE = 5.5
 """What of their margins (mm) scenes of one figure give up to stand side by side."""
 SCHEME_BOX = (120.0, 130.0)
+SMALL_SCHEME = 79.0
+"""Height with its labels at most of a scheme that stands among tables, mm."""
+REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
 SHOWN_AT = 1
 """The position (from 0) at which schemes are drawn: the first one away from the start."""
 ROOM = 24.0
@@ -171,11 +174,20 @@ def short(number: Number) -> Number:
 
 @figure("scheme")
 def scheme(report: Report) -> Drawn:
-    factor = _reduction(report)
+    return Drawn((_scheme(report, _reduction(report)),))
+
+
+@figure("scheme.small")
+def small_scheme(report: Report) -> Drawn:
+    """The scheme, small enough to stand on one page with the results."""
+    drawn = (_scheme(report, factor) for factor in REDUCTIONS if factor <= _reduction(report))
+    return Drawn((next(one for one in drawn if one.height <= SMALL_SCHEME),))
+
+
+def _scheme(report: Report, factor: float) -> Scene:
     scale = drawing_scale(report) * factor
     look = looks(report, scale, factor)
-    motion = report.analysis.motion
-    return Drawn((scheme_figure.scheme(report.machine.linkage, motion, SHOWN_AT, scale, look),))
+    return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, SHOWN_AT, scale, look)
 
 
 @figure("groups")
@@ -194,7 +206,7 @@ def _reduction(report: Report) -> float:
     points = [point.p[SHOWN_AT] for point in report.analysis.motion.points.values()]
     size = np.array(points)[np.isfinite(points)] * drawing_scale(report)
     needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
-    return 1.0 / float(next(step for step in (1, 2, 2.5, 4, 5, 10, 20, 25, 40, 50, 100, 1000) if step >= needed))
+    return next(factor for factor in REDUCTIONS if 1 / factor >= needed)
 
 
 @figure("positions")

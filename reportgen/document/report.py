@@ -21,7 +21,7 @@ from reportgen.catalogue.loads import Piston
 from reportgen.catalogue.machine import Machine, Position
 from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink
 from reportgen.document.prose import PointName, Prose
-from reportgen.document.tree import Block, InlineMath, Inlines, Paragraph, Text
+from reportgen.document.tree import Block, Inlines, Paragraph, Text
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.polygon import Polygon
@@ -283,12 +283,6 @@ class Report:
     def computed(self) -> frozenset[str]:
         """The ids of what has a formula."""
         return frozenset(id for id, family in self.ledger.families.items() if family.definition is not None)
-
-    @property
-    def not_recomputing(self) -> Inlines:
-        """Symbols of the quantities whose lines cannot be recomputed to the last digit."""
-        found = dict.fromkeys(map(self.ledger.symbol, self.ledger.cancellations))
-        return listed(InlineMath(symbol) for symbol in found)
 
     # --- motion
 

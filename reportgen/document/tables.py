@@ -287,6 +287,15 @@ def working_force(report: Report, key: str, caption: str, head: Sequence[str]) -
     return _law_table(report, law, key, caption, head, Symbol("P"))
 
 
+@table("gas.law")
+def gas_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
+    """The gauge pressure (N/cm²) on a piston as given: by stroke, or against the cycle angle."""
+    gas = next(load for load in report.machine.applied if load.name == name)
+    assert isinstance(gas.law, TableLaw)
+    caption = caption.format(link=gas.link)
+    return _law_table(report, gas.law, key, caption, report.words["strokes"], Symbol("p"), 1e4)
+
+
 @table("law")
 def load_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
     """The load `name` as given: a row for each of the strokes of the head, or against the driver's turn or way."""

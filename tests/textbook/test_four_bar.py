@@ -1,4 +1,4 @@
-"""The four-bar linkage against a textbook's figures, its own loop of vectors, and numerical differentiation."""
+"""The four-bar linkage against R. L. Norton, Design of Machinery (4-1, 6-7), its own loop of vectors, and FFT."""
 
 from __future__ import annotations
 
