@@ -109,7 +109,8 @@ class _Bodies:
 
     def inner(self, group: GroupView, link: int) -> Force:
         """The reaction in the inner joint on one link of the group, as it is read from the plan."""
-        read = self.reaction(f"R{group.inner}", self.at(group.Q))
+        # Of an RPP the inner joint is the slide of the block, which stands at its pin.
+        read = self.reaction(f"R{group.inner}", self.at(group.P if group.kind == "RPP" else group.Q))
         if link == group.i:
             return read
         opposite = Symbol("R", group.across, over="vector")

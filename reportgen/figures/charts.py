@@ -116,12 +116,14 @@ def chart(
     return finish(Draft(tuple(items), tuple(requests)), margin=1.5)
 
 
-def polar(series: Series, unit: str, *, title: str = "") -> Scene:
-    """The hodograph of a vector (x, y) about the pole with equal scales, its marks named; `unit` is the axes'."""
+def polar(
+    series: Series, x_label: Content, y_label: Content = "", *, title: str = "", size: float = POLAR_SIZE
+) -> Scene:
+    """The hodograph of a vector (x, y) about the pole with equal scales, its marks and the axes named."""
     x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
     step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / 6, (1, 2, 5))
     (x0, x1), (y0, y1) = _rounded(x, step), _rounded(y, step)
-    per = POLAR_SIZE / max(x1 - x0, y1 - y0)
+    per = size / max(x1 - x0, y1 - y0)
     window = _Window((x0, x1), (y0, y1), (x1 - x0) * per, (y1 - y0) * per)
     items = _frame(window, _steps(x0, x1, step), _steps(y0, y1, step), "")
     items += [Line(window.at(x0, 0), window.at(x1, 0), EDGE), Line(window.at(0, y0), window.at(0, y1), EDGE)]
@@ -129,7 +131,7 @@ def polar(series: Series, unit: str, *, title: str = "") -> Scene:
     items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
     requests = _marked(series, vertices, PENS[0], items)
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
-    items += _titles(window, unit, "", items)
+    items += _titles(window, x_label, y_label, items)
     return finish(Draft(tuple(items), tuple(requests)), title=title, margin=2.0)
 
 
