@@ -19,7 +19,7 @@ from reportgen.notation.expressions import Symbol
 
 THINNED = 4
 """Every fourth of the samples is enough for a curve of the flywheel."""
-SEVERAL = 62.0
+SEVERAL = 55.0
 """Size of polar diagrams (mm) of which two stand side by side."""
 NARROW = 1e-3
 """Below this share of J_r its variation is no width for a diagram, and the lines are drawn from the axis on."""
