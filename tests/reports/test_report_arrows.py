@@ -84,9 +84,14 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
         return {}
     count = written.case.analysis.machine.count if motion else written.case.analysis.machine.positions
     positions = range(1, count + 1) if position == "plates" else [worked(written, position, count)]
-    scale = STAGES if ".stages." in key else 1.0
+    scale = dict.fromkeys(positions, STAGES if ".stages." in key else 1.0)
+    if forces and position == "plates":
+        # Plates share the largest of the scales that the positions' plans have by themselves.
+        own = {k: float(ledger[f"mu.R{group}"].at(k)) for k in positions}
+        scale = {k: own[k] / max(own.values()) for k in positions}
     return {
-        name: [abs(complex(ledger[id].at(k))) * MM * scale for id in of for k in positions] for name, of in ids.items()
+        name: [abs(complex(ledger[id].at(k))) * MM * scale[k] for id in of for k in positions]
+        for name, of in ids.items()
     }
 
 
