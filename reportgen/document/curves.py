@@ -141,21 +141,32 @@ def torque(report: Report) -> Drawn:
 
 @figure("polar")
 def polar(report: Report) -> Drawn:
-    """The load of each crank pin in axes that turn with the crank, its radius upwards."""
-    fine = report.dense_cycle
+    """The load of each crank pin in axes that turn with the crank, its radius upwards.
+
+    Where several links hang on one pin, each of their reactions has its diagram, and their resultant.
+    """
+    fine, names = report.dense_cycle, report.words["figure"]
     numbers = tuple(map(str, report.all_positions))
     assert report.driver_polygon is not None
-    pins = [edge for edge in report.driver_polygon.edges if edge.is_reaction and not edge.unknown]
-    size = charts.POLAR_SIZE if len(pins) == 1 else charts.POLAR_HALF
-    scenes = []
-    for edge in pins:
+    loads: dict[str, dict[str, np.ndarray]] = {}
+    for edge in report.driver_polygon.edges:
+        if edge.unknown or not edge.is_reaction:
+            continue
         pin = next(group.P for group in report.groups if edge.name == f"R{group.i}{DRIVER}")
         radius = fine.motion.points[pin].p - fine.motion.points[report.driver.centre].p
         load = fine.forces.reactions[edge.name].force * np.conj(radius / np.abs(radius)) * 1j
-        series = charts.Series(report.force_vector(edge.name), load.real, load.imag, _marks(report), numbers)
-        scenes.append(
-            charts.polar(series, "N", title=f"{report.words['figure']['pin']} {lower_digits(pin)}", size=size)
-        )
+        loads.setdefault(pin, {})[lower_digits(edge.name)] = load
+    scenes = []
+    size = charts.POLAR_SIZE if sum(map(len, loads.values())) == 1 else charts.POLAR_HALF
+    for name, parts in loads.items():
+        shown = dict(parts)
+        if len(parts) > 1:
+            shown[" + ".join(parts)] = np.sum(list(parts.values()), axis=0)
+        along = names["along_crank"].format(arm=lower_digits(f"{report.driver.centre}{name}"))
+        for forces, load in shown.items():
+            series = charts.Series("", load.real, load.imag, _marks(report), numbers)
+            title = f"{names['pin']} {lower_digits(name)}: {forces}"
+            scenes.append(charts.polar(series, names["across_crank"], along, title=title, size=size))
     return Drawn(tuple(scenes))
 
 

@@ -68,6 +68,7 @@ def known(report: Report, id: str) -> bool:
 
 
 FUNCTIONS["zero"] = Report.is_zero
+FUNCTIONS["first_turn"] = Report.first_turn
 
 
 @function

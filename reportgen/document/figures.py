@@ -22,6 +22,7 @@ from reportgen.document.groups import GroupView
 from reportgen.document.report import DENSE, FUNCTIONS, SAME, Report
 from reportgen.document.tree import Figure, InlineMath, Plate, Text
 from reportgen.figures import indicator as indicator_figure
+from reportgen.figures import legend
 from reportgen.figures import scheme as scheme_figure
 from reportgen.figures.draft import Draft, sheets
 from reportgen.figures.forces import Sliding
@@ -167,6 +168,12 @@ def looks(report: Report, scale: float, factor: float = 1.0) -> Looks:
 def short(number: Number) -> Number:
     """The number as it is, to six digits at most."""
     return replace(number, value=float(f"{number.value:.6g}"), decimals=None)
+
+
+@figure("line-styles")
+def line_styles(report: Report) -> Drawn:
+    """The legend of all lines of the report."""
+    return Drawn((legend.line_styles(report.words["line_styles"]),))
 
 
 # --- the machine at one position and over a turn

@@ -203,6 +203,10 @@ class Report:
             return tuple(range(1, self.assignment.cycle_positions + 1))
         return self.assignment.worked_positions
 
+    def first_turn(self, k: Position) -> Position | None:
+        """The position of the first turn that one of a later turn repeats in its motion; None in the first turn."""
+        return self.machine.position((k - 1) % self.count + 1) if k > self.count else None
+
     # --- the machine
 
     @property

@@ -123,8 +123,10 @@ def chart(
     return finish(Draft(tuple(items), tuple(requests)), margin=CHART_MARGIN)
 
 
-def polar(series: Series, unit: str, *, title: str = "", size: float = POLAR_SIZE) -> Scene:
-    """The hodograph of a vector (x, y) about the pole with equal scales, its marks named; `unit` is the axes'.
+def polar(
+    series: Series, x_label: Content, y_label: Content = "", *, title: str = "", size: float = POLAR_SIZE
+) -> Scene:
+    """The hodograph of a vector (x, y) about the pole with equal scales, its marks and the axes named.
 
     Its longer side inside the axes is `size` mm.
     """
@@ -139,7 +141,7 @@ def polar(series: Series, unit: str, *, title: str = "", size: float = POLAR_SIZ
     items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
     requests = _marked(series, vertices, PENS[0], items)
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
-    items += _titles(window, unit, "", items)
+    items += _titles(window, x_label, y_label, items)
     return finish(Draft(tuple(items), tuple(requests)), title=title, margin=2.0)
 
 

@@ -211,7 +211,7 @@ def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Draft:
     for slide in bones.slides:
         size = looks.block(slide.link)
         if slide.on in shown and (slide.on != GROUND or slide.link in shown):
-            rails += _rail(slide, size, _bars(bones, shown))
+            rails += _rail(slide, size, _bars(bones, shown, looks))
         if slide.link in shown:
             # Where a group is drawn alone, a short piece of its axis stands for the guide.
             if slide.on not in shown:
@@ -274,18 +274,24 @@ def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Draft:
     return Draft((arrow,), (omega,))
 
 
-def _bars(bones: Skeleton, shown: Sequence[int]) -> list[tuple[complex, complex]]:
-    """The straight lines between the joints of the links."""
+def _bars(bones: Skeleton, shown: Sequence[int], looks: Looks) -> list[tuple[complex, complex]]:
+    """The straight lines between the joints of the links, and the guides that they carry."""
     joints = [[bones.points[name] for name in bones.bars.get(link, ())] for link in shown]
-    return [bar for ends in joints for bar in combinations(ends, 2)]
+    bars = [bar for ends in joints for bar in combinations(ends, 2)]
+    return bars + [_carried(slide, looks.block(slide.link)) for slide in bones.slides if slide.on in shown and slide.on]
+
+
+def _carried(slide: Slide, size: tuple[float, float]) -> tuple[complex, complex]:
+    """The ends of the line that stands for a guide on a moving link."""
+    on = polar(slide.angle) * (size[0] / 2 + 3.0)
+    return slide.low - on, slide.high + on
 
 
 def _rail(slide: Slide, size: tuple[float, float], bars: Sequence[tuple[complex, complex]]) -> tuple[Item, ...]:
     """The guide of a block along its way; if the way has no length, along a short piece of its axis."""
     along = polar(slide.angle)
     if slide.on != GROUND:
-        on = along * (size[0] / 2 + 3.0)
-        return (Line(slide.low - on, slide.high + on, style.HEAVY),)
+        return (Line(*_carried(slide, size), style.HEAVY),)
     if abs(slide.high - slide.low) > 1e-6:
         return style.guide(slide.low, slide.high, size, bars)
     return style.guide(slide.at - 0.5 * along, slide.at + 0.5 * along, size)

@@ -84,18 +84,20 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
         return {}
     count = written.case.analysis.machine.count if motion else written.case.analysis.machine.positions
     positions = range(1, count + 1) if position == "plates" else [worked(written, position, count)]
-    scale = share(written, key, f"mu.{motion[1]}" if motion else f"mu.R{polygon.name}")
+    of_plan = f"mu.{motion[1]}" if motion else f"mu.R{polygon.name}"
+    scale = {k: share(written, key, of_plan, k) for k in positions}
     return {
-        name: [abs(complex(ledger[id].at(k))) * MM * scale for id in of for k in positions] for name, of in ids.items()
+        name: [abs(complex(ledger[id].at(k))) * MM * scale[k] for id in of for k in positions]
+        for name, of in ids.items()
     }
 
 
-def share(written: Written, key: str, scale: str) -> float:
-    """How much smaller than at the ledger's scale a figure is drawn, by the scale that its caption prints."""
+def share(written: Written, key: str, scale: str, k: int) -> float:
+    """How much smaller than at the ledger's scale of a position a figure is drawn, by the scale in its caption."""
     captions = [block.caption for block in built.walk(written.document.blocks) if getattr(block, "key", "") == key]
     match captions:
         case [(*_, InlineMath(Chain((_, Number(value)))))]:
-            return written.case.ledger.number(scale).value / value
+            return written.case.ledger.number(scale, k).value / value
     return 1.0
 
 
