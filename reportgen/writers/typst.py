@@ -289,8 +289,8 @@ class _Blocks:
         """A displayed row: the parts between "=", each in the pieces between which it may break."""
         parts = row.parts if isinstance(row, Chain) else (row,)
         printed = [self.formulas.pieces(part) for part in parts]
-        # The first relation is where rows are aligned.
-        if layout.short_end(row) and len(printed) > 2:
+        # A lone symbol keeps its "= 0": there rows are aligned.
+        if layout.short_end(row) and (len(printed) > 2 or (len(printed) == 2 and len(printed[0]) > 1)):
             end = printed.pop()
             printed[-1][-1] += f" = {' '.join(end)}"
         printed[-1][-1] += self.formulas.note(row)
