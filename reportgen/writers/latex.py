@@ -99,7 +99,9 @@ class _Writer:
         """A block that stays on one page with the block that follows it."""
         if isinstance(block, tree.List):
             return self.list(block, r"\keeplist")
-        needed = _command("needed", f"{_height(following)}mm") if isinstance(following, tree.Table) else ""
+        needed = ""
+        if isinstance(following, tree.Table):
+            needed = _command("tableroom", f"{_whole(following)}mm") + _command("needed", f"{_height(following)}mm")
         return f"{needed}{self.block(block)}\\par\\nobreak"
 
     def block(self, block: tree.Block) -> str:
@@ -116,8 +118,8 @@ class _Writer:
                 return self.table(block)
             case tree.Figure():
                 return self.figure(block)
-            case tree.Plate(scene, (width, height)):
-                caption = self.caption(self.document.words.figure, block)
+            case tree.Plate(scene, (width, height), continues=continues):
+                caption = (self.again if continues else self.caption)(self.document.words.figure, block)
                 painted = paint_latex(scene, self.formulas)
                 return _command("plate", f"{width:g}mm", f"{height:g}mm", painted, caption)
             case tree.Cover():
@@ -180,7 +182,8 @@ class _Writer:
             _command("contentsentry", str(entry.section.level), entry.place, self.title(entry.section))
             for entry in self.entries.values()
         )
-        return "\n".join([*lines, r"\clearpage"])
+        room = layout.CONTENTS_TITLE + sum(layout.CONTENTS_LINE[entry.section.level] for entry in self.entries.values())
+        return "\n".join([_command("needed", f"{min(room, layout.TEXT_HEIGHT):g}mm"), *lines])
 
     def list(self, block: tree.List, end: str = "") -> str:
         from pylatex import Command, Itemize, NoEscape
@@ -234,13 +237,21 @@ class _Writer:
         label = f"{word} {block.number}".strip() + ("." if block.caption else "")
         return _command("captiontext", place, escape(label), self.inlines(block.caption))
 
+    def again(self, word: str, block: tree.Table | tree.Plate) -> str:
+        """The caption of what goes on from the page before."""
+        return _command("captiontext", "", escape(f"{word} {block.number} ({self.document.words.continued})"), "")
+
     def figure(self, figure: tree.Figure) -> str:
-        rows = "\n\\scenebreak\n".join(
-            _command("scenerow", rf"\hskip{layout.SCENE_GAP:g}mm ".join(map(self.scene, row)))
-            for row in layout.in_rows(figure.scenes)
+        """Its rows with the caption below; a figure that breaks between its rows has the caption first."""
+        scenes = layout.in_rows(figure.scenes)
+        breaks = layout.breaks(scenes)
+        rows = ("\n\\scenebreak\n" if breaks else "\n\\scenegap\n").join(
+            _command("scenerow", rf"\hskip{layout.SCENE_GAP:g}mm ".join(map(self.scene, row))) for row in scenes
         )
-        caption = _command("figurecaption", self.caption(self.document.words.figure, figure))
-        return "\n".join([r"\begin{scenes}", rows, caption, r"\end{scenes}"])
+        caption = self.caption(self.document.words.figure, figure)
+        if breaks:
+            return "\n".join([r"\begin{longscenes}", _command("captionabove", caption), rows, r"\end{longscenes}"])
+        return "\n".join([r"\begin{scenes}", rows, _command("figurecaption", caption), r"\end{scenes}"])
 
     def scene(self, scene: Scene) -> str:
         painted = paint_latex(scene, self.formulas)
@@ -257,6 +268,10 @@ class _Writer:
             title = rf"\multicolumn{{{len(block.columns)}}}{{c}}{{\tablecaption{{{caption}}}}}\\*[0pt]"
             environment.append(NoEscape(title))
         environment.append(NoEscape(head + r"\endfirsthead"))
+        if block.number:
+            again = self.again(self.document.words.table, block)
+            title = rf"\multicolumn{{{len(block.columns)}}}{{c}}{{\tablecaption{{{again}}}}}\\*[0pt]"
+            head = f"{title}\n{head}"
         environment.append(NoEscape(head + r"\endhead"))
         environment.append(NoEscape(r"\bottomrule\endfoot"))
         unbroken = len(block.rows) <= layout.WHOLE_TABLE
@@ -267,7 +282,8 @@ class _Writer:
                 together = unbroken or not layout.TOGETHER - 1 <= index < len(block.rows) - layout.TOGETHER
                 end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if together else 0}}}"
             environment.append(NoEscape(self.row(row, block.columns) + end))
-        return f"{{\\tablesize\n{environment.dumps()}\n}}"
+        room = _command("tableroom", f"{_whole(block)}mm")
+        return f"{room}{{\\tablesize\n{environment.dumps()}\n}}"
 
     def head(self, block: tree.Table) -> str:
         # Every option is written out: a cell's text may begin with a bracket.
@@ -300,6 +316,11 @@ def _height(block: tree.Table) -> int:
     """About how much paper (mm) a table needs with the lines before it, up to its first possible break."""
     rows = len(block.rows) if len(block.rows) <= layout.WHOLE_TABLE else layout.TOGETHER
     return OPENING + ROW * (len(block.head) + rows)
+
+
+def _whole(block: tree.Table) -> int:
+    """About how much paper (mm) a whole table needs with the lines before it."""
+    return OPENING + ROW * (len(block.head) + len(block.rows))
 
 
 def _column(width: float, align: str) -> str:
