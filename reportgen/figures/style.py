@@ -39,8 +39,8 @@ OLD = Stroke(0.2, GRAY)
 DIMENSION = Stroke(0.13)
 
 HEAD, DIMENSION_HEAD = 2.6, 1.6
-LABEL, SMALL = 9.0, 8.0
-"""Font sizes in points, the second where labels are dense."""
+LABEL, SMALL = 9.0, 8.6
+"""Font sizes in points, the second where labels are dense; its indices, 0.7 of it, have six points still."""
 
 # --- signs ----------------------------------------------------------------------------------------
 

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 CONTENTS_LEVEL = 3
 """The deepest level of heading that the contents and the outline list."""
+CAPTION = 15.0
+"""About what a figure's caption takes, with the white around it (mm)."""
 OPENING, ROW = 30, 7
 """Approximate heights in mm: of the words before a table with its caption, and of a row."""
 
@@ -177,13 +179,12 @@ class _Writer:
         return number + self.inlines(section.title)
 
     def contents(self, title: str) -> str:
-        lines = [_command("headingone", escape(title))]
+        lines = [r"\clearpage", _command("headline", escape(title))]
         lines += (
             _command("contentsentry", str(entry.section.level), entry.place, self.title(entry.section))
             for entry in self.entries.values()
         )
-        room = layout.CONTENTS_TITLE + sum(layout.CONTENTS_LINE[entry.section.level] for entry in self.entries.values())
-        return "\n".join([_command("needed", f"{min(room, layout.TEXT_HEIGHT):g}mm"), *lines])
+        return "\n".join([*lines, r"\clearpage"])
 
     def list(self, block: tree.List, end: str = "") -> str:
         from pylatex import Command, Itemize, NoEscape
@@ -250,7 +251,10 @@ class _Writer:
         )
         caption = self.caption(self.document.words.figure, figure)
         if breaks:
-            return "\n".join([r"\begin{longscenes}", _command("captionabove", caption), rows, r"\end{longscenes}"])
+            first = rf"{{{layout.height(scenes[:1]) + CAPTION:g}mm}}"
+            return "\n".join(
+                [r"\begin{longscenes}" + first, _command("captionabove", caption), rows, r"\end{longscenes}"]
+            )
         return "\n".join([r"\begin{scenes}", rows, _command("figurecaption", caption), r"\end{scenes}"])
 
     def scene(self, scene: Scene) -> str:
@@ -282,8 +286,8 @@ class _Writer:
                 together = unbroken or not layout.TOGETHER - 1 <= index < len(block.rows) - layout.TOGETHER
                 end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if together else 0}}}"
             environment.append(NoEscape(self.row(row, block.columns) + end))
-        room = _command("tableroom", f"{_whole(block)}mm")
-        return f"{room}{{\\tablesize\n{environment.dumps()}\n}}"
+        room = _command("tableroom", f"{_whole(block)}mm") + _command("needed", f"{_height(block) - OPENING}mm")
+        return f"{room}\\begin{{belowfigures}}\\tablesize\n{environment.dumps()}\n\\end{{belowfigures}}"
 
     def head(self, block: tree.Table) -> str:
         # Every option is written out: a cell's text may begin with a bracket.

@@ -41,10 +41,6 @@ TOGETHER = 3
 UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
 """A unit with a slash inside a text."""
 
-TEXT_HEIGHT = 247.0
-"""Of the A4 text block, mm."""
-CONTENTS_TITLE, CONTENTS_LINE = 20.0, {1: 7.5, 2: 6.0, 3: 6.0}
-"""About what the title of the contents and an entry of each level take (mm)."""
 TITLE = 5.0
 """What the titles of a row of scenes take below it (mm)."""
 LONG_FIGURE = 150.0
