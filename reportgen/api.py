@@ -83,8 +83,7 @@ def typeset(tree: Document, engine: Engine) -> tuple[str, bytes]:
         return source, pdflatex.compile(source).pdf
     from reportgen.writers import typst
 
-    source = typst.write(tree)
-    return source, typst.compile(source)
+    return typst.typeset(tree)
 
 
 # --- products: what a batch makes of an assignment file -----------------------------------------------

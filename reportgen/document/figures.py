@@ -81,7 +81,7 @@ def insert_figure(report: Report, name: str, *arguments: Any, words: str = "") -
     """A registered figure: `figure(name, …)`, or `figure(name, key, caption, …)` with words of its own;
     `words` names other ones of `words.yaml`.
 
-    A figure on plates is a block for each of them, and the key names the first.  Raises `KeyError` for a
+    A figure on plates is a block for each of them; the first has key and caption.  Raises `KeyError` for a
     name that nobody draws.
     """
     key, draw = FIGURES[name]
@@ -99,16 +99,9 @@ def insert_figure(report: Report, name: str, *arguments: Any, words: str = "") -
         inlines = (*inlines, Text("; "), InlineMath(drawn.note))
     if drawn.paper is None:
         return (Figure(drawn.scenes, inlines, key),)
-    count = len(drawn.scenes)
-    return tuple(
-        Plate(
-            scene,
-            drawn.paper,
-            inlines if count == 1 else (*inlines, Text(f" ({index}/{count})")),
-            key if index == 1 else f"{key}.{index}",
-        )
-        for index, scene in enumerate(drawn.scenes, start=1)
-    )
+    first, *others = drawn.scenes
+    further = (Plate(scene, drawn.paper, continues=True) for scene in others)
+    return Plate(first, drawn.paper, inlines, key), *further
 
 
 FUNCTIONS["figure"] = insert_figure

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from reportgen.document.figures import A3_ACROSS, HALF, MM, TEXT_BLOCK, Drawn, figure, on_paper, scale_note
+from reportgen.document.figures import A3_ACROSS, MM, TEXT_BLOCK, Drawn, figure, on_paper, scale_note
 from reportgen.document.groups import GroupView
 from reportgen.document.report import Report
 from reportgen.figures.draft import sheets
@@ -29,6 +29,8 @@ SHARES = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1)
 """How much smaller the force plans of all positions may be drawn than the worked ones: scales stay in their series."""
 LARGEST = (78.0, 105.0)
 """The largest of these plans (mm): two stand side by side, two rows on a page."""
+PANEL = (78.0, 66.0)
+"""The panel of a construction's step at most (mm)."""
 CLOSE_MARGIN = 2.0
 """White around each of many plans (mm)."""
 
@@ -110,10 +112,14 @@ def _steps(group: GroupView, what: What) -> tuple[int, int, int]:
 def _stages(
     report: Report, drawing: Plan, scale: str, titles: Titles = lettered, begin: int = 0, k: int | None = None
 ) -> Drawn:
-    """The stages of a plan at half its size, with twice its scale."""
+    """The stages of a plan at half its size or, for large plans, less, with the scale that makes."""
     number = report.ledger.number(scale, k)
-    doubled = replace(number, value=float(f"{number.shown / HALF:.9g}"), decimals=None)
-    return Drawn(stages(drawing, HALF, titles, begin), note=Chain((report.ledger.symbol(scale), doubled)))
+    for share in SHARES[1:]:
+        scenes = stages(drawing, share, titles, begin)
+        if all(scene.width <= PANEL[0] and scene.height <= PANEL[1] for scene in scenes):
+            break
+    smaller = replace(number, value=float(f"{number.shown / share:.9g}"), decimals=None)
+    return Drawn(scenes, note=Chain((report.ledger.symbol(scale), smaller)))
 
 
 def _plates(
