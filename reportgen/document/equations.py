@@ -12,7 +12,7 @@ import numpy as np
 
 from reportgen.document.groups import Contact, GroupView
 from reportgen.document.report import FUNCTIONS, Report, function, listed, lower_digits
-from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Reference, Text, Value
+from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Text, Value
 from reportgen.ledger.forces.polygon import Edge, Polygon
 from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.structure import mobility
@@ -145,12 +145,6 @@ def group_kind(report: Report, group: GroupView) -> str:
 def stroke_name(report: Report, link: int, position: int) -> str:
     """The stroke that a piston is on."""
     return str(report.words["strokes"][int(report.analysis.gas[f"P{link}"].stroke[position - 1])])
-
-
-@function
-def plate_refs(report: Report, prefix: str) -> Inlines:
-    """References to a figure of every group, in the order of the force analysis."""
-    return listed(Reference(f"{prefix}{group.name}") for group in reversed(report.groups))
 
 
 @function
