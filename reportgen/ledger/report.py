@@ -3,7 +3,8 @@
 Decimals are chosen so that every printed line recomputes: a reader's calculator, fed with the printed numbers
 x̂₁, x̂₂, … of a line y = f(x₁, x₂, …), comes to the printed ŷ within one unit of its last digit, at every
 position.  To first order f(x̂) − ŷ = Σ ∂f/∂xᵢ (x̂ᵢ − xᵢ) − (ŷ − y).  Inputs get one more decimal, the largest
-contribution first, as far as their kind allows; where that is not enough the result gets one fewer.
+contribution first, as far as their kind allows; where that is not enough the result gets one fewer.  A whole
+number keeps its units, of which the figures of the inputs may leave the last ones open.
 """
 
 from __future__ import annotations
@@ -116,9 +117,9 @@ def choose_decimals(
         most, wanted = _digits_to_decimals(family, family.how.most), _wanted(family)
         if family.how.finest is not None:
             most = min(most, family.how.finest)
-        floor[id], ceiling[id] = min(_digits_to_decimals(family, LEAST_DIGITS), wanted), most
-        # A whole number is shown whole, as far as its kind has figures.
-        decimals[id] = min(max(wanted, 0), most)
+        # A whole number is shown whole: 3970 for 3965 would be read as exact to its last nought.
+        floor[id], ceiling[id] = max(min(_digits_to_decimals(family, LEAST_DIGITS), wanted), 0), max(most, 0)
+        decimals[id] = min(max(wanted, 0), ceiling[id])
 
     lines = [
         _Line(id, inputs, _slopes(family, inputs, families))
@@ -155,11 +156,12 @@ def choose_decimals(
         return bool(over(line).max() <= 1 + 1e-6)
 
     cancellations: dict[str, None] = {}
+    whole: set[str] = set()
     settled = False
     while not settled:
         settled = True
         for line in reversed(lines):
-            while not (line.id in cancellations or holds(line)):
+            while not (line.id in cancellations or line.id in whole or holds(line)):
                 worst = int(over(line).argmax())
                 raisable = [
                     (abs(share[worst % share.size]), id)
@@ -172,6 +174,9 @@ def choose_decimals(
                     decimals[chosen] = (decimals[chosen] or 0) + 1
                 elif (own := decimals[line.id]) is not None and own > floor[line.id]:
                     decimals[line.id] = ceiling[line.id] = own - 1
+                elif own == 0 and _largest(families[line.id]) >= 10 ** (LEAST_DIGITS - 1):
+                    # Its last units are what the printed figures of its inputs leave open.
+                    whole.add(line.id)
                 else:
                     cancellations[line.id] = None
     # Decimals that were raised in vain, before the result gave way, are given back.
@@ -182,7 +187,7 @@ def choose_decimals(
     own_lines = {line.id: line for line in lines}
     for id in reversed([id for id in families if id not in fixed]):
         concerned = [*uses.get(id, []), *([own_lines[id]] if id in own_lines else [])]
-        concerned = [line for line in concerned if line.id not in cancellations]
+        concerned = [line for line in concerned if line.id not in cancellations and line.id not in whole]
         aim = max(_wanted(families[id]), 0)
         while (digits := decimals[id]) is not None and digits > aim:
             decimals[id] = digits - 1

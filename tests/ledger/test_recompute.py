@@ -105,7 +105,7 @@ def figures(value: float, decimals: int) -> int:
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_digits_are_those_that_a_person_would_write(path: Path) -> None:
-    """Segments to 0.01 mm; of what is computed from them at most five figures, and mostly four."""
+    """Segments to 0.01 mm; of what is computed from them at most five figures or a whole number, and mostly four."""
     ledger = Case(api.load(path)).ledger
     computed = []
     for id, family in ledger.families.items():
@@ -117,5 +117,5 @@ def test_digits_are_those_that_a_person_would_write(path: Path) -> None:
             assert decimals <= 2, id
         if family.kind in RESULTS and id not in {"omega.1"} and family.definition is not None:
             computed.append(figures(largest, decimals))
-    assert max(computed) <= 5
+            assert computed[-1] <= 5 or decimals == 0, id
     assert np.median(computed) in {3, 4}
