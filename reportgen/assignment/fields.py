@@ -25,6 +25,8 @@ MOST_WORKED = 720
 _FORBIDDEN = {"Cc", "Cs", "Co", "Zl", "Zp"}
 _UNIT_PATTERN = r"[A-Za-zµ°][^,]*"
 _SLUG = r"[a-z0-9][a-z0-9-]{0,60}"
+RESERVED = re.compile(r"(CON|PRN|AUX|NUL|CLOCK|CONIN|CONOUT|COM[0-9]|LPT[0-9])")
+"""Names, in capitals, that some systems keep for devices."""
 _INTEGER = re.compile(r"[+-]?[0-9]{1,9}")
 
 

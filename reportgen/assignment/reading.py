@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
@@ -13,6 +14,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
 from reportgen.assignment.common import Assignment, Draft, Kind, file_model, sections, worked_positions
+from reportgen.assignment.fields import RESERVED
 from reportgen.errors import Fault, Finding, Mark, Where
 from reportgen.notation.numbers import Language
 from reportgen.source import List, Node, Scalar, Source, Table, plain, read_source
@@ -20,6 +22,7 @@ from reportgen.words import DEFAULT_LANGUAGE, as_error, close_or_known
 
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"
+_CONTROLS = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 _FORMS = {"object": "table", "array": "list"}
 
 
@@ -51,6 +54,15 @@ def assess(
         return None, faults
     values = {"indicator": None, **draft.sections}
     return Assignment(kind.name, **values, source=path, id=path.stem, turns=kind.turns, added=kind.added), []
+
+
+def name_faults(path: Path) -> Iterator[Fault]:
+    """The name of a file, without its ending, is that of a folder too: one that any system has, and that lies below."""
+    stem = path.stem
+    shown = "".join(character for character in stem if unicodedata.category(character) not in _CONTROLS)
+    outside = stem.strip(" .") == "" or stem != shown.strip() or stem.endswith(".")
+    if outside or RESERVED.fullmatch(stem.partition(".")[0].strip().upper()):
+        yield Fault("file-name", Mark(str(path)), {"text": stem})
 
 
 def read_model(path: Path, model: type[Model], language: Language | None = None) -> Model:

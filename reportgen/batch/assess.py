@@ -5,7 +5,7 @@ One sheet that cannot be read never stops the others; nobody's data goes into an
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -83,6 +83,10 @@ def grade(submissions: Sequence[Path], assignments: Path, policy: Policy, langua
                 problems.append(as_problem(fault, language))
                 if kept != path:
                     continue
+            named = _named(path, room.files)
+            if named not in (None, comparable(submission.assignment)):
+                about = {"named": room.files[named].stem, "text": submission.assignment}
+                problems.append(as_problem(Fault("sheet-named-otherwise", Mark(str(path)), about), language))
             guide = room.guide(submission.assignment)
             classmates = room.keys if policy.guard else ()
             markings[submission.assignment] = mark(guide, submission, classmates)
@@ -102,6 +106,11 @@ def _sheets(paths: Sequence[Path]) -> Iterator[Path]:
             yield from (file for file in inside if not file.name.startswith((".", "~$")))
         else:
             yield path
+
+
+def _named(path: Path, known: Container[str]) -> str | None:
+    """The assignment that a sheet's file, or else its folder, is named after, as a `comparable` stem."""
+    return next((name for name in map(comparable, (path.stem, path.parent.name)) if name in known), None)
 
 
 def _preferred(first: Path, second: Path, assignment: str) -> tuple[Path, Path]:

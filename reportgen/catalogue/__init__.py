@@ -74,7 +74,8 @@ def load(path: Path | str, language: Language | None = None) -> Assignment:
     """
     source = read_source(Path(path))
     assignment, faults = assess(source, Path(path))
-    if assignment is None:
+    faults = [*reading.name_faults(Path(path)), *faults]
+    if assignment is None or faults:
         raise as_error(faults, language or reading.language_of(source))
     return assignment.with_language(language) if language else assignment
 
@@ -97,16 +98,25 @@ def sample(name: str, language: Language) -> str:
 
 
 def schema() -> dict[str, Any]:
-    """JSON Schema (2020-12) of an assignment file of any kind."""
+    """JSON Schema (draft-07, which every editor knows) of an assignment file of any kind."""
     from pydantic import BaseModel
     from pydantic.json_schema import JsonSchemaMode, models_json_schema
 
     # All at once: models of one name in different kinds get names of their own.
     models: list[tuple[type[BaseModel], JsonSchemaMode]] = [(file_model(kind(name)), "validation") for name in kinds()]
     found, definitions = models_json_schema(models, by_alias=True)
-    return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "reportgen assignment",
-        "oneOf": [found[model] for model in models],
-        **definitions,
-    }
+    modern = {"title": "reportgen assignment", "oneOf": [found[model] for model in models], **definitions}
+    return {"$schema": "http://json-schema.org/draft-07/schema#", **_as_draft_07(modern)}
+
+
+def _as_draft_07(part: Any) -> Any:
+    """A schema of draft 2020-12 in the words of draft-07; the models use but one that the drafts do not share."""
+    match part:
+        case dict():
+            return {"definitions" if key == "$defs" else key: _as_draft_07(value) for key, value in part.items()}
+        case list():
+            return [_as_draft_07(item) for item in part]
+        case str():
+            return part.replace("#/$defs/", "#/definitions/")
+        case _:
+            return part
