@@ -372,13 +372,12 @@ class Parameters(Part):
     @property
     def linkage(self) -> Linkage:
         """The whole mechanism: frame, driver, groups in their order, points, masses."""
+        bodies = (Inertia(one.link, one.at, one.mass(self.g.si), one.J.si if one.J else 0.0) for one in self.masses)
         return Linkage(
             ground={name: place(at) for name, at in self.frame.items()},
             driver=self.driver.driver,
             dyads=tuple(group.dyad for group in self.groups),
             points=tuple(LinkPoint(name, one.link, place(one.at)) for name, one in self.points.items()),
-            inertias=tuple(
-                Inertia(body.link, body.at, body.mass(self.g.si), body.J.si if body.J else 0.0) for body in self.masses
-            ),
+            inertias=tuple(one for one in bodies if one.mass or one.moment),
             gravity=-1j * self.g.si,
         )

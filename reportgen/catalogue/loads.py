@@ -101,6 +101,10 @@ class Law(Protocol):
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         """Cycle angles where the force bends or jumps, in any order and any turn."""
 
+    @property
+    def acts(self) -> bool:
+        """Whether it is anything at all at some place of the cycle."""
+
 
 @dataclass(frozen=True)
 class TableLaw:
@@ -127,6 +131,10 @@ class TableLaw:
         corners = (*self.table.breaks(course.share_at(motion_at), course.dead_centres), *course.dead_centres)
         return (corner - course.phase for corner in corners)
 
+    @property
+    def acts(self) -> bool:
+        return any(map(any, self.table.rows))
+
 
 @dataclass(frozen=True)
 class AngleLaw:
@@ -145,6 +153,10 @@ class AngleLaw:
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return self.angles
 
+    @property
+    def acts(self) -> bool:
+        return any(self.values)
+
 
 @dataclass(frozen=True)
 class WayLaw:
@@ -159,6 +171,10 @@ class WayLaw:
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return (way / self.span * FULL_TURN for way in self.ways)
+
+    @property
+    def acts(self) -> bool:
+        return any(self.values)
 
 
 @dataclass(frozen=True)
@@ -175,6 +191,10 @@ class CuttingLaw:
         corners = self.cutting.breaks(self.course.share_at(motion_at))
         return (corner - self.course.phase for corner in corners)
 
+    @property
+    def acts(self) -> bool:
+        return self.cutting.force != 0
+
 
 @dataclass(frozen=True)
 class Constant:
@@ -187,6 +207,10 @@ class Constant:
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return ()
+
+    @property
+    def acts(self) -> bool:
+        return self.size != 0
 
 
 @dataclass(frozen=True)
@@ -206,6 +230,10 @@ class Opposing:
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return self.reversals
+
+    @property
+    def acts(self) -> bool:
+        return self.size != 0
 
 
 def by_stroke(fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]) -> Indicator:

@@ -246,6 +246,8 @@ def _masses(q: Sheet, analysis: Analysis) -> None:
 def _gas(q: Sheet, analysis: Analysis) -> None:
     """s/H and pressure read from the diagram, gas force P = p F."""
     for name, state in analysis.gas.items():
+        if name in analysis.machine.idle:
+            continue
         link, stroke = state.piston.link, state.piston.stroke
         q.give(f"s.{link}", state.fraction * stroke, exact=False, scale=stroke)
         p = q.give(f"p.{link}", state.pressure, exact=False)
