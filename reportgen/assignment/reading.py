@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -79,6 +79,12 @@ def read_model(path: Path, model: type[Model], language: Language | None = None)
     if faults or value is None:
         raise as_error(faults, language or language_of(source))
     return value
+
+
+def placed(source: Source, findings: Iterable[Finding]) -> list[Fault]:
+    """Findings with their marks in a file that was read."""
+    top = _top(source)[0]
+    return [] if top is None else [_placed(finding, top) for finding in findings]
 
 
 def misread(top: Table, kind: Kind) -> list[Fault]:

@@ -8,7 +8,7 @@ evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -17,7 +17,8 @@ from typing import Any
 
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
-from reportgen.errors import AssignmentError, Fault, Problem
+from reportgen.catalogue import reach
+from reportgen.errors import AssignmentError, Fault, Finding, Problem
 from reportgen.notation.numbers import Language
 from reportgen.source import Source, read_source
 from reportgen.words import FILE, as_error, load_words, templates
@@ -54,7 +55,17 @@ def kind(name: str) -> Kind:
 
 def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
     """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
-    return reading.assess(source, path, kinds(), kind)
+    assignment, faults = reading.assess(source, path, kinds(), kind)
+    if assignment is not None:
+        faults = reading.placed(source, _near_dead_point(assignment))
+    return (None if faults else assignment), faults
+
+
+def _near_dead_point(assignment: Assignment) -> Iterable[Finding]:
+    """Whether the machine of an assignment comes too near to a dead point on its way."""
+    machine = module(assignment.kind).machine(assignment)
+    way = reach.Way(machine.start, machine.start + machine.turn * machine.span, False) if machine.span else reach.Way()
+    return reach.near_dead_point(machine.linkage, way, ("parameters",))
 
 
 def title(name: str, language: Language) -> str:

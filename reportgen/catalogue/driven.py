@@ -42,10 +42,10 @@ MIDDLE = 0.5
 """Where the mass centre of a uniform bar lies."""
 FULL_TURN = 2 * np.pi
 
-Unevenness = Annotated[Given, Ratio(Interval(above=0, most=0.5))]
+Unevenness = Annotated[Given, Ratio(Interval(least=1e-4, most=0.5))]
 
 
-Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
+Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5, tiny=1e-4)]
 
 
 class FixedPoint(Part):

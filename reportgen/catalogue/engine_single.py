@@ -36,9 +36,9 @@ UP = math.pi / 2
 MOST_LETTERED = 4
 """Two dead centres and two greatest speeds."""
 
-Offset = Annotated[Given, quantity("mm", least=0, below=1e5)]
-TimeRatio = Annotated[Given, Ratio(Interval(above=1, below=2))]
-GyrationRatio = Annotated[Given, Ratio(Interval(above=0, most=1))]
+Offset = Annotated[Given, quantity("mm", least=0, below=1e5, tiny=1e-4)]
+TimeRatio = Annotated[Given, Ratio(Interval(least=1 + 1e-6, below=2))]
+GyrationRatio = Annotated[Given, Ratio(Interval(least=1e-4, most=1))]
 Indicator = given_loads.Diagram
 
 

@@ -31,8 +31,8 @@ TURNS = 1
 
 Indicator = given_loads.Diagram
 INDICATOR_OPTIONAL = True
-Articulation = Annotated[Given, quantity("mm", least=0, below=1e5)]
-Force = Annotated[Given, quantity("N", least=-1e7, most=1e7)]
+Articulation = Annotated[Given, quantity("mm", least=0, below=1e5, tiny=1e-4)]
+Force = Annotated[Given, quantity("N", least=-1e7, most=1e7, tiny=1e-6)]
 
 
 class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loads=("PC", "PE", "D")):

@@ -201,8 +201,8 @@ def equations() -> dict[str, tuple[Chain, ...]]:
 TURNS = 1
 LINKS = {1: ("A", "B"), 2: ("B", "C"), 3: ("D", "C")}
 """The bars by the pins at their ends."""
-Offset = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
-Size = Annotated[Given, quantity("N", least=0, most=1e9)]
+Offset = Annotated[Given, quantity("mm", above=-1e5, below=1e5, tiny=1e-4)]
+Size = Annotated[Given, quantity("N", least=0, most=1e9, tiny=1e-6)]
 
 
 class CouplerPoint(Part):

@@ -122,9 +122,9 @@ DIAGRAM_CHECKS = (
 
 # --- a working force on a slider ---------------------------------------------------------------------
 
-Force = Annotated[Given, quantity("N", least=-1e9, most=1e9)]
+Force = Annotated[Given, quantity("N", least=-1e9, most=1e9, tiny=1e-6)]
 ForceUnit = Annotated[Given, UnitOf("N")]
-ForceValue = Annotated[float, Decimal(Interval(least=-1e9, most=1e9))]
+ForceValue = Annotated[float, Decimal(Interval(least=-1e9, most=1e9, tiny=1e-6))]
 Forces = Annotated[tuple[ForceValue, ...], Field(min_length=2, max_length=MOST_NODES)]
 TurnAngle = Annotated[Given, quantity("deg", least=0, most=360)]
 TurnAngles = Annotated[tuple[TurnAngle, ...], Field(min_length=2, max_length=MOST_NODES)]
@@ -220,7 +220,7 @@ PRESS_CHECKS = tuple(
 
 # --- a torque on a link ------------------------------------------------------------------------------
 
-TorqueSize = Annotated[Given, quantity("N m", least=0, most=1e9)]
+TorqueSize = Annotated[Given, quantity("N m", least=0, most=1e9, tiny=1e-6)]
 
 
 class LinkTorque(Part):

@@ -23,7 +23,7 @@ from reportgen.units import Given
 TURNS = 1
 BARS = {1: ("B", "A"), 2: ("A", "C"), 3: ("D", "C"), 4: ("E", "F")}
 """The bars by the pins at their ends."""
-Size = Annotated[Given, quantity("N", least=0, most=1e9)]
+Size = Annotated[Given, quantity("N", least=0, most=1e9, tiny=1e-6)]
 
 
 class SliderForce(Part):

@@ -56,12 +56,13 @@ Name = Annotated[str, PointName()]
 Link = Annotated[int, Whole(1, LAST_LINK)]
 Carrier = Annotated[int, Whole(0, LAST_LINK)]
 GroupLink = Annotated[int, Whole(2, LAST_LINK)]
-Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
-Speed = Annotated[Given, quantity("m/s", above=0, most=1e3)]
-Force = Annotated[Given, quantity("N", least=-1e9, most=1e9)]
-Torque = Annotated[Given, quantity("N m", least=-1e9, most=1e9)]
+Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5, tiny=1e-4)]
+Speed = Annotated[Given, quantity("m/s", least=1e-6, most=1e3)]
+Force = Annotated[Given, quantity("N", least=-1e9, most=1e9, tiny=1e-6)]
+Torque = Annotated[Given, quantity("N m", least=-1e9, most=1e9, tiny=1e-6)]
 Row = Annotated[
-    tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9))], ...], Field(min_length=2, max_length=MOST_NODES)
+    tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9, tiny=1e-6))], ...],
+    Field(min_length=2, max_length=MOST_NODES),
 ]
 DriverWays = Annotated[
     tuple[Annotated[Given, quantity("mm", least=0, below=1e5)], ...], Field(min_length=2, max_length=MOST_NODES)

@@ -27,7 +27,7 @@ from reportgen.errors import Finding
 from reportgen.units import Given
 
 TURNS = 1
-Offset = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
+Offset = Annotated[Given, quantity("mm", above=-1e5, below=1e5, tiny=1e-4)]
 
 
 class Parameters(Driven, masses=(2, 3), moments=(2,), loads=("force",)):
