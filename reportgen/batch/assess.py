@@ -22,6 +22,7 @@ from reportgen.grading.marks import Marking, Policy
 from reportgen.grading.submission import read_submission
 from reportgen.grading.working import Guide, open_guide
 from reportgen.notation.numbers import Language
+from reportgen.scratch import scratch
 from reportgen.words import as_problem, word
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.reading import BOOKS
@@ -138,8 +139,9 @@ def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language 
 
 def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None) -> Iterator[Path]:
     """Write every file of a graded class below `out`, each in one step; raises `OutputError`."""
-    for name, content in files_of(graded, policy, engine, language):
-        yield from api.put(out / name.parent, {name.name: content})
+    with api.reported(out), scratch(out):
+        for name, content in files_of(graded, policy, engine, language):
+            yield from api.put(out / name.parent, {name.name: content})
 
 
 def summary(graded: Graded, language: Language | None) -> Iterator[str]:

@@ -134,7 +134,7 @@ def mean_over(function: Callable[[Floats], Floats], breaks: Iterable[float], sta
         raise ValueError("the interval is empty")
     edges = np.array(sorted({start, stop, *(float(x) for x in breaks if start < x < stop)}))
     low, high = edges[:-1], edges[1:]
-    whole, size = _gauss(function, low, high)
+    whole, _ = _gauss(function, low, high)
     settled = settled_size = 0.0
     best, least = np.nan, np.inf
     for _ in range(MOST_HALVINGS):
