@@ -196,7 +196,9 @@ def _real(location: Where, content: Any) -> Iterator[str | int]:
     for number, step in enumerate(location):
         last = number == len(location) - 1
         if isinstance(content, dict):
-            if step in content:
+            # The member of a union may be named as one of its own keys is: `by: way` beside `way: [...]`.
+            named_alike = not last and isinstance(location[number + 1], str) and isinstance(content.get(step), list)
+            if step in content and not named_alike:
                 content = content[step]
             elif not last:
                 continue
