@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -18,6 +18,7 @@ from reportgen.assignment import Assignment
 from reportgen.case import Case, open_case
 from reportgen.errors import ReportgenError
 from reportgen.notation.numbers import Language
+from reportgen.scratch import scratch
 
 if TYPE_CHECKING:
     from reportgen.analysis import Analysis
@@ -69,7 +70,8 @@ def build(
     `OutputError`.
     """
     assignment = load(path, language)
-    source, pdf = typeset(document(assignment), engine)
+    with reported(), scratch(Path(out)):
+        source, pdf = typeset(document(assignment), engine)
     files = {f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}
     return put(Path(out) / assignment.id, {**files, "report.pdf": pdf})[-1]
 
@@ -142,8 +144,14 @@ def put(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
     """Write files by name into a folder, each in one step; raises `OutputError`."""
     with reported():
         folder.mkdir(parents=True, exist_ok=True)
-        for name, content in files.items():
-            replace(folder / name, content)
+        try:
+            for name, content in files.items():
+                replace(folder / name, content)
+        except OSError:
+            # A folder without a file tells nobody anything.
+            with suppress(OSError):
+                folder.rmdir()
+            raise
     return [folder / name for name in files]
 
 
@@ -158,15 +166,19 @@ def replace(target: Path, content: bytes) -> None:
         os.umask(umask)
         temporary.chmod(0o666 & ~umask)
         temporary.replace(target)
-    except BaseException:
+    except BaseException as error:
         temporary.unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            # A full disk does not say itself what had no room on it.
+            error.filename = error.filename or str(target)
         raise
 
 
 @contextmanager
-def reported() -> Iterator[None]:
-    """A full disk or a forbidden folder is a fault in one line."""
+def reported(about: Path | None = None) -> Iterator[None]:
+    """A full disk or a forbidden folder is a fault in one line, which names its path, or else `about`."""
     try:
         yield
     except OSError as error:
-        raise OutputError(f"{error.filename or ''}: {error.strerror or error}") from error
+        place = error.filename or about
+        raise OutputError(f"{place}: {error.strerror or error}" if place else str(error)) from error

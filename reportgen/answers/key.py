@@ -26,9 +26,9 @@ from reportgen.document.tree import formula
 from reportgen.ledger.core import Ledger
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Call, Number, Ref, Symbol, refs
-from reportgen.notation.numbers import Language
-from reportgen.notation.sheet import Family
-from reportgen.notation.vocabulary import Chapter
+from reportgen.notation.numbers import Language, significant_decimals
+from reportgen.notation.sheet import Family, is_short
+from reportgen.notation.vocabulary import MAX_DIGITS, Chapter
 from reportgen.words import load_words, search_path
 
 PAPER_ERROR = 0.5e-3
@@ -286,7 +286,7 @@ def make_key(case: Case) -> Key:
             family.symbol,
             family.kind,
             ledger.units.get(family.how.unit, family.how.unit),
-            ledger.decimals[id],
+            _decimals(ledger.decimals[id], values / scale),
             values / scale,
             on_paper[id] / scale,
             by_rounding[id] / scale,
@@ -317,6 +317,13 @@ def _role(ledger: Ledger, family: Family) -> Role:
         return Role.scale
     typed = family.exact if family.definition is None else not refs(family.definition)
     return Role.given if typed else Role.asked
+
+
+def _decimals(of_ledger: int | None, values: np.ndarray) -> int | None:
+    """The ledger's; data of several positions that are exact but endless, such as 129.128571…°, get 6 figures."""
+    if of_ledger is not None or len(values) == 1 or is_short(values):
+        return of_ledger
+    return significant_decimals(float(np.nanmax(np.abs(values))), MAX_DIGITS)
 
 
 def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int) -> tuple[int, ...]:

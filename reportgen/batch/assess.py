@@ -5,7 +5,7 @@ One sheet that cannot be read never stops the others; nobody's data goes into an
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -22,6 +22,7 @@ from reportgen.grading.marks import Marking, Policy
 from reportgen.grading.submission import read_submission
 from reportgen.grading.working import Guide, open_guide
 from reportgen.notation.numbers import Language
+from reportgen.scratch import scratch
 from reportgen.words import as_problem, word
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.reading import BOOKS
@@ -83,6 +84,10 @@ def grade(submissions: Sequence[Path], assignments: Path, policy: Policy, langua
                 problems.append(as_problem(fault, language))
                 if kept != path:
                     continue
+            named = _named(path, room.files)
+            if named not in (None, comparable(submission.assignment)):
+                about = {"named": room.files[named].stem, "text": submission.assignment}
+                problems.append(as_problem(Fault("sheet-named-otherwise", Mark(str(path)), about), language))
             guide = room.guide(submission.assignment)
             classmates = room.keys if policy.guard else ()
             markings[submission.assignment] = mark(guide, submission, classmates)
@@ -104,6 +109,11 @@ def _sheets(paths: Sequence[Path]) -> Iterator[Path]:
             yield path
 
 
+def _named(path: Path, known: Container[str]) -> str | None:
+    """The assignment that a sheet's file, or else its folder, is named after, as a `comparable` stem."""
+    return next((name for name in map(comparable, (path.stem, path.parent.name)) if name in known), None)
+
+
 def _preferred(first: Path, second: Path, assignment: str) -> tuple[Path, Path]:
     """Of two sheets of one assignment the one to mark and the other; a file named like the assignment wins."""
     own = [comparable(path.stem) == comparable(assignment) for path in (first, second)]
@@ -115,19 +125,20 @@ def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Lan
 
     Each appears in one step as soon as it is made; raises `OutputError`.
     """
-    for marking in graded.markings:
-        key = marking.key
-        # As the batch names it, or the assignment's own stem.
-        folder = out / (folder_name(key.student["id"]) if "id" in key.student else key.id)
-        yield from api.put(folder, {"feedback.xlsx": write_xlsx(feedback_book(marking, policy.show_answers))})
-        tree = feedback_document(marking, catalogue.title(key.kind, key.language), policy.show_answers)
-        yield from api.put(folder, {"feedback.pdf": api.typeset(tree, engine)[1]})
-    if graded.markings:
-        key = graded.markings[0].key
-        spoken = language or key.language
-        yield from api.put(out, {"grades.csv": write_csv(grade_rows(graded.markings, spoken, graded.missing))})
-        page = class_document(graded.markings, catalogue.title(key.kind, spoken), spoken, graded.missing)
-        yield from api.put(out, {"class.pdf": api.typeset(page, engine)[1]})
+    with api.reported(out), scratch(out):
+        for marking in graded.markings:
+            key = marking.key
+            # As the batch names it, or the assignment's own stem.
+            folder = out / (folder_name(key.student["id"]) if "id" in key.student else key.id)
+            yield from api.put(folder, {"feedback.xlsx": write_xlsx(feedback_book(marking, policy.show_answers))})
+            tree = feedback_document(marking, catalogue.title(key.kind, key.language), policy.show_answers)
+            yield from api.put(folder, {"feedback.pdf": api.typeset(tree, engine)[1]})
+        if graded.markings:
+            key = graded.markings[0].key
+            spoken = language or key.language
+            yield from api.put(out, {"grades.csv": write_csv(grade_rows(graded.markings, spoken, graded.missing))})
+            page = class_document(graded.markings, catalogue.title(key.kind, spoken), spoken, graded.missing)
+            yield from api.put(out, {"class.pdf": api.typeset(page, engine)[1]})
 
 
 def summary(graded: Graded, language: Language | None) -> Iterator[str]:

@@ -63,6 +63,8 @@ class Job:
     file: str
     content: bytes
     making: Making
+    scratch: Path | None = None
+    """Where its temporary files go; None: where the system has them, on other machines."""
 
     @property
     def assignment(self) -> str:
@@ -98,7 +100,7 @@ def run_job(job: Job) -> Outcome:
     It is made in a folder of its own whose name is left out of what is said of failures.
     """
     engine, language = job.making.engine, job.making.language
-    scratch = ""
+    scratch, before = "", tempfile.tempdir
 
     def without_paths(text: str) -> str:
         return text.replace(f"{scratch}{os.sep}", "").replace(str(templates()), "templates")
@@ -106,7 +108,8 @@ def run_job(job: Job) -> Outcome:
     try:
         if making(engine, language) != job.making:
             return failed(word("other_templates", language))
-        with tempfile.TemporaryDirectory(prefix="reportgen-") as scratch:
+        with tempfile.TemporaryDirectory(prefix="reportgen-", dir=job.scratch) as scratch:
+            tempfile.tempdir = scratch
             file = Path(scratch, job.file)
             file.write_bytes(job.content)
             return Outcome(files=dict(job.maker(file, engine, language)))
@@ -120,6 +123,8 @@ def run_job(job: Job) -> Outcome:
     except Exception as error:
         # A fault of the program itself must not cost the others their results.
         return failed(without_paths(unexpected(error, language)))
+    finally:
+        tempfile.tempdir = before
 
 
 Retried = Callable[[Job], None]

@@ -21,7 +21,7 @@ from typing import get_args
 
 from pydantic_core import PydanticCustomError
 
-from reportgen.assignment.fields import Text
+from reportgen.assignment.fields import RESERVED, Text
 from reportgen.errors import Fault, Mark, Problem
 from reportgen.notation.numbers import Language
 from reportgen.source import Scalar
@@ -135,7 +135,6 @@ KEPT_CHARACTERS = 32
 """Characters of an id that is changed; the hash after them distinguishes it from all others."""
 HASH_DIGITS = 12
 _ORDINARY = re.compile(rf"[A-Z0-9][A-Z0-9_-]{{0,{LONGEST_NAME - 1}}}")
-_RESERVED = re.compile(r"(CON|PRN|AUX|NUL|CLOCK|CONIN|CONOUT|COM[0-9]|LPT[0-9])")
 _LIKE_HASHED = re.compile(rf".*-[0-9A-F]{{{HASH_DIGITS}}}")
 
 
@@ -269,7 +268,7 @@ def folder_name(id: str) -> str:
     in small letters, since some systems do not distinguish them from capitals.
     """
     composed = unicodedata.normalize("NFC", id)
-    if _ORDINARY.fullmatch(composed) and not _RESERVED.fullmatch(composed) and not _LIKE_HASHED.fullmatch(composed):
+    if _ORDINARY.fullmatch(composed) and not RESERVED.fullmatch(composed) and not _LIKE_HASHED.fullmatch(composed):
         return composed
     digest = hashlib.sha256(composed.encode("utf-8", "surrogatepass")).hexdigest()[:HASH_DIGITS]
     bare = unicodedata.normalize("NFD", composed.replace("đ", "d").replace("Đ", "D"))

@@ -20,6 +20,7 @@ from reportgen.batch.roster import Assigned, Roster, Student, match_files, read_
 from reportgen.batch.variants import make_variants
 from reportgen.errors import Fault, Mark, Problem
 from reportgen.notation.numbers import Language, write
+from reportgen.scratch import scratch
 from reportgen.words import DEFAULT_LANGUAGE, as_problem, word
 
 if TYPE_CHECKING:
@@ -106,11 +107,13 @@ def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS
     roster = read_roster(order.roster, order.language)
     chosen = {name: makers[name] for name in order.products}
     workers = pool or _pool(order)
-    with locked(order.out, order.language):
-        return _run(order, roster, chosen, workers, stream)
+    with locked(order.out, order.language), api.reported(order.out), scratch(order.out) as temporary:
+        return _run(order, roster, chosen, workers, stream, None if order.cluster else temporary)
 
 
-def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, stream: TextIO) -> Result:
+def _run(
+    order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, stream: TextIO, temporary: Path | None
+) -> Result:
     assigned, notes = _assigned(order, roster)
     out = order.out
     for folder in (out, *(out / student.folder for student, _ in assigned)):
@@ -118,7 +121,7 @@ def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, 
     before = manifest.read(out)
     number = {student.id: number for number, (student, _) in enumerate(assigned)}
     entries = {key: entry for key, entry in before.items() if entry.student in number}
-    with api.reported():
+    with api.reported(out):
         result = Result(manifest.write(out, entries.values()), notes)
     how = making(order.engine, order.language)
     kept: list[Job] = []
@@ -130,7 +133,7 @@ def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, 
             refused.append((student, read))
             continue
         for product, maker in makers.items():
-            job = Job(student.id, student.folder, product, maker, *read, how)
+            job = Job(student.id, student.folder, product, maker, *read, how, temporary)
             entry = entries.get((job.student, product))
             (kept if entry is not None and entry.holds(job, out) else jobs).append(job)
     result.kept = len(kept)
@@ -142,7 +145,7 @@ def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, 
         def add(entry: Entry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
             """Each entry stands in the journal before its event is shown."""
             entries[entry.student, entry.product] = entry
-            with api.reported():
+            with api.reported(out):
                 record(entry)
             result.exit_code = max(result.exit_code, exit_code)
             if problems:
@@ -165,7 +168,7 @@ def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, 
                 file_name = files[job.student]
                 problems = tuple(one if isinstance(one, str) else one.in_file(file_name) for one in outcome.problems)
                 add(manifest.entry(job, outcome), problems, outcome.exit_code)
-    with api.reported():
+    with api.reported(out):
         manifest.write(out, entries.values())
     result.failures.sort(key=lambda failure: number[failure.student])
     if gone := {entry.student for entry in before.values()} - number.keys():

@@ -36,8 +36,8 @@ UP = math.pi / 2
 MOST_LETTERED = 4
 """Two dead centres and two greatest speeds."""
 
-TimeRatio = Annotated[Given, Ratio(Interval(above=1, below=2))]
-GyrationRatio = Annotated[Given, Ratio(Interval(above=0, most=1))]
+TimeRatio = Annotated[Given, Ratio(Interval(least=1 + 1e-6, below=2))]
+GyrationRatio = Annotated[Given, Ratio(Interval(least=1e-4, most=1))]
 Indicator = given_loads.Diagram
 
 

@@ -31,7 +31,7 @@ TURNS = 1
 
 Indicator = given_loads.Diagram
 INDICATOR_OPTIONAL = True
-Force = Annotated[Given, quantity("N", least=-1e7, most=1e7)]
+Force = Annotated[Given, quantity("N", least=-1e7, most=1e7, tiny=1e-6)]
 
 
 class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loads=("PC", "PE", "D")):

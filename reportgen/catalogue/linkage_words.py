@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -80,8 +80,11 @@ class MotionRow:
     point: str = ""
 
 
-def facts(given: file.Parameters, loads: tuple[str, ...]) -> dict[str, Any]:
-    """What the words of the kind name; `loads` are the ids of the loads in the order of the file."""
+def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]) -> dict[str, Any]:
+    """What the words of the kind name; `loads` are the ids of the loads in the order of the file.
+
+    Only those that are `acting` are told of.
+    """
     rows = tuple(map(_group, given.groups))
     crank = given.driver
     arms = [f"{crank.centre}{crank.pin}"] if isinstance(crank, file.CrankDriver) else []
@@ -97,8 +100,8 @@ def facts(given: file.Parameters, loads: tuple[str, ...]) -> dict[str, Any]:
         "motions": tuple(_motions(given)),
         "arms": arms,
         "bodies": bool(given.masses),
-        "loads": tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True)),
-        "load_ids": loads,
+        "loads": tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting),
+        "load_ids": tuple(name for name in loads if name in acting),
     }
 
 

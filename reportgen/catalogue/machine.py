@@ -64,6 +64,8 @@ class Machine:
     """All forces that are neither weight nor inertia, the gas on `pistons` among them."""
     torques: tuple[Torque, ...] = ()
     """Torques other than inertia couples."""
+    idle: tuple[str, ...] = ()
+    """Names of loads that the file gives as zero throughout; they are in neither of the two above."""
     sliders: tuple[Course, ...] = ()
     """Sliders with dead centres, the pistons among them."""
     positive: Mapping[str, complex] = field(default_factory=dict)

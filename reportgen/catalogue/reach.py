@@ -27,6 +27,10 @@ ZOOMS, NODES = 4, 41
 """How often a neighbourhood is looked at closer, and at how many places: 20⁴ times finer than the samples."""
 
 
+LEAST_ANGLE = 0.1
+"""Angle of transmission (degrees) of a group from which on its forces come out to nine figures and more."""
+
+
 Clear = Callable[[Floats], Floats]
 """A group's clearance at places of the driver."""
 
@@ -87,6 +91,31 @@ def findings(linkage: Linkage, members: Mapping[tuple[int, int], Member], way: W
             at = {"angle" if way.turning else "first": way.shown(place)}
             yield Finding(f"dead-point{of_slide}", member.where, {**about, **at})
             return
+
+
+def near_dead_point(linkage: Linkage, way: Way, where: Where) -> Iterator[Finding]:
+    """The first group that comes so near to a dead point that its accelerations and forces are mere rounding."""
+    places = np.linspace(way.start, way.end, STEPS + 1)
+    motion = solve_motion(linkage, places, 1.0)
+    size, of_slide = _size(motion), "" if way.turning else "-slide"
+    limit = np.sin(np.radians(LEAST_ANGLE))
+    for dyad in linkage.dyads:
+
+        def clear(at: Floats, dyad: Dyad = dyad) -> Floats:
+            return clearance(dyad, solve_motion(linkage, at, 1.0), size)
+
+        place, least = _least(clear, way, places, clearance(dyad, motion, size))
+        if not least < limit**2:
+            continue
+        sine = float(np.sqrt(max(least, 0.0)))
+        about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "at": way.shown(place)}
+        if dyad.kind == "RPR" and not dyad.lengths[1]:
+            about |= {"near": f"{sine * size * 1e3:.3g}", "least": f"{limit * size * 1e3:.3g}"}
+            yield Finding(f"near-pivot{of_slide}", where, about, at="key")
+        else:
+            about |= {"near": f"{np.degrees(sine):.2g}", "least": f"{LEAST_ANGLE:g}"}
+            yield Finding(f"near-dead-point{of_slide}", where, about, at="key")
+        return
 
 
 def to_and_fro(linkage: Linkage, slider: int, motion_at: MotionAt, where: Where) -> Iterator[Finding]:

@@ -95,11 +95,13 @@ def key(
 ) -> None:
     """Write the answer key of each FILE to DIR/<id>/: every value with the bands within which it is right."""
     from reportgen import api
+    from reportgen.scratch import scratch
 
     formats = listed(format, api.KEY_FORMATS, "--format", "no_format", lang)
 
     def work(file: Path) -> None:
-        made = api.key_files(file, engine, lang, formats)
+        with api.reported(out), scratch(out):
+            made = api.key_files(file, engine, lang, formats)
         print(*api.put(out / file.stem, made), sep="\n", flush=True)
 
     for_each(files, lang, work)

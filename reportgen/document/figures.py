@@ -267,8 +267,11 @@ def indicator(report: Report) -> Drawn:
     first = machine.pistons[0]
     unit, scale = 1e4, drawing_scale(report)
     top, bottom = first.top * scale, first.bottom * scale
-    highest = max(float(np.max(gas.pressure)) for gas in gases.values())
-    highest = max(highest, _highest(first.indicator)) / unit
+    read = [float(pressure) for gas in gases.values() for pressure in gas.pressure]
+    read += [float(pressure) for row in first.indicator.rows for pressure in row]
+    lowest, highest = min(read) / unit, max(read) / unit
+    # What lies below zero stands between diagram and cylinder, where there is half the room.
+    highest = max(highest, -2 * lowest)
     side = _free_side(machine)
     start, end, mu = indicator_figure.beside(top, bottom, side, 75.0, highest)
     note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
@@ -301,11 +304,6 @@ def _free_side(machine: Machine) -> complex:
 def _in_line(first: Piston, other: Piston) -> bool:
     """Whether a piston moves on the line of the first one, where its positions are projected from."""
     return abs(((other.top - first.top) / first.inward).imag) + abs((other.inward / first.inward).imag) < SAME
-
-
-def _highest(table: Any) -> float:
-    rows = table.rows if isinstance(table, StrokeIndicator) else (table.pressures,)
-    return max(max(row) for row in rows)
 
 
 def _branches(

@@ -246,8 +246,26 @@ class Report:
 
     @property
     def has_flywheel(self) -> bool:
-        """Whether the assignment asks for a flywheel."""
-        return "unevenness" in self.ledger
+        """Whether the assignment asks for a flywheel, and anything acts that it could even out."""
+        return "unevenness" in self.ledger and self.has_forces
+
+    @property
+    def has_gas(self) -> bool:
+        """Whether the pressure in any cylinder is other than that of the air outside."""
+        return any(piston.name not in self.machine.idle for piston in self.pistons)
+
+    @property
+    def all_zero(self) -> bool:
+        """Whether masses or loads are given, but are all zero."""
+        given = (id for id in self.ledger.families if id[:1] == "G" or id[:2] == "m.")
+        return not self.has_forces and (bool(self.machine.idle) or any(given))
+
+    @property
+    def loads_crank(self) -> bool:
+        """Whether any group hands a force on to the crank, at whatever position."""
+        edges = self.driver_polygon.edges if self.driver_polygon else ()
+        reactions = (self.ledger[f"R.{edge.name[1:]}"] for edge in edges if edge.is_reaction and not edge.unknown)
+        return any(one.at(k) != 0 for one in reactions for k in range(1, self.cycle_count + 1))
 
     @property
     def has_ordinates(self) -> bool:

@@ -255,6 +255,8 @@ def _masses(q: Sheet, analysis: Analysis) -> None:
 def _gas(q: Sheet, analysis: Analysis) -> None:
     """s/H and pressure read from the diagram, gas force P = p F."""
     for name, state in analysis.gas.items():
+        if name in analysis.machine.idle:
+            continue
         link, stroke = state.piston.link, state.piston.stroke
         q.give(f"s.{link}", state.fraction * stroke, exact=False, scale=stroke)
         p = q.give(f"p.{link}", state.pressure, exact=False)
@@ -280,7 +282,10 @@ def _applied(q: Sheet, analysis: Analysis) -> None:
 def _cycle(q: Sheet, analysis: Analysis) -> None:
     """Mean, extremes, power and energy of the cycle."""
     summary, machine = analysis.summary, analysis.machine
-    size = float(np.nanmax(np.abs(analysis.torque)))
+    size, possible = float(np.nanmax(np.abs(analysis.torque))), flywheel.possible(analysis, analysis.loads)
+    if size < ZERO * possible:
+        # All of it is rounding, as where a guide takes the whole load.
+        size = possible
     # A sliding driver is balanced by a force, and its way takes the place of the angle.
     letter, kind = ("P", "force") if machine.span else ("M", "torque")
     rate = q[f"v.{machine.linkage.driver.pin}"] if machine.span else q["omega.1"]

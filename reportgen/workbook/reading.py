@@ -96,6 +96,8 @@ def _judged(package: Package) -> tuple[bytes, list[int], bool]:
         raise package.refused("sheet-no-zip")
     tables = {one.kind: places[id] for id, one in relations.items() if one.kind in ("styles", "sharedStrings")}
     others = [CONTENT_TYPES, workbook, beside, *(place for place in tables.values() if place in package)]
+    for sheet in set(sheets):
+        package.without_empty_cells(sheet)
     measured = {place: measure(package, place) for place in (*others, *sheets)}
     copy = _copy(package, measured, tables.get("sharedStrings", ""))
     return copy, [measured[sheet][0] for sheet in sheets], any(measured[sheet][1] for sheet in sheets)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -82,3 +83,16 @@ def test_the_document_has_every_quantity_at_every_position_on_pages_that_hold_it
     for row in key.rows[:40]:
         if row.decimals is not None and row.values[0] > 0:
             assert f"{row.values[0]:.{row.decimals}f}" in text or row.decimals == 0
+
+
+def test_an_endless_angle_has_six_figures_and_a_typed_one_all_of_its_own(tmp_path: Path) -> None:
+    """Seven positions from 77.7° on: 360/7 = 51.428571…; the start itself has few digits and stays as it is."""
+    text = Path("assignments/engine-twin-05.yaml").read_text(encoding="utf-8").replace("s: 0.35", "s: 0.3512345678")
+    text = text.replace("count: 8, direction: anticlockwise", "count: 7, start: 77.7 deg")
+    text = re.sub("  firing: .*", "", text)
+    file = tmp_path / "a.yaml"
+    file.write_text(text, encoding="utf-8")
+    _, *rows = key_rows(make_key(open_case(file, "en")))
+    shown = {(row[0], row[4]): row[5] for row in rows}
+    assert [shown["phi.1", position] for position in "128"] == [77.7, 129.129, 437.7]
+    assert shown["s", ""] == 0.3512345678

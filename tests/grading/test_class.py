@@ -82,6 +82,21 @@ def test_nobody_displaces_a_sheet_by_claiming_its_name(assignments: Path, tmp_pa
     assert all("K225520103004.csv" in problem.message for problem in result.problems)
 
 
+@pytest.mark.parametrize("place", ["K225520103007.csv", "k225520103007.CSV", "K225520103007/answers.csv"])
+def test_a_sheet_named_after_a_classmate_is_told(assignments: Path, tmp_path: Path, place: str) -> None:
+    """It is marked as what it says inside, but not without a word; a name that is nobody's needs none."""
+    sheet = tmp_path / place
+    sheet.parent.mkdir(exist_ok=True)
+    sheet.write_bytes((demo.SHEETS / "K225520103004.csv").read_bytes())
+    result = assess.grade([tmp_path], assignments, Policy(), "en")
+    assert [marking.key.id for marking in result.markings] == ["K225520103004"]
+    assert [(problem.code, problem.mark.file) for problem in result.problems] == [("sheet-named-otherwise", str(sheet))]
+    for name in ("“K225520103007”", "“K225520103004”"):
+        assert name in result.problems[0].message
+    sheet.rename(tmp_path / "homework.csv")
+    assert assess.grade([tmp_path / "homework.csv"], assignments, Policy()).problems == ()
+
+
 def test_one_sheet_never_stops_the_others(assignments: Path, tmp_path: Path) -> None:
     folder = tmp_path / "sheets"
     shutil.copytree(demo.SHEETS, folder)

@@ -174,7 +174,7 @@ def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn,
 
 def opposite(q: Sheet, here: str, there: str, link: int, point: str) -> LoadOn:
     """Enter a reaction as that of the other link turned round: R42 = −R24."""
-    size = q.define(f"R.{here}", q[f"R.{there}"])
+    size = q.define(f"R.{here}", q[f"R.{there}"], scale=q.families[f"R.{there}"].scale)
     q.construct(f"F.R{here}", -q[f"F.R{there}"], of=size.id)
     return LoadOn(f"R{here}", link, point, size, Origin.reaction, here)
 
