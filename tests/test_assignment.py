@@ -123,10 +123,9 @@ def test_worked_positions_may_be_all(tmp_path: Path) -> None:
 
 
 def test_absolute_pressures_lose_the_ambient(tmp_path: Path) -> None:
-    table = load(SAMPLE).indicator
+    gauge = load(SAMPLE).indicator.table.intake
     engine = read(SAMPLE_TEXT.replace("reference: gauge", "reference: absolute\n  ambient: 1 bar"), tmp_path)
-    expected = [pressure - 1e5 for pressure in table.gauge(table.intake, table.unit)]
-    assert engine.indicator.gauge(engine.indicator.intake, engine.indicator.unit) == pytest.approx(expected, rel=1e-15)
+    assert engine.indicator.table.intake == pytest.approx([pressure - 1e5 for pressure in gauge], rel=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -120,25 +120,28 @@ def _preferred(first: Path, second: Path, assignment: str) -> tuple[Path, Path]:
     return (second, first) if own == [False, True] else (first, second)
 
 
-def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None) -> Iterator[Path]:
-    """Write every file of a graded class below `out`: two for each student, two for the instructor.
+def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language | None) -> Iterator[tuple[Path, bytes]]:
+    """Every file of a graded class with its content: two for each student, two for the instructor."""
+    for marking in graded.markings:
+        key = marking.key
+        # As the batch names it, or the assignment's own stem.
+        folder = Path(folder_name(key.student["id"]) if "id" in key.student else key.id)
+        yield folder / "feedback.xlsx", write_xlsx(feedback_book(marking, policy.show_answers))
+        tree = feedback_document(marking, catalogue.title(key.kind, key.language), policy.show_answers)
+        yield folder / "feedback.pdf", api.typeset(tree, engine)[1]
+    if graded.markings:
+        key = graded.markings[0].key
+        spoken = language or key.language
+        yield Path("grades.csv"), write_csv(grade_rows(graded.markings, spoken, graded.missing))
+        page = class_document(graded.markings, catalogue.title(key.kind, spoken), spoken, graded.missing)
+        yield Path("class.pdf"), api.typeset(page, engine)[1]
 
-    Each appears in one step as soon as it is made; raises `OutputError`.
-    """
+
+def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None) -> Iterator[Path]:
+    """Write every file of a graded class below `out`, each in one step; raises `OutputError`."""
     with api.reported(out), scratch(out):
-        for marking in graded.markings:
-            key = marking.key
-            # As the batch names it, or the assignment's own stem.
-            folder = out / (folder_name(key.student["id"]) if "id" in key.student else key.id)
-            yield from api.put(folder, {"feedback.xlsx": write_xlsx(feedback_book(marking, policy.show_answers))})
-            tree = feedback_document(marking, catalogue.title(key.kind, key.language), policy.show_answers)
-            yield from api.put(folder, {"feedback.pdf": api.typeset(tree, engine)[1]})
-        if graded.markings:
-            key = graded.markings[0].key
-            spoken = language or key.language
-            yield from api.put(out, {"grades.csv": write_csv(grade_rows(graded.markings, spoken, graded.missing))})
-            page = class_document(graded.markings, catalogue.title(key.kind, spoken), spoken, graded.missing)
-            yield from api.put(out, {"class.pdf": api.typeset(page, engine)[1]})
+        for name, content in files_of(graded, policy, engine, language):
+            yield from api.put(out / name.parent, {name.name: content})
 
 
 def summary(graded: Graded, language: Language | None) -> Iterator[str]:
