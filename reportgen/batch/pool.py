@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from hashlib import sha256
 from multiprocessing.process import BaseProcess, parent_process
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pebble import concurrent
 
@@ -145,9 +145,8 @@ NAME = "reportgen-job"
 def local(workers: int) -> Pool:
     """A pool of so many processes at a time; the server that starts them begins to load at once."""
     # It understands `context` but is annotated with another name.
-    start: Callable[[Job], Future[Outcome]] = concurrent.process(  # type: ignore[call-overload]
-        name=NAME, timeout=LIMIT, context=_context()
-    )(_work)
+    process: Any = concurrent.process
+    start: Callable[[Job], Future[Outcome]] = process(name=NAME, timeout=LIMIT, context=_context())(_work)
 
     def pool(jobs: Iterable[Job], retried: Retried) -> Results:
         waiting = deque((job, 1) for job in jobs)

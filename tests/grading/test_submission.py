@@ -162,7 +162,7 @@ def filled(tmp_path: Path, key: Key, values: dict[tuple[str, int], object], name
     page = book.worksheets[0]
     rows = {str(page.cell(n, 1).value): n for n in range(HEAD + 1, page.max_row + 1)}
     for (id, position), value in values.items():
-        page.cell(rows[id], FIRST + position).value = value  # type: ignore[assignment]
+        page.cell(rows[id], FIRST + position, value)
     book.save(path)
     return path
 
