@@ -29,8 +29,8 @@ CONTENTS_LEVEL = 3
 """The deepest level of heading that the contents and the outline list."""
 CAPTION = 15.0
 """About what a figure's caption takes, with the white around it (mm)."""
-OPENING, ROW = 30, 7
-"""Approximate heights in mm: of the words before a table with its caption, and of a row."""
+OPENING, TITLE, ROW = 20, 14, 5.5
+"""Approximate heights in mm: of the words before a table, of its caption, and of a row."""
 
 
 def write(document: tree.Document) -> str:
@@ -103,7 +103,9 @@ class _Writer:
             return self.list(block, r"\keeplist")
         needed = ""
         if isinstance(following, tree.Table):
-            needed = _command("tableroom", f"{_whole(following)}mm") + _command("needed", f"{_height(following)}mm")
+            needed = _command("tableroom", f"{_whole(following):g}mm") + _command(
+                "needed", f"{OPENING + _height(following):g}mm"
+            )
         return f"{needed}{self.block(block)}\\par\\nobreak"
 
     def block(self, block: tree.Block) -> str:
@@ -286,7 +288,7 @@ class _Writer:
                 together = unbroken or not layout.TOGETHER - 1 <= index < len(block.rows) - layout.TOGETHER
                 end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if together else 0}}}"
             environment.append(NoEscape(self.row(row, block.columns) + end))
-        room = _command("tableroom", f"{_whole(block)}mm") + _command("needed", f"{_height(block) - OPENING}mm")
+        room = _command("tableroom", f"{_whole(block):g}mm") + _command("needed", f"{_height(block):g}mm")
         return f"{room}\\begin{{belowfigures}}\\tablesize\n{environment.dumps()}\n\\end{{belowfigures}}"
 
     def head(self, block: tree.Table) -> str:
@@ -316,15 +318,15 @@ class _Writer:
         return " & ".join(printed)
 
 
-def _height(block: tree.Table) -> int:
-    """About how much paper (mm) a table needs with the lines before it, up to its first possible break."""
+def _height(block: tree.Table) -> float:
+    """About how much paper (mm) a table needs with its caption, up to its first possible break."""
     rows = len(block.rows) if len(block.rows) <= layout.WHOLE_TABLE else layout.TOGETHER
-    return OPENING + ROW * (len(block.head) + rows)
+    return TITLE + ROW * (len(block.head) + rows)
 
 
-def _whole(block: tree.Table) -> int:
+def _whole(block: tree.Table) -> float:
     """About how much paper (mm) a whole table needs with the lines before it."""
-    return OPENING + ROW * (len(block.head) + len(block.rows))
+    return OPENING + TITLE + ROW * (len(block.head) + len(block.rows))
 
 
 def _column(width: float, align: str) -> str:
