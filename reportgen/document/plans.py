@@ -26,7 +26,7 @@ from reportgen.notation.expressions import Chain, Symbol
 SHEET = (385.0, 232.0)
 """What of an A3 page (landscape) plans may fill."""
 SHARES = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1)
-"""How much smaller the force plans of all positions may be drawn than the worked ones: scales stay in their series."""
+"""How much smaller the plans of all positions may be drawn than the worked ones: scales stay in their series."""
 LARGEST = (78.0, 105.0)
 """The largest of these plans (mm): two stand side by side, two rows on a page."""
 PANEL = (78.0, 66.0)
@@ -127,21 +127,20 @@ def _plates(
     drawing: Callable[[Report, int], Plan],
     positions: Sequence[int],
     scale: str,
-    shares: Sequence[float] = (1.0,),
     at: int | None = None,
 ) -> Drawn:
-    """Plans of one scale, that of the position `at`, in rows, at the largest of the `shares` at which each has room.
+    """Plans of one scale, that of the position `at`, in rows, at the largest of the shares at which each has room.
 
     If none fits the text block, they stand on A3 sheets.  Insets are for worked plans.
     """
     word = report.words["table"]["position"]
     plans = {k: replace(drawing(report, k), scale=None, lines=()) for k in positions}
-    for share in shares:
+    for share in SHARES:
         scenes = tuple(
             plan(shown.scaled(share), title=f"{word} {report.machine.position(k)}", enlarged=False, margin=CLOSE_MARGIN)
             for k, shown in plans.items()
         )
-        room = LARGEST if share > shares[-1] else TEXT_BLOCK
+        room = LARGEST if share > SHARES[-1] else TEXT_BLOCK
         if all(scene.width <= room[0] and scene.height <= room[1] for scene in scenes):
             return Drawn(scenes, note=scale_note(report, scale, share, at))
     return Drawn(sheets(scenes, *SHEET, scale_note(report, scale, share, at), trim=0.0), A3_ACROSS)
@@ -244,7 +243,7 @@ def force_plates(report: Report, group: GroupView) -> Drawn:
     def drawing(report: Report, k: int) -> Plan:
         return force_plan(report, polygon, k).scaled(scales[k] / scales[common])
 
-    return _plates(report, drawing, report.plates, group.scale, SHARES, common)
+    return _plates(report, drawing, report.plates, group.scale, common)
 
 
 def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
