@@ -34,7 +34,7 @@ from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import drawn_length
 from reportgen.units import Given
 
-OPENING = ("given", "scheme", "overview", "contents", "foreword", "symbols", "structure", "motion")
+OPENING = ("contents", "given", "scheme", "overview", "foreword", "symbols", "structure", "motion")
 CLOSING = ("conclusion", "references", "checks")
 CRANK_DRAWN = 0.04
 """Drawn length of the crank (m on paper) when none is asked for."""
