@@ -27,8 +27,8 @@ SHEET = (385.0, 232.0)
 """What of an A3 page (landscape) plans may fill."""
 SHARES = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1)
 """How much smaller the plans of all positions may be drawn than the worked ones: scales stay in their series."""
-LARGEST = (78.0, 105.0)
-"""The largest of these plans (mm): two stand side by side, two rows on a page."""
+LARGEST = (78.0, 75.0)
+"""The largest of these plans (mm): two stand side by side, three rows on a page."""
 PANEL = (78.0, 66.0)
 """The panel of a construction's step at most (mm)."""
 CLOSE_MARGIN = 2.0
