@@ -123,11 +123,7 @@ def _stages(
 
 
 def _plates(
-    report: Report,
-    drawing: Callable[[Report, int], Plan],
-    positions: Sequence[int],
-    scale: str,
-    at: int | None = None,
+    report: Report, drawing: Callable[[Report, int], Plan], positions: Sequence[int], scale: str, at: int | None = None
 ) -> Drawn:
     """Plans of one scale, that of the position `at`, in rows, at the largest of the shares at which each has room.
 

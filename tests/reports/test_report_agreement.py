@@ -19,7 +19,6 @@ pytest.importorskip("pymupdf")
 
 EXEMPT = {
     "•": "–",  # the mark of a list's item is the typesetter's
-    "\x0c": "|",  # the bar of an absolute value in the font of large delimiters
     "⃗": "",  # an accent without width, which the PDF library drops or keeps as it comes
 }
 """What the writers may print differently, and what it is compared as; all else must be equal.

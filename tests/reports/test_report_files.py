@@ -20,10 +20,10 @@ from tests.reports.pages import squash
 pymupdf = pytest.importorskip("pymupdf")
 
 
-def test_a_report_of_the_engine_has_thirty_to_fifty_pages(report: Report) -> None:
+def test_a_report_of_the_engine_has_forty_to_fifty_five_pages(report: Report) -> None:
     if report.written.case.assignment.kind != "engine-twin":
         pytest.skip("the number of pages is given for the engine only")
-    assert 30 <= report.pages.page_count <= 50
+    assert 40 <= report.pages.page_count <= 55
 
 
 def test_no_page_is_empty(report: Report) -> None:
