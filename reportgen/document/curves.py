@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -156,8 +157,7 @@ def polar(report: Report) -> Drawn:
         radius = fine.motion.points[pin].p - fine.motion.points[report.driver.centre].p
         load = fine.forces.reactions[edge.name].force * np.conj(radius / np.abs(radius)) * 1j
         loads.setdefault(pin, {})[lower_digits(edge.name)] = load
-    scenes = []
-    size = charts.POLAR_SIZE if sum(map(len, loads.values())) == 1 else charts.POLAR_HALF
+    diagrams: list[Callable[..., Scene]] = []
     for name, parts in loads.items():
         shown = dict(parts)
         if len(parts) > 1:
@@ -166,8 +166,14 @@ def polar(report: Report) -> Drawn:
         for forces, load in shown.items():
             series = charts.Series("", load.real, load.imag, _marks(report), numbers)
             title = f"{names['pin']} {lower_digits(name)}: {forces}"
-            scenes.append(charts.polar(series, names["across_crank"], along, title=title, size=size))
-    return Drawn(tuple(scenes))
+            diagrams.append(partial(charts.polar, series, names["across_crank"], along, title=title))
+    if len(diagrams) == 1:
+        return Drawn((diagrams[0](),))
+    for size in charts.POLAR_PAIRS:
+        scenes = tuple(draw(size=size) for draw in diagrams)
+        if all(scene.width <= charts.HALF_WIDTH for scene in scenes):
+            return Drawn(scenes)
+    return Drawn(tuple(draw(size=charts.POLAR_BELOW) for draw in diagrams))
 
 
 # --- the flywheel

@@ -149,7 +149,8 @@ def _expression(node: Expression, em: float) -> Box:
             return Box(width + em, half + 0.25 * em, half - 0.25 * em)
         case Chain(parts, note):
             line = _joined([_expression(part, em) for part in parts], em, 0.78 + RELATION)
-            return line.beside(_text(" " + note, em)) if note else line
+            # Both typesetters set the note in parentheses, a quad away.
+            return line.beside(Box(em, 0.0, 0.0)).beside(_text(f"({note})", em)) if note else line
         case VectorEquation(sides):
             return _joined([_symbol(term.symbol, em) for side in sides for term in side], em, 0.78 + RELATION)
 

@@ -25,8 +25,6 @@ Titles = Callable[[range, int], str]
 """What stands below a panel, of the stages that it draws and its own number from 0."""
 PENS: dict[Style, Stroke] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
 
-NOTHING = 1e-9
-"""A vector below this share of the longest one counts as zero and is not drawn."""
 SAME = 0.05
 """Points nearer than this (mm) look like one point and share a label joined by ≡."""
 CROWDED = 1.2
@@ -36,8 +34,8 @@ BEYOND = 6.0
 
 TINY = 3.0
 """Vectors drawn shorter than this (mm) get an enlarged inset."""
-INVISIBLE = 0.001
-"""What is drawn shorter than this (mm) is a point on any paper and gets no inset."""
+INVISIBLE = 0.01
+"""What is shorter than this (mm), the last digit of a measured length, is a point on any paper and not drawn."""
 TARGET = 20.0
 """The longest vector of an inset is enlarged to at most this (mm)."""
 SPACE = 8.0
@@ -106,18 +104,13 @@ class Plan:
     pole: bool = True
 
     @property
-    def size(self) -> float:
-        """The longest vector, mm."""
-        return max((vector.length for vector in self.vectors), default=0.0)
-
-    @property
     def last_stage(self) -> int:
         numbers = [v.stage for v in self.vectors] + [p.stage for p in self.points]
         return max(numbers + [k.stage for k in self.lines], default=0)
 
     def drawn(self) -> tuple[PlanVector, ...]:
-        """The vectors that are not zero."""
-        return tuple(v for v in self.vectors if v.length > NOTHING * self.size)
+        """The vectors that can be seen."""
+        return tuple(v for v in self.vectors if v.length > INVISIBLE)
 
     def scaled(self, factor: complex) -> Plan:
         """The plan enlarged or reduced; a complex factor also turns it."""
@@ -217,9 +210,8 @@ def merged(drawing: Plan) -> Plan:
 
 def kept_stages(drawing: Plan) -> list[int]:
     """The stages that draw an arrow or a line that was not there before, in order."""
-    least = NOTHING * drawing.size
     arrows = [(v.stage, v.start, v.end) for v in drawing.drawn()]
-    lines = [(k.stage, k.start, k.end) for k in drawing.lines if abs(k.end - k.start) > least]
+    lines = [(k.stage, k.start, k.end) for k in drawing.lines if abs(k.end - k.start) > INVISIBLE]
 
     def repeats(stage: int, start: complex, end: complex) -> bool:
         return any(s < stage and abs(start - p) + abs(end - q) < SAME for s, p, q in arrows)
@@ -326,7 +318,7 @@ def insets(drawing: Plan) -> tuple[list[Draft], Draft]:
 
     Each prints its ratio (e.g. 10:1) and shows what passes through its frame of the plan's other vectors.
     """
-    groups = _groups([vector for vector in drawing.drawn() if INVISIBLE < vector.length < TINY])
+    groups = _groups([vector for vector in drawing.drawn() if vector.length < TINY])
     return [_inset(group, drawing) for group in groups], Draft(tuple(map(_mark, groups)))
 
 

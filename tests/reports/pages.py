@@ -24,8 +24,6 @@ BEARING = 0.5
 PROSE = (11.6, 12.4)
 """Font sizes of running text, headings of level 3 and formulas; all else is smaller or larger."""
 
-NAMELESS = {"\f": "|"}
-"""Glyphs that a PDF names by their place in the font: the bar of a large absolute value in LaTeX."""
 _DROPPED = re.compile("[\\s\N{WORD JOINER}\N{SOFT HYPHEN}\N{HYPHEN}-]+")
 CONTINUED = re.compile(r"(?:Table|Bảng)([\d.]+)\((?:continued|tiếptheo)\)")
 """The label of a table that goes on, its spaces left out."""
@@ -72,9 +70,8 @@ def glyphs(page: Any) -> list[Glyph]:
                     if not char["c"].strip(" \n\t\N{NO-BREAK SPACE}\N{ZERO WIDTH SPACE}\N{WORD JOINER}"):
                         word += 1
                         continue
-                    read = NAMELESS.get(char["c"], char["c"])
                     found.append(
-                        Glyph(read, tuple(char["bbox"]), span["size"], tuple(char["origin"]), bold, italic, word)
+                        Glyph(char["c"], tuple(char["bbox"]), span["size"], tuple(char["origin"]), bold, italic, word)
                     )
     return found
 

@@ -49,12 +49,12 @@ def headings(report: Report) -> list[tuple[str, int]]:
 
 
 def contents_pages(report: Report) -> range:
-    """Indices of the pages from the title of the contents to the next heading."""
+    """Indices of the page with the title of the contents and of those after it that end with an entry."""
     (title,) = (block.title for block in report.document.blocks if isinstance(block, Contents))
     printed = [pages.text(found) for found in report.bodies]
     start = next(page for page, text in enumerate(printed) if text.startswith(squash(title)))
     last = start
-    while re.search(r"(\.{5}\d+){3}", printed[last + 1]):
+    while re.search(r"\.{5}\d+$", printed[last + 1]):
         last += 1
     return range(start, last + 1)
 
