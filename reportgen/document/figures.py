@@ -50,8 +50,6 @@ SMALL_SCHEME = 79.0
 REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
 SHOWN_AT = 1
 """The position (from 0) at which schemes are drawn: the first one away from the start."""
-ROOM = 24.0
-"""What margins, labels and the scale take of a drawing's page (mm), across and upwards."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,14 +115,15 @@ def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
     return width <= paper[0] - WHITE[0] and height <= paper[1] - WHITE[1]
 
 
-def on_paper(scene: Scene) -> Drawn:
-    """A scene in the text if it fits there in true size, else on a page large enough for it."""
-    if in_text(scene):
-        return Drawn((scene,))
+def on_paper(*scenes: Scene) -> Drawn:
+    """Scenes in the text if they fit there in true size, else each on a page large enough for all of them."""
+    if all(map(in_text, scenes)):
+        return Drawn(scenes)
+    width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
     for paper in (A3_ACROSS, A3_UPRIGHT):
-        if fits(scene.width, scene.height, paper):
-            return Drawn((scene,), paper)
-    return Drawn((scene,), (max(scene.width + WHITE[0], 297.0), max(scene.height + WHITE[1], 210.0)))
+        if fits(width, height, paper):
+            return Drawn(scenes, paper)
+    return Drawn(scenes, (max(width + WHITE[0], 297.0), max(height + WHITE[1], 210.0)))
 
 
 def beside_one_another(*scenes: Scene) -> Drawn:

@@ -64,7 +64,7 @@ def excess(chain: Chain, scales: tuple[float, ...] = (), result: float = 1.0) ->
 
 def _last_digit(value: float) -> float:
     """Half a unit of the last digit of a result printed as it is, e.g. 0.171."""
-    return 0.5 * 10.0 ** int(Decimal(f"{value:.12g}").normalize().as_tuple().exponent)
+    return 0.5 * 10.0 ** min(int(Decimal(f"{value:.12g}").normalize().as_tuple().exponent), 0)
 
 
 def worst_lines(ledger: Ledger) -> Iterator[tuple[float, str, int]]:
