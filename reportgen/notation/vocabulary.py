@@ -4,7 +4,7 @@ This is the one place where the text of an id is read.  A quantity asks here for
 chapter, marking for the scale of a length on paper and for the distance of two values.
 
 A *kind* fixes the printed unit, what one such unit is in SI, and the preferred number of significant
-figures; `ledger.report` then raises or lowers decimals so that printed lines recompute.
+figures; `ledger.decimals` then raises or lowers decimals so that printed lines recompute.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 With x̂ᵢ the numbers as printed, a line f(x̂) = ŷ passes if |f(x̂) − ŷ| is at most one unit of ŷ's last digit.  A whole
 number keeps its units, so it may be off by Σ|∂f/∂xᵢ| uᵢ as well, with uᵢ half a unit of the x̂ᵢ's last digits; and so
-may the few lines that the ledger lists, whose numbers nearly cancel.
+may the few lines that the ledger lists, whose inputs have too few figures.
 """
 
 from __future__ import annotations
@@ -105,11 +105,7 @@ def step_misfit(left: Expression, result: Number, loose: bool = False) -> float:
         return float(evaluate(put_in(left)))
 
     shown = as_result(result)
-    return misfit(function, [as_printed(number) for number in numbers], shown, loose or _is_whole(result))
-
-
-def _is_whole(number: Number) -> bool:
-    return "." not in write(number.value, number.decimals, "en")
+    return misfit(function, [as_printed(number) for number in numbers], shown, loose or result.decimals == 0)
 
 
 def off(written: Written) -> list[str]:
