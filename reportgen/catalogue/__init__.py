@@ -8,7 +8,7 @@ evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -57,15 +57,17 @@ def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
     """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
     assignment, faults = reading.assess(source, path, kinds(), kind)
     if assignment is not None:
-        faults = reading.placed(source, _near_dead_point(assignment))
+        faults = reading.placed(source, _out_of_reach(assignment))
     return (None if faults else assignment), faults
 
 
-def _near_dead_point(assignment: Assignment) -> Iterable[Finding]:
-    """Whether the machine of an assignment comes too near to a dead point on its way."""
+def _out_of_reach(assignment: Assignment) -> Iterator[Finding]:
+    """Whether the machine of an assignment comes too near to a dead point on its way, or is too large to draw."""
     machine = module(assignment.kind).machine(assignment)
     way = reach.Way(machine.start, machine.start + machine.turn * machine.span, False) if machine.span else reach.Way()
-    return reach.near_dead_point(machine.linkage, way, ("parameters",))
+    yield from reach.near_dead_point(machine.linkage, way, ("parameters",))
+    if machine.drawn:
+        yield from reach.too_large(machine.linkage, machine.drawn, ("drawing", "crank"))
 
 
 def title(name: str, language: Language) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.catalogue.loads import Applied, Course, Piston, Torque
-from reportgen.mechanism.structure import Linkage
+from reportgen.mechanism.structure import Crank, Linkage
 from reportgen.notation.expressions import Chain
 from reportgen.notation.sheet import Sheet
 
@@ -109,6 +109,13 @@ class Machine:
     def angles(self, cycle_angle: np.ndarray) -> np.ndarray:
         """Driver angles at the given cycle angles; the coordinates (m) of a sliding driver."""
         return self.start + self.turn * cycle_angle * (self.span / (2 * np.pi) if self.span else 1.0)
+
+    @property
+    def drawn(self) -> float:
+        """The crank's drawn length (m on paper) where the file or the kind sets it, else 0."""
+        driver = self.linkage.driver
+        id = f"drawn.{driver.centre}{driver.pin}" if isinstance(driver, Crank) else ""
+        return self.sheet.si(id) if id in self.sheet else 0.0
 
     def position(self, number: int) -> Position:
         """A position by its number from 1."""

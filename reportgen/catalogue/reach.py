@@ -15,8 +15,10 @@ from reportgen.catalogue.loads import FULL_TURN, MotionAt, NotToAndFro, course, 
 from reportgen.errors import Finding, Where
 from reportgen.mechanism.dyads import SINGULAR, Complexes, Floats, cross, unit
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
+from reportgen.mechanism.structure import GROUND, Crank, Dyad, Guide, Linkage
+from reportgen.notation.numbers import nice_down
 
+MM = 1e3
 STEPS = 720
 HALVINGS = 40
 NEAR = 0.3
@@ -27,6 +29,8 @@ ZOOMS, NODES = 4, 41
 """How often a neighbourhood is looked at closer, and at how many places: 20⁴ times finer than the samples."""
 
 
+SHEET = (1.08, 0.70)
+"""What a mechanism in all its positions may take of a sheet A0 (m), lying or standing; labels and caption need more."""
 LEAST_ANGLE = 0.1
 """Angle of transmission (degrees) of a group from which on its forces come out to nine figures and more."""
 
@@ -116,6 +120,23 @@ def near_dead_point(linkage: Linkage, way: Way, where: Where) -> Iterator[Findin
             about |= {"near": f"{np.degrees(sine):.2g}", "least": f"{LEAST_ANGLE:g}"}
             yield Finding(f"near-dead-point{of_slide}", where, about, at="key")
         return
+
+
+def too_large(linkage: Linkage, drawn: float, where: Where) -> Iterator[Finding]:
+    """A mechanism that no sheet A0 holds when its crank is drawn `drawn` long (m on paper)."""
+    motion = solve_motion(linkage, np.linspace(0.0, FULL_TURN, STEPS + 1), 1.0)
+    places = np.array([np.broadcast_to(point.p, (STEPS + 1,)) for point in motion.points.values()])
+    assert isinstance(linkage.driver, Crank)
+    scale = drawn / linkage.driver.length
+    width, height = float(np.ptp(places.real)) * scale, float(np.ptp(places.imag)) * scale
+    excess = min(max(width / across, height / up) for across, up in (SHEET, SHEET[::-1]))
+    if excess > 1:
+        sizes = {
+            "width": f"{width * MM:.0f}",
+            "height": f"{height * MM:.0f}",
+            "most": f"{nice_down(drawn * MM / excess):g}",
+        }
+        yield Finding("too-large-to-draw", where, {"text": f"{drawn * MM:g} mm", **sizes})
 
 
 def to_and_fro(linkage: Linkage, slider: int, motion_at: MotionAt, where: Where) -> Iterator[Finding]:

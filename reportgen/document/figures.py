@@ -37,6 +37,10 @@ from reportgen.notation.expressions import Chain, Number, Symbol
 
 MM = 1e3
 A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)
+LARGER = tuple(
+    size for short, long in ((420.0, 594.0), (594.0, 841.0), (841.0, 1189.0)) for size in ((long, short), (short, long))
+)
+"""Sheets A2, A1, A0, lying and standing."""
 TEXT_BLOCK = (160.0, 225.0)
 """What of an A4 page a figure may fill with its caption."""
 WHITE = (40.0, 64.0)
@@ -120,10 +124,8 @@ def on_paper(*scenes: Scene) -> Drawn:
     if all(map(in_text, scenes)):
         return Drawn(scenes)
     width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
-    for paper in (A3_ACROSS, A3_UPRIGHT):
-        if fits(width, height, paper):
-            return Drawn(scenes, paper)
-    return Drawn(scenes, (max(width + WHITE[0], 297.0), max(height + WHITE[1], 210.0)))
+    papers = (paper for paper in (A3_ACROSS, A3_UPRIGHT, *LARGER) if fits(width, height, paper))
+    return Drawn(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
 
 
 def beside_one_another(*scenes: Scene) -> Drawn:
