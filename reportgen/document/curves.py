@@ -103,8 +103,9 @@ def _displacements(report: Report) -> list[tuple[Symbol, np.ndarray]]:
 
 
 def _marks(report: Report) -> tuple[int, ...]:
-    """Which samples of the dense cycle are the numbered positions."""
-    places = np.searchsorted(report.dense_cycle.cycle_angle, report.machine.cycle_angles)
+    """Which samples of the dense cycle are the positions that are shown."""
+    shown = report.machine.cycle_angles[[k - 1 for k in report.all_positions]]
+    places = np.searchsorted(report.dense_cycle.cycle_angle, shown)
     return tuple(map(int, places))
 
 
@@ -120,7 +121,7 @@ def _over_a_turn(
     """Curves over one turn of the driver, the numbered positions marked."""
     count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME))
     slides = bool(report.machine.span)
-    x, marks = _across(report)[:count], _marks(report)[: report.count]
+    x, marks = _across(report)[:count], _marks(report)[: len(report.positions)]
     series = [charts.Series(shown, x, values[:count], marks) for shown, values in curves]
     return charts.chart(series, _driver_axis(report, "angle"), title, turn=not slides, half=half)
 

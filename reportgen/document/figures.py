@@ -221,10 +221,10 @@ def _positions(report: Report, beside: Draft | None) -> Scene:
     shows = PositionPlan(
         _numbered(report),
         machine.paths if beside is None else (),
-        (report.assignment.worked_positions[0] - 1) % machine.count,
+        report.positions.index(report.worked[0]),
         labels=tuple(map(str, report.positions)),
     )
-    one_turn = _motion(machine, machine.cycle_angles[: machine.count])
+    one_turn = _motion(machine, machine.cycle_angles[[k - 1 for k in report.positions]])
     return _position_plan(report, one_turn, shows, beside)
 
 
@@ -283,13 +283,13 @@ def indicator(report: Report) -> Drawn:
     ]
     readings = [
         indicator_figure.Reading(
-            Symbol(str(machine.position(k + 1)), "" if len(machine.pistons) == 1 else f"({gas.piston.link})"),
-            float(gas.fraction[k]),
-            float(gas.pressure[k]) / unit,
-            top + (bottom - top) * float(gas.fraction[k]) if _in_line(first, gas.piston) else None,
+            Symbol(str(k), "" if len(machine.pistons) == 1 else f"({gas.piston.link})"),
+            float(gas.fraction[k - 1]),
+            float(gas.pressure[k - 1]) / unit,
+            top + (bottom - top) * float(gas.fraction[k - 1]) if _in_line(first, gas.piston) else None,
         )
         for gas in gases.values()
-        for k in range(machine.positions)
+        for k in report.all_positions
     ]
     return on_paper(_positions(report, indicator_figure.indicator(frame, branches, readings)))
 

@@ -32,7 +32,7 @@ from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Number, Symbol, walk
 
 PLATES_UP_TO = 24
-"""Above this many positions, plates are drawn for worked positions only."""
+"""Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""
 DENSE = 361
 """Samples of a turn from which curves are drawn."""
 UNIFORM = Number(12.0)
@@ -174,12 +174,20 @@ class Report:
         return self.assignment.positions.count
 
     @property
+    def shown_every(self) -> int:
+        """Tables and drawings show one position in so many, and the worked ones; the results have them all."""
+        return -(-self.even_count // PLATES_UP_TO)
+
+    @property
     def positions(self) -> tuple[Position, ...]:
-        return self.machine.numbered(range(1, self.machine.count + 1))
+        """The positions of one turn that are shown."""
+        return tuple(k for k in self.all_positions if k <= self.machine.count)
 
     @property
     def all_positions(self) -> tuple[Position, ...]:
-        return self.machine.numbered(range(1, self.machine.positions + 1))
+        """The positions of the cycle that are shown."""
+        evenly = range(1, self.machine.positions + 1, self.shown_every)
+        return self.machine.numbered(sorted({*evenly, *self.worked, *self.worked_forces}))
 
     @property
     def worked(self) -> tuple[Position, ...]:
