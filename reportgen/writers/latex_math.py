@@ -86,7 +86,7 @@ class LatexFormulas(Formulas):
 
     PLUS, MINUS, NEGATIVE = r"\binbreak+", r"\binbreak-", "-"
     TIMES, DOT, CROSS = r"\dotbreak\cdot", r"\cdot", r"\times"
-    FRACTION, RAISED, ROOT, ABSOLUTE = r"\frac{%s}{%s}", "^{%s}", r"\sqrt{%s}", r"\left|%s\right|"
+    FRACTION, RAISED, ROOT, ABSOLUTE = r"\frac{%s}{%s}", "^{%s}", r"\sqrt{%s}", r"\absolute{%s}"
 
     def text(self, text: str) -> str:
         return escape(text)
