@@ -5,7 +5,8 @@ within one unit of its last digit, at every position; this is tried out with the
 that does not hold gets one more decimal in the input that puts it off most or one fewer in its result, in this order:
 inputs up to five figures, the result down to the four aimed at, inputs as far as their kind allows, the result down to
 three.  A whole number of four figures or more keeps its units, of which five figures of the inputs may leave the last
-ones open.
+ones open.  What the whole report comes to, as the balancing torque, keeps four figures if its line holds where it is
+written out.
 
 Families that print under one symbol, as by plan and by formula, are one quantity and have one number of decimals.
 """
@@ -140,18 +141,16 @@ def _names(families: Mapping[str, Family], same: Sequence[tuple[str, ...]]) -> d
 
 def _as_printed(family: Family, digits: int | None) -> np.ndarray:
     """A family's values (SI) as a reader sees them: rounded, nothing as 0."""
-    values, scale = np.real(family.values), family.how.scale
-    shown = [
-        0.0
-        if abs(value) < ZERO * family.scale
-        else value
-        if not math.isfinite(value)
-        else float(f"{value / scale:.12g}")
-        if digits is None
-        else numbers.printed(value / scale, digits)
-        for value in values
-    ]
-    return np.array(shown) * scale
+
+    def shown(value: float) -> float:
+        if abs(value) < ZERO * family.scale:
+            return 0.0
+        if not math.isfinite(value):
+            return value
+        size = value / family.how.scale
+        return (float(f"{size:.12g}") if digits is None else numbers.printed(size, digits)) * family.how.scale
+
+    return np.array([shown(float(value)) for value in np.real(family.values)])
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,8 +163,10 @@ class _Line:
 class _Choice:
     """The decimals of a ledger's quantities while they are being chosen."""
 
-    def __init__(self, families: Mapping[str, Family], same: Sequence[tuple[str, ...]]) -> None:
+    def __init__(self, families: Mapping[str, Family], same: Sequence[tuple[str, ...]], worked: Sequence[int]) -> None:
         self.families = families
+        self.worked = worked
+        self.results = {id for ids in same for id in ids}
         self.names = _names(families, same)
         self.quantities: dict[str, _Quantity] = {}
         self.lines: list[_Line] = []
@@ -247,6 +248,12 @@ class _Choice:
     def _holds(self, line: _Line) -> bool:
         return bool(self._over(line).max() <= HOLDS)
 
+    def _is_result_where_shown(self, line: _Line) -> bool:
+        """Whether it is a result of the whole report and holds at the positions at which lines are written out."""
+        over = self._over(line)
+        shown = [(k - 1) % over.size for k in self.worked if line.id in self.results]
+        return bool(shown and over[shown].max() <= HOLDS)
+
     def _mend(self, line: _Line) -> bool:
         """Give an input one more decimal or the result one fewer; False if neither may be."""
         own = self.quantities.get(line.id)
@@ -254,7 +261,7 @@ class _Choice:
             self._raise_an_input(line, lambda quantity: quantity.usual)
             or (own is not None and own.lower(own.aim))
             or (not self._is_whole(line.id) and self._raise_an_input(line, lambda quantity: quantity.most))
-            or (own is not None and own.lower(own.least))
+            or (own is not None and not self._is_result_where_shown(line) and own.lower(own.least))
         )
 
     def _raise_an_input(self, line: _Line, limit: Callable[[_Quantity], int]) -> bool:
@@ -290,19 +297,23 @@ class _Choice:
 
 
 def choose_decimals(
-    families: Mapping[str, Family], same: Sequence[tuple[str, ...]] = (), checks: Container[str] = ()
+    families: Mapping[str, Family],
+    same: Sequence[tuple[str, ...]] = (),
+    checks: Container[str] = (),
+    worked: Sequence[int] = (),
 ) -> tuple[dict[str, int | None], tuple[str, ...]]:
     """Decimals for every family (None: printed as it is) and the ids of lines that cannot be made to recompute.
 
-    Families named the `same` are printed with the same decimals.  The `checks` come last and take all other numbers as
-    these are printed.
+    Families named the `same` are results of the whole report that are printed with the same decimals.  The `checks`
+    come last and take all other numbers as these are printed.  Lines are written out at the `worked` positions.
     """
     last = [id for id in families if id in checks]
-    formulas = [id for id, one in families.items() if one.chapter is Chapter.formulas and id not in checks]
-    others = [id for id in families if id not in {*last, *formulas}]
+    before = {id: family for id, family in families.items() if id not in checks}
+    formulas = [id for id, family in before.items() if family.chapter is Chapter.formulas]
+    others = [id for id, family in before.items() if family.chapter is not Chapter.formulas]
 
     def chosen(*steps: Sequence[str]) -> _Choice:
-        choice = _Choice(families, same)
+        choice = _Choice(families, same, worked)
         for ids in steps:
             choice.settle(ids)
         choice.freeze()

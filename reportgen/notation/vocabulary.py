@@ -52,7 +52,7 @@ KINDS: dict[str, Kind] = {
     "product of lengths": Kind("m²", digits=4),
     "segment": Kind("mm", 1e-3, decimals=2, finest=2),
     "length scale": Kind("m/mm", 1e3, digits=4),
-    "velocity scale": Kind("m/(s·mm)", 1e3, digits=5),
+    "velocity scale": Kind("m/(s·mm)", 1e3, digits=6),
     "acceleration scale": Kind("m/(s²·mm)", 1e3, digits=5),
     "force scale": Kind("N/mm", 1e3, digits=4),
     "pressure scale": Kind("N/(cm²·mm)", 1e7, digits=4),

@@ -30,6 +30,7 @@ from reportgen.document.tree import (
     formula,
 )
 from reportgen.figures.scene import Label
+from reportgen.ledger.report import SAME
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol, Term, VectorEquation, rebuild, walk
 from reportgen.notation.numbers import write
@@ -111,7 +112,9 @@ def step_misfit(left: Expression, result: Number, loose: bool = False) -> float:
 def off(written: Written) -> list[str]:
     """The lines of a report that a reader's calculator does not come to, each with how far it is off."""
     ledger = written.case.ledger
-    listed = [ledger.chain(id, k) for id in ledger.cancellations for k in range(1, ledger.positions + 1)]
+    # Results of the whole report are listed for other positions only than those at which their lines stand.
+    ids = set(ledger.cancellations).difference(*SAME)
+    listed = [ledger.chain(id, k) for id in ids for k in range(1, ledger.positions + 1)]
     return [
         f"{misfit:.2f}: {formula(chain, written.language)}"
         for chain in chains(written.document)
