@@ -148,7 +148,9 @@ def _enter_lengths(q: GivenSheet, given: Parameters) -> tuple[Ref, Ref]:
     θ = q.define("theta", Number(180.0, unit="°") * (K - 1) / (K + 1))
     q1 = q.define("q.1", 2 * H * e * tan(θ / 2), Symbol("q", "1"), "product of lengths")
     q2 = q.define("q.2", 2 * H * e / tan(θ / 2), Symbol("q", "2"), "product of lengths")
-    return q.define("R", sqrt(H**2 - q1) / 2), q.define("L", sqrt(H**2 + q2) / 2)
+    R, L = q.define("R", sqrt(H**2 - q1) / 2), q.define("L", sqrt(H**2 + q2) / 2)
+    q.set_out("synthesis", q1, q2, R, L)
+    return R, L
 
 
 def _geometry(given: Parameters, positions: Positions) -> OffsetSlider:

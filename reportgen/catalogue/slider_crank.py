@@ -71,6 +71,7 @@ def machine(assignment: Assignment) -> Machine:
     m2 = q.find("m.2")
     q.moment(2, None if m2 is None else m2 * l**2 / 12)
     q.mass(3)
+    q.set_out("loads", "s.3", "P3")
 
     geometry = OffsetSlider(q.si(r), q.si(l), turn * given.e.si, given.guide.si, turn)
     start = geometry.stretched if positions.start is None else geometry.phi(positions.start.si)

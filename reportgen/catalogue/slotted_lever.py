@@ -76,6 +76,8 @@ def machine(assignment: Assignment) -> Machine:
     q.bar(3, "C", "D")
     if given.torque is not None:
         q.datum("M.given", given.torque.M, Symbol("M", "3"))
+    q.set_out("lengths", r, d, l)
+    q.set_out("loads", "M3")
 
     geometry = SlottedCrank(q.si(r), q.si(d), given.axis.si, positions.sign)
     start = math.pi / 2 if positions.start is None else geometry.phi(positions.start.si)

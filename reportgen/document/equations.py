@@ -247,13 +247,6 @@ def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
 
 
 @function
-def centre_lines(report: Report, rod: int, what: str) -> list[str]:
-    """Closed formulas of a rod's mass centre by components."""
-    names = [place.name for group in report.groups for place in group.points_i if group.i == rod]
-    return report.known(id for name in names for id in (f"f.x.{name}.{what}", f"f.y.{name}.{what}", f"f.{what}.{name}"))
-
-
-@function
 def equations(report: Report, name: str, position: int | None = None) -> Equation:
     """Equations of the machine's own, with the numbers at a position if they name quantities."""
 

@@ -37,9 +37,10 @@ class DriverView:
     """The driver as templates name it: its centre O1 and pin A, its `arm` O1A, further points on it.
 
     A sliding driver has neither centre nor arm.  `velocity_lines` and `acceleration_lines` are those of its
-    points; `drawn`, `velocity`, `velocity_segment` and `acceleration_segment` the ids of the arm's drawn
-    length, of the pin's velocity and of the segments that stand for the pin's velocity and acceleration;
-    `round_velocity` and `round_acceleration` say that the scale of a plan was chosen from the series.
+    points, `scale_lines` what the velocity plan of a sliding driver begins with; `drawn`, `velocity`,
+    `velocity_segment` and `acceleration_segment` the ids of the arm's drawn length, of the pin's velocity and of
+    the segments that stand for the pin's velocity and acceleration; `round_velocity` and `round_acceleration` say
+    that the scale of a plan was chosen from the series.
     """
 
     def __init__(self, linkage: Linkage, ledger: Ledger) -> None:
@@ -55,6 +56,7 @@ class DriverView:
         self.velocity_lines, self.acceleration_lines = (
             [id for name in self.names if (id := f"{what}.{name}") in ledger] for what in "va"
         )
+        self.scale_lines = [self.velocity, "mu.v", self.velocity_segment]
 
 
 @dataclass(frozen=True, slots=True)

@@ -214,6 +214,11 @@ class Report:
         """What only the words of this kind of machine name."""
         return self.machine.facts
 
+    @cached_property
+    def sheet(self) -> Mapping[str, list[str]]:
+        """What the machine's sheet sets out together, by name: `lines(sheet.velocity, k)`."""
+        return {name: self.known(ids) for name, ids in self.ledger.lines.items()}
+
     @property
     def given_names(self) -> Mapping[str, str]:
         """What is given, in words, by id; a declared linkage names its own quantities."""
@@ -229,6 +234,14 @@ class Report:
     @property
     def mobility(self) -> Mobility:
         return mobility(self.machine.linkage)
+
+    @property
+    def lengths(self) -> list[str]:
+        """The true lengths that have a drawn one, in the machine's own order if it has one."""
+        if "lengths" in self.sheet:
+            return self.sheet["lengths"]
+        single = [id for id, family in self.ledger.families.items() if len(family.values) == 1]
+        return [id for id in single if id[:2] == "l." and f"drawn.{id[2:]}" in single]
 
     @property
     def pistons(self) -> tuple[Piston, ...]:
@@ -334,6 +347,11 @@ class Report:
     # --- forces
 
     @property
+    def gas_forces(self) -> list[str]:
+        """The forces of the gas on the pistons."""
+        return self.known(piston.name for piston in self.pistons)
+
+    @property
     def bodies(self) -> list[str]:
         """The links that have mass."""
         return [str(body.link) for body in self.machine.linkage.inertias]
@@ -392,6 +410,30 @@ class Report:
         return frozenset(edge.name for edge in self.driver_polygon.edges) if self.driver_polygon else frozenset()
 
     @property
+    def driver_joints(self) -> list[str]:
+        """The digits of what is read from the driver's force plan: a reaction, of a sliding one its balance too."""
+        return ["01", "cb"] if self.machine.span else ["01"]
+
+    @property
+    def driver_reactions(self) -> list[str]:
+        return [f"R.{digits}" for digits in self.driver_joints]
+
+    @property
+    def balance_ids(self) -> list[str]:
+        """The balancing torque or force."""
+        return ["M.eq"]
+
+    @property
+    def mean_lines(self) -> list[str]:
+        """The balance over the cycle: its mean, its ends, the power."""
+        return ["M.mean", "M.least", "M.greatest", "power"]
+
+    @property
+    def work_lines(self) -> list[str]:
+        """The work of the loads over the cycle, and the mean that gives it back."""
+        return ["W", "M.energy"]
+
+    @property
     def joined(self) -> list[GroupView]:
         """The groups that hang on the driver."""
         return [group for group in self.groups if group.carrier == 1]
@@ -433,6 +475,11 @@ class Report:
     def speed_limits(self) -> list[str]:
         uneven = ["unevenness"] if "unevenness" in self.computed else []
         return [*uneven, "omega.max", "omega.min"]
+
+    @property
+    def energy_bounds(self) -> list[str]:
+        """Where the tangents of Wittenbauer's diagram meet its axis."""
+        return ["A.upper", "A.lower"]
 
     # --- quantities and points by name
 

@@ -239,7 +239,7 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, wor
     main = {id: family for id, family in q.families.items() if not id.startswith(centres.PREFIX)}
     settled, listed = choose_decimals(main, (("M.eq", "M.vw"),) if "M.eq" in q else ())
     decimals, more = choose_decimals(q.families, fixed=settled)
-    return Ledger(q.families, decimals, machine.positions, listed + more, units or {}, polygons, regulated)
+    return Ledger(q.families, decimals, machine.positions, listed + more, units or {}, polygons, regulated, q.lines)
 
 
 def _masses(q: Sheet, analysis: Analysis) -> None:
