@@ -36,7 +36,8 @@ def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
 class DriverView:
     """The driver as templates name it: its centre O1 and pin A, its `arm` O1A, further points on it.
 
-    A sliding driver has neither centre nor arm.  `velocity_lines` and `acceleration_lines` are those of its
+    Of its `kind`, "crank" or "slide", a slide has neither centre nor arm; `rate` is the symbol of what is constant.
+    `velocity_lines` and `acceleration_lines` are those of its
     points, `scale_lines` what the velocity plan of a sliding driver begins with; `drawn`, `velocity`,
     `velocity_segment` and `acceleration_segment` the ids of the arm's drawn length, of the pin's velocity and of
     the segments that stand for the pin's velocity and acceleration; `round_velocity` and `round_acceleration` say
@@ -50,6 +51,8 @@ class DriverView:
         self.others = points_on(linkage, DRIVER)
         self.names = (self.pin, *(place.name for place in self.others))
         self.arm = f"{self.centre}{self.pin}" if self.centre else ""
+        self.kind = "crank" if self.centre else "slide"
+        self.rate = ledger.symbol("omega.1" if self.centre else f"v.{self.pin}")
         self.drawn, self.velocity = f"drawn.{self.arm}", f"v.{self.pin}"
         self.velocity_segment, self.acceleration_segment = (f"seg.{what}.p{image(self.pin)}" for what in "va")
         self.round_velocity, self.round_acceleration = (ledger[f"mu.{what}"].definition is None for what in "va")
@@ -331,10 +334,10 @@ class GroupView:
         """The components across links that moments give."""
         return self.ledger.known((f"R.{self.outer}.t", f"R.{self.guide}.t"))
 
-    def components(self, k: int) -> int:
-        """How many components are found by moments; none where all of them are zero."""
+    def components(self, k: int) -> list[str]:
+        """The components that are found by moments; none where all of them are zero."""
         found = self.tangential
-        return len(found) * any(self.ledger.number(id, k).value != 0 for id in found)
+        return found if any(self.ledger.number(id, k).value != 0 for id in found) else []
 
     @property
     def last_known(self) -> str:
@@ -383,3 +386,6 @@ class PlaneLink:
         self.distances, self.angles, self.projections = (
             [f"ic.{what}.{self.link}.{name}" for name in (self.base, self.point)] for what in ("seg", "angle", "along")
         )
+
+    def __str__(self) -> str:
+        return str(self.link)

@@ -50,6 +50,16 @@ def function(called: Function) -> Function:
     return called
 
 
+Member = TypeVar("Member", bound=Callable[["Report"], Any])
+MEMBERS: dict[str, Callable[[Report], Any]] = {}
+
+
+def member(of: Member) -> Member:
+    """Let templates name what a function makes of a report, as they name its properties."""
+    MEMBERS[of.__name__] = of
+    return of
+
+
 @dataclass(frozen=True)
 class Report:
     """A case with its prose; every property is a name in its templates."""
@@ -112,6 +122,7 @@ class Report:
         own = [name for name, member in vars(Report).items() if isinstance(member, kinds) and name[0] != "_"]
         return {
             **{name: getattr(self, name) for name in own if name != "dense_cycle"},
+            **{name: of(self) for name, of in MEMBERS.items()},
             **{name: partial(called, self) for name, called in FUNCTIONS.items()},
         }
 
@@ -125,6 +136,12 @@ class Report:
     @property
     def variant(self) -> str:
         return self.assignment.variant
+
+    @property
+    def variant_words(self) -> str:
+        """The variant in a sentence, with words for one that is not numbered."""
+        numbered, assigned = self.words["variant_words"]
+        return str(numbered).format(variant=self.variant) if self.variant else str(assigned)
 
     @property
     def turn_words(self) -> str:
@@ -246,6 +263,11 @@ class Report:
     @property
     def pistons(self) -> tuple[Piston, ...]:
         return self.machine.pistons
+
+    @property
+    def turn_sense(self) -> str:
+        """The key of the words for the sense of the driver's rotation."""
+        return "anticlockwise" if self.machine.turn > 0 else "clockwise"
 
     @property
     def starts_at_dead_centre(self) -> bool:
@@ -457,6 +479,11 @@ class Report:
         return [self.driver.pin, *(place.name for place in self.driver.others if place.name in hung)]
 
     @property
+    def shares_pins(self) -> bool:
+        """Whether several groups hang on one pin of the crank."""
+        return len(self.joined) > len(self.crank_pins)
+
+    @property
     def lever_couples(self) -> list[str]:
         """What torques, which have no arm, contribute to the balance by virtual work."""
         return self.known(f"M.{torque.name}.p" for torque in self.machine.torques)
@@ -470,6 +497,11 @@ class Report:
     def has_reduced_inertia(self) -> bool:
         """Whether moving links have mass, which the flywheel's calculation reduces to the crank."""
         return "J.r" in self.ledger
+
+    @property
+    def stores(self) -> str:
+        """What stores the excess work: the "links" with the flywheel, or the flywheel "alone"."""
+        return "links" if self.has_reduced_inertia else "alone"
 
     @property
     def speed_limits(self) -> list[str]:
