@@ -78,6 +78,10 @@ class CarriedPoint:
     swings: bool
 
     @property
+    def base(self) -> str:
+        return self.origin
+
+    @property
     def omega(self) -> str:
         return f"omega.{self.link}"
 
@@ -135,11 +139,33 @@ class GroupView:
         self.points = (*self.points_i, *self.points_j)
         self.polygon = next((one for one in polygons if one.name == self.name), None)
         self.fixed, self.on_driver = frozenset(plan.linkage.ground), frozenset(driver.names)
+        self.by_crank = driver.kind == "crank"
 
     def __str__(self) -> str:
         return self.name
 
     # --- plans of velocity and acceleration
+
+    @property
+    def form(self) -> str:
+        """Its kind as the words for its plans tell them apart: the guide of an RRP may be fixed or "RRP-moving"."""
+        return "RRP-moving" if self.kind == "RRP" and not self.two.still else self.kind
+
+    @property
+    def unknowns(self) -> tuple[str | Side, str | Side]:
+        """The velocities whose magnitudes the vector equation leaves unknown: points, relative velocities, sides."""
+        first, second = (self.M if side.still else side.relative for side in self.sides)
+        if self.kind == "RPR":
+            return self.one, second
+        if self.kind != "RRP":
+            return first, second
+        along = self.Q if self.two.still or self.one.still else self.two.relative
+        return along, self.two.relative if self.one.still else self.relative
+
+    @property
+    def normal_by_segments(self) -> bool:
+        """Whether the plans' scales, those of a crank, let the normal acceleration of an RRP be drawn from segments."""
+        return self.by_crank and not self.one.still
 
     @property
     def moving(self) -> tuple[Side, ...]:

@@ -18,6 +18,7 @@ from reportgen.document import (  # noqa: F401
     phrases,
     plans,
     result_tables,
+    steps,
 )
 from reportgen.document.numbering import number
 from reportgen.document.report import Report
