@@ -137,6 +137,7 @@ def _enter_lengths(q: GivenSheet, given: Parameters) -> tuple[Ref, Ref]:
     4R² = H² − q₁ and 4L² = H² + q₂ with q₁ = 2He tan(θ/2), q₂ = 2He/tan(θ/2).
     """
     e = q.datum("e", given.e) if given.e.si else None
+    q.set_out("synthesis")
     if given.R is not None and given.L is not None:
         R, L = q.datum("R", given.R), q.datum("L", given.L)
         q.define("H", 2 * R if e is None else sqrt((L + R) ** 2 - e**2) - sqrt((L - R) ** 2 - e**2))
@@ -203,6 +204,7 @@ def machine(assignment: Assignment) -> Machine:
         paths=("S2",),
         compared=compared((*OFFSET_PLANS, *CENTRE_PLANS)),
         equations=loop_equations(geometry.turn, offset is not None),
+        facts={"form": "inline" if offset is None else f"offset-{positions.direction}"},
         places=places,
         labels=labels,
     )

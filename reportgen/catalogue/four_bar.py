@@ -69,6 +69,7 @@ def proportions(q: Sheet) -> None:
     first, one, other, last = sorted(sides, key=q.si)
     ends = q.define("sum.ends", first + last, Symbol("l", "", "′"), "length")
     q.set_out("sums", ends, q.define("sum.others", one + other, Symbol("l", "", "″"), "length"))
+    q.set_out("swing")
     if not _rocks(q):
         return
     angle = partial(q.define, kind="angle", scale=1.0)
@@ -127,6 +128,7 @@ def analytic_method(q: Sheet, angle: Floats, points: Iterable[LinkPoint], turn: 
         q_k = q.define(f"q.{link}", top, Symbol("q", link), "acceleration", scale=1.0)
         ε = q.define(f"f.eps.{link}", signed(-turn, q_k / (length * sin(φ2 - φ3))), scale=1.0)
         q.set_out("acceleration", q_k, ε)
+    q.set_out("slopes")
     q.set_out("coupler_velocity")
     q.set_out("coupler_acceleration")
     for point in points:
@@ -165,7 +167,9 @@ def _coupler_point(q: Sheet, point: LinkPoint, turn: int) -> None:
     if point.local.imag:
         x, y = q[f"{name}.along"], q[f"{name}.across"]
         slope = atan(y / x) if point.local.real > 0 else atan2(y, x)
-        φ = φ + q.define(f"eta.{name}", slope if turn > 0 else -slope, Symbol("η", name), "angle", scale=1.0)
+        η = q.define(f"eta.{name}", slope if turn > 0 else -slope, Symbol("η", name), "angle", scale=1.0)
+        φ = φ + η
+        q.set_out("slopes", η)
     v, a = signed(turn, ω2), signed(turn, ε2)
     v_x, v_y = -(ω1 * AB * sin(φ1) + v * BP * sin(φ)), ω1 * AB * cos(φ1) + v * BP * cos(φ)
     q.set_out("coupler_velocity", *components(q, "v", name, v_x, v_y))
@@ -334,5 +338,9 @@ def machine(assignment: Assignment) -> Machine:
         paths=tuple(names),
         compared=compared(plans),
         equations=equations(turn),
-        facts={"left": turn * given.side > 0},
+        facts={
+            "form": "rocker" if _rocks(q) else "crank",
+            "side": "left" if turn * given.side > 0 else "right",
+            "coupler": "EF" if given.E and given.BF else "E" if given.E else "F" if given.BF else "plain",
+        },
     )

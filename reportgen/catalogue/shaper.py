@@ -146,4 +146,5 @@ def machine(assignment: Assignment) -> Machine:
         paths=("D",),
         compared=slotted.RAM_COMPARED,
         equations=slotted.ram_equations(positions.sign),
+        facts={"form": "parted" if "free" in q else "whole"},
     )

@@ -62,8 +62,9 @@ def machine(assignment: Assignment) -> Machine:
         q.datum("guide.angle", given.guide, "α", "angle")
     q.speed()
     q.drawn("A", "B", assignment.drawing.crank)
+    q.set_out("places")
     if has_centre:
-        q.define("l.BS2", q.give("s", MIDDLE if given.s is None else given.s.si) * l)
+        q.set_out("places", q.define("l.BS2", q.give("s", MIDDLE if given.s is None else given.s.si) * l))
     if isinstance(given.force, given_loads.ConstantForce):
         q.datum("P.given", given.force.F, "P", "force")
     q.gravity()
@@ -92,4 +93,5 @@ def machine(assignment: Assignment) -> Machine:
         paths=("S2",) if has_centre else (),
         compared=compared((*OFFSET_PLANS, *(CENTRE_PLANS if has_centre else ()))),
         equations=loop_equations(turn, offset is not None),
+        facts={"form": "inline" if e is None else "offset"},
     )

@@ -77,6 +77,7 @@ def machine(assignment: Assignment) -> Machine:
     if given.torque is not None:
         q.datum("M.given", given.torque.M, Symbol("M", "3"))
     q.set_out("lengths", r, d, l)
+    q.set_out("swing")
     q.set_out("loads", "M3")
 
     geometry = SlottedCrank(q.si(r), q.si(d), given.axis.si, positions.sign)
@@ -105,5 +106,6 @@ def machine(assignment: Assignment) -> Machine:
         torques=torque_on(given.torque, 3, linkage, positions, geometry.crank_angle(start)),
         paths=("D",),
         compared=slotted.LEVER_COMPARED,
+        facts={"form": "swings" if geometry.swings else "turns", "axis": "given" if "axis.CA" in q else "vertical"},
         equations=slotted.lever_equations(positions.sign, Symbol("l", "AB"), Symbol("l", "AC")),
     )

@@ -124,6 +124,6 @@ def machine(assignment: Assignment) -> Machine:
         applied=tuple(Applied("P5", 5, "C", 1j, TableLaw(way, press.table, turns=1)) for way in sliders if press),
         sliders=sliders,
         paths=("B",),
-        facts={"minus": minus},
+        facts={"form": "less" if minus else "plus"},
         compared=tuple((plan, f"f.{plan}") for plan in ("omega.2", "omega.3", "v.C", "eps.3", "a.C")),
     )

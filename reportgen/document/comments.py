@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.catalogue.loads import Applied, Opposing, Torque
 from reportgen.document.phrases import say
 from reportgen.document.report import Report, function, listed
 from reportgen.document.tree import InlineMath, Inlines, Text, Value
@@ -186,26 +185,16 @@ def at_rest(report: Report, rate: Peak) -> bool:
 # --- loads and forces
 
 
-def _loads(report: Report) -> tuple[Applied | Torque, ...]:
-    return (*report.machine.applied, *report.machine.torques)
-
-
 @function
 def load_ids(report: Report) -> list[str]:
     """The forces and torques applied to the machine, the gas on its pistons among them."""
-    return report.known(load.name for load in _loads(report))
+    return report.known(load.name for load in report.loads)
 
 
 @function
 def inertia_forces(report: Report) -> list[str]:
     """The inertia forces of all links."""
     return report.known(f"Pqt{link}" for link in report.bodies)
-
-
-@function
-def resists(report: Report, name: str) -> bool:
-    """Whether a load always opposes the motion of its link."""
-    return any(isinstance(load.law, Opposing) for load in _loads(report) if load.name == name)
 
 
 @function

@@ -10,10 +10,11 @@ from collections.abc import Iterator, Mapping, Sequence, Sized
 from string import Formatter
 from typing import Any
 
-from reportgen.document.equations import slider_ways
+from reportgen.catalogue.loads import Opposing
+from reportgen.document.equations import math, quantity, slider_ways, value
 from reportgen.document.prose import PointName
 from reportgen.document.report import Report, function, member
-from reportgen.document.tree import Inline, InlineMath, Inlines, Text, Value
+from reportgen.document.tree import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Expression, Number
 
@@ -22,11 +23,25 @@ from reportgen.notation.expressions import Expression, Number
 def say(report: Report, phrase: str, *about: Any, **gaps: Any) -> Inlines:
     """A phrase of `words.yaml` whose gaps are filled by name, or with members of what it is about."""
     said: list[Inline] = []
-    for text, name, _, _ in Formatter().parse(str(phrase)):
+    for text, name, how, _ in Formatter().parse(str(phrase)):
         said += [Text(text)] if text else []
-        if name:
-            said += inlines(gaps[name] if name in gaps else next(_members(about, name)))
+        said += _gap(report, name, how or "", about, gaps) if name else ()
     return tuple(said)
+
+
+def _gap(report: Report, name: str, how: str, about: Sequence[Any], gaps: Mapping[str, Any]) -> Inlines:
+    """What fills a gap: what is given for it, a member, a reference `@tab.dead`, else a quantity.
+
+    A quantity is named as between dollar signs in a template: `{e}` is its symbol, `{e:value}` its number and
+    `{e:quantity}` both.
+    """
+    for found in [gaps[name]] if name in gaps else _members(about, name):
+        return inlines(found)
+    if name.startswith("@"):
+        return (Reference(name[1:]),)
+    if how == "quantity":
+        return quantity(report, name)
+    return (value(report, name),) if how == "value" else (InlineMath(math(report, name)),)
 
 
 def _members(about: Sequence[Any], name: str) -> Iterator[Any]:
@@ -38,17 +53,17 @@ def _members(about: Sequence[Any], name: str) -> Iterator[Any]:
             yield getattr(one, name)
 
 
-def inlines(value: Any) -> Inlines:
+def inlines(of: Any) -> Inlines:
     """What fills a gap: points as symbols, numbers with their unit, formulas, inlines, else text."""
-    if isinstance(value, PointName):
-        return (InlineMath(vocabulary.point(value)),)
-    if isinstance(value, Number):
-        return (Value(value),)
-    if isinstance(value, Expression):
-        return (InlineMath(value),)
-    if isinstance(value, (str, int)):
-        return (Text(str(value)),)
-    return value if isinstance(value, tuple) else (value,)
+    if isinstance(of, PointName):
+        return (InlineMath(vocabulary.point(of)),)
+    if isinstance(of, Number):
+        return (Value(of),)
+    if isinstance(of, Expression):
+        return (InlineMath(of),)
+    if isinstance(of, (str, int)):
+        return (Text(str(of)),)
+    return of if isinstance(of, tuple) else (of,)
 
 
 @function
@@ -68,8 +83,8 @@ def counted(report: Report, name: str, things: Sized, **gaps: Any) -> Inlines:
 @function
 def sign(report: Report, id: str, position: int | None = None) -> str:
     """The key of the words for a quantity's sign as it is printed."""
-    value = report.ledger.number(id, position).value
-    return "zero" if value == 0 else "negative" if value < 0 else "positive"
+    number = report.ledger.number(id, position).value
+    return "zero" if number == 0 else "negative" if number < 0 else "positive"
 
 
 @function
@@ -122,6 +137,24 @@ def lever(report: Report) -> Mapping[str, Inlines]:
         return {}
     symbols = {name: report.ledger.symbol(id) for name, id in (("ω", "omega.1"), ("μ_v", "mu.v"), ("μ_l", "mu.l"))}
     return _set(report, "lever", "round" if report.driver.round_velocity else "crank", **symbols)
+
+
+@member
+def form(report: Report) -> Mapping[str, Inlines]:
+    """Words for the form of a machine that comes in several: a slider-crank in line or offset, …."""
+    return _set(report, "form", report.own["form"], report) if "form" in report.own else {}
+
+
+@member
+def coupler(report: Report) -> Mapping[str, Inlines]:
+    """Words for the points that a coupler carries."""
+    return _set(report, "coupler", report.own["coupler"], report) if "coupler" in report.own else {}
+
+
+@member
+def load_key(report: Report) -> str:
+    """The key of the words for the loads that the machine sets out, of those it may have: M3-P3."""
+    return "-".join(report.sheet.get("loads", ()))
 
 
 @member
@@ -178,3 +211,12 @@ def energy_key(report: Report) -> str:
     if report.has_gas or not report.driver.centre:
         return "gas" if report.has_gas else "stroke"
     return "idle" if report.is_zero("W", 1) else "turn"
+
+
+@function
+def load_sense(report: Report, name: str) -> Inlines:
+    """What is said of the sense of a load that is constant or always against the motion."""
+    words = report.words["load_senses"]
+    if any(load.name == name and isinstance(load.law, Opposing) for load in report.loads):
+        return say(report, words["opposing"])
+    return say(report, words[sign(report, name, 1)], sense=report.sense(report.ledger.number(name, 1).value))

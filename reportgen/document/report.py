@@ -17,7 +17,7 @@ from reportgen.analysis import FULL_TURN, Analysis, analyse
 from reportgen.assignment import Assignment
 from reportgen.case import Case
 from reportgen.catalogue.given_loads import ByOrdinates
-from reportgen.catalogue.loads import Piston
+from reportgen.catalogue.loads import Applied, Piston, Torque
 from reportgen.catalogue.machine import Machine, Position
 from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink
 from reportgen.document.prose import PointName, Prose
@@ -270,9 +270,24 @@ class Report:
         return "anticlockwise" if self.machine.turn > 0 else "clockwise"
 
     @property
-    def starts_at_dead_centre(self) -> bool:
-        """Whether the first position is a dead centre of the first slider."""
-        return bool(self.machine.sliders) and self.machine.sliders[0].phase == 0
+    def loads(self) -> tuple[Applied | Torque, ...]:
+        """The forces and torques applied to the machine."""
+        return (*self.machine.applied, *self.machine.torques)
+
+    @property
+    def tabled_forces(self) -> tuple[Applied, ...]:
+        """The working forces that are given by a table."""
+        return () if "P.given" in self.ledger else self.machine.applied
+
+    @property
+    def begins_at(self) -> str:
+        """Where the first position is: at the "dead_centre" of the first slider, or wherever it is "given"."""
+        return "dead_centre" if self.machine.sliders and self.machine.sliders[0].phase == 0 else "given"
+
+    @property
+    def has_chosen_scale(self) -> bool:
+        """Whether the length scale is chosen, rather than a drawn length."""
+        return "scale" in self.ledger
 
     @property
     def speed_in_rpm(self) -> bool:
@@ -303,9 +318,9 @@ class Report:
         return any(one.at(k) != 0 for one in reactions for k in range(1, self.cycle_count + 1))
 
     @property
-    def has_ordinates(self) -> bool:
-        """Whether the indicator diagram is given by measured heights."""
-        return isinstance(self.assignment.indicator, ByOrdinates)
+    def diagram_words(self) -> str:
+        """The key of the words for the indicator diagram, which may be given by measured heights."""
+        return "ordinates" if isinstance(self.assignment.indicator, ByOrdinates) else "indicator"
 
     @property
     def synthesised(self) -> bool:
