@@ -29,6 +29,11 @@ class GroupRow:
     offset: Number | None = None
     across: Number | None = None
 
+    @property
+    def drawing(self) -> str:
+        """Which words say how it is drawn."""
+        return "RPR-offset" if self.offset else self.kind
+
 
 @dataclass(frozen=True, slots=True)
 class GuideRow:
@@ -112,7 +117,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
         "guides": tuple(_guides(given)),
         "points": tuple(PointRow(name, one.link, *map(number, one.at)) for name, one in given.points.items()),
         "motions": tuple(_motions(given)),
-        "bodies": bool(given.masses),
+        "listed": "given" if given.masses else "massless",
         "loads": shown,
         "interpolated": tuple(load for load in shown if load.nodes),
         "gases": tuple(load for load in shown if load.by == "gas"),

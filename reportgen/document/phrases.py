@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence, Sized
 from string import Formatter
 from typing import Any
 
+from reportgen.catalogue.linkage_words import GroupRow
 from reportgen.catalogue.loads import Opposing
 from reportgen.document.equations import math, quantity, slider_ways, value
 from reportgen.document.prose import PointName
@@ -220,3 +221,14 @@ def load_sense(report: Report, name: str) -> Inlines:
     if any(load.name == name and isinstance(load.law, Opposing) for load in report.loads):
         return say(report, words["opposing"])
     return say(report, words[sign(report, name, 1)], sense=report.sense(report.ledger.number(name, 1).value))
+
+
+@function
+def drawn_group(report: Report, row: GroupRow) -> Inlines:
+    """How a group of a declared linkage is drawn: its rods, its outer joints, the inner one."""
+    drawn = [value(report, f"drawn.{rod}") for rod, _ in row.lengths]
+    rods = dict(zip(("first", "second"), drawn, strict=False))
+    first, *others = map(PointName, row.joints)
+    joints = {"start": first} | dict(zip(("inner", "end"), others, strict=False))
+    words = report.words["linkage"]["drawing"][row.drawing]
+    return say(report, words, row, last=row.links[1], **rods, **joints)
