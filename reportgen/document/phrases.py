@@ -161,13 +161,8 @@ def load_key(report: Report) -> str:
 @member
 def driver_loads(report: Report) -> Inlines:
     """The driver's own inertia force and weight with their symbols, each followed by a comma."""
-    words = report.words["driver_loads"]
-    return tuple(
-        part
-        for id, phrase in words.items()
-        if id in report.on_crank
-        for part in say(report, phrase, force=report.ledger.symbol(id))
-    )
+    words, found = report.words["driver_loads"], [id for id in ("Pqt1", "G1") if id in report.on_crank]
+    return tuple(part for id in found for part in say(report, words[id], force=report.ledger.symbol(id)))
 
 
 @member
@@ -201,7 +196,9 @@ def balance_sign(report: Report, position: int) -> Inlines:
 def slide_reactions(report: Report) -> Inlines:
     """Where the reactions of slides act, if there are any."""
     key = "none" if not report.has_slides else "displaced" if report.displaced_reactions else "at_pin"
-    return say(report, report.words["slide_reactions"][key], report.words["names"])
+    names = report.words["names"]
+    parts = {"guide": names["guide"], "wall": names["wall"], "pin": names["pin"]}
+    return say(report, report.words["slide_reactions"][key], **parts)
 
 
 @member
