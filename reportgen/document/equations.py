@@ -72,17 +72,6 @@ FUNCTIONS["first_turn"] = Report.first_turn
 
 
 @function
-def negative(report: Report, id: str, position: int | None = None) -> bool:
-    return bool(report.ledger.number(id, position).value < 0)
-
-
-@function
-def direction(report: Report, id: str, position: int | None = None) -> str:
-    """The sense of a rotation in words; a dash where there is none."""
-    return report.sense(report.ledger.number(id, position).value)
-
-
-@function
 def point(report: Report, name: str) -> Symbol:
     """The symbol of a point, e.g. S with a lowered 2."""
     return vocabulary.point(name)

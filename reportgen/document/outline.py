@@ -10,6 +10,7 @@ from reportgen.case import Case
 # Importing a module registers its figures, tables and functions.
 from reportgen.document import (  # noqa: F401
     centres,
+    chapters,
     curves,
     equations,
     figures,

@@ -16,12 +16,11 @@ import numpy as np
 from reportgen.analysis import FULL_TURN, Analysis, analyse
 from reportgen.assignment import Assignment
 from reportgen.case import Case
-from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.catalogue.loads import Applied, Piston, Torque
 from reportgen.catalogue.machine import Machine, Position
 from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink
 from reportgen.document.prose import PointName, Prose
-from reportgen.document.tree import Block, Inlines, Paragraph, Text
+from reportgen.document.tree import Inlines, Text
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.polygon import Polygon
@@ -29,14 +28,12 @@ from reportgen.ledger.kinematics.centres import links_in_plane_motion
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import GROUND, Mobility, mobility
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Number, Symbol, walk
+from reportgen.notation.expressions import Symbol
 
 PLATES_UP_TO = 24
 """Above this many positions, plates are drawn for worked positions only."""
 DENSE = 361
 """Samples of a turn from which curves are drawn."""
-UNIFORM = Number(12.0)
-"""What m l² of a uniform rod is divided by."""
 SAME = 1e-9
 """Cycle angles nearer than this are one."""
 
@@ -138,12 +135,6 @@ class Report:
         return self.assignment.variant
 
     @property
-    def variant_words(self) -> str:
-        """The variant in a sentence, with words for one that is not numbered."""
-        numbered, assigned = self.words["variant_words"]
-        return str(numbered).format(variant=self.variant) if self.variant else str(assigned)
-
-    @property
     def turn_words(self) -> str:
         """The sense of the driver's rotation."""
         return self.sense(self.machine.turn)
@@ -167,12 +158,6 @@ class Report:
             year=day.year,
             month_name=months[day.month - 1] if months else day.month,
         )
-
-    @property
-    def signature(self) -> tuple[Block, ...]:
-        """Place, date and name under the foreword; without a name the label stands over a line to sign."""
-        student = f"{self.words['cover']['student']}: {self.assignment.report.student.name or '…' * 20}"
-        return tuple(Paragraph((Text(line),), "right") for line in (self.place_and_date, student))
 
     # --- positions
 
@@ -275,21 +260,6 @@ class Report:
         return (*self.machine.applied, *self.machine.torques)
 
     @property
-    def tabled_forces(self) -> tuple[Applied, ...]:
-        """The working forces that are given by a table."""
-        return () if "P.given" in self.ledger else self.machine.applied
-
-    @property
-    def begins_at(self) -> str:
-        """Where the first position is: at the "dead_centre" of the first slider, or wherever it is "given"."""
-        return "dead_centre" if self.machine.sliders and self.machine.sliders[0].phase == 0 else "given"
-
-    @property
-    def has_chosen_scale(self) -> bool:
-        """Whether the length scale is chosen, rather than a drawn length."""
-        return "scale" in self.ledger
-
-    @property
     def speed_in_rpm(self) -> bool:
         """Whether the driver's angular velocity follows from its speed in revolutions a minute."""
         return "omega.1" in self.computed
@@ -316,11 +286,6 @@ class Report:
         edges = self.driver_polygon.edges if self.driver_polygon else ()
         reactions = (self.ledger[f"R.{edge.name[1:]}"] for edge in edges if edge.is_reaction and not edge.unknown)
         return any(one.at(k) != 0 for one in reactions for k in range(1, self.cycle_count + 1))
-
-    @property
-    def diagram_words(self) -> str:
-        """The key of the words for the indicator diagram, which may be given by measured heights."""
-        return "ordinates" if isinstance(self.assignment.indicator, ByOrdinates) else "indicator"
 
     @property
     def synthesised(self) -> bool:
@@ -384,11 +349,6 @@ class Report:
     # --- forces
 
     @property
-    def gas_forces(self) -> list[str]:
-        """The forces of the gas on the pistons."""
-        return self.known(piston.name for piston in self.pistons)
-
-    @property
     def bodies(self) -> list[str]:
         """The links that have mass."""
         return [str(body.link) for body in self.machine.linkage.inertias]
@@ -396,18 +356,6 @@ class Report:
     @property
     def mass_lines(self) -> list[str]:
         return self.known(f"{what}.{link}" for what in "mJ" for link in self.bodies)
-
-    @property
-    def without_mass(self) -> list[str]:
-        """The links whose mass is not given."""
-        links = sorted({1, *(link for group in self.groups for link in (group.i, group.j))})
-        return [str(link) for link in links if f"m.{link}" not in self.mass_lines]
-
-    @property
-    def uniform_rods(self) -> list[str]:
-        """The links whose moment of inertia is that of a uniform rod, J = m l²/12, for want of a given one."""
-        moments = {link: self.ledger[id].definition for link in self.bodies if (id := f"J.{link}") in self.ledger}
-        return [link for link, formula in moments.items() if formula is not None and UNIFORM in walk(formula)]
 
     @property
     def inertia_lines(self) -> list[str]:
@@ -447,28 +395,9 @@ class Report:
         return frozenset(edge.name for edge in self.driver_polygon.edges) if self.driver_polygon else frozenset()
 
     @property
-    def driver_joints(self) -> list[str]:
-        """The digits of what is read from the driver's force plan: a reaction, of a sliding one its balance too."""
-        return ["01", "cb"] if self.machine.span else ["01"]
-
-    @property
-    def driver_reactions(self) -> list[str]:
-        return [f"R.{digits}" for digits in self.driver_joints]
-
-    @property
     def balance_ids(self) -> list[str]:
         """The balancing torque or force."""
         return ["M.eq"]
-
-    @property
-    def mean_lines(self) -> list[str]:
-        """The balance over the cycle: its mean, its ends, the power."""
-        return ["M.mean", "M.least", "M.greatest", "power"]
-
-    @property
-    def work_lines(self) -> list[str]:
-        """The work of the loads over the cycle, and the mean that gives it back."""
-        return ["W", "M.energy"]
 
     @property
     def joined(self) -> list[GroupView]:
@@ -484,49 +413,15 @@ class Report:
         return self.arms_about(self.driver.centre)
 
     @property
-    def crank_lines(self) -> list[str]:
-        return [*self.crank_arms, "M.eq"]
-
-    @property
     def crank_pins(self) -> list[str]:
         """The crank's pin, and further points of the crank that a group hangs on."""
         hung = {pin for group in self.groups for pin in (group.P, group.T)}
         return [self.driver.pin, *(place.name for place in self.driver.others if place.name in hung)]
 
     @property
-    def shares_pins(self) -> bool:
-        """Whether several groups hang on one pin of the crank."""
-        return len(self.joined) > len(self.crank_pins)
-
-    @property
-    def lever_couples(self) -> list[str]:
-        """What torques, which have no arm, contribute to the balance by virtual work."""
-        return self.known(f"M.{torque.name}.p" for torque in self.machine.torques)
-
-    @property
-    def inertia_parts(self) -> list[str]:
-        """The shares of the links in the reduced moment of inertia, and their sum."""
-        return self.known([*(f"J.r.{link}" for link in self.machine.linkage.links), "J.r"])
-
-    @property
     def has_reduced_inertia(self) -> bool:
         """Whether moving links have mass, which the flywheel's calculation reduces to the crank."""
         return "J.r" in self.ledger
-
-    @property
-    def stores(self) -> str:
-        """What stores the excess work: the "links" with the flywheel, or the flywheel "alone"."""
-        return "links" if self.has_reduced_inertia else "alone"
-
-    @property
-    def speed_limits(self) -> list[str]:
-        uneven = ["unevenness"] if "unevenness" in self.computed else []
-        return [*uneven, "omega.max", "omega.min"]
-
-    @property
-    def energy_bounds(self) -> list[str]:
-        """Where the tangents of Wittenbauer's diagram meet its axis."""
-        return ["A.upper", "A.lower"]
 
     # --- quantities and points by name
 

@@ -20,3 +20,11 @@ def test_no_template_lists_ids(name: str) -> None:
     """Which lines belong together is said where they are written, by `Sheet.set_out`."""
     lists = [each for kind in (nodes.List, nodes.Tuple) for each in parsed(name).find_all(kind)]
     assert [each for each in lists if any(isinstance(item, nodes.Const) for item in each.items)] == []
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_condition_is_a_name(name: str) -> None:
+    """What is compared or counted has a name of its own in the report, or its words stand under a key."""
+    conditions = [each.test for kind in (nodes.If, nodes.CondExpr) for each in parsed(name).find_all(kind)]
+    reckoning = (nodes.Compare, nodes.And, nodes.Or, nodes.Filter, nodes.Test)
+    assert [each for each in conditions if isinstance(each, reckoning) or any(each.find_all(reckoning))] == []
