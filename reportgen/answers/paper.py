@@ -121,7 +121,7 @@ def task(case: Case, key: Key) -> Document:
     asked = asked_positions(key)
     (title, *given) = prose.render("given.md", names)
     names |= {
-        "sheet": tuple(answer_tables(key)),
+        "answer_tables": tuple(answer_tables(key)),
         "asked": tuple(map(key.label, asked)),
         "known_tables": tuple(_known_tables(key, every if machine.count <= PLATES_UP_TO else asked)),
     }

@@ -206,11 +206,12 @@ class GivenSheet(Sheet):
 
         The centre of a link without mass is entered only if its place is given, or `always`.
         """
+        self.set_out("places")
         if not (always or any(self.typed(letter, link) for letter in "sGmJ")):
             return
         length, share = self[f"l.{start}{end}"], self.typed("s", link)
         s = self.give(f"s.{link}", MIDDLE if share is None else share.si, kind="ratio")
-        self.define(f"l.{start}S{link}", s * length)
+        self.set_out("places", self.define(f"l.{start}S{link}", s * length))
         self.mass(link)
         m = self.find(f"m.{link}")
         self.moment(link, None if m is None else m * length**2 / 12)

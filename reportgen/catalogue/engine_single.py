@@ -137,6 +137,7 @@ def _enter_lengths(q: GivenSheet, given: Parameters) -> tuple[Ref, Ref]:
     4R² = H² − q₁ and 4L² = H² + q₂ with q₁ = 2He tan(θ/2), q₂ = 2He/tan(θ/2).
     """
     e = q.datum("e", given.e) if given.e.si else None
+    q.set_out("synthesis")
     if given.R is not None and given.L is not None:
         R, L = q.datum("R", given.R), q.datum("L", given.L)
         q.define("H", 2 * R if e is None else sqrt((L + R) ** 2 - e**2) - sqrt((L - R) ** 2 - e**2))
@@ -148,7 +149,9 @@ def _enter_lengths(q: GivenSheet, given: Parameters) -> tuple[Ref, Ref]:
     θ = q.define("theta", Number(180.0, unit="°") * (K - 1) / (K + 1))
     q1 = q.define("q.1", 2 * H * e * tan(θ / 2), Symbol("q", "1"), "product of lengths")
     q2 = q.define("q.2", 2 * H * e / tan(θ / 2), Symbol("q", "2"), "product of lengths")
-    return q.define("R", sqrt(H**2 - q1) / 2), q.define("L", sqrt(H**2 + q2) / 2)
+    R, L = q.define("R", sqrt(H**2 - q1) / 2), q.define("L", sqrt(H**2 + q2) / 2)
+    q.set_out("synthesis", q1, q2, R, L)
+    return R, L
 
 
 def _geometry(given: Parameters, positions: Positions) -> OffsetSlider:
@@ -201,6 +204,7 @@ def machine(assignment: Assignment) -> Machine:
         paths=("S2",),
         compared=compared((*OFFSET_PLANS, *CENTRE_PLANS)),
         equations=loop_equations(geometry.turn, offset is not None),
+        facts={"form": "inline" if offset is None else f"offset-{positions.direction}"},
         places=places,
         labels=labels,
     )

@@ -110,6 +110,7 @@ def machine(assignment: Assignment) -> Machine:
     L = q.define("L", R / λ)
     for id, length in {"O1A": R, "O1C": R, "AB": L, "CD": L, "AS2": s * L, "CS4": s * L}.items():
         q.define(f"l.{id}", length)
+    q.set_out("synthesis", R, *q.worked(λ), L, q["l.AS2"], q["l.CS4"])
     q.drawn("O1", "A", assignment.drawing.crank, CRANK_DRAWN)
     q.define("F", PI * D**2 / 4)
     for link in (2, 3, 4, 5):

@@ -115,7 +115,8 @@ def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> Give
     q.datum("beta", given.beta, "β", "angle")
     q.speed()
     q.drawn("A", "B", crank)
-    q.define("lambda", q.define("R", q["l.AB"]) / q.define("L", q["l.BC"]))
+    R, L = q.define("R", q["l.AB"]), q.define("L", q["l.BC"])
+    q.set_out("proportions", R, L, q.define("lambda", R / L))
     q.give("delta", turn * (given.beta.si - given.alpha.si), "δ", "angle")
     for force, pin in ((given.PC, "C"), (given.PE, "E")):
         if force is not None:
@@ -181,6 +182,7 @@ def machine(assignment: Assignment) -> Machine:
         sliders=courses,
         positive={"C": -cmath.exp(1j * given.alpha.si), "E": -cmath.exp(1j * given.beta.si)},
         paths=("D",) if on_rod else (),
+        facts={"joint": given.joint, "form": "articulated" if on_rod else "common"},
         compared=compared(plans),
         places=places,
         labels=labels,

@@ -115,9 +115,12 @@ def machine(assignment: Assignment) -> Machine:
     declared = _loads(given, linkage, _motion_at(built))
     loads = tuple(load for load in declared if load.law.acts)
     drawn = assignment.drawing.crank
+    q = _sheet(given, linkage, built, drawn.si if drawn else None)
+    q.set_out("lengths", *(f"l.{arm}" for arm in linkage_words.arms(given)))
+    q.set_out("loads", *(load.name for load in loads))
     return replace(
         built,
-        sheet=_sheet(given, linkage, built, drawn.si if drawn else None),
+        sheet=q,
         applied=tuple(load for load in loads if isinstance(load, Applied)),
         torques=tuple(load for load in loads if isinstance(load, Torque)),
         outline=outline(bool(linkage.inertias), bool(loads), given.flywheel, driver="crank" if crank else "slide"),

@@ -29,6 +29,11 @@ class GroupRow:
     offset: Number | None = None
     across: Number | None = None
 
+    @property
+    def drawing(self) -> str:
+        """Which words say how it is drawn."""
+        return "RPR-offset" if self.offset else self.kind
+
 
 @dataclass(frozen=True, slots=True)
 class GuideRow:
@@ -68,6 +73,24 @@ class LoadRow:
     bore: Number | None = None
     intake: str = ""
 
+    @property
+    def phrase(self) -> str:
+        """Which words tell of it: by what it is and what it follows, or whether it is against the motion."""
+        acting = "torque" if self.torque else "force"
+        match self.by:
+            case "constant":
+                return f"{acting}-against" if self.against else acting
+            case "gas":
+                return f"gas-{self.intake}".replace(" ", "-")
+            case "stroke":
+                return "stroke"
+        return f"{acting}-{self.by}"
+
+    @property
+    def table(self) -> str:
+        """The key of the table of its values."""
+        return f"tab.gas.law.{self.id}" if self.by == "gas" else f"tab.law.{self.id}"
+
 
 @dataclass(frozen=True, slots=True)
 class MotionRow:
@@ -86,11 +109,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
     Only those that are `acting` are told of.
     """
     rows = tuple(map(_group, given.groups))
-    crank = given.driver
-    arms = [f"{crank.centre}{crank.pin}"] if isinstance(crank, file.CrankDriver) else []
-    arms += [rod for row in rows for rod, _ in row.lengths]
-    origins = _origins(given)
-    arms += [f"{origins[point.link]}{name}" for name, point in given.points.items()]
+    shown = tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting)
     return {
         "frame": [(vocabulary.point(name), *map(number, at)) for name, at in given.frame.items()],
         "quantities": tuple(_quantities(given, rows)),
@@ -98,11 +117,21 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
         "guides": tuple(_guides(given)),
         "points": tuple(PointRow(name, one.link, *map(number, one.at)) for name, one in given.points.items()),
         "motions": tuple(_motions(given)),
-        "arms": arms,
-        "bodies": bool(given.masses),
-        "loads": tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting),
-        "load_ids": tuple(name for name in loads if name in acting),
+        "listed": "given" if given.masses else "massless",
+        "loads": shown,
+        "interpolated": tuple(load for load in shown if load.nodes),
+        "gases": tuple(load for load in shown if load.by == "gas"),
     }
+
+
+def arms(given: file.Parameters) -> Iterator[str]:
+    """The lengths that do not change, by their ends: crank, rods, points of the links."""
+    if isinstance(given.driver, file.CrankDriver):
+        yield f"{given.driver.centre}{given.driver.pin}"
+    for group in given.groups:
+        yield from (rod for rod, _ in _group(group).lengths)
+    origins = _origins(given)
+    yield from (f"{origins[point.link]}{name}" for name, point in given.points.items())
 
 
 def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[tuple[str, str, str]]:

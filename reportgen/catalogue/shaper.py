@@ -58,10 +58,12 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     q = GivenSheet(given)
     a, b = q.datum("a", given.a, "a", "length"), q.datum("b", given.b, "b", "length")
     l3 = q.datum("l.CD", given.l3, Symbol("l", "3"))
-    q.datum("l.DE", given.l4, Symbol("l", "4"))
+    l4 = q.datum("l.DE", given.l4, Symbol("l", "4"))
     H = q.datum("H", given.H)
     q.speed()
     l1 = q.define("l.AB", a * H / (2 * l3), Symbol("l", "1"))
+    q.set_out("synthesis", "theta", l1)
+    q.set_out("lengths", l1, l3, l4)
     if given.cutting is not None:
         q.datum("P.given", given.cutting.F, "P", "force")
         if given.cutting.free.si:
@@ -72,8 +74,10 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     for link, rod in RODS.items():
         l, m, share, moment = q[f"l.{rod}"], f"m.{link}", getattr(given, f"s{link}"), q.typed("J", link)  # noqa: E741
         if m in q or moment:
-            q.define(f"l.{rod[0]}S{link}", q.give(f"s.{link}", share.si, kind="ratio") * l)
+            centre = q.define(f"l.{rod[0]}S{link}", q.give(f"s.{link}", share.si, kind="ratio") * l)
+            q.set_out("lengths", centre)
             q.moment(link, q[m] * l**2 / 12 if m in q else None)
+    q.set_out("loads", "f.x.E", "P5")
     if crank is not None:
         q.drawn("A", "B", crank)
     else:  # by the finest round scale at which all stays on the page
@@ -142,4 +146,5 @@ def machine(assignment: Assignment) -> Machine:
         paths=("D",),
         compared=slotted.RAM_COMPARED,
         equations=slotted.ram_equations(positions.sign),
+        facts={"form": "parted" if "free" in q else "whole"},
     )

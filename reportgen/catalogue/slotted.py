@@ -170,12 +170,14 @@ def lever_end(q: Sheet, turn: int, angle: Floats) -> None:
     line = natural_lines(q, "l.AB")
     r, d, l, ω1, φ = q["l.AB"], q["l.AC"], q["l.CD"], q["omega.1"], q["phi.A"]  # noqa: E741
     ω3, S = q["f.omega.3"], q["f.S"]
-    line("f.v.D", ω3 * l)
-    line("f.a.k", 2 * ω3 * q["f.v.r"], Symbol("a", "k"))
-    line("f.a.r", ω3**2 * S - ω1**2 * (r * (r + d * sin(φ))) / S, Symbol("a", "r"))
+    v_D = line("f.v.D", ω3 * l)
+    a_k = line("f.a.k", 2 * ω3 * q["f.v.r"], Symbol("a", "k"))
+    a_r = line("f.a.r", ω3**2 * S - ω1**2 * (r * (r + d * sin(φ))) / S, Symbol("a", "r"))
     normal = line("f.a.D.n", ω3**2 * l)
     tangential = line("f.a.D.t", q["f.eps.3"] * l)
-    line("f.a.D", sqrt(normal**2 + tangential**2))
+    a_D = line("f.a.D", sqrt(normal**2 + tangential**2))
+    q.set_out("velocity", S, ω3, q["f.v.r"], v_D)
+    q.set_out("acceleration", q["f.eps.3"], a_k, a_r, normal, tangential, a_D)
 
 
 def ram_formulas(q: Sheet, turn: int, angle: Floats) -> None:
@@ -189,30 +191,34 @@ def ram_formulas(q: Sheet, turn: int, angle: Floats) -> None:
     l1, l3, l4, φ1, ω3, ε3 = (q[id] for id in ("l.AB", "l.CD", "l.DE", "phi.A", "f.omega.3", "f.eps.3"))
     φ3 = q.define("phi.3", acos(l1 * cos(φ1) / q["f.S"]))
     φ4 = q.define("phi.4", STRAIGHT - asin((q["b"] - l3 * sin(φ3)) / l4))
-    line("f.x.E", l3 * cos(φ3) + l4 * cos(φ4))
+    x = line("f.x.E", l3 * cos(φ3) + l4 * cos(φ4))
     ω4 = line("f.omega.4", -ω3 * l3 * cos(φ3) / (l4 * cos(φ4)))
-    line("f.v.E", signed(-turn, ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))
+    v = line("f.v.E", signed(-turn, ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))
     square3 = l3 * (ω3**2 * sin(φ3) + signed(-turn, ε3 * cos(φ3)))
     ε4 = line("f.eps.4", signed(turn, square3 / (l4 * cos(φ4)) + ω4**2 * tan(φ4)))
     a_D = line("f.a.Dx", -l3 * (signed(turn, ε3 * sin(φ3)) + ω3**2 * cos(φ3)))
-    line("f.a.E", a_D - l4 * (signed(turn, ε4 * sin(φ4)) + ω4**2 * cos(φ4)))
+    a = line("f.a.E", a_D - l4 * (signed(turn, ε4 * sin(φ4)) + ω4**2 * cos(φ4)))
+    q.set_out("velocity", q["f.S"], φ3, φ4, x, ω3, q["f.v.r"], ω4, v)
+    q.set_out("acceleration", ε3, ε4, a_D, a)
+    q.set_out("course", φ1, x, v, a, ω3, ε3, ω4, ε4)
 
 
 def swing(q: Sheet, sine: Expression) -> None:
     """The lever's greatest angle θ from CA by its sine, and the ratio K = (180° + 2θ)/(180° − 2θ) of the
     crank's turns for the lever's two ways."""
     θ = q.define("theta", asin(sine))
-    q.define("K", (STRAIGHT + 2 * θ) / (STRAIGHT - 2 * θ))
+    q.set_out("swing", θ, q.define("K", (STRAIGHT + 2 * θ) / (STRAIGHT - 2 * θ)))
 
 
 def strokes(q: Sheet, H: Ref) -> None:
     """The times of a turn and of the ram's two strokes, and its mean speeds over the stroke H."""
     K = q["K"]
-    T = q.define("t.turn", 2 * PI / q["omega.1"], "T", "time")
+    ω1 = q["omega.1"]
+    T = q.define("t.turn", 2 * PI / ω1, "T", "time")
     work = q.define("t.work", T * K / (1 + K), Symbol("t", "1"), "time")
     back = q.define("t.back", T - work, Symbol("t", "2"), "time")
-    q.define("v.work", H / work, Symbol("v", "m1"))
-    q.define("v.back", H / back, Symbol("v", "m2"))
+    there, home = q.define("v.work", H / work, Symbol("v", "m1")), q.define("v.back", H / back, Symbol("v", "m2"))
+    q.set_out("strokes", *q.worked(ω1), T, work, back, there, home)
 
 
 LEVER_COMPARED = (

@@ -5,12 +5,12 @@ Everything is read from the numbers as they are printed, so that a sentence and 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.catalogue.loads import Applied, Opposing, Torque
+from reportgen.document.phrases import say
 from reportgen.document.report import Report, function, listed
 from reportgen.document.tree import InlineMath, Inlines, Text, Value
 from reportgen.mechanism.structure import DRIVER, GROUND
@@ -25,8 +25,9 @@ STILL = 1e-9
 class Peak:
     """Quantities that go alike over positions: their greatest size and where that is, where they are zero.
 
-    `at` and `zero` are the labels of positions, "" for none; `many` and `zeros` count them.  `level` says that the
-    size is the same everywhere, `turns` that the sign changes at every position where the quantity is zero.
+    `at` and `zero` are the labels of positions, "" for none; `many` and `zeros` count them, `where` and `zero_where`
+    have the words for them.  `level` says that the size is the same everywhere, `turns` that the sign changes at every
+    position where the quantity is zero.
     """
 
     ids: tuple[str, ...]
@@ -39,6 +40,13 @@ class Peak:
     level: bool
     turns: bool
     places: tuple[int, ...]
+    where: str
+    zero_where: str
+
+    @property
+    def place(self) -> str:
+        """Where it is greatest, with a space before the words; "" where it is the same everywhere."""
+        return "" if self.level else f" {self.where}"
 
 
 def shown(report: Report, id: str, positions: Iterable[int]) -> np.ndarray:
@@ -61,6 +69,12 @@ def labels(report: Report, positions: Sequence[int]) -> str:
     return f"{', '.join(others)} {report.words['and']} {last}" if others else last
 
 
+def where(report: Report, positions: Sequence[int]) -> str:
+    """Positions with the words for one of them or for several: at positions 2, 4 and 6–8."""
+    one, many = report.words["at"]
+    return str(one if len(positions) == 1 else many).format(labels(report, positions))
+
+
 def peak(report: Report, id: str, positions: Sequence[int]) -> Peak | None:
     """How a quantity goes over positions; None where it is nothing at all of them."""
     values = shown(report, id, positions)
@@ -70,6 +84,7 @@ def peak(report: Report, id: str, positions: Sequence[int]) -> Peak | None:
     top = np.nanmax(sizes)
     greatest = [k for k, size in zip(positions, sizes, strict=True) if size == top]
     nothing = [index for index, size in enumerate(sizes) if size == 0]
+    zeros = [positions[index] for index in nothing]
     around = [(values[index - 1], values[(index + 1) % len(values)]) for index in nothing]
     return Peak(
         (id,),
@@ -77,11 +92,13 @@ def peak(report: Report, id: str, positions: Sequence[int]) -> Peak | None:
         Value(report.ledger.number(id, greatest[0], size=True)),
         labels(report, greatest),
         len(greatest),
-        labels(report, [positions[index] for index in nothing]),
-        len(nothing),
+        labels(report, zeros),
+        len(zeros),
         len(greatest) == len(positions),
         all(before * after < 0 for before, after in around),
         tuple(greatest),
+        where(report, greatest),
+        where(report, zeros),
     )
 
 
@@ -148,7 +165,6 @@ def turning_rates(report: Report, what: str) -> list[str]:
     return list(seen.values())
 
 
-@function
 def reverses(report: Report, rate: Peak) -> bool:
     """Whether a slider runs the other way after each position at which its velocity is zero."""
     return all(_reverses(report, slider.link) for slider in sliders(report) if f"v.{slider.pin}" in rate.ids)
@@ -160,7 +176,6 @@ def _reverses(report: Report, link: int) -> bool:
     return all(along[k - 1] * along[(k + 1) % len(along)] < 0 for k in np.flatnonzero(still))
 
 
-@function
 def at_rest(report: Report, rate: Peak) -> bool:
     """Whether the point whose acceleration this is stands still wherever the acceleration is greatest."""
     velocities = [f"v.{id.removeprefix('a.')}" for id in rate.ids]
@@ -170,26 +185,16 @@ def at_rest(report: Report, rate: Peak) -> bool:
 # --- loads and forces
 
 
-def _loads(report: Report) -> tuple[Applied | Torque, ...]:
-    return (*report.machine.applied, *report.machine.torques)
-
-
 @function
 def load_ids(report: Report) -> list[str]:
     """The forces and torques applied to the machine, the gas on its pistons among them."""
-    return report.known(load.name for load in _loads(report))
+    return report.known(load.name for load in report.loads)
 
 
 @function
 def inertia_forces(report: Report) -> list[str]:
     """The inertia forces of all links."""
     return report.known(f"Pqt{link}" for link in report.bodies)
-
-
-@function
-def resists(report: Report, name: str) -> bool:
-    """Whether a load always opposes the motion of its link."""
-    return any(isinstance(load.law, Opposing) for load in _loads(report) if load.name == name)
 
 
 @function
@@ -208,6 +213,15 @@ def greatest(report: Report, ids: Iterable[str]) -> list[Peak]:
 
 
 @function
+def cause(report: Report, top: Peak) -> Inlines:
+    """The largest force on the links where a reaction is greatest, as far as there is one."""
+    chief = chief_load(report, top)
+    if chief is None:
+        return ()
+    one, many = report.words["remarks"]["cause"]
+    return say(report, one if top.many == 1 else many, chief)
+
+
 def chief_load(report: Report, at: Peak) -> Peak | None:
     """The largest of all forces on the links, inertia included, where another quantity is greatest."""
     forces = [id for id in load_ids(report) if report.ledger[id].kind == "force"]
@@ -219,32 +233,38 @@ def chief_load(report: Report, at: Peak) -> Peak | None:
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """How the balancing torque goes over the cycle: where it acts with the motion, against it, and not at all."""
+    """At which positions the balancing torque acts with the motion, against it, and not at all, by their numbers."""
 
-    along: str
-    along_many: bool
-    against: str
-    against_many: bool
-    none: str
-    none_many: bool
-    driven: bool
-    """Whether the machine takes energy over the cycle, rather than giving it."""
-    idle: bool
-    """Whether it does neither."""
+    along: tuple[int, ...]
+    against: tuple[int, ...]
+    none: tuple[int, ...]
+    mean: str
+    """What the machine does with energy over the cycle: "taken", "given", or "even"."""
 
 
-@function
 def balance_course(report: Report) -> Course:
     """The senses of the balancing torque, or force, at all positions."""
     with_motion = report.machine.turn if not report.machine.span else np.sign(report.machine.speed)
     values = shown(report, "M.eq", report.all_positions) * with_motion
     mean = float(report.ledger.number("M.mean").value) * with_motion
     every = np.array(report.all_positions)
+    along, against, none = (tuple(map(int, every[chosen])) for chosen in (values > 0, values < 0, values == 0))
+    return Course(along, against, none, "taken" if mean > 0 else "given" if mean < 0 else "even")
 
-    def where(chosen: np.ndarray) -> tuple[str, bool]:
-        return labels(report, [int(k) for k in every[chosen]]), int(chosen.sum()) > 1
 
-    return Course(*where(values > 0), *where(values < 0), *where(values == 0), mean > 0, mean == 0)
+@function
+def balance_senses(report: Report) -> list[Inlines]:
+    """What the balancing torque does to the motion, and at which positions."""
+    course, words = balance_course(report), report.words["remarks"]["balance"]
+    found = {"against": course.against, "along": course.along, "none": course.none}
+    return [say(report, words[way], where=where(report, there)) for way, there in found.items() if there]
+
+
+@function
+def balance_mean(report: Report) -> Inlines:
+    """What the mean of the balancing torque says of the energy that the machine takes in or gives out."""
+    words = report.words["remarks"]["mean"]
+    return say(report, words[balance_course(report).mean], cycle=report.words["driven"][report.driver.kind]["cycle"])
 
 
 @dataclass(frozen=True, slots=True)
@@ -267,3 +287,78 @@ def work_range(report: Report) -> Range:
         return Value(report.ledger.number("A.excess", there[0])), labels(report, there)
 
     return Range(*end(values.min()), *end(values.max()))
+
+
+# --- remarks
+
+
+@dataclass(frozen=True, slots=True)
+class Remark:
+    """A sentence about one quantity or several that go alike: their symbols, how they go, and why."""
+
+    symbols: Inlines
+    course: Inlines
+    why: Inlines
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """What remarks are about: the ids, over one turn or the whole cycle, with a word on zeros or without.
+
+    `why` says of which of them the words give a reason.
+    """
+
+    ids: Callable[[Report], Iterable[str]]
+    cycle: bool = False
+    zeros: bool = True
+    why: Callable[[Report, Peak], bool] = lambda report, one: False
+
+
+SUBJECTS = {
+    "v": Subject(
+        lambda report: slider_rates(report, "v"), why=lambda report, one: one.zeros > 0 and reverses(report, one)
+    ),
+    "a": Subject(
+        lambda report: slider_rates(report, "a"),
+        zeros=False,
+        why=lambda report, one: not one.level and at_rest(report, one),
+    ),
+    "omega": Subject(
+        lambda report: turning_rates(report, "omega"), why=lambda report, one: one.zeros > 0 and one.turns
+    ),
+    "eps": Subject(lambda report: turning_rates(report, "eps"), why=lambda report, one: one.zeros > 0 and one.turns),
+    "inertia": Subject(lambda report: inertia_forces(report), cycle=True, why=lambda report, one: not one.level),
+    "loads": Subject(lambda report: load_ids(report), cycle=True),
+    "torque": Subject(lambda report: report.balance_ids, cycle=True, zeros=False),
+}
+
+
+@function
+def remarks(report: Report, *subjects: str) -> list[Remark]:
+    """How the quantities of some subjects go, those that go alike together; nothing is left out."""
+    return [_remark(report, name, one) for name in subjects for one in _peaks_of(report, SUBJECTS[name])]
+
+
+def _peaks_of(report: Report, subject: Subject) -> list[Peak]:
+    return peaks(report, subject.ids(report), subject.cycle)
+
+
+def _remark(report: Report, name: str, one: Peak) -> Remark:
+    subject, words = SUBJECTS[name], report.words["remarks"]
+    phrases = words["course"] | words.get(name, {})
+    course = "level" if one.level else "zeros" if one.zeros and subject.zeros else "greatest"
+    why = say(report, phrases["why"], slider=report.words["names"]["slider"]) if subject.why(report, one) else ()
+    return Remark(one.symbols, say(report, phrases[course], one), why)
+
+
+@function
+def main_peaks(report: Report) -> list[Peak]:
+    """The greatest velocities and accelerations: of sliders, else of links that turn."""
+    pairs = ((SUBJECTS["v"], SUBJECTS["omega"]), (SUBJECTS["a"], SUBJECTS["eps"]))
+    return [one for first, other in pairs for one in _peaks_of(report, first) or _peaks_of(report, other)]
+
+
+@function
+def top_reactions(report: Report) -> list[Peak]:
+    """Which joint reactions take the greatest value of all over the cycle, and where."""
+    return greatest(report, reaction_ids(report))

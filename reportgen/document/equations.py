@@ -72,17 +72,6 @@ FUNCTIONS["first_turn"] = Report.first_turn
 
 
 @function
-def negative(report: Report, id: str, position: int | None = None) -> bool:
-    return bool(report.ledger.number(id, position).value < 0)
-
-
-@function
-def direction(report: Report, id: str, position: int | None = None) -> str:
-    """The sense of a rotation in words; a dash where there is none."""
-    return report.sense(report.ledger.number(id, position).value)
-
-
-@function
 def point(report: Report, name: str) -> Symbol:
     """The symbol of a point, e.g. S with a lowered 2."""
     return vocabulary.point(name)
@@ -244,13 +233,6 @@ def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
         reason = next((str(why) for pattern, why in patterns if re.fullmatch(str(pattern), id)), "")
         return Chain((chain.parts[0], result), reason)
     return chain
-
-
-@function
-def centre_lines(report: Report, rod: int, what: str) -> list[str]:
-    """Closed formulas of a rod's mass centre by components."""
-    names = [place.name for group in report.groups for place in group.points_i if group.i == rod]
-    return report.known(id for name in names for id in (f"f.x.{name}.{what}", f"f.y.{name}.{what}", f"f.{what}.{name}"))
 
 
 @function

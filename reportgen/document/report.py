@@ -16,12 +16,11 @@ import numpy as np
 from reportgen.analysis import FULL_TURN, Analysis, analyse
 from reportgen.assignment import Assignment
 from reportgen.case import Case
-from reportgen.catalogue.given_loads import ByOrdinates
-from reportgen.catalogue.loads import Piston
+from reportgen.catalogue.loads import Applied, Piston, Torque
 from reportgen.catalogue.machine import Machine, Position
 from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink
 from reportgen.document.prose import PointName, Prose
-from reportgen.document.tree import Block, Inlines, Paragraph, Text
+from reportgen.document.tree import Inlines, Text
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.polygon import Polygon
@@ -29,14 +28,12 @@ from reportgen.ledger.kinematics.centres import links_in_plane_motion
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import GROUND, Mobility, mobility
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Number, Symbol, walk
+from reportgen.notation.expressions import Symbol
 
 PLATES_UP_TO = 24
 """Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""
 DENSE = 361
 """Samples of a turn from which curves are drawn."""
-UNIFORM = Number(12.0)
-"""What m l² of a uniform rod is divided by."""
 SAME = 1e-9
 """Cycle angles nearer than this are one."""
 
@@ -48,6 +45,16 @@ def function(called: Function) -> Function:
     """Let templates call a function of a report by its name."""
     FUNCTIONS[called.__name__] = called
     return called
+
+
+Member = TypeVar("Member", bound=Callable[["Report"], Any])
+MEMBERS: dict[str, Callable[[Report], Any]] = {}
+
+
+def member(of: Member) -> Member:
+    """Let templates name what a function makes of a report, as they name its properties."""
+    MEMBERS[of.__name__] = of
+    return of
 
 
 @dataclass(frozen=True)
@@ -112,6 +119,7 @@ class Report:
         own = [name for name, member in vars(Report).items() if isinstance(member, kinds) and name[0] != "_"]
         return {
             **{name: getattr(self, name) for name in own if name != "dense_cycle"},
+            **{name: of(self) for name, of in MEMBERS.items()},
             **{name: partial(called, self) for name, called in FUNCTIONS.items()},
         }
 
@@ -150,12 +158,6 @@ class Report:
             year=day.year,
             month_name=months[day.month - 1] if months else day.month,
         )
-
-    @property
-    def signature(self) -> tuple[Block, ...]:
-        """Place, date and name under the foreword; without a name the label stands over a line to sign."""
-        student = f"{self.words['cover']['student']}: {self.assignment.report.student.name or '…' * 20}"
-        return tuple(Paragraph((Text(line),), "right") for line in (self.place_and_date, student))
 
     # --- positions
 
@@ -222,6 +224,11 @@ class Report:
         """What only the words of this kind of machine name."""
         return self.machine.facts
 
+    @cached_property
+    def sheet(self) -> Mapping[str, list[str]]:
+        """What the machine's sheet sets out together, by name: `lines(sheet.velocity, k)`."""
+        return {name: self.known(ids) for name, ids in self.ledger.lines.items()}
+
     @property
     def given_names(self) -> Mapping[str, str]:
         """What is given, in words, by id; a declared linkage names its own quantities."""
@@ -239,13 +246,26 @@ class Report:
         return mobility(self.machine.linkage)
 
     @property
+    def lengths(self) -> list[str]:
+        """The true lengths that have a drawn one, in the machine's own order if it has one."""
+        if "lengths" in self.sheet:
+            return self.sheet["lengths"]
+        single = [id for id, family in self.ledger.families.items() if len(family.values) == 1]
+        return [id for id in single if id[:2] == "l." and f"drawn.{id[2:]}" in single]
+
+    @property
     def pistons(self) -> tuple[Piston, ...]:
         return self.machine.pistons
 
     @property
-    def starts_at_dead_centre(self) -> bool:
-        """Whether the first position is a dead centre of the first slider."""
-        return bool(self.machine.sliders) and self.machine.sliders[0].phase == 0
+    def turn_sense(self) -> str:
+        """The key of the words for the sense of the driver's rotation."""
+        return "anticlockwise" if self.machine.turn > 0 else "clockwise"
+
+    @property
+    def loads(self) -> tuple[Applied | Torque, ...]:
+        """The forces and torques applied to the machine."""
+        return (*self.machine.applied, *self.machine.torques)
 
     @property
     def speed_in_rpm(self) -> bool:
@@ -274,11 +294,6 @@ class Report:
         edges = self.driver_polygon.edges if self.driver_polygon else ()
         reactions = (self.ledger[f"R.{edge.name[1:]}"] for edge in edges if edge.is_reaction and not edge.unknown)
         return any(one.at(k) != 0 for one in reactions for k in range(1, self.cycle_count + 1))
-
-    @property
-    def has_ordinates(self) -> bool:
-        """Whether the indicator diagram is given by measured heights."""
-        return isinstance(self.assignment.indicator, ByOrdinates)
 
     @property
     def synthesised(self) -> bool:
@@ -351,18 +366,6 @@ class Report:
         return self.known(f"{what}.{link}" for what in "mJ" for link in self.bodies)
 
     @property
-    def without_mass(self) -> list[str]:
-        """The links whose mass is not given."""
-        links = sorted({1, *(link for group in self.groups for link in (group.i, group.j))})
-        return [str(link) for link in links if f"m.{link}" not in self.mass_lines]
-
-    @property
-    def uniform_rods(self) -> list[str]:
-        """The links whose moment of inertia is that of a uniform rod, J = m l²/12, for want of a given one."""
-        moments = {link: self.ledger[id].definition for link in self.bodies if (id := f"J.{link}") in self.ledger}
-        return [link for link, formula in moments.items() if formula is not None and UNIFORM in walk(formula)]
-
-    @property
     def inertia_lines(self) -> list[str]:
         return self.known(f"{what}{link}" for what in ("Pqt", "M.Pqt") for link in self.bodies)
 
@@ -400,6 +403,11 @@ class Report:
         return frozenset(edge.name for edge in self.driver_polygon.edges) if self.driver_polygon else frozenset()
 
     @property
+    def balance_ids(self) -> list[str]:
+        """The balancing torque or force."""
+        return ["M.eq"]
+
+    @property
     def joined(self) -> list[GroupView]:
         """The groups that hang on the driver."""
         return [group for group in self.groups if group.carrier == 1]
@@ -413,34 +421,15 @@ class Report:
         return self.arms_about(self.driver.centre)
 
     @property
-    def crank_lines(self) -> list[str]:
-        return [*self.crank_arms, "M.eq"]
-
-    @property
     def crank_pins(self) -> list[str]:
         """The crank's pin, and further points of the crank that a group hangs on."""
         hung = {pin for group in self.groups for pin in (group.P, group.T)}
         return [self.driver.pin, *(place.name for place in self.driver.others if place.name in hung)]
 
     @property
-    def lever_couples(self) -> list[str]:
-        """What torques, which have no arm, contribute to the balance by virtual work."""
-        return self.known(f"M.{torque.name}.p" for torque in self.machine.torques)
-
-    @property
-    def inertia_parts(self) -> list[str]:
-        """The shares of the links in the reduced moment of inertia, and their sum."""
-        return self.known([*(f"J.r.{link}" for link in self.machine.linkage.links), "J.r"])
-
-    @property
     def has_reduced_inertia(self) -> bool:
         """Whether moving links have mass, which the flywheel's calculation reduces to the crank."""
         return "J.r" in self.ledger
-
-    @property
-    def speed_limits(self) -> list[str]:
-        uneven = ["unevenness"] if "unevenness" in self.computed else []
-        return [*uneven, "omega.max", "omega.min"]
 
     # --- quantities and points by name
 

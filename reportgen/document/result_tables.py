@@ -199,6 +199,12 @@ def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tabl
     return list_table(report, key, caption, (positions, *stretches), across, widths)
 
 
+@columns("gas", cycle=True)
+def gas(report: Report) -> list[str]:
+    """The way of each piston, the pressure on it and its force."""
+    return report.known(id for piston in report.pistons for id in (f"s.{piston.link}", f"p.{piston.link}", piston.name))
+
+
 @columns("inertia", cycle=True)
 def inertia(report: Report) -> list[str]:
     return report.inertia_lines

@@ -385,12 +385,11 @@ def joints(report: Report) -> Iterator[Sequence[object]]:
 
 
 @table("lengths")
-def lengths(report: Report, key: str, caption: str, head: Sequence[str], arms: Sequence[str]) -> tuple[Table, ...]:
+def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
     """Real and drawn lengths, one column a length; many lengths in several tables below one another."""
     columns = [
         (lower_digits(arm), *(bare(report, f"{prefix}.{arm}", None) for prefix in ("l", "drawn")))
-        for arm in arms
-        if f"l.{arm}" in report.ledger
+        for arm in (id.removeprefix("l.") for id in report.lengths)
     ]
     return side_by_side(report, key, caption, Column(46.0, "left"), head, columns, MOST_LENGTHS, widest=22.0)
 

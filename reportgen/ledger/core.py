@@ -73,6 +73,8 @@ class Ledger:
     polygons: tuple[Polygon, ...] = ()
     """The force plans: one for each group, the driver's last; none without loads."""
     flywheel: Flywheel | None = None
+    lines: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """The ids of what the report sets out together, by the names that the machine's sheet gives."""
 
     @cached_property
     def signed(self) -> Mapping[str, str]:

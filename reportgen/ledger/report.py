@@ -57,7 +57,7 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, wor
                 _flywheel(q, machine.linkage, regulated, machine.cycle_angles)
     checks = {id for id in q.families if id.startswith(centres.PREFIX)}
     decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
-    return Ledger(q.families, decimals, machine.positions, cancellations, units or {}, polygons, regulated)
+    return Ledger(q.families, decimals, machine.positions, cancellations, units or {}, polygons, regulated, q.lines)
 
 
 def _masses(q: Sheet, analysis: Analysis) -> None:

@@ -60,12 +60,13 @@ def test_the_balancing_torque_has_each_position_once(path: Path) -> None:
     course, motion = comments.balance_course(report), report.analysis.motion
     power = report.analysis.torque * motion.rate
     nothing = np.array([report.is_zero("M.eq", k) for k in report.all_positions])
-    for text, chosen in (
+    for found, chosen in (
         (course.along, (power > 0) & ~nothing),
         (course.against, (power < 0) & ~nothing),
         (course.none, nothing),
     ):
-        assert numbers(report, text) == [str(k) for k, here in zip(report.all_positions, chosen, strict=True) if here]
+        assert list(found) == [k for k, here in zip(report.all_positions, chosen, strict=True) if here]
+        assert numbers(report, comments.labels(report, found)) == [str(report.machine.position(k)) for k in found]
 
 
 def numbers(report: Report, text: str) -> list[str]:
