@@ -22,7 +22,6 @@ from reportgen.document.groups import GroupView
 from reportgen.document.report import DENSE, FUNCTIONS, SAME, Report
 from reportgen.document.tree import Figure, InlineMath, Plate, Text
 from reportgen.figures import indicator as indicator_figure
-from reportgen.figures import legend
 from reportgen.figures import scheme as scheme_figure
 from reportgen.figures.draft import Draft, sheets
 from reportgen.figures.forces import Sliding
@@ -167,7 +166,7 @@ def short(number: Number) -> Number:
 @figure("line-styles")
 def line_styles(report: Report) -> Drawn:
     """The legend of all lines of the report."""
-    return Drawn((legend.line_styles(report.words["line_styles"]),))
+    return Drawn((scheme_figure.line_styles(report.words["line_styles"]),))
 
 
 # --- the machine at one position and over a turn

@@ -415,3 +415,17 @@ class PlaneLink:
 
     def __str__(self) -> str:
         return str(self.link)
+
+
+def displaced_inertia(linkage: Linkage, groups: Iterable[GroupView], ledger: Ledger) -> tuple[BodyView, ...]:
+    """Links whose inertia is a force and a couple, which one force off the mass centre replaces."""
+    # A block turns about no base of a plan: the pin it sits on is its first joint.
+    starts = {group.i: group.P for group in groups}
+    starts |= {side.link: PointName(side.base) for group in groups for side in group.sides if side.turns}
+    found = []
+    for body in linkage.inertias:
+        ids = ledger.known((f"e.Pqt{body.link}", f"l.{body.centre}K{body.link}"))
+        if len(ids) == 2:
+            start = starts[body.link]
+            found.append(BodyView(body.link, PointName(body.centre), start, ids, start in linkage.ground))
+    return tuple(found)

@@ -18,8 +18,8 @@ from reportgen.assignment import Assignment
 from reportgen.case import Case
 from reportgen.catalogue.loads import Applied, Piston, Torque
 from reportgen.catalogue.machine import Machine, Position
-from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink
-from reportgen.document.prose import PointName, Prose
+from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
+from reportgen.document.prose import Prose
 from reportgen.document.tree import Inlines, Text
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.core import Ledger
@@ -372,16 +372,7 @@ class Report:
     @cached_property
     def couples(self) -> tuple[BodyView, ...]:
         """Links whose inertia is a force and a couple, replaced by one force off the mass centre."""
-        ground, found = self.machine.linkage.ground, []
-        # A block turns about no base of a plan: the pin it sits on is its first joint.
-        starts = {group.i: group.P for group in self.groups}
-        starts |= {side.link: PointName(side.base) for group in self.groups for side in group.sides if side.turns}
-        for body in self.machine.linkage.inertias:
-            ids = self.known((f"e.Pqt{body.link}", f"l.{body.centre}K{body.link}"))
-            if len(ids) == 2:
-                start = starts[body.link]
-                found.append(BodyView(body.link, PointName(body.centre), start, ids, start in ground))
-        return tuple(found)
+        return displaced_inertia(self.machine.linkage, self.groups, self.ledger)
 
     @property
     def displaced_reactions(self) -> bool:
@@ -401,11 +392,6 @@ class Report:
     def on_crank(self) -> frozenset[str]:
         """The forces of the driver's force plan."""
         return frozenset(edge.name for edge in self.driver_polygon.edges) if self.driver_polygon else frozenset()
-
-    @property
-    def balance_ids(self) -> list[str]:
-        """The balancing torque or force."""
-        return ["M.eq"]
 
     @property
     def joined(self) -> list[GroupView]:

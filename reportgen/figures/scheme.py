@@ -1,4 +1,5 @@
-"""Any linkage at one position as plain geometry in mm, its scheme, and its driver and Assur groups taken apart."""
+"""Any linkage at one position as plain geometry in mm, its scheme, its driver and Assur groups taken apart,
+and the legend of the lines in which all of it is drawn."""
 
 from __future__ import annotations
 
@@ -14,7 +15,7 @@ from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish, settle
 from reportgen.figures.geometry import Complexes, Floats, clusters, polar
 from reportgen.figures.labels import Request, joined, label
-from reportgen.figures.scene import Arc, Circle, Content, Item, Line, Scene, Stroke
+from reportgen.figures.scene import Arc, Arrow, Circle, Content, Item, Label, Line, Scene, Stroke
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
 from reportgen.notation import vocabulary
@@ -354,3 +355,39 @@ def _names(
         label(bones.points[group[0]], *joined(map(vocabulary.point, group), " ≡ "), gap=radius + 0.5, size=size)
         for group in clusters(dict.fromkeys(names), 0.3, bones.points.__getitem__)
     ]
+
+
+# --- the legend of lines ---------------------------------------------------------------------------
+
+LINES: tuple[tuple[str, Stroke], ...] = (
+    ("link", style.HEAVY),
+    ("other", style.THIN),
+    ("axis", style.AXIS),
+    ("construction", style.CONSTRUCTION),
+    ("path", style.PATH),
+    ("normal", style.NORMAL),
+)
+"""Lines of the mechanism and of constructions, by the names of their words."""
+ARROWS: tuple[tuple[str, Stroke], ...] = (
+    ("known", style.KNOWN),
+    ("relative", style.RELATIVE),
+    ("found", style.FOUND),
+    ("load", style.ACTIVE),
+    ("reaction", style.REACTION),
+    ("new", style.NEW),
+)
+"""Vectors of plans, forces on links, and what a step of a construction adds."""
+SAMPLE, COLUMN, ROW, GAP = 18.0, 76.0, 6.5, 2.5
+"""Length of a sample, from one column to the next, from one row to the next, between a sample and its words; mm."""
+
+
+def line_styles(words: Mapping[str, str]) -> Scene:
+    """Two columns of samples, lines and arrows; `words` has the text of each by its name."""
+    items: list[Item] = []
+    for column, pens in enumerate((LINES, ARROWS)):
+        for row, (name, pen) in enumerate(pens):
+            start = complex(column * COLUMN, -row * ROW)
+            end = start + SAMPLE
+            items.append(Arrow(start, end, pen, style.HEAD) if pens is ARROWS else Line(start, end, pen))
+            items.append(Label(end + GAP, words[name], "left", style.LABEL))
+    return finish(Draft(tuple(items)), margin=2.0)

@@ -18,7 +18,7 @@ from reportgen.document.outline import open_report
 from reportgen.document.report import Report
 from reportgen.figures import style
 from reportgen.figures.geometry import on_one_line
-from reportgen.figures.legend import ARROWS, LINES, line_styles
+from reportgen.figures.scheme import ARROWS, LINES, line_styles
 from reportgen.figures.plan import Plan, PlanVector, plan, set_apart
 from reportgen.figures.scene import Arc, Arrow, Circle, Hatch, Label, Line, Polyline, Scene, Stroke
 from reportgen.notation.expressions import Symbol

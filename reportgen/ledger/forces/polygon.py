@@ -8,14 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.ledger.forces.loads import Statics
-from reportgen.ledger.scales import extents, own_scales
+from reportgen.ledger.scales import LEAST_FORCES, extents, own_scales
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Expression, Number, Symbol, heading
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import segment
 
-LEAST_PLAN = 0.100
-"""A force plan is drawn at least so wide or high (m), if it fits its page so."""
 LETTERS = "efghijklmqrtuvwxyzabcd"
 """Vertices of a force plan in the order of drawing; n is where the unknown edges meet."""
 
@@ -83,7 +81,7 @@ def force_plan(statics: Statics, name: str, title: str, corners: Mapping[str, Ex
     q = statics.q
     values = {id: family.values for id, family in q.families.items()}
     sizes = extents([np.asarray(evaluate(corner, values)) for corner in corners.values()], q.positions)
-    μ = q.give(f"mu.R{name}", own_scales(sizes, LEAST_PLAN), Symbol("μ", title))
+    μ = q.give(f"mu.R{name}", own_scales(sizes, LEAST_FORCES), Symbol("μ", title))
     for letter, corner in corners.items():
         q.construct(f"plan.R{name}.{letter}", corner / μ)
 
@@ -92,7 +90,7 @@ def read(statics: Statics, plan: str, name: str, symbol: Symbol, id: str, start:
     """A force read from a plan between two vertices: its segment, its size, its vector and its direction."""
     q, scale = statics.q, statics.force
     μ, along = q[f"mu.R{plan}"], q[f"plan.R{plan}.{end}"] - q[f"plan.R{plan}.{start}"]
-    drawn = q.define(f"seg.{plan}.{name}", abs(along), segment(start, end), scale=LEAST_PLAN, of=f"F.{name}")
+    drawn = q.define(f"seg.{plan}.{name}", abs(along), segment(start, end), scale=LEAST_FORCES, of=f"F.{name}")
     q.define(id, μ * drawn, symbol, scale=scale)
     vector = q.construct(f"F.{name}", μ * along, of=id)
     q.define(f"dir.{name}", heading(vector), Symbol("α", symbol.sub), scale=1.0, of=id)
@@ -104,4 +102,4 @@ def drawn_edges(statics: Statics, plan: str, edges: Iterable[Edge]) -> None:
     for edge in edges:
         drawn = abs(q[f"F.{edge.name}"] / q[f"mu.R{plan}"])
         letters = segment(edge.start, edge.end)
-        q.define(f"seg.{plan}.{edge.name}", drawn, letters, scale=LEAST_PLAN, of=f"F.{edge.name}")
+        q.define(f"seg.{plan}.{edge.name}", drawn, letters, scale=LEAST_FORCES, of=f"F.{edge.name}")

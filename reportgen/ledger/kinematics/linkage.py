@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from reportgen.ledger.kinematics.sides import Scheme, image
-from reportgen.ledger.scales import PER_MM, common_scale, extents
+from reportgen.ledger.scales import LEAST_MOTION, PER_MM, common_scale, extents
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Guide, Linkage, SlidingDriver
 from reportgen.notation.expressions import Expression, Number, Ref, Symbol, cis, heading, turned
 from reportgen.notation.numbers import nice_up
@@ -224,8 +224,6 @@ DRAWN = 0.05
 """Drawn length of the crank (m on paper) when the machine does not say."""
 LONGEST_DRAWN = 0.08
 """A sliding driver's mechanism is drawn with its longest length no longer than this (m on paper)."""
-LEAST_PLAN = 0.060
-"""A worked plan is drawn at least so wide or high (m)."""
 
 
 def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[str, float | None]) -> Kinematics:
@@ -302,6 +300,6 @@ def chosen_scale(trial: Kinematics, what: What, worked: Sequence[int]) -> float 
     sizes = extents([np.zeros(1), *map(q.value, trial.vertices[what])], q.positions) * μ
     shown = sizes[:, [k - 1 for k in worked]] if worked else sizes
     least = np.nanmin(shown.max(axis=0), initial=np.inf) / μ
-    if isinstance(trial.scheme.linkage.driver, Crank) and least >= LEAST_PLAN:
+    if isinstance(trial.scheme.linkage.driver, Crank) and least >= LEAST_MOTION:
         return None
-    return common_scale(sizes, worked, LEAST_PLAN)
+    return common_scale(sizes, worked, LEAST_MOTION)
