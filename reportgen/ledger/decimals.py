@@ -169,6 +169,8 @@ class _Choice:
         self.results = {id for ids in same for id in ids}
         self.names = _names(families, same)
         self.quantities: dict[str, _Quantity] = {}
+        self.by_worked: set[str] = set()
+        """Lines that are judged by the positions worked out only."""
         self.lines: list[_Line] = []
         self._known: dict[tuple[str, int | None], np.ndarray] = {}
 
@@ -194,11 +196,12 @@ class _Choice:
 
     def excess(self) -> float:
         """What all lines together are off beyond what they may be, in units of their last digits."""
-        return float(sum(max(self._over(line).max() - HOLDS, 0.0) for line in self.lines))
+        return float(sum(max(self._worst(line) - HOLDS, 0.0) for line in self.lines))
 
     def cancellations(self) -> tuple[str, ...]:
         """Lines that do not hold; but the last units of a whole number may be what its inputs leave open."""
-        return tuple(line.id for line in self.lines if not (self._is_whole(line.id) or self._holds(line)))
+        off = (line.id for line in self.lines if self._over(line).max() > HOLDS)
+        return tuple(id for id in off if not self._is_whole(id))
 
     def _enter(self, ids: Sequence[str]) -> None:
         """Begin with the decimals aimed at; what has a name from before is meant to have the decimals of that."""
@@ -245,14 +248,14 @@ class _Choice:
         unit = 10.0 ** -(_last_decimal(float(result[0])) if last is None else last)
         return np.asarray(np.nan_to_num(np.abs(self._computed(line, line.inputs) - result) / unit, posinf=0.0))
 
-    def _holds(self, line: _Line) -> bool:
-        return bool(self._over(line).max() <= HOLDS)
-
-    def _is_result_where_shown(self, line: _Line) -> bool:
-        """Whether it is a result of the whole report and holds at the positions at which lines are written out."""
+    def _worst(self, line: _Line) -> float:
+        """How far it is off at most."""
         over = self._over(line)
-        shown = [(k - 1) % over.size for k in self.worked if line.id in self.results]
-        return bool(shown and over[shown].max() <= HOLDS)
+        judged = [(k - 1) % over.size for k in self.worked] if line.id in self.by_worked else slice(None)
+        return float(over[judged].max())
+
+    def _holds(self, line: _Line) -> bool:
+        return self._worst(line) <= HOLDS
 
     def _mend(self, line: _Line) -> bool:
         """Give an input one more decimal or the result one fewer; False if neither may be."""
@@ -261,8 +264,18 @@ class _Choice:
             self._raise_an_input(line, lambda quantity: quantity.usual)
             or (own is not None and own.lower(own.aim))
             or (not self._is_whole(line.id) and self._raise_an_input(line, lambda quantity: quantity.most))
-            or (own is not None and not self._is_result_where_shown(line) and own.lower(own.least))
+            or self._judge_where_written_out(line)
+            or (own is not None and own.lower(own.least))
         )
+
+    def _judge_where_written_out(self, line: _Line) -> bool:
+        """Judge a result of the whole report by its written-out lines only, if these hold; False if they do not."""
+        if line.id in self.results and self.worked and line.id not in self.by_worked:
+            self.by_worked.add(line.id)
+            if self._holds(line):
+                return True
+            self.by_worked.remove(line.id)
+        return False
 
     def _raise_an_input(self, line: _Line, limit: Callable[[_Quantity], int]) -> bool:
         """One decimal more for the input below its limit whose rounding does most where the line is worst."""
@@ -288,10 +301,10 @@ class _Choice:
             for quantity in {self.quantities[id] for id in (line.id, *line.inputs) if id in self.quantities}:
                 concerned[quantity].append(line)
         for quantity, lines in reversed(concerned.items()):
-            worst = [max(self._over(line).max(), HOLDS) for line in lines]
+            worst = [max(self._worst(line), HOLDS) for line in lines]
             while quantity.decimals > quantity.aim:
                 quantity.decimals -= 1
-                if any(self._over(line).max() > over for line, over in zip(lines, worst, strict=True)):
+                if any(self._worst(line) > before for line, before in zip(lines, worst, strict=True)):
                     quantity.decimals += 1
                     break
 
