@@ -18,9 +18,9 @@ from reportgen.document.outline import open_report
 from reportgen.document.report import Report
 from reportgen.figures import style
 from reportgen.figures.geometry import on_one_line
-from reportgen.figures.scheme import ARROWS, LINES, line_styles
 from reportgen.figures.plan import Plan, PlanVector, plan, set_apart
 from reportgen.figures.scene import Arc, Arrow, Circle, Hatch, Label, Line, Polyline, Scene, Stroke
+from reportgen.figures.scheme import ARROWS, LINES, line_styles
 from reportgen.notation.expressions import Symbol
 from reportgen.writers.drawing import clip_hatch
 
