@@ -289,6 +289,11 @@ def cross(a: Operand, b: Operand) -> Call:
     return call("cross", a, b)
 
 
+def unit(vector: Operand) -> Call:
+    """A vector's direction, a vector of length 1; 0 for one of no length."""
+    return quotient(vector, call("abs", vector))
+
+
 def dot(a: Operand, b: Operand) -> Call:
     """The scalar product."""
     return call("dot", a, b)

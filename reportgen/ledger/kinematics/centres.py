@@ -42,7 +42,7 @@ def _enter_centre(k: Kinematics, turn: Side) -> None:
     centre, μ_l = q.construct(f"ic.{link}", meet(*normals)), q["mu.l"]
 
     def distance(name: str, nearest: float) -> Expression:
-        within = call("within", abs(k.place(name) - centre) / μ_l, nearest, FARTHEST)
+        within = call("within", abs(k.place(name) - centre) / q["drawing"], nearest, FARTHEST)
         return q.define(f"ic.seg.{link}.{name}", within, segment(centre_symbol(link), point(name)), scale=k.span())
 
     PB, PC, v = distance(base, NEAREST), distance(end, 0.0), q[f"v.{base}"]

@@ -91,7 +91,7 @@ class Kinematics:
         q, placed = self.q, self.links[link]
         base = self.image(what, placed.origin)
         if link == DRIVER and placed.omega is not None:
-            drawn = arm / q["mu.l"]
+            drawn = arm / q["drawing"]
             return self.turn * turned(drawn) if what == "v" else -drawn
         if placed.tip:
             ratio = arm / (self.place(placed.tip) - self.place(placed.origin))
@@ -142,10 +142,11 @@ class Kinematics:
         id = f"l.{start}{end}"
         return self.q[id] if id in self.q else self.q.give(id, value, exact=is_short(value))
 
-    def drawn(self, start: str, end: str) -> None:
-        """A length as it is drawn."""
+    def drawn(self, start: str, end: str) -> Expression:
+        """Enter a length as it is drawn; gives the length (m) that the drawing then shows."""
         q, name = self.q, f"{start}{end}"
-        q.define(f"drawn.{name}", q[f"l.{name}"] / q["mu.l"], drawn_length(start, end))
+        drawn = q.define(f"drawn.{name}", q[f"l.{name}"] / q["mu.l"], drawn_length(start, end))
+        return q["drawing"] * q.construct(f"laid.{name}", q[f"l.{name}"] / q["mu.l"], of=drawn.id)
 
     # --- links
 
@@ -229,12 +230,14 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int) -> Kinematics:
     drawn = q[f"drawn.{centre}{pin}"]
     exact = q.families[drawn.id].exact
     μ_l = q.define("mu.l", length / drawn)
+    # What one length on paper is: the drawn crank says it, whatever is written down for μ_l.
+    q.construct("drawing", length / drawn)
     q.construct(f"p.{pin}", k.place(centre) + length * cis(φ1))
     further = [place for place in scheme.linkage.points if place.link == DRIVER]
     for place in further:
-        other = k.length(centre, place.name, abs(place.local))
-        q.construct(f"p.{place.name}", k.place(centre) + other * cis(φ1 + cmath.phase(place.local)))
-        k.drawn(centre, place.name)
+        k.length(centre, place.name, abs(place.local))
+        reach = k.drawn(centre, place.name)
+        q.construct(f"p.{place.name}", k.place(centre) + reach * cis(φ1 + cmath.phase(place.local)))
 
     q.define(f"v.{pin}", ω1 * length)
     q.define(f"seg.v.p{image(pin)}", drawn, segment("p", on_plan(pin)), exact=exact)
@@ -244,7 +247,7 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int) -> Kinematics:
     μ_a = q.define("mu.a", ω1**2 * μ_l)
 
     for name in (pin, *(place.name for place in further)):
-        arm = (k.place(name) - k.place(centre)) / μ_l
+        arm = (k.place(name) - k.place(centre)) / q["drawing"]
         k.vertex("v", image(name), turn * turned(arm))
         k.vertex("a", image(name), -arm)
         if name != pin:
@@ -267,6 +270,7 @@ def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: tu
     k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
     if "mu.l" not in q:
         q.give("mu.l", nice_up(size / LONGEST_DRAWN / 1e3) * 1e3)
+    q.construct("drawing", q["mu.l"])
     along = k.constant("guide.1", cmath.exp(1j * driver.guide.angle))
     at = k.constant("guide.1.at", driver.guide.at)
     q.construct(f"p.{pin}", at + q["s.1"] * along)
