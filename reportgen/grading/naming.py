@@ -1,11 +1,11 @@
 """The first wrong values by name: slips of writing, mistakes of working, given data taken wrongly.
 
-Each search looks at the first wrong values that have no name yet, in the order of `SEARCHES`.
+Each search looks at the first wrong values that have no name yet; `marking.SEARCHES` is their order.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -148,13 +148,13 @@ def _explained(working: Working, cells: Cells, id: str, positions: Sequence[int]
     own, expected = np.array([[cells[id, k].own, cells[id, k].expected] for k in positions]).T * unit
     # A student goes on from the rounded value written down, or from the one left in the calculator.
     gone_on_from = (working, working.unrounded({one for one in cells if cells[one].verdict is Verdict.right}))
-    foreseen = np.concatenate([_foreseen(one, id, candidates)[:, index] for one in gone_on_from])
+    values = np.concatenate([foreseen(one, [id], candidates)[id][:, index] for one in gone_on_from])
     candidates = [*candidates, *candidates]
     with np.errstate(all="ignore"):
         # What a mistake makes larger, it makes less certain in the same measure.
-        wider = np.maximum(1.0, np.abs(foreseen) / np.maximum(np.abs(own), band))
-        off = guide.distance(id, given, foreseen) / (band * wider)
-        shows = np.min([guide.distance(id, one, foreseen) for one in (own, expected)], axis=0) > band
+        wider = np.maximum(1.0, np.abs(values) / np.maximum(np.abs(own), band))
+        off = guide.distance(id, given, values) / (band * wider)
+        shows = np.min([guide.distance(id, one, values) for one in (own, expected)], axis=0) > band
     met = (off <= 1) & shows
     count = met.sum(axis=1)
     needs_more = [len(row.positions) > 1 and mistake.name in OF_POSITION for mistake in candidates]
@@ -181,15 +181,15 @@ def _candidates(working: Working, id: str) -> Iterator[Mistake]:
     yield from (mistake for mistake in general_mistakes(guide) if concerned & mistake.changes.keys())
 
 
-def _foreseen(working: Working, id: str, mistakes: Sequence[Mistake]) -> np.ndarray:
-    """What a quantity comes to with each mistake, from the student's own earlier values [mistakes, positions]."""
+def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) -> dict[str, np.ndarray]:
+    """What quantities come to with each mistake, from the student's own earlier values [mistakes, positions]."""
     guide = working.guide
     ledger = guide.ledger
     made: dict[str, list[tuple[int, Change]]] = {}
     for number, mistake in enumerate(mistakes):
         for changed, change in mistake.changes.items():
             made.setdefault(changed, []).append((number, change))
-    judged = {id, ledger.size_of(id)}
+    judged = {*ids, *map(ledger.size_of, ids)}
 
     def with_mistakes(name: str) -> Change:
         def change(computed: np.ndarray, values: Values) -> np.ndarray:
@@ -204,10 +204,10 @@ def _foreseen(working: Working, id: str, mistakes: Sequence[Mistake]) -> np.ndar
 
         return change
 
-    wanted = {*guide.before[id], id}
+    wanted = {*ids}.union(*(guide.before[id] for id in ids))
     names = {name for name in (*working.entered_ids, *made) if name in wanted}
     values = follow(ledger, {name: with_mistakes(name) for name in names}, only=wanted)
-    return np.broadcast_to(values[id], (len(mistakes), len(ledger[id].values))).real
+    return {id: np.broadcast_to(values[id], (len(mistakes), len(ledger[id].values))).real for id in ids}
 
 
 class _RowOf(Mapping[str, np.ndarray]):
@@ -289,9 +289,9 @@ def _explains(working: Working, cell: Marked, datum: _Datum) -> bool:
     if datum.id not in guide.before[cell.id]:
         return False
     band = cell.band * guide.ledger[cell.id].how.scale
-    foreseen = float(_at(guide, cell, datum.id, np.array([datum.value]))[0])
+    with_it = float(_at(guide, cell, datum.id, np.array([datum.value]))[0])
     key = float(guide.ledger[cell.id].values[_index(guide, cell)].real)
-    return abs(foreseen - _given(working, cell)) <= band < abs(foreseen - key)
+    return abs(with_it - _given(working, cell)) <= band < abs(with_it - key)
 
 
 def _is_contradicted(guide: Guide, cells: Cells, datum: _Datum) -> bool:
@@ -348,11 +348,3 @@ def _rounded(value: float, like: float) -> float:
     parts = 1 if np.isclose(like, float(f"{like:.{NEAT - 1}e}"), rtol=1e-9) else 2
     step = 10.0 ** (np.floor(np.log10(value)) - NEAT + 1) / parts
     return float(round(value / step) * step)
-
-
-SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
-    slips_of_writing,
-    mistakes_of_working,
-    misread_data,
-)
-"""What looks for names, one after the other."""

@@ -87,6 +87,38 @@ class Guide:
         vectors = carried(self.ledger)
         return {row.id: standing_on(self.ledger, row.id, vectors) for row in self.judged}
 
+    @cached_property
+    def alike(self) -> dict[str, tuple[str, ...]]:
+        """Of each judged row those before it that have its values at all positions."""
+        found: dict[str, tuple[str, ...]] = {}
+        for number, row in enumerate(self.judged):
+            one = self.ledger[row.id]
+            before = (
+                other
+                for other in self.judged[:number]
+                if other.kind == row.kind and len(other.values) == len(row.values)
+            )
+            found[row.id] = tuple(
+                other.id
+                for other in before
+                if np.allclose(one.values, self.ledger[other.id].values, rtol=1e-9, atol=0, equal_nan=True)
+            )
+        return found
+
+    @cached_property
+    def makers(self) -> dict[str, tuple[str, str]]:
+        """Of each scale of a plan the size and the length that it was made from: v_A and pa of μ_v."""
+        found: dict[str, tuple[str, str]] = {}
+        for row in self.judged:
+            scale = vocabulary.plan(row.id)
+            if row.single and scale in self.ledger and scale not in found and _makes_scale(self, row.id, scale):
+                value = self.ledger[scale].values[0] * self.ledger[row.id].values[0]
+                sizes = (one.id for one in self.judged if one.single and one.kind in ("velocity", "acceleration"))
+                size = next((id for id in sizes if np.isclose(self.ledger[id].values[0], value, rtol=1e-9)), "")
+                if size:
+                    found[scale] = size, row.id
+        return found
+
     def stands_on(self, place: Place, places: Container[Place]) -> bool:
         """Whether a value on the sheet stands on one at any of `places`."""
         id, position = place
@@ -152,6 +184,22 @@ class Working:
 
         follow(ledger, {**unseen, **{id: entered(id) for id in self.entered_ids}})
         return result
+
+    def also(self, row: Row, position: int) -> list[float]:
+        """What a quantity may be taken to be as well: another like it, or for a scale its size over its length.
+
+        Whoever takes a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was.
+        """
+        ledger, index = self.guide.ledger, row.at(position)
+        found = [float(self.values[other][index].real) for other in self.guide.alike[row.id] if other in self.values]
+        if row.role is Role.scale and row.id in self.guide.makers:
+            size, length = self.guide.makers[row.id]
+            if size in self.values and length in self.values:
+                found.append(float(self.values[size][0] / self.values[length][0]))
+        return [one for one in found if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)]
+
+    def _is_right(self, row: Row, known: float, value: float) -> bool:
+        return bool(np.isclose(known, value, rtol=1e-9))
 
     def unrounded(self, right: Container[Place]) -> Working:
         """The same with the key's value at every place where the student's is right."""
