@@ -19,7 +19,7 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.answers.key import Key, half_unit
+from reportgen.answers.key import Key, Row, half_unit
 from reportgen.grading.marks import Cells, Flag, Marked, Place, Submission, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM
 from reportgen.grading.working import Guide
@@ -162,7 +162,7 @@ def _other_data(guide: Guide, cells: Cells) -> Iterator[Flag]:
 def _copied(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> list[Flag]:
     """Runs of values that a classmate's sheet or key has, chapter by chapter and over the sheet."""
     own = {place: cell for place, cell in cells.items() if cell.given is not None and _is_personal(guide, cell)}
-    others = [one for one in classmates if one.key.id != guide.key.id]
+    others = [one for one in classmates if one.key.id != guide.key.id and not _is_source(guide, cells, one)]
     chapters = {place: guide.rows[place[0]].part for place in own}
     compared = 2 * len(others) * (1 + len(set(chapters.values())))
     flags: list[Flag] = []
@@ -186,22 +186,45 @@ def _copied(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> list
     by_id = {one.key.id: one for one in others}
     filled = tuple(_filled(cells))
     return [
-        replace(flag, kind="classmate-sheet", spoiled=filled) if _is_whole(cells, by_id[flag.other]) else flag
+        replace(flag, kind="classmate-sheet", spoiled=filled) if _is_whole(guide, cells, by_id[flag.other]) else flag
         for flag in flags
     ]
 
 
-def _is_whole(cells: Cells, classmate: Classmate) -> bool:
+def _is_whole(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
     """Whether a sheet has nearly all values of a classmate's that would be wrong on it."""
     telling = [
         cell
         for place, cell in cells.items()
         if cell.given is not None
         and (theirs := _theirs(classmate, place)) is not None
-        and abs(theirs - cell.expected) > cell.band
+        and _apart(guide, cell, theirs, cell.expected) > cell.band
     ]
     met = sum(_equal(cell, _theirs(classmate, (cell.id, cell.position))) for cell in telling)
     return len(telling) > FEWEST_ROWS and met >= SAME * len(telling)
+
+
+def _is_source(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
+    """Whether it is the other sheet that has this one's values: those that are right here and wrong there."""
+    taken = 0
+    for place, cell in cells.items():
+        row = _row(classmate, cell)
+        if row is not None and cell.verdict is Verdict.right:
+            off = _apart(guide, cell, float(row.values[row.at(cell.position)]), cell.expected)
+            taken += off >= APART * cell.band and _equal(cell, _theirs(classmate, place))
+    return taken >= FEWEST_ROWS
+
+
+def _row(classmate: Classmate, cell: Marked) -> Row | None:
+    """The row of a classmate's key for a cell, if it has a value there."""
+    row = classmate.key.find(cell.id)
+    return row if row is not None and row.has(cell.position) and cell.position <= len(row.values) else None
+
+
+def _apart(guide: Guide, cell: Marked, one: float, other: float) -> float:
+    """How far two values of a cell lie apart, in printed units."""
+    unit = guide.ledger[cell.id].how.scale
+    return float(guide.distance(cell.id, one * unit, other * unit)) / unit
 
 
 def _theirs(classmate: Classmate, place: Place) -> float | None:
@@ -222,8 +245,7 @@ def _is_personal(guide: Guide, cell: Marked) -> bool:
     if cell.verdict is Verdict.follows or (cell.mistake and cell.mistake != WRONG_DATUM) or cell.given == 0:
         return False
     last = 2 * _half_unit(cell.given)
-    size = abs if guide.ledger[cell.id].arm else float
-    return all(abs(size(cell.given) - size(value)) > LAST * last for value in (cell.expected, cell.own))
+    return all(_apart(guide, cell, cell.given, value) > LAST * last for value in (cell.expected, cell.own))
 
 
 def _half_unit(value: float) -> float:
@@ -238,18 +260,17 @@ def _is_near(cell: Marked) -> bool:
 
 def _meets(guide: Guide, cell: Marked, classmate: Classmate) -> bool | None:
     """Whether a value is the classmate's; None where that says nothing."""
-    row = classmate.key.find(cell.id)
-    theirs = _theirs(classmate, (cell.id, cell.position))
-    if row is None or not row.has(cell.position) or cell.position > len(row.values):
+    row, theirs = _row(classmate, cell), _theirs(classmate, (cell.id, cell.position))
+    if row is None:
         return None
     assert cell.given is not None
     value = float(row.values[row.at(cell.position)])
     if _is_near(cell):
         # Two readings of one drawing.
         return None if theirs is None else _equal(cell, theirs)
-    if abs(value - cell.expected) < APART * cell.band:
+    if _apart(guide, cell, value, cell.expected) < APART * cell.band:
         return None
-    return _equal(cell, theirs) or abs(cell.given - value) <= _half_unit(cell.given) * (1 + 1e-9)
+    return _equal(cell, theirs) or _apart(guide, cell, cell.given, value) <= _half_unit(cell.given) * (1 + 1e-9)
 
 
 def _tail(chances: Sequence[float], met: int) -> float:

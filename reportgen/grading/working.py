@@ -194,7 +194,7 @@ class Working:
         found = [float(self.values[other][index].real) for other in self.guide.alike[row.id] if other in self.values]
         if row.role is Role.scale and row.id in self.guide.makers:
             size, length = self.guide.makers[row.id]
-            if size in self.values and length in self.values:
+            if size in self.values and self.values.get(length, np.zeros(1))[0]:
                 found.append(float(self.values[size][0] / self.values[length][0]))
         return [one for one in found if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)]
 
