@@ -64,8 +64,8 @@ def _judged(working: Working, submission: Submission, row: Row, position: int, p
     """The verdict on one cell; `possible` are values that follow from the student's own."""
     guide, place = working.guide, (row.id, position)
     family, index = guide.ledger[row.id], row.at(position)
-    unit, worth = family.how.scale, guide.policy.worth(row.id)
-    band = float(np.broadcast_to(guide.bands[row.id], family.values.shape)[index])
+    unit, worth = working.unit(row.id), guide.policy.worth(row.id)
+    band = float(np.broadcast_to(working.bands[row.id], family.values.shape)[index])
     key = float(family.at(position).real)
     following = [_own(guide.ledger, values, row.id, index) for values in possible]
     following += working.also(row, position)
@@ -134,8 +134,8 @@ def _charged_once(working: Working, cells: Cells, found: Mapping[Place, Mistake]
         for place, cell in cells.items():
             if cell.verdict is not Verdict.wrong or place in charged.values() or place in changed:
                 continue
-            family, index = guide.ledger[cell.id], guide.rows[cell.id].at(cell.position)
-            own, unit = _own(guide.ledger, own_values, cell.id, index), family.how.scale
+            index, unit = guide.rows[cell.id].at(cell.position), working.unit(cell.id)
+            own = _own(guide.ledger, own_values, cell.id, index)
             if _follows(guide, cell.id, float(working.values[cell.id][index]), own, cell.band * unit):
                 points = policy.worth(cell.id) * policy.follows
                 changed[place] = replace(

@@ -60,12 +60,18 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
         *(
             ("other-scale", place)
             for place, cell in first.items()
-            if guide.rows[place[0]].role is Role.scale and cell.equals(cell.expected, cell.band)
+            if guide.rows[place[0]].role is Role.scale and _is_other_scale(guide, cell)
         ),
         *_by_another_convention(first, cells),
     )
     # Nothing else comes from a slip of writing unseen, so it changes no other quantity.
     return {place: Mistake(name, place[0], {}) for name, place in found}
+
+
+def _is_other_scale(guide: Guide, cell: Marked) -> bool:
+    """Whether a scale is the task's, or chosen freely, but not that of the drawing."""
+    usual = float(guide.key.row(cell.id).values[0])
+    return cell.equals(usual, cell.band) or guide.ledger[cell.id].kind == "force scale"
 
 
 def _has_too_few_figures(cell: Marked) -> bool:
@@ -143,7 +149,7 @@ def _explained(working: Working, cells: Cells, id: str, positions: Sequence[int]
     row = guide.rows[id]
     index = [row.at(position) for position in positions]
     given = working.values[id][index]
-    unit = guide.ledger[id].how.scale
+    unit = working.unit(id)
     band = np.array([cells[id, position].band for position in positions]) * unit
     own, expected = np.array([[cells[id, k].own, cells[id, k].expected] for k in positions]).T * unit
     # A student goes on from the rounded value written down, or from the one left in the calculator.
@@ -288,7 +294,7 @@ def _explains(working: Working, cell: Marked, datum: _Datum) -> bool:
     guide = working.guide
     if datum.id not in guide.before[cell.id]:
         return False
-    band = cell.band * guide.ledger[cell.id].how.scale
+    band = cell.band * working.unit(cell.id)
     with_it = float(_at(guide, cell, datum.id, np.array([datum.value]))[0])
     key = float(guide.ledger[cell.id].values[_index(guide, cell)].real)
     return abs(with_it - _given(working, cell)) <= band < abs(with_it - key)

@@ -69,7 +69,7 @@ def _either(left_out: str, reversed_: str, where: str, id: str) -> Iterator[Mist
 def _met(working: Working, cells: Cells, place: Place, values: np.ndarray) -> np.ndarray:
     """Which of the candidates' values [candidates, positions] a student's value is, and not the right one."""
     guide, cell = working.guide, cells[place]
-    index, unit = guide.rows[place[0]].at(place[1]), guide.ledger[place[0]].how.scale
+    index, unit = guide.rows[place[0]].at(place[1]), working.unit(place[0])
     given, band = float(working.values[place[0]][index]), cell.band * unit
     expected = values[:, index]
     with np.errstate(all="ignore"):

@@ -15,7 +15,7 @@ from reportgen.case import Case
 from reportgen.grading.marks import Place, Policy, Submission
 from reportgen.ledger.core import Ledger, carried, follow, standing_on
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Ref
+from reportgen.notation.expressions import Product, Ref
 
 Values = Mapping[str, np.ndarray]
 """Values (SI) by id, [N] or [1]."""
@@ -28,6 +28,9 @@ ALMOST = 1e-12
 
 LARGEST_SCALE = 1e6
 """A student's own scale that differs more than this from the report's is no scale."""
+
+MANY = 3
+"""So many forces over their lengths show the scale that a plan was drawn at."""
 
 CONFIRMED = 0.02
 """Two scales nearer than this are one: a millimetre in the length of a drawn crank."""
@@ -48,8 +51,16 @@ class Guide:
 
         They are the widest of drawing, rounding and a share of the quantity's maximum over the turn.
         """
-        policy, ledger = self.policy, self.ledger
-        drawn, computed = drawn_bands(ledger, policy.paper), computed_bands(ledger, policy.digits)
+        return self.bands_at({})
+
+    @cached_property
+    def _computed(self) -> dict[str, np.ndarray]:
+        return computed_bands(self.ledger, self.policy.digits)
+
+    def bands_at(self, scales: Mapping[str, float]) -> dict[str, np.ndarray]:
+        """The tolerances where plans are drawn at multiples of the report's scales."""
+        policy = self.policy
+        drawn, computed = drawn_bands(self.ledger, policy.paper, scales), self._computed
         return {
             row.id: np.maximum(np.maximum(drawn[row.id], computed[row.id]), policy.share * self.size(row.id))
             * (1 + ALMOST)
@@ -155,12 +166,28 @@ class Working:
     """The values of a sheet in SI, [N] or [1], NaN where none is given, by id of the row.
 
     Lengths on paper are turned to the report's scales: the same vector, drawn at another μ.  `scales`
-    are those of the plans as they were drawn, by id, in SI.
+    are those of the plans as they were drawn, by id, in SI; `bands` the tolerances of such drawings.
     """
 
     guide: Guide
     values: Values
     scales: Mapping[str, float]
+
+    @cached_property
+    def factors(self) -> dict[str, float]:
+        """The scales as multiples of the report's."""
+        return {id: scale / float(self.guide.ledger[id].values[0]) for id, scale in self.scales.items()}
+
+    @cached_property
+    def bands(self) -> Mapping[str, np.ndarray]:
+        """The tolerances (SI) [N] of every row, at the student's own scales."""
+        other = {id: factor for id, factor in self.factors.items() if abs(factor - 1) > CONFIRMED}
+        return self.guide.bands_at(other) if other else self.guide.bands
+
+    def unit(self, id: str) -> float:
+        """What one printed unit of a quantity stands for in `values`: lengths as drawn at the student's scale."""
+        scale = self.guide.ledger[id].how.scale
+        return scale * self.factors.get(vocabulary.plan(id), 1.0) / self.factors.get(id, 1.0)
 
     def own_values(
         self, blank_from_key: bool = False, changes: Mapping[str, Change] | None = None
@@ -252,6 +279,8 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
         plan = [id for id in values if vocabulary.plan(id) == scale]
         first = next((id for id in plan if _makes_scale(guide, id, scale)), None)
         tried = [stated.get(scale, usual) / usual, 1.0]
+        if (in_use := _in_use(guide, values, scale)) is not None:
+            tried.insert(0, in_use / usual)
         if first is not None:
             with np.errstate(divide="ignore"):
                 tried.insert(0, float(guide.ledger[first].values[0] / values[first][0]))
@@ -274,6 +303,28 @@ def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:
         places = range(position - 1, len(column), guide.count) if guide.repeats(row) else [row.at(position)]
         column[list(places)] = given.value * scale
     return column
+
+
+def _in_use(guide: Guide, values: Values, scale: str) -> float | None:
+    """The scale (SI) of a force plan by what was read from it: most forces over their lengths, if these agree."""
+    if guide.ledger[scale].definition is not None or guide.ledger[scale].kind != "force scale":
+        return None
+    found: list[np.ndarray] = []
+    for id, column in values.items():
+        definition = guide.ledger[id].definition
+        parts = (
+            [one.id for one in definition.factors if isinstance(one, Ref)] if isinstance(definition, Product) else []
+        )
+        if scale in parts and len(parts) == 2:
+            length = parts[1 - parts.index(scale)]
+            if length in values:
+                with np.errstate(all="ignore"):
+                    found.append(np.abs(column / values[length]))
+    ratios = np.concatenate(found) if found else np.zeros(0)
+    ratios = ratios[np.isfinite(ratios) & (ratios > 0)]
+    middle = float(np.median(ratios)) if ratios.size else 0.0
+    agree = np.abs(ratios / middle - 1) < CONFIRMED if middle else np.zeros(0)
+    return middle if agree.sum() >= MANY and agree.mean() > 1 / 2 else None
 
 
 def _makes_scale(guide: Guide, id: str, scale: str) -> bool:

@@ -263,7 +263,7 @@ def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: floa
         for reach in (rod + crank, rod - crank):
             line = q[f"guide.{link}.at"], q[f"guide.{link}"], float(dyad.sign)
             stop = circle_line(q[f"p.{driver.centre}"], reach, *line)
-            way = abs(q[f"p.{dyad.middle}"] - stop) * (q["mu.l"] / q["drawing"])
+            way = abs((q[f"p.{dyad.middle}"] - stop) * (q["mu.l"] / q["drawing"]))
             found = evaluate(way, {name: family.values for name, family in q.families.items()})
             if np.allclose(found, values, rtol=0, atol=ZERO * stroke):
                 q.define(id, way, scale=stroke)
