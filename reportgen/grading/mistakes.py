@@ -87,7 +87,7 @@ def _changes_of(guide: Guide, family: Family, scales: Mapping[str, float]) -> It
         return
     if family.is_signed_rotation:
         yield "direction-reversed", lambda value, _: -value
-    elif not family.arm and family.kind != "segment":
+    elif not family.arm and family.kind != "segment" and (family.definition is not None or not family.exact):
         yield "sign-reversed", lambda value, _: -value
     for places in DECIMAL_PLACES:
         yield "thousands-mark", _times(10.0**places)

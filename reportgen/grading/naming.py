@@ -5,6 +5,7 @@ Each search looks at the first wrong values that have no name yet; `marking.SEAR
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -133,11 +134,13 @@ def mistakes_of_working(working: Working, cells: Cells) -> dict[Place, Mistake]:
     for (id, position), cell in cells.items():
         if cell.first and not cell.mistake:
             by_row.setdefault(id, []).append(position)
-    return {
+    found = {
         (id, position): mistake
         for id, positions in by_row.items()
         for position, mistake in _explained(working, cells, id, positions)
     }
+    told = Counter(mistake.name for mistake in found.values())
+    return {place: one for place, one in found.items() if one.name not in OF_POSITION or told[one.name] > 1}
 
 
 def _explained(working: Working, cells: Cells, id: str, positions: Sequence[int]) -> Iterator[tuple[int, Mistake]]:
@@ -161,7 +164,8 @@ def _explained(working: Working, cells: Cells, id: str, positions: Sequence[int]
         wider = np.maximum(1.0, np.abs(values) / np.maximum(np.abs(own), band))
         off = guide.distance(id, given, values) / (band * wider)
         shows = np.min([guide.distance(id, one, values) for one in (own, expected)], axis=0) > band
-    met = (off <= 1) & shows
+    # What is nearly nothing is nearly nothing by any mistake.
+    met = (off <= 1) & shows & (np.abs(values) > band) & (np.abs(given) > band)
     count = met.sum(axis=1)
     needs_more = [len(row.positions) > 1 and mistake.name in OF_POSITION for mistake in candidates]
     for column, position in enumerate(positions):
