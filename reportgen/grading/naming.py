@@ -14,7 +14,7 @@ import numpy as np
 
 from reportgen.answers.key import Role, is_direction
 from reportgen.grading.marks import Cells, Marked, Place, Verdict
-from reportgen.grading.mistakes import OF_POSITION, WRONG_DATUM, Mistake, general_mistakes, mistakes_in
+from reportgen.grading.mistakes import NO_CORIOLIS, OF_POSITION, WRONG_DATUM, Mistake, general_mistakes, mistakes_in
 from reportgen.grading.working import Change, Guide, Values, Working
 from reportgen.ledger.core import follow
 
@@ -164,8 +164,9 @@ def _explained(working: Working, cells: Cells, id: str, positions: Sequence[int]
         wider = np.maximum(1.0, np.abs(values) / np.maximum(np.abs(own), band))
         off = guide.distance(id, given, values) / (band * wider)
         shows = np.min([guide.distance(id, one, values) for one in (own, expected)], axis=0) > band
-    # What is nearly nothing is nearly nothing by any mistake.
-    met = (off <= 1) & shows & (np.abs(values) > band) & (np.abs(given) > band)
+    # What is nearly nothing is nearly nothing by any mistake but leaving it out.
+    left_out = np.array([[mistake.name == NO_CORIOLIS] for mistake in candidates])
+    met = (off <= 1) & shows & (left_out | ((np.abs(values) > band) & (np.abs(given) > band)))
     count = met.sum(axis=1)
     needs_more = [len(row.positions) > 1 and mistake.name in OF_POSITION for mistake in candidates]
     for column, position in enumerate(positions):
