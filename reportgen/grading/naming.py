@@ -38,6 +38,9 @@ CONVENTIONS: tuple[tuple[str, float, float], ...] = (
 NEAT = 2
 """Significant figures of a datum that somebody would have given; a half of the last one where the right one has it."""
 
+OWN_FIGURES = 0.1
+"""A value within the tolerance of nothing shows a mistake that gives it to this share of itself."""
+
 APART = 3.0
 """A right value that would be this many tolerances off with another datum shows that the datum was right."""
 
@@ -162,11 +165,12 @@ def _explained(working: Working, cells: Cells, id: str, positions: Sequence[int]
     with np.errstate(all="ignore"):
         # What a mistake makes larger, it makes less certain in the same measure.
         wider = np.maximum(1.0, np.abs(values) / np.maximum(np.abs(own), band))
-        off = guide.distance(id, given, values) / (band * wider)
+        apart = guide.distance(id, given, values)
+        off = apart / (band * wider)
         shows = np.min([guide.distance(id, one, values) for one in (own, expected)], axis=0) > band
-    # What is nearly nothing is nearly nothing by any mistake but leaving it out.
+    # What is nearly nothing is so by many a mistake: it shows one only if it is met in its own figures.
     left_out = np.array([[mistake.name == NO_CORIOLIS] for mistake in candidates])
-    met = (off <= 1) & shows & (left_out | ((np.abs(values) > band) & (np.abs(given) > band)))
+    met = (off <= 1) & shows & (left_out | (np.abs(given) > band) | (apart <= OWN_FIGURES * np.abs(values)))
     count = met.sum(axis=1)
     needs_more = [len(row.positions) > 1 and mistake.name in OF_POSITION for mistake in candidates]
     for column, position in enumerate(positions):
