@@ -46,12 +46,16 @@ SHARE = 1e-4
 """A change of this share of an error stands for its slope."""
 
 
-def drawn_bands(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndarray]:
+def drawn_bands(
+    ledger: Ledger, error: float = PAPER_ERROR, scales: Mapping[str, np.ndarray] | None = None
+) -> dict[str, np.ndarray]:
     """Half widths (SI) [N] when every length on paper is off by `error` (m) at each of its ends.
 
+    `scales` are those of plans drawn at others than the report's, as multiples of these, by id: a larger drawing is
+    read more finely.
     What is read or worked out from the drawing is also written down with so many figures only.
     """
-    bands = _carried_through(ledger, measuring_errors(ledger, error))
+    bands = _carried_through(ledger, measuring_errors(ledger, error, scales))
     for id, band in bands.items():
         # A direction is written down in whole degrees.
         last = WHOLE_DEGREE / 2 if is_direction(id) else half_unit(ledger[id].values, DIGITS)
@@ -69,25 +73,33 @@ def computed_bands(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray
     return _carried_through(ledger, errors)
 
 
-def measuring_errors(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndarray]:
+def measuring_errors(
+    ledger: Ledger, error: float = PAPER_ERROR, scales: Mapping[str, np.ndarray] | None = None
+) -> dict[str, np.ndarray]:
     """The own errors (SI) of what is measured: two ends of a length; of a direction, two ends over its length.
 
     Other angles are measured between lines as long as the drawn crank.
     """
     errors: dict[str, np.ndarray] = {}
+    drawn_at = scales or {}
     lengths = (float(one.values[0]) for one in ledger.families.values() if is_chosen_length(ledger, one))
     crank = min(lengths, default=np.inf)
     for id, family in ledger.families.items():
         if family.hidden or family.is_plane or not family.constructed:
             continue
         if family.kind == "segment":
-            errors[id] = np.full(len(family.values), 2 * error)
+            errors[id] = np.full(len(family.values), 2 * error * drawn_at.get(vocabulary.plan(id), 1.0))
         elif is_direction(id):
-            length = np.abs(_on_paper(ledger, id))
+            side = _on_paper(ledger, id)
+            length = np.abs(side.values) / drawn_at.get(vocabulary.plan(side.id), 1.0)
             with np.errstate(all="ignore"):
                 errors[id] = np.minimum(np.where(length > 0, 2 * error / length, np.pi), np.pi)
         elif family.kind == "angle":
-            errors[id] = np.full(len(family.values), 2 * error / crank)
+            errors[id] = np.full(len(family.values), 2 * error * drawn_at.get("mu.l", 1.0) / crank)
+        elif family.kind == "length" and isinstance(family.definition, Call) and family.definition.name == "abs":
+            # Measured on the drawing of the mechanism, as a slider's way is.
+            scale = ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
+            errors[id] = np.full(len(family.values), 2 * error * scale)
     return errors
 
 
@@ -149,15 +161,16 @@ def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[s
     return bands
 
 
-def _on_paper(ledger: Ledger, id: str) -> np.ndarray:
-    """The drawn length (m) of the vector whose direction `dir.…` is measured."""
+def _on_paper(ledger: Ledger, id: str) -> Family:
+    """The drawn length (m) of the vector whose direction `dir.…` is measured, or the vector itself on paper."""
     definition = ledger[id].definition
     assert isinstance(definition, Call), f"{id} is no direction of a vector"
     (vector,) = definition.arguments
     assert isinstance(vector, Ref), f"{id} is no direction of a vector"
     # The side of a force plan that is drawn for a force; on other plans the vector itself lies on paper.
-    sides = (one.values for one in ledger.families.values() if one.of == vector.id and one.kind == "segment")
-    return next(sides, ledger[vector.id].values)
+    measured = Call("abs", (vector,))
+    sides = (one for one in ledger.families.values() if one.kind == "segment")
+    return next((one for one in sides if one.of == vector.id or one.definition == measured), ledger[vector.id])
 
 
 class Role(StrEnum):

@@ -17,8 +17,9 @@ from reportgen.batch.roster import assignment_files, comparable, folder_name
 from reportgen.errors import AssignmentError, Fault, Mark, Problem, ReportgenError
 from reportgen.grading.feedback import feedback_book, feedback_document
 from reportgen.grading.grades import class_document, grade_rows
+from reportgen.grading.guard import Classmate
 from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking, Policy
+from reportgen.grading.marks import Marking, Policy, Submission
 from reportgen.grading.submission import read_submission
 from reportgen.grading.working import Guide, open_guide
 from reportgen.notation.numbers import Language
@@ -72,14 +73,14 @@ class Graded:
 def grade(submissions: Sequence[Path], assignments: Path, policy: Policy, language: Language | None = None) -> Graded:
     """Mark the sheets of files and folders; raises `AssignmentError` if `assignments` is at fault."""
     room = Classroom(assignment_files(assignments, language), policy, language)
-    markings: dict[str, Marking] = {}
+    sheets: dict[str, Submission] = {}
     problems: list[Problem] = []
     for path in _sheets(submissions):
         try:
             submission = read_submission(path, lambda name: room.guide(name).key, language)
-            earlier = markings.get(submission.assignment)
+            earlier = sheets.get(submission.assignment)
             if earlier is not None:
-                kept, left = _preferred(Path(earlier.submission.file), path, submission.assignment)
+                kept, left = _preferred(Path(earlier.file), path, submission.assignment)
                 fault = Fault("sheet-twice", Mark(str(left)), {"text": submission.assignment, "first": kept.name})
                 problems.append(as_problem(fault, language))
                 if kept != path:
@@ -88,11 +89,12 @@ def grade(submissions: Sequence[Path], assignments: Path, policy: Policy, langua
             if named not in (None, comparable(submission.assignment)):
                 about = {"named": room.files[named].stem, "text": submission.assignment}
                 problems.append(as_problem(Fault("sheet-named-otherwise", Mark(str(path)), about), language))
-            guide = room.guide(submission.assignment)
-            classmates = room.keys if policy.guard else ()
-            markings[submission.assignment] = mark(guide, submission, classmates)
+            sheets[submission.assignment] = submission
         except AssignmentError as error:
             problems += error.problems
+    # Whose values a sheet has, shows beside all the others.
+    classmates = [Classmate(key, sheets.get(key.id)) for key in room.keys] if policy.guard else []
+    markings = {name: mark(room.guide(name), sheet, classmates) for name, sheet in sheets.items()}
     missing = tuple(key for key in room.keys if key.id not in markings)
     order = {name: index for index, name in enumerate(room.files)}
     marked = sorted(markings.values(), key=lambda marking: order[comparable(marking.key.id)])

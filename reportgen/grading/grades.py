@@ -56,7 +56,7 @@ def grade_rows(
                 _cell_text(marking.key, first) if first else "",
                 words["mistake_names"][first.mistake or "none"] if first else "",
                 ", ".join(words["warning_names"][warning] for warning in marking.warnings),
-                _flags(marking),
+                _flags(marking, words),
             )
         )
     rows += [(*_who(key), None, None, *(None for _ in parts), "", "", "", "") for key in missing]
@@ -79,11 +79,21 @@ def _cell_text(key: Key, cell: Marked) -> str:
     return f"{symbol} ({key.label(cell.position)})" if cell.position else symbol
 
 
-def _flags(marking: Marking) -> str:
-    """The assignments whose keys some values equal, with their number, the most frequent first."""
-    counts = Counter(name for cell in marking.cells for name in cell.classmates)
-    found = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
-    return ", ".join(f"{name} ({count})" for name, count in found)
+SHOWN = 4
+"""Places that are listed of a flag."""
+
+
+def _flags(marking: Marking, words: Mapping[str, Any]) -> str:
+    """Every flag in full: its kind, whose values, where, the chance of an honest sheet, cells it cost."""
+    texts: list[str] = []
+    for flag in marking.flags:
+        cells = [cell for cell in marking.cells if (cell.id, cell.position) in {*flag.places[:SHOWN]}]
+        where = ", ".join(_cell_text(marking.key, cell) for cell in cells) + (", …" if len(flag.places) > SHOWN else "")
+        of = f" = {flag.other}" if flag.other else ""
+        chance = f", p < {max(flag.chance, 1e-9):.0e}" if flag.other else ""
+        taken = f", {words['warning_names']['taken']}: {len(flag.taken)}" if flag.taken else ""
+        texts.append(f"{words['warning_names'][flag.kind]}{of} ({len(flag.places)}: {where}{chance}{taken})")
+    return "; ".join(texts)
 
 
 # --- the class on a page --------------------------------------------------------------------------

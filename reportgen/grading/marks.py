@@ -11,7 +11,8 @@ from typing import Annotated
 
 from reportgen.answers.key import DIGITS, PAPER_ERROR, Key
 from reportgen.assignment.common import Part
-from reportgen.assignment.fields import Decimal, Flag, Interval, Whole, quantity
+from reportgen.assignment.fields import Decimal, Interval, Text, Whole, quantity
+from reportgen.assignment.fields import Flag as TrueOrFalse
 from reportgen.assignment.reading import read_model
 from reportgen.errors import Mark, Problem
 from reportgen.notation.numbers import Language
@@ -53,7 +54,7 @@ class Verdict(StrEnum):
     blank = "blank"
     unreadable = "unreadable"
     implausible = "implausible"
-    """It follows, or is right by chance, in a sheet that is not the student's own work."""
+    """It follows, or is right by chance, but its marks were taken for a reason that the marking lists."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +64,7 @@ class Marked:
     `expected` is the key's value, `own` what the student's earlier values give, `band` the tolerance.
     `first` says that it is wrong and stands on no wrong value.  `mistake` names what went wrong (a key of
     `mistakes` in `words.yaml`), `where` the id of the quantity in which it was made.  `points` of `worth`
-    are earned.  `classmates` are ids of assignments whose key this value equals.
+    are earned.  `classmates` are ids of assignments whose sheet or key has this value in a run of such values.
     """
 
     id: str
@@ -94,14 +95,41 @@ def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
     return sum(points for points, _ in found), sum(worth for _, worth in found)
 
 
+@dataclass(frozen=True, slots=True)
+class Flag:
+    """Something that the lecturer should look at: a `kind` (a key of `warnings` in words) and the places that show it.
+
+    `spoiled` are places whose marks the policy may take for it, `taken` those where it did.  `other` is the assignment
+    that the values are of, `chance` that an honest sheet would show as much; `count` the values that were compared.
+    """
+
+    kind: str
+    places: tuple[Place, ...]
+    spoiled: tuple[Place, ...] = ()
+    other: str = ""
+    chance: float = 0.0
+    count: int = 0
+    taken: tuple[Place, ...] = ()
+
+
+TAKEN = "taken"
+"""The warning beside the others where marks were taken."""
+
+
 @dataclass(frozen=True)
 class Marking:
-    """All verdicts on a submission, in the order of the key's rows; `warnings` are keys of `warnings` in words."""
+    """All verdicts on a submission, in the order of the key's rows, and what the lecturer should look at."""
 
     key: Key
     submission: Submission
     cells: tuple[Marked, ...]
-    warnings: tuple[str, ...] = ()
+    flags: tuple[Flag, ...] = ()
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Keys of `warnings` in words: each kind of flag once, and whether marks were taken."""
+        kinds = [flag.kind for flag in self.flags]
+        return tuple(dict.fromkeys([*kinds, *([TAKEN] if any(flag.taken for flag in self.flags) else [])]))
 
     @property
     def points(self) -> float:
@@ -124,10 +152,18 @@ class Marking:
 
 # --- the policy -----------------------------------------------------------------------------------
 
+TAKES = frozenset({"stock", "columns", "other-data", "classmate-sheet"})
+"""Kinds of flags that cost marks unless the policy says otherwise: what is beyond doubt."""
+FLAGS_ONLY = frozenset({"constant", "classmate"})
+"""Kinds that are told and cost nothing unless the policy says so."""
+
 
 @dataclass(frozen=True, slots=True)
 class Policy:
-    """Tolerances (`paper` in m) and points; `weights` by patterns of ids."""
+    """Tolerances (`paper` in m) and points; `weights` by patterns of ids.
+
+    `take` says which kinds of flags cost marks, `overrule` gives the reason why a sheet keeps its marks in any case.
+    """
 
     paper: float = PAPER_ERROR
     digits: int = DIGITS
@@ -137,6 +173,12 @@ class Policy:
     weights: Mapping[str, float] = field(default_factory=dict)
     guard: bool = True
     show_answers: bool = True
+    take: Mapping[str, bool] = field(default_factory=dict)
+    overrule: Mapping[str, str] = field(default_factory=dict)
+
+    def takes(self, kind: str, assignment: str) -> bool:
+        """Whether a kind of flag costs marks on the sheet of an assignment."""
+        return assignment not in self.overrule and self.take.get(kind, kind in TAKES)
 
     def worth(self, id: str) -> float:
         """The points that a quantity is worth at one position."""
@@ -158,8 +200,10 @@ class _PolicyFile(Part):
     tolerance: _Tolerance = _Tolerance()
     points: _Points = _Points()
     weights: dict[str, Annotated[float, Decimal(Interval(least=0, most=1000))]] = {}  # noqa: RUF012
-    guard: Annotated[bool, Flag()] = True
-    show_answers: Annotated[bool, Flag()] = True
+    guard: Annotated[bool, TrueOrFalse()] = True
+    take: dict[str, Annotated[bool, TrueOrFalse()]] = {}  # noqa: RUF012
+    overrule: dict[str, Annotated[str, Text()]] = {}  # noqa: RUF012
+    show_answers: Annotated[bool, TrueOrFalse()] = True
 
 
 def read_policy(path: Path, language: Language | None = None) -> Policy:
@@ -173,7 +217,11 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
     weights:                 # by id of the quantity, the first pattern that fits; 0: not marked
       "seg.*": 0.5
       "M.eq": 5
-    guard: true              # stock answers earn nothing
+    guard: true              # sheets that are not the student's own work are told
+    take:                    # by kind of what is told: whether it costs marks
+      other-data: false
+    overrule:                # sheets that keep their marks, and why
+      K225520103023: has shown the drawings
     show_answers: true       # the feedback tells the right values
     """
     content = read_model(path, _PolicyFile, language)
@@ -187,4 +235,6 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
         content.weights,
         content.guard,
         content.show_answers,
+        content.take,
+        content.overrule,
     )

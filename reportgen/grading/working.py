@@ -15,7 +15,7 @@ from reportgen.case import Case
 from reportgen.grading.marks import Place, Policy, Submission
 from reportgen.ledger.core import Ledger, carried, follow, standing_on
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Ref
+from reportgen.notation.expressions import Product, Ref
 
 Values = Mapping[str, np.ndarray]
 """Values (SI) by id, [N] or [1]."""
@@ -28,6 +28,9 @@ ALMOST = 1e-12
 
 LARGEST_SCALE = 1e6
 """A student's own scale that differs more than this from the report's is no scale."""
+
+MANY = 3
+"""So many forces over their lengths show the scale that a plan was drawn at."""
 
 CONFIRMED = 0.02
 """Two scales nearer than this are one: a millimetre in the length of a drawn crank."""
@@ -48,8 +51,16 @@ class Guide:
 
         They are the widest of drawing, rounding and a share of the quantity's maximum over the turn.
         """
-        policy, ledger = self.policy, self.ledger
-        drawn, computed = drawn_bands(ledger, policy.paper), computed_bands(ledger, policy.digits)
+        return self.bands_at({})
+
+    @cached_property
+    def _computed(self) -> dict[str, np.ndarray]:
+        return computed_bands(self.ledger, self.policy.digits)
+
+    def bands_at(self, scales: Values) -> dict[str, np.ndarray]:
+        """The tolerances where plans are drawn at multiples of the report's scales."""
+        policy = self.policy
+        drawn, computed = drawn_bands(self.ledger, policy.paper, scales), self._computed
         return {
             row.id: np.maximum(np.maximum(drawn[row.id], computed[row.id]), policy.share * self.size(row.id))
             * (1 + ALMOST)
@@ -87,6 +98,38 @@ class Guide:
         vectors = carried(self.ledger)
         return {row.id: standing_on(self.ledger, row.id, vectors) for row in self.judged}
 
+    @cached_property
+    def alike(self) -> dict[str, tuple[str, ...]]:
+        """Of each judged row those before it that have its values at all positions."""
+        found: dict[str, tuple[str, ...]] = {}
+        for number, row in enumerate(self.judged):
+            one = self.ledger[row.id]
+            before = (
+                other
+                for other in self.judged[:number]
+                if other.kind == row.kind and len(other.values) == len(row.values)
+            )
+            found[row.id] = tuple(
+                other.id
+                for other in before
+                if np.allclose(one.values, self.ledger[other.id].values, rtol=1e-9, atol=0, equal_nan=True)
+            )
+        return found
+
+    @cached_property
+    def makers(self) -> dict[str, tuple[str, str]]:
+        """Of each scale of a plan the size and the length that it was made from: v_A and pa of μ_v."""
+        found: dict[str, tuple[str, str]] = {}
+        for row in self.judged:
+            scale = vocabulary.plan(row.id)
+            if row.single and scale in self.ledger and scale not in found and _makes_scale(self, row.id, scale):
+                value = self.ledger[scale].values[0] * self.ledger[row.id].values[0]
+                sizes = (one.id for one in self.judged if one.single and one.kind in ("velocity", "acceleration"))
+                size = next((id for id in sizes if np.isclose(self.ledger[id].values[0], value, rtol=1e-9)), "")
+                if size:
+                    found[scale] = size, row.id
+        return found
+
     def stands_on(self, place: Place, places: Container[Place]) -> bool:
         """Whether a value on the sheet stands on one at any of `places`."""
         id, position = place
@@ -123,12 +166,29 @@ class Working:
     """The values of a sheet in SI, [N] or [1], NaN where none is given, by id of the row.
 
     Lengths on paper are turned to the report's scales: the same vector, drawn at another μ.  `scales`
-    are those of the plans as they were drawn, by id, in SI.
+    are those of the plans as they were drawn, by id, in SI; `bands` the tolerances of such drawings.
     """
 
     guide: Guide
     values: Values
     scales: Values
+
+    @cached_property
+    def factors(self) -> dict[str, np.ndarray]:
+        """The scales as multiples of the report's, [N] or [1]."""
+        return {id: scale / self.guide.ledger[id].values for id, scale in self.scales.items()}
+
+    @cached_property
+    def bands(self) -> Mapping[str, np.ndarray]:
+        """The tolerances (SI) [N] of every row, at the student's own scales."""
+        other = {id: factor for id, factor in self.factors.items() if (np.abs(factor - 1) > CONFIRMED).any()}
+        return self.guide.bands_at(other) if other else self.guide.bands
+
+    def unit(self, id: str) -> np.ndarray:
+        """What one printed unit of a quantity stands for in `values` [N]: lengths as drawn at the student's scale."""
+        family = self.guide.ledger[id]
+        unit = family.how.scale * self.factors.get(vocabulary.plan(id), 1.0) / self.factors.get(id, 1.0)
+        return np.broadcast_to(unit, family.values.shape)
 
     def own_values(
         self, blank_from_key: bool = False, changes: Mapping[str, Change] | None = None
@@ -152,6 +212,22 @@ class Working:
 
         follow(ledger, {**unseen, **{id: entered(id) for id in self.entered_ids}})
         return result
+
+    def also(self, row: Row, position: int) -> list[float]:
+        """What a quantity may be taken to be as well: another like it, or for a scale its size over its length.
+
+        Whoever takes a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was.
+        """
+        ledger, index = self.guide.ledger, row.at(position)
+        found = [float(self.values[other][index].real) for other in self.guide.alike[row.id] if other in self.values]
+        if row.role is Role.scale and row.id in self.guide.makers:
+            size, length = self.guide.makers[row.id]
+            if size in self.values and self.values.get(length, np.zeros(1))[0]:
+                found.append(float(self.values[size][0] / self.values[length][0]))
+        return [one for one in found if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)]
+
+    def _is_right(self, row: Row, known: float, value: float) -> bool:
+        return bool(np.isclose(known, value, rtol=1e-9))
 
     def unrounded(self, right: Container[Place]) -> Working:
         """The same with the key's value at every place where the student's is right."""
@@ -205,12 +281,14 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
         stated = values.get(scale, np.full(len(usual), np.nan))
         factor = np.ones(len(usual))
         for place in range(len(usual)):
+            # A scale for all positions is judged by all lengths, a position's own by those of its plan.
+            own = slice(None) if len(usual) == 1 else slice(place, place + 1)
             tried = [float(one) for one in (stated[place] / usual[place], 1.0)]
+            if (in_use := _in_use(guide, values, scale, own)) is not None:
+                tried.insert(0, float(in_use / usual[place]))
             if first is not None:
                 with np.errstate(divide="ignore"):
                     tried.insert(0, float(guide.ledger[first].values[0] / values[first][0]))
-            # A scale for all positions is judged by all lengths, a position's own by those of its plan.
-            own = slice(None) if len(usual) == 1 else place
             factor[place] = _drawn_at(guide, values, [id for id in plan if id != first], tried, own)
         scales[scale] = factor * usual
         values |= {id: values[id] * factor for id in plan}
@@ -232,6 +310,31 @@ def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:
     return column
 
 
+def _in_use(guide: Guide, values: Values, scale: str, place: slice) -> float | None:
+    """The scale (SI) that a plan was drawn at by what was read from it: most sizes over their lengths, if these agree.
+
+    Only a scale that is chosen freely shows so; `place` is the part of the columns that is drawn at it.
+    """
+    if guide.ledger[scale].definition is not None or scale == "mu.l":
+        return None
+    found: list[np.ndarray] = []
+    for id, column in values.items():
+        definition = guide.ledger[id].definition
+        parts = (
+            [one.id for one in definition.factors if isinstance(one, Ref)] if isinstance(definition, Product) else []
+        )
+        if scale in parts and len(parts) == 2:
+            length = parts[1 - parts.index(scale)]
+            if length in values:
+                with np.errstate(all="ignore"):
+                    found.append(np.abs(column / values[length])[place])
+    ratios = np.concatenate(found) if found else np.zeros(0)
+    ratios = ratios[np.isfinite(ratios) & (ratios > 0)]
+    middle = float(np.median(ratios)) if ratios.size else 0.0
+    agree = np.abs(ratios / middle - 1) < CONFIRMED if middle else np.zeros(0)
+    return middle if agree.sum() >= MANY and agree.mean() > 1 / 2 else None
+
+
 def _makes_scale(guide: Guide, id: str, scale: str) -> bool:
     """Whether a length on paper is the one that a scale was made from: the drawn crank, pa."""
     ledger = guide.ledger
@@ -241,12 +344,10 @@ def _makes_scale(guide: Guide, id: str, scale: str) -> bool:
     return isinstance(definition, Ref) and ledger[definition.id].definition is None
 
 
-def _drawn_at(
-    guide: Guide, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice | int = slice(None)
-) -> float:
+def _drawn_at(guide: Guide, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice) -> float:
     """The scale of a plan over the report's: of those `tried` the first that another confirms, else the best.
 
-    Only the lengths of the plan at a `place` of their columns count, if one is named.
+    Only the lengths of the plan at a `place` of their columns count.
     """
 
     def right(factor: float) -> int:

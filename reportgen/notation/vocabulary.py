@@ -288,6 +288,11 @@ def plan(id: str) -> str:
     return found.plan.format(**parts)
 
 
+def is_laid(id: str) -> bool:
+    """Whether it is a length or vector as it is laid off on paper."""
+    return id.startswith("laid.")
+
+
 def distance(id: str, one: Value, other: Value) -> Value:
     """How far two values (SI) of a quantity lie apart: of directions, around the circle."""
     apart = np.abs(one - other)

@@ -15,7 +15,7 @@ from reportgen.errors import CellMark, Problem
 from reportgen.figures.scene import Label
 from reportgen.grading.feedback import FIRST, STYLES, feedback_book, feedback_document, mistake_inlines, points_text
 from reportgen.grading.grades import class_document, grade_rows
-from reportgen.grading.marks import Answer, Marked, Marking, Submission, Verdict
+from reportgen.grading.marks import Answer, Flag, Marked, Marking, Submission, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM
 from reportgen.grading.naming import CONVENTIONS
 from reportgen.notation.numbers import Language
@@ -27,6 +27,10 @@ from tests.grading.students import NAMES
 
 FILE = "/somewhere/of/the/instructor/work.xlsx"
 LANGUAGES: tuple[Language, ...] = get_args(Language)
+OF_PLANS = {f"{kind}-{how}" for kind in ("force", "part") for how in ("left-out", "reversed")} | {
+    "load-forgotten",
+    "load-reversed",
+}
 SLIPS = {"too-few-figures", "rows-swapped", "wrong-column", "other-scale", *(name for name, _, _ in CONVENTIONS)}
 
 
@@ -56,7 +60,7 @@ def marking(language: Language = "en", student: str = "Nguyễn Văn A") -> Mark
     )
     values = {(one.id, one.position): Answer(one.given, "", at(1, 1)) for one in cells if one.given is not None}
     problems = {("v.B", 4): Problem("not-a-number", "“see page 3” is no number", at(11, 8))}
-    return Marking(key, Submission(key.id, FILE, values, problems), cells, ("classmate",))
+    return Marking(key, Submission(key.id, FILE, values, problems), cells, (Flag("classmate", ()),))
 
 
 def sheet(book: bytes, tmp_path: Path) -> dict[tuple[str, str], Any]:
@@ -131,7 +135,7 @@ def test_the_page_tells_errors_by_name_what_followed_and_points_by_part() -> Non
 
 def test_a_perfect_sheet_hears_of_no_error() -> None:
     whole = marking()
-    perfect = replace(whole, cells=tuple(one for one in whole.cells if one.verdict is Verdict.right), warnings=())
+    perfect = replace(whole, cells=tuple(one for one in whole.cells if one.verdict is Verdict.right), flags=())
     text = text_of(feedback_document(perfect, "Crank"))
     assert "No wrong value was found." in text
     assert "Result: 3 of 3 points." in text
@@ -146,7 +150,7 @@ def test_there_are_words_for_every_mistake_verdict_and_warning(language: Languag
         one = cell("v.B", 1, Verdict.wrong, 1.0, 2.0, first=True, mistake=name, where="omega.1")
         assert any("ω" in str(inline) for inline in mistake_inlines(one, key, words))
         assert words["mistake_names"][name]
-    assert set(words["mistakes"]) == {*NAMES, *SLIPS, WRONG_DATUM}
+    assert set(words["mistakes"]) == {*NAMES, *SLIPS, *OF_PLANS, WRONG_DATUM}
     assert set(words["mistake_names"]) == {*words["mistakes"], "none"}
     assert {*words["verdicts"]} == {*Verdict, "first"} == {*words["verdict_notes"]}
     assert {*words["warnings"]} == {*words["warning_names"]}
@@ -161,7 +165,7 @@ def test_grades_have_a_row_for_everyone_and_no_live_formula() -> None:
     assert named["Velocities"] == 3
     assert named["first error"] == "ω_1"
     assert named["mistake"] == "rpm for rad/s"
-    assert named["warnings"] == "values of a classmate"
+    assert named["warnings"] == "a run of values of another sheet"
     assert two[1] == "B"
     assert none[1] == "C"
     assert none[3] is None
