@@ -12,13 +12,17 @@ from itertools import groupby
 import numpy as np
 
 from reportgen.answers.key import Key, Role, Row, shown_number, symbol_text, words_of
+from reportgen.answers.wording import capitalised
 from reportgen.notation.vocabulary import Chapter
 from reportgen.workbook import Book, Entry, Sheet
 
-NAMES = 4
-"""Columns before those of the positions: id, symbol, unit, single value."""
+NAMES = 5
+"""Columns before those of the positions: id, symbol, what it is, unit, single value."""
 HEAD = 3
 """Rows down to the head of the columns: title, note, head."""
+
+WHAT = 48.0
+"""Width (characters) of the column that says what a row is."""
 
 Filling = Callable[[Row, int], Entry | None]
 """What stands in the cell of a row at a position (0 for a single value); None where it has no cell."""
@@ -78,7 +82,7 @@ def grid(
     words = words_of(key)
     sheet, parts = words["answer_sheet"], words["parts"]
     heads = (
-        *(sheet[name] for name in ("id", "symbol", "unit", "value")),
+        *(sheet[name] for name in ("id", "symbol", "what", "unit", "value")),
         *(sheet["position"].format(label=key.label(k)) for k in positions),
         *tail_head,
     )
@@ -91,7 +95,8 @@ def grid(
         lines.append((Entry(), Entry(str(parts[part]), "bold")))
         for row in members:
             cells = (filling(row, k) or Entry(None, "unasked") for k in (0, *positions))
-            names = (Entry(row.id, "note"), Entry(symbol_text(row, key)), Entry(row.unit))
+            what = Entry(capitalised(row.what))
+            names = (Entry(row.id, "note"), Entry(symbol_text(row, key)), what, Entry(row.unit))
             lines.append((*names, *cells, *(tail(row) if tail else ())))
     return tuple(lines)
 
@@ -100,7 +105,7 @@ def page(name: str, rows: Sequence[Sequence[Entry]]) -> Sheet:
     """A protected page in the sheet's layout."""
     columns = len(rows[HEAD - 1])
     longest = max((len(str(row[0].value or "")) for row in rows[HEAD:]), default=0)
-    widths = (max(longest + 1.0, 11.0), 13.0, 13.0, *(12.0,) * (columns - NAMES + 1))
+    widths = (max(longest + 1.0, 11.0), 11.0, WHAT, 13.0, *(12.0,) * (columns - NAMES + 1))
     return Sheet(name, rows, widths, (HEAD, NAMES - 1), protected=True)
 
 
