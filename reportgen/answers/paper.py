@@ -115,10 +115,10 @@ def shared_symbols(rows: Iterable[Row]) -> frozenset[Symbol]:
 # --- the task -------------------------------------------------------------------------------------
 
 
-def task(case: Case, key: Key) -> Document:
+def task(case: Case, key: Key, by_section: bool = False) -> Document:
     """What a student is handed, from the given data to the empty answer sheet; no answer is in it.
 
-    Raises `TemplateError`.
+    `by_section` puts each section of the sheet on pages of its own, headed by whose it is.  Raises `TemplateError`.
     """
     report = open_report(case)
     prose, names, words, machine = report.prose, report.names(), case.words, case.analysis.machine
@@ -126,7 +126,7 @@ def task(case: Case, key: Key) -> Document:
     asked = asked_positions(key)
     (title, *given) = prose.render("given.md", names)
     names |= {
-        "sheet": tuple(answer_tables(key)),
+        "sheet": tuple(_sections(key) if by_section else answer_tables(key)),
         "asked": tuple(map(key.label, asked)),
         "known_tables": tuple(_known_tables(key, every if machine.count <= PLATES_UP_TO else asked)),
     }
@@ -142,10 +142,24 @@ def task(case: Case, key: Key) -> Document:
     return paper(case.assignment.language, words, course, blocks, about.student.name or "", case.assignment.variant)
 
 
-def answer_tables(key: Key) -> Iterator[Table]:
-    """The empty sheet as tables to fill in by hand, a table or more for each part with something to fill in."""
+def _sections(key: Key) -> Iterator[Block]:
+    """The empty sheet with a page break before each section but the first, and whose it is on each."""
+    whose = " – ".join(filter(None, (key.id, key.student.get("name", ""), key.student.get("id", ""))))
+    parts = [part for part in Chapter if any(row.part is part for row in key.asked)]
+    for part in parts:
+        if part is not parts[0]:
+            yield tree.PageBreak()
+        yield heading(str(words_of(key)["parts"][part]), 2)
+        yield paragraph(whose)
+        yield from answer_tables(key, part)
+
+
+def answer_tables(key: Key, only: Chapter | None = None) -> Iterator[Table]:
+    """The empty sheet as tables to fill in by hand, a table or more for each part, or for `only` one of them."""
     words, open_at = words_of(key), open_cells(key)
     for part, members in groupby(key.rows, lambda row: row.part):
+        if only not in (None, part):
+            continue
         caption = (Text(str(words["parts"][part])),)
         rows = [row for row in members if row.positions]
         shared = shared_symbols(rows)

@@ -6,7 +6,7 @@ One sheet that cannot be read never stops the others; nobody's data goes into an
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from reportgen.errors import AssignmentError, Fault, Mark, Problem, ReportgenErr
 from reportgen.grading.feedback import feedback_book, feedback_document
 from reportgen.grading.grades import class_document, grade_rows
 from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking, Policy
+from reportgen.grading.marks import Marking, Policy, Submission
 from reportgen.grading.submission import read_submission
 from reportgen.grading.working import Guide, open_guide
 from reportgen.notation.numbers import Language
@@ -83,7 +83,7 @@ def grade(submissions: Sequence[Path], assignments: Path, policy: Policy, langua
                 problems.append(as_problem(fault, language))
                 if kept != path:
                     continue
-            guide = room.guide(submission.assignment)
+            guide = _asked(room.guide(submission.assignment), submission)
             classmates = room.keys if policy.guard else ()
             markings[submission.assignment] = mark(guide, submission, classmates)
         except AssignmentError as error:
@@ -92,6 +92,15 @@ def grade(submissions: Sequence[Path], assignments: Path, policy: Policy, langua
     order = {name: index for index, name in enumerate(room.files)}
     marked = sorted(markings.values(), key=lambda marking: order[comparable(marking.key.id)])
     return Graded(tuple(marked), tuple(problems), missing)
+
+
+def _asked(guide: Guide, submission: Submission) -> Guide:
+    """The guide with the cells that the policy asks for; what else is filled in is judged but earns no marks."""
+    policy = guide.policy
+    filled = {id for id, _ in (*submission.values, *submission.problems)}
+    key = policy.ask.of(guide.key, filled)
+    beyond = {row.id: 0.0 for row in key.asked if not policy.ask.wants(row)}
+    return replace(guide, key=key, policy=replace(policy, weights={**beyond, **policy.weights}))
 
 
 def _sheets(paths: Sequence[Path]) -> Iterator[Path]:

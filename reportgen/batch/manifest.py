@@ -23,6 +23,8 @@ JOURNAL = ".manifest.journal"
 FORMAT = "reportgen-batch/1"
 MADE_OF = ("assignment", "engine", "language", "templates", "version")
 """All that decides the bytes of a product."""
+ASK = "ask"
+"""What the answer sheet asks for decides them too, where a policy says so."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,9 +56,10 @@ def entry(job: Job, outcome: Outcome) -> Entry:
 
 
 def made_of(job: Job) -> dict[str, str | None]:
-    """The values of `MADE_OF` for a job."""
+    """The values of `MADE_OF` for a job, and of `ASK`."""
     how = job.making
-    return dict(zip(MADE_OF, (job.assignment, how.engine, how.language, how.templates, how.version), strict=True))
+    made = dict(zip(MADE_OF, (job.assignment, how.engine, how.language, how.templates, how.version), strict=True))
+    return {**made, **({ASK: how.ask} if how.ask else {})}
 
 
 def read(out: Path) -> dict[tuple[str, str], Entry]:
@@ -123,7 +126,7 @@ def _entry(line: dict[str, Any]) -> Entry | None:
         return None
     if any(Path(name).name != name for name in files):
         return None
-    made = {key: line.get(key) for key in MADE_OF}
+    made = {key: line.get(key) for key in (*MADE_OF, *((ASK,) if ASK in line else ()))}
     names = {str(name): str(known) for name, known in files.items()}
     return Entry(student, folder, product, made, names, tuple(map(str, problems)))
 

@@ -8,11 +8,13 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TextIO
 
 from reportgen import api
-from reportgen.api import MAKERS, Engine, Maker
+from reportgen.answers.asking import Ask
+from reportgen.api import ASKING, MAKERS, Engine, Maker
 from reportgen.batch import manifest
 from reportgen.batch.manifest import Entry
 from reportgen.batch.pool import Job, Outcome, Pool, failed, local, making
@@ -44,6 +46,7 @@ class Order:
     """What is asked for: assignments drawn from `spec` into `out`, or found in `assignments`; exactly one of both.
 
     `jobs` processes of this machine (0: one for each core), unless a scheduler's address `cluster` is given.
+    `ask` is what the answer sheets ask for, None for the default.
     """
 
     roster: Path
@@ -55,6 +58,7 @@ class Order:
     language: Language | None = None
     jobs: int = 0
     cluster: str | None = None
+    ask: Ask | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,10 +108,17 @@ def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS
     where there is no cluster.
     """
     roster = read_roster(order.roster, order.language)
-    chosen = {name: makers[name] for name in order.products}
+    chosen = {
+        name: partial(makers[name], ask=order.ask) if _asked(order, name) else makers[name] for name in order.products
+    }
     workers = pool or _pool(order)
     with locked(order.out, order.language):
         return _run(order, roster, chosen, workers, stream)
+
+
+def _asked(order: Order, product: str) -> str:
+    """What the policy asks for, in a word for the manifest; "" where there is none or it does not matter."""
+    return str(order.ask) if order.ask is not None and product in ASKING else ""
 
 
 def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, stream: TextIO) -> Result:
@@ -120,7 +131,7 @@ def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, 
     entries = {key: entry for key, entry in before.items() if entry.student in number}
     with api.reported():
         result = Result(manifest.write(out, entries.values()), notes)
-    how = making(order.engine, order.language)
+    how = {name: making(order.engine, order.language, _asked(order, name)) for name in makers}
     kept: list[Job] = []
     jobs: list[Job] = []
     refused: list[tuple[Student, Problem]] = []
@@ -130,7 +141,7 @@ def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, 
             refused.append((student, read))
             continue
         for product, maker in makers.items():
-            job = Job(student.id, student.folder, product, maker, *read, how)
+            job = Job(student.id, student.folder, product, maker, *read, how[product])
             entry = entries.get((job.student, product))
             (kept if entry is not None and entry.holds(job, out) else jobs).append(job)
     result.kept = len(kept)

@@ -22,6 +22,10 @@ from reportgen.cli.common import (
     say,
 )
 
+PolicyOption = Annotated[
+    Path | None,
+    typer.Option("--policy", metavar="FILE", help="What is asked for and how it is marked.", show_default=False),
+]
 Roster = Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)]
 
 
@@ -63,16 +67,19 @@ def batch(
     cluster: Annotated[
         str | None, typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler to work for us.")
     ] = None,
+    policy: PolicyOption = None,
 ) -> None:
     """Make task, report or key of everybody on ROSTER; go on where an earlier run was stopped."""
     from reportgen.api import MAKERS
     from reportgen.batch.run import Order, run_batch
+    from reportgen.grading.marks import read_policy
 
     if (spec is None) == (assignments is None):
         raise typer.BadParameter(say("one_of_spec", lang))
     products = listed(make, MAKERS, "--make", "no_product", lang)
-    order = Order(roster, spec, assignments, out, products, engine, lang, jobs or 0, cluster)
     with ending(lang):
+        ask = None if policy is None else read_policy(policy, lang).ask
+        order = Order(roster, spec, assignments, out, products, engine, lang, jobs or 0, cluster, ask)
         try:
             result = run_batch(order, sys.stderr)
         except KeyboardInterrupt:
@@ -92,14 +99,19 @@ def key(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the keys.")] = Path("out"),
     engine: EngineOption = "typst",
     lang: LangOption = None,
+    policy: PolicyOption = None,
 ) -> None:
     """Write the answer key of each FILE to DIR/<id>/: every value with the bands within which it is right."""
     from reportgen import api
+    from reportgen.grading.marks import read_policy
 
     formats = listed(format, api.KEY_FORMATS, "--format", "no_format", lang)
 
+    with ending(lang):
+        ask = None if policy is None else read_policy(policy, lang).ask
+
     def work(file: Path) -> None:
-        made = api.key_files(file, engine, lang, formats)
+        made = api.key_files(file, engine, lang, formats, ask)
         print(*api.put(out / file.stem, made), sep="\n", flush=True)
 
     for_each(files, lang, work)
@@ -114,9 +126,7 @@ def grade(
     assignments: Annotated[
         Path, typer.Option("--assignments", metavar="DIR", help="The class's assignment files.", show_default=False)
     ],
-    policy: Annotated[
-        Path | None, typer.Option("--policy", metavar="FILE", help="How to mark.", show_default=False)
-    ] = None,
+    policy: PolicyOption = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out/marked"),
     engine: EngineOption = "typst",
     lang: LangOption = None,

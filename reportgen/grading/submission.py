@@ -62,7 +62,9 @@ def read_submission(path: Path, key_of: Callable[[str], Key] | Key, language: La
         raise as_error([Fault("sheet-of-another", kind[1], about)], language)
     reading = _Reading(key, language)
     reading.sheet(*found)
-    return Submission(key.id, str(path), reading.values, reading.problems, tuple(reading.notes))
+    return Submission(
+        key.id, str(path), reading.values, reading.problems, tuple(reading.notes), frozenset(reading.rows)
+    )
 
 
 # --- finding the sheet ----------------------------------------------------------------------------
@@ -121,6 +123,7 @@ class _Reading:
     values: dict[Place, Answer] = field(default_factory=dict)
     problems: dict[Place, Problem] = field(default_factory=dict)
     notes: list[Problem] = field(default_factory=list)
+    rows: set[str] = field(default_factory=set)
 
     def sheet(self, page: Page, head: int) -> None:
         """Read all rows below the head."""
@@ -163,6 +166,7 @@ class _Reading:
             id = cells[at].text.strip() if at < len(cells) else ""
             answers = [(columns[n], cell) for n, cell in enumerate(cells) if n in columns and not _is_empty(cell)]
             if id in asked:
+                self.rows.add(id)
                 yield from (((id, k), cell) for k, cell in answers if k in asked[id].positions)
             elif answers and id not in known:
                 mark = cells[at].mark if id else answers[0][1].mark
