@@ -16,13 +16,13 @@ from reportgen.api import Engine
 from reportgen.batch.roster import assignment_files, comparable, folder_name
 from reportgen.errors import AssignmentError, Fault, Mark, Problem, ReportgenError
 from reportgen.grading.feedback import feedback_book, feedback_document
-from reportgen.grading.grades import class_document, grade_rows
+from reportgen.grading.grades import class_document, grade_rows, person
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking, Policy, Submission
 from reportgen.grading.submission import read_submission
 from reportgen.grading.working import Guide, open_guide
 from reportgen.notation.numbers import Language
-from reportgen.words import as_problem, word
+from reportgen.words import as_problem, counted, word
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.reading import BOOKS
 
@@ -131,8 +131,8 @@ def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language 
     if graded.markings:
         key = graded.markings[0].key
         spoken = language or key.language
-        yield Path("grades.csv"), write_csv(grade_rows(graded.markings, spoken, graded.missing))
-        page = class_document(graded.markings, catalogue.title(key.kind, spoken), spoken, graded.missing)
+        yield Path("grades.csv"), write_csv(grade_rows(graded.markings, spoken, graded.missing, policy.scale))
+        page = class_document(graded.markings, catalogue.title(key.kind, spoken), spoken, graded.missing, policy.scale)
         yield Path("class.pdf"), api.typeset(page, engine)[1]
 
 
@@ -146,7 +146,7 @@ def summary(graded: Graded, language: Language | None) -> Iterator[str]:
     """A line for each student marked, and how many handed nothing in."""
     for marking in graded.markings:
         points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
-        firsts = len(marking.first_errors)
-        yield word("graded", language, id=marking.key.id, points=points, out_of=out_of, firsts=firsts)
+        who, firsts = person(marking.key), len(marking.first_errors)
+        yield word("graded", language, id=who, points=points, out_of=out_of, firsts=firsts)
     if graded.missing:
-        yield word("graded_missing", language, count=len(graded.missing))
+        yield counted("graded_missing", language, len(graded.missing))

@@ -22,7 +22,7 @@ from reportgen.batch.roster import Assigned, Roster, Student, match_files, read_
 from reportgen.batch.variants import make_variants
 from reportgen.errors import Fault, Mark, Problem
 from reportgen.notation.numbers import Language, write
-from reportgen.words import DEFAULT_LANGUAGE, as_problem, word
+from reportgen.words import DEFAULT_LANGUAGE, as_problem, counted, word
 
 if TYPE_CHECKING:
     from rich.progress import ProgressColumn
@@ -180,7 +180,7 @@ def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, 
         manifest.write(out, entries.values())
     result.failures.sort(key=lambda failure: number[failure.student])
     if gone := {entry.student for entry in before.values()} - number.keys():
-        result.notes.append(word("batch_gone", order.language, count=len(gone)))
+        result.notes.append(counted("batch_gone", order.language, len(gone)))
     return result
 
 

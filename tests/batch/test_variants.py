@@ -211,7 +211,7 @@ def test_the_instructors_table_has_values_and_figures(put_file: Put) -> None:
     result = made(path, roster)
     (page,) = read(path.parent / "out" / "variants.csv")
     head, *rows = [[cell.text for cell in row] for row in page.rows]
-    assert head[:3] == ["id", "file", "variant"]
+    assert head[:4] == ["id", "name", "file", "variant"]
     assert head[-5:] == ["worked", "largest", "speed", "positive", "zeros"]
     assert len(rows) == len(result.files) == 12
     assert len({tuple(row[3:8]) for row in rows}) == 12
