@@ -121,7 +121,7 @@ def key(
 def grade(
     submissions: Annotated[
         list[Path],
-        typer.Argument(metavar="SUBMISSION", help="Filled answer sheets, or folders of them.", show_default=False),
+        typer.Argument(metavar="SUBMISSION", help="Sheets, folders, downloads of a platform.", show_default=False),
     ],
     assignments: Annotated[
         Path, typer.Option("--assignments", metavar="DIR", help="The class's assignment files.", show_default=False)
@@ -130,6 +130,16 @@ def grade(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out/marked"),
     engine: EngineOption = "typst",
     lang: LangOption = None,
+    roster: Annotated[
+        Path | None, typer.Option("--roster", metavar="FILE", help="The class, for its names.", show_default=False)
+    ] = None,
+    gradebook: Annotated[
+        Path | None,
+        typer.Option("--gradebook", metavar="FILE", help="A platform's table to fill in.", show_default=False),
+    ] = None,
+    column: Annotated[
+        str, typer.Option("--column", metavar="NAME", help="The gradebook's assignment.", show_default=False)
+    ] = "",
 ) -> None:
     """Mark filled answer sheets from each student's own values; write feedback, grades.csv and the class page."""
     from reportgen.batch import assess
@@ -137,9 +147,14 @@ def grade(
 
     with ending(lang):
         rules = Policy() if policy is None else read_policy(policy, lang)
-        graded = assess.grade(submissions, assignments, rules, lang)
+        graded = assess.grade(submissions, assignments, rules, lang, roster)
+        problems = list(graded.problems)
         for path in assess.put(graded, rules, out, engine, lang):
             print(path, flush=True)
+        if gradebook is not None:
+            filled, unknown = assess.put_gradebook(graded, gradebook, column, rules, out, lang)
+            print(filled, flush=True)
+            problems += unknown
         print(*assess.summary(graded, lang), sep="\n")
-        print(*graded.problems, sep="\n", end="\n" * bool(graded.problems), file=sys.stderr)
-        raise typer.Exit(AT_FAULT if graded.problems else 0)
+        print(*problems, sep="\n", end="\n" * bool(problems), file=sys.stderr)
+        raise typer.Exit(AT_FAULT if problems else 0)

@@ -172,9 +172,9 @@ def _shares(markings: Sequence[Marking], words: Mapping[str, Any], language: Lan
     asked = [(marking.key.row(cell.id), cell) for marking in markings for cell in marking.cells if cell.worth]
     sections = _right([(row.part, cell) for row, cell in asked])
     parts = [(str(words["parts"][part]), _percent(share, language)) for part, share in sections]
-    columns = (Column(PART + 3 * SHARE, "left"), Column(SHARE))
+    widths = (Column(PART + 3 * SHARE, "left"), Column(SHARE))
     yield Table(
-        columns,
+        widths,
         (cells((words["feedback"]["part"], page["right"])),),
         tuple(map(cells, parts)),
         (Text(page["by_section"]),),
