@@ -127,6 +127,7 @@ def task(case: Case, key: Key, by_section: bool = False) -> Document:
     (title, *given) = prose.render("given.md", names)
     names |= {
         "sheet": tuple(_sections(key) if by_section else answer_tables(key)),
+        "asks_scales": any(row.role is Role.scale for row in key.asked),
         "asked": tuple(map(key.label, asked)),
         "known_tables": tuple(_known_tables(key, every if machine.count <= PLATES_UP_TO else asked)),
     }

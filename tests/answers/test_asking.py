@@ -14,10 +14,11 @@ from reportgen.answers.key import Key, make_key
 from reportgen.answers.paper import answer_tables, task
 from reportgen.answers.sheet import answer_book
 from reportgen.case import open_case
-from reportgen.document.tree import PageBreak
+from reportgen.document.tree import PageBreak, text_of
 from reportgen.errors import AssignmentError
 from reportgen.grading.marks import Policy, Scale, Verdict, read_policy
 from reportgen.grading.working import open_guide
+from reportgen.notation.numbers import Language
 from reportgen.notation.vocabulary import Chapter
 from reportgen.workbook import read, write_xlsx
 from tests.answers.test_wording import FILES, key
@@ -156,3 +157,11 @@ def test_the_batch_makes_tasks_anew_when_another_choice_is_ordered() -> None:
     other = replace(job, making=making("typst", None, str(Ask(("velocity",)))))
     assert manifest.made_of(job) != manifest.made_of(other)
     assert manifest.entry(other, Outcome({"a": b""})).made_of == manifest.made_of(other)
+
+
+@pytest.mark.parametrize(("language", "enter"), [("en", "enter them"), ("vi", "hãy ghi vào phiếu")])
+def test_a_task_speaks_of_scales_only_where_they_are_asked_for(language: Language, enter: str) -> None:
+    case = open_case("assignments/slider-crank-01.yaml", language)
+    full = make_key(case)
+    assert enter in text_of(task(case, full))
+    assert enter not in text_of(task(case, Ask().of(full)))
