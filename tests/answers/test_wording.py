@@ -15,6 +15,7 @@ from reportgen.case import open_case
 from reportgen.document.tree import plain
 from reportgen.notation import vocabulary
 from reportgen.notation.numbers import Language
+from reportgen.words import load_words, search_path
 
 FILES = sorted(path.stem for path in Path("assignments").glob("*.yaml"))
 
@@ -93,3 +94,12 @@ def test_paper_has_the_words_beside_the_symbol() -> None:
         [plain(cell.inlines, "vi") for cell in row] for t in answer_tables(key("four-bar-01", "vi")) for row in t.rows
     ]
     assert ["v_B", "Vận tốc của B", "m/s", ""] in texts
+
+
+def test_every_phrase_is_that_of_a_quantity_or_a_family() -> None:
+    names = {row.name for row in vocabulary.ROWS}
+    ids = {row.id for name in FILES for row in key(name, "en").rows}
+    for language in get_args(Language):
+        for phrase in load_words(search_path(language))["quantities"]:
+            family = phrase if phrase in names else phrase.rpartition(".")[0]
+            assert phrase in ids or family in names or phrase in ("link", "frame"), phrase
