@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.answers.wording import phrase
 from reportgen.case import Case
 from reportgen.document.tree import formula
 from reportgen.ledger.core import Ledger
@@ -206,6 +207,8 @@ class Row:
     sense: tuple[str, ...]
     size: str = ""
     """The id of the size of a signed rotation."""
+    what: str = ""
+    """What it is in words: normal acceleration of B about A."""
 
     @property
     def single(self) -> bool:
@@ -306,6 +309,7 @@ def make_key(case: Case) -> Key:
             _asked_at(values, worked, machine.count) if asked else (),
             tuple(_sense(family, value, words["sense"]) for value in values),
             family.of if family.is_signed_rotation else "",
+            phrase(id, ledger, words),
         )
 
     parts, families = list(Chapter), ledger.families.values()

@@ -152,6 +152,7 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
     label = key.label(cell.position)
     return (
         InlineMath(row.symbol),
+        *((Text(f" ({row.what})"),) if row.what else ()),
         *(sentence(feedback["at"], label=label) if label else ()),
         *sentence(feedback["yours"], value=_given_value(row, cell.given)),
         *(sentence(feedback["expected"], value=expected) if show_answers else ()),

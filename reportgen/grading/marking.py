@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from reportgen.answers.asking import Ask
 from reportgen.answers.key import Row, half_unit, symbol_text, words_of
 from reportgen.catalogue import load
 from reportgen.grading.guard import Classmate, guard
@@ -157,7 +158,10 @@ def compare(
     Raises `AssignmentError` if the assignment or the sheet cannot be read.
     """
     guide = open_guide(load(file, language), Policy(guard=False))
-    marking = mark(guide, read_submission(sheet, guide.key, guide.key.language))
+    submission = read_submission(sheet, guide.key, guide.key.language)
+    # What the sheet has no row for is not missing.
+    guide = replace(guide, key=Ask(()).of(guide.key, submission.rows))
+    marking = mark(guide, submission)
     # A blank value does not disagree, nor does one that follows from a right one.
     agrees = not (marking.submission.problems or any(cell.verdict is Verdict.wrong for cell in marking.cells))
     return tuple(_lines(guide, marking, hint, agrees)), agrees

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -9,6 +10,9 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Annotated
 
+from pydantic import Field
+
+from reportgen.answers.asking import Ask
 from reportgen.answers.key import DIGITS, PAPER_ERROR, Key
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Interval, Text, Whole, quantity
@@ -36,7 +40,7 @@ class Submission:
     """A filled answer sheet: its values by place; cells that could not be read are `problems`.
 
     `notes` say what was found beside: rows and positions that the assignment does not ask for, values of
-    formulas, numbers that could be read in two ways.
+    formulas, numbers that could be read in two ways.  `rows` are the ids of all its rows, filled in or not.
     """
 
     assignment: str
@@ -44,6 +48,7 @@ class Submission:
     values: Mapping[Place, Answer]
     problems: Mapping[Place, Problem]
     notes: tuple[Problem, ...] = ()
+    rows: frozenset[str] = frozenset()
 
 
 class Verdict(StrEnum):
@@ -159,8 +164,21 @@ FLAGS_ONLY = frozenset({"constant", "classmate"})
 
 
 @dataclass(frozen=True, slots=True)
+class Scale:
+    """How the mark of a sheet is told: the highest one, and the step to which marks are rounded."""
+
+    highest: float = 10.0
+    step: float = 0.1
+
+    def mark(self, share: float) -> float:
+        """The mark for a share of the points; half a step is rounded up."""
+        # 1e-9: a share such as 0.85 is a little off as a float.
+        return round(math.floor(share * self.highest / self.step + 0.5 + 1e-9) * self.step, 6)
+
+
+@dataclass(frozen=True, slots=True)
 class Policy:
-    """Tolerances (`paper` in m) and points; `weights` by patterns of ids.
+    """What the sheet asks for, tolerances (`paper` in m), points and the mark; `weights` by patterns of ids.
 
     `take` says which kinds of flags cost marks, `overrule` gives the reason why a sheet keeps its marks in any case.
     """
@@ -175,6 +193,8 @@ class Policy:
     show_answers: bool = True
     take: Mapping[str, bool] = field(default_factory=dict)
     overrule: Mapping[str, str] = field(default_factory=dict)
+    ask: Ask = field(default_factory=Ask)
+    scale: Scale = field(default_factory=Scale)
 
     def takes(self, kind: str, assignment: str) -> bool:
         """Whether a kind of flag costs marks on the sheet of an assignment."""
@@ -196,10 +216,18 @@ class _Points(Part):
     follows: Annotated[float, Decimal(Interval(least=0, most=100))] = 1.0
 
 
+class _Mark(Part):
+    highest: Annotated[float, Decimal(Interval(above=0, most=1000))] = Scale().highest
+    step: Annotated[float, Decimal(Interval(above=0, most=100))] = Scale().step
+
+
 class _PolicyFile(Part):
+    ask: Annotated[tuple[Annotated[str, Text()], ...], Field(min_length=1)] = Ask().patterns
+    by_section: Annotated[bool, TrueOrFalse()] = False
     tolerance: _Tolerance = _Tolerance()
     points: _Points = _Points()
     weights: dict[str, Annotated[float, Decimal(Interval(least=0, most=1000))]] = {}  # noqa: RUF012
+    mark: _Mark = _Mark()
     guard: Annotated[bool, TrueOrFalse()] = True
     take: dict[str, Annotated[bool, TrueOrFalse()]] = {}  # noqa: RUF012
     overrule: dict[str, Annotated[str, Text()]] = {}  # noqa: RUF012
@@ -209,6 +237,8 @@ class _PolicyFile(Part):
 def read_policy(path: Path, language: Language | None = None) -> Policy:
     """The policy of a YAML file; raises `AssignmentError` with all its faults, located.
 
+    ask: ["*", "-seg.*"]     # sections and ids of the answer sheet; "-" leaves out, the last that fits decides
+    by_section: false        # each section of the printed sheet on pages of its own
     tolerance:
       paper: 0.5 mm          # how far off each end of a measured length may lie
       digits: 3              # figures that values are computed with
@@ -217,6 +247,7 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
     weights:                 # by id of the quantity, the first pattern that fits; 0: not marked
       "seg.*": 0.5
       "M.eq": 5
+    mark: {highest: 10, step: 0.1}
     guard: true              # sheets that are not the student's own work are told
     take:                    # by kind of what is told: whether it costs marks
       other-data: false
@@ -237,4 +268,6 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
         content.show_answers,
         content.take,
         content.overrule,
+        Ask(content.ask, content.by_section),
+        Scale(content.mark.highest, content.mark.step),
     )

@@ -10,7 +10,7 @@ from typing import Any, get_args
 import pytest
 from openpyxl import load_workbook
 
-from reportgen.document.tree import Figure, Table, text_of
+from reportgen.document.tree import Figure, Table, plain, text_of
 from reportgen.errors import CellMark, Problem
 from reportgen.figures.scene import Label
 from reportgen.grading.feedback import FIRST, STYLES, feedback_book, feedback_document, mistake_inlines, points_text
@@ -163,8 +163,8 @@ def test_grades_have_a_row_for_everyone_and_no_live_formula() -> None:
     assert named["points"] == 4
     assert named["out of"] == 10
     assert named["Velocities"] == 3
-    assert named["first error"] == "ω_1"
-    assert named["mistake"] == "rpm for rad/s"
+    assert (named["per cent"], named["mark"]) == (40, 4)
+    assert named["first errors"] == "ω_1: rpm for rad/s; M_cb (2): not recognised"
     assert named["warnings"] == "a run of values of another sheet"
     assert two[1] == "B"
     assert none[1] == "C"
@@ -175,9 +175,22 @@ def test_grades_have_a_row_for_everyone_and_no_live_formula() -> None:
 def test_the_class_page_has_marks_and_counts() -> None:
     found = [marking(student=f"Student {n}") for n in range(12)]
     tree = class_document(found, "crank", "en", [small_key(student="Absent")])
-    (table,) = [block for block in tree.blocks if isinstance(block, Table)]
+    table, sections, questions = (block for block in tree.blocks if isinstance(block, Table))
     assert len(table.rows) == 13
-    assert sum(column.width for column in table.columns) <= 160
+    for one in (table, sections, questions):
+        assert sum(column.width for column in one.columns) <= 160
+    # Of a question's cells those that are right or follow, of all; what all had right is only counted.
+    shares = [[plain(cell.inlines, "en") for cell in row] for row in (*sections.rows, *questions.rows)]
+    assert [(row[0], row[-1]) for row in shares] == [
+        ("Balance of the driving link", "0"),
+        ("Velocities", "38"),
+        ("Dimensions and drawn lengths", "100"),
+        ("ω_1", "0"),
+        ("M_cb", "0"),
+        ("α_vB", "33"),
+        ("v_B", "50"),
+    ]
+    assert "Questions that all had right: 1." in text_of(tree)
     figures = [block for block in tree.blocks if isinstance(block, Figure)]
     assert len(figures) == 3
     assert all(scene.width < 160 for figure in figures for scene in figure.scenes)
