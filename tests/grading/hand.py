@@ -58,8 +58,8 @@ class Hand:
     """One position of a task worked out; `changes` are mistakes by id, `left_out` and `turned` forces of the plans.
 
     `paper` is the drawn crank and `force_scale` the scale of the force plans (N to a metre on paper); `figures` are
-    written, all there are if 0; the plans' scales are v_A/pa `by_lengths`, else ω μ_l; a drawn point is read up to
-    `blunt` (m) beside where it lies.
+    written, all there are if 0; the scales of the plans of velocity and acceleration are chosen (`plan_scales`, SI), or
+    v_A/pa `by_lengths`, or ω μ_l; a drawn point is read up to `blunt` (m) beside where it lies.
     """
 
     task: Task
@@ -68,6 +68,7 @@ class Hand:
     turned: frozenset[str] = frozenset()
     paper: float = 0.05
     force_scale: float | Mapping[str, float] = 1e5
+    plan_scales: Mapping[str, float] = field(default_factory=dict)
     by_lengths: bool = True
     figures: int = 4
     blunt: float = 0.0
@@ -143,12 +144,12 @@ class Hand:
         self.written[f"drawn.{task.crank}"] = self.paper * 1e3
         self.mu_l = self.say("mu.l", self.cranks[0] / self.paper)
         first = task.rods[0].pin.lower()
-        self.v, self.a = self.say(f"v.{task.rods[0].pin}", self.omega * self.cranks[0]), 0.0
-        for id in (f"seg.v.p{first}", f"seg.a.p{first}"):
-            self.written[id] = self.paper * 1e3
-        self.mu_v = self.say("mu.v", self.v / self.paper if self.by_lengths else self.omega * self.mu_l)
+        self.v = self.say(f"v.{task.rods[0].pin}", self.omega * self.cranks[0])
+        self.mu_v, pa_v = self._plan("v", first, self.v, self.omega)
         self.a = self.say(f"a.{task.rods[0].pin}", self.omega**2 * self.cranks[0])
-        self.mu_a = self.say("mu.a", self.a / self.paper if self.by_lengths else self.omega**2 * self.mu_l)
+        self.mu_a, pa_a = self._plan("a", first, self.a, self.omega**2)
+        # How much larger than the crank its images are.
+        self.larger = pa_v / self.paper, pa_a / self.paper
         self.drawn = [self.paper]
         self.speeds = [self.v]
         for rod, crank in zip(task.rods[1:], self.cranks[1:], strict=True):
@@ -164,6 +165,16 @@ class Hand:
         on_crank = [side.reactions() for side in reversed(done)][::-1]
         self._crank(done, on_crank)
 
+    def _plan(self, what: str, pin: str, value: float, rate: float) -> tuple[float, float]:
+        """The scale of a plan and the length in it that stands for the crank pin's velocity or acceleration."""
+        length = f"seg.{what}.p{pin}"
+        if what in self.plan_scales:
+            scale = self.plan_scales[what]
+            self.written[f"mu.{what}"] = scale / 1e3
+            return scale, self.say(length, value / scale)
+        self.written[length] = self.paper * 1e3
+        return self.say(f"mu.{what}", value / self.paper if self.by_lengths else rate * self.mu_l), self.paper
+
     def _crank(self, sides: list[_Side], forces: list[complex]) -> None:
         """M_cb by the crank's moments and by Zhukovsky's lever, and the reaction in the bearing."""
         moment, total, μ = 0.0, 0j, self.scale_of("1")
@@ -178,11 +189,11 @@ class Hand:
         drawn = self.say("seg.1.R01", abs(self.read(total) - self.read(0j)))
         self.say("R.01", drawn * μ)
         self.heading("R01", -total)
-        work = 0.0
+        work, per = 0.0, self.mu_v / self.omega if self.plan_scales else self.mu_l
         for side in sides:
             for name, size, force, image, beside in side.loads():
                 h = self.lever(f"h.{name}.p", size, force, image, beside * side.turning / self.mu_v)
-                work += self.say(f"M.{name}.p", size * h * self.mu_l)
+                work += self.say(f"M.{name}.p", size * h * per)
         self.say("M.vw", -work)
 
     def arm(self, id: str, at: complex, force: complex, about: complex, beside: float) -> float:
@@ -232,7 +243,7 @@ class _Side:
         along = (B - A) / abs(B - A)
         self.S, self.along = A + AS * along, along
         # Velocities.
-        a1 = task.turn * 1j * A
+        a1 = task.turn * 1j * A * hand.larger[0]
         b1 = _meet(a1, 1j * along, 0j, u)
         ab = say(f"seg.v.{p}{e}", abs(read(b1) - read(a1)))
         v_BA = say(f"v.{end}{pin}", hand.mu_v * ab)
@@ -247,7 +258,7 @@ class _Side:
         say(f"v.{centre}", hand.mu_v * say(f"seg.v.p{s}", abs(read(s1))))
         hand.heading(f"v.{centre}", s1)
         # Accelerations.
-        a2 = -A
+        a2 = -A * hand.larger[1]
         normal = say(f"seg.a.n.{end}{pin}", say(f"a.{end}{pin}.n", v_BA**2 / self.length) / hand.mu_a)
         n2 = a2 if f"n.{end}{pin}" in hand.left_out else a2 - normal * along
         b2 = _meet(n2, 1j * along, 0j, u)
@@ -308,10 +319,13 @@ class _Side:
         β = say(f"beta.{i}", math.asin(λ * math.sin(φ)))
         say(f"x.{j}", R * (1 - math.cos(φ)) + L * (1 - math.cos(β)))
         say(f"f.v.{end}", ω * R * math.sin(φ + β) / math.cos(β))
-        turning = say(f"f.omega.{i}", λ * ω * math.cos(φ) / math.cos(β))
+        # β grows as the rod turns against the crank; ω and ε are positive anticlockwise.
+        against = -hand.task.turn
+        turning = against * say(f"f.omega.{i}", against * λ * ω * math.cos(φ) / math.cos(β))
         a = ω**2 * R * (math.cos(φ + β) / math.cos(β) + λ * math.cos(φ) ** 2 / math.cos(β) ** 3)
         say(f"f.a.{end}", a)
-        rising = say(f"f.eps.{i}", -(ω**2) * λ * (1 - λ**2) * math.sin(φ) / math.cos(β) ** 3)
+        growing = -(ω**2) * λ * (1 - λ**2) * math.sin(φ) / math.cos(β) ** 3
+        rising = against * say(f"f.eps.{i}", against * growing)
         to_S, S = hand.shares[rod], rod.centre
         vx = say(f"f.x.{S}.v", (1 - to_S / L) * ω * R * math.cos(φ))
         vy = say(f"f.y.{S}.v", -ω * R * math.sin(φ) - turning * to_S * math.sin(β))

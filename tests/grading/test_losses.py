@@ -91,6 +91,7 @@ SCALES = (
     {"force_scale": 20920.0},
     {"force_scale": 5e5},
     {"force_scale": 2e3},
+    {"plan_scales": {"v": 400.0, "a": 1e5}},
 )
 
 
@@ -115,7 +116,7 @@ def test_a_finer_drawing_is_read_more_finely() -> None:
 def test_a_slip_in_writing_the_scale_is_named_and_costs_one_mark() -> None:
     guide = students.guide(hands.TWIN, AT)
     sheet = hands.work(guide, AT, blunt=0.3e-3, force_scale=20920.0)
-    given = replace(sheet.values["mu.R23", 0], value=0.92, text="0.92")
-    marking = mark(guide, replace(sheet, values={**sheet.values, ("mu.R23", 0): given}))
+    given = replace(sheet.values["mu.R23", AT[0]], value=0.92, text="0.92")
+    marking = mark(guide, replace(sheet, values={**sheet.values, ("mu.R23", AT[0]): given}))
     assert lost(marking) == 1
     assert [(cell.id, cell.mistake) for cell in marking.first_errors] == [("mu.R23", "other-scale")]
