@@ -19,10 +19,11 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.answers.key import Key, Row, half_unit
+from reportgen.answers.key import Key, Role, Row, half_unit
 from reportgen.grading.marks import Cells, Flag, Marked, Place, Submission, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM
 from reportgen.grading.working import Guide
+from reportgen.notation import vocabulary
 
 SAME = 0.8
 """The share of a sheet's, a column's or a chapter's values that are not its own."""
@@ -205,14 +206,22 @@ def _is_whole(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
 
 
 def _is_source(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
-    """Whether it is the other sheet that has this one's values: those that are right here and wrong there."""
+    """Whether it is the other sheet that has this one's values: those that are right here and wrong there.
+
+    What depends on a scale says nothing: the classmate may have chosen another one than the key.
+    """
     taken = 0
     for place, cell in cells.items():
         row = _row(classmate, cell)
-        if row is not None and cell.verdict is Verdict.right:
+        if row is not None and cell.verdict is Verdict.right and not _is_drawn(row):
             off = _apart(guide, cell, float(row.values[row.at(cell.position)]), cell.expected)
             taken += off >= APART * cell.band and _equal(cell, _theirs(classmate, place))
     return taken >= FEWEST_ROWS
+
+
+def _is_drawn(row: Row) -> bool:
+    """Whether it is a scale or a length on paper."""
+    return row.role is Role.scale or bool(vocabulary.plan(row.id))
 
 
 def _row(classmate: Classmate, cell: Marked) -> Row | None:

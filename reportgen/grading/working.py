@@ -130,6 +130,20 @@ class Guide:
                     found[scale] = size, row.id
         return found
 
+    @cached_property
+    def sizes(self) -> dict[str, set[str]]:
+        """The quantities that each length of a plan stands for: μ times it, and the size of the vector laid as it."""
+        found: dict[str, set[str]] = {id: set() for id in self.ledger.families if vocabulary.plan(id)}
+        for id, family in self.ledger.families.items():
+            if isinstance(family.definition, Product) and len(family.definition.factors) == 2:
+                used = [one.id for one in family.definition.factors if isinstance(one, Ref)]
+                for length in used:
+                    if vocabulary.plan(length) in used:
+                        found[length].add(id)
+            if id in found and family.of in self.ledger:
+                found[id].add(self.ledger[family.of].of)
+        return found
+
     def stands_on(self, place: Place, places: Container[Place]) -> bool:
         """Whether a value on the sheet stands on one at any of `places`."""
         id, position = place
@@ -166,12 +180,14 @@ class Working:
     """The values of a sheet in SI, [N] or [1], NaN where none is given, by id of the row.
 
     Lengths on paper are turned to the report's scales: the same vector, drawn at another μ.  `scales`
-    are those of the plans as they were drawn, by id, in SI; `bands` the tolerances of such drawings.
+    are those of the plans as they were drawn, by id, in SI, `shown` where the sheet leaves no doubt of them; `bands`
+    are the tolerances of such drawings.
     """
 
     guide: Guide
     values: Values
     scales: Values
+    shown: Values
 
     @cached_property
     def factors(self) -> dict[str, np.ndarray]:
@@ -181,7 +197,9 @@ class Working:
     @cached_property
     def bands(self) -> Mapping[str, np.ndarray]:
         """The tolerances (SI) [N] of every row, at the student's own scales."""
-        other = {id: factor for id, factor in self.factors.items() if (np.abs(factor - 1) > CONFIRMED).any()}
+        # Nobody gets wider tolerances by a scale that nothing was drawn at.
+        factors = {id: np.where(self.shown[id], one, np.minimum(one, 1.0)) for id, one in self.factors.items()}
+        other = {id: factor for id, factor in factors.items() if (np.abs(factor - 1) > CONFIRMED).any()}
         return self.guide.bands_at(other) if other else self.guide.bands
 
     def unit(self, id: str) -> np.ndarray:
@@ -274,12 +292,13 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
     values = {id: column for id, column in values.items() if not np.isnan(column).all()}
     asked = [row.id for row in guide.key.asked if row.role is Role.scale and row.kind != "segment"]
     scales: dict[str, np.ndarray] = {}
+    shown: dict[str, np.ndarray] = {}
     for scale in asked:
         usual = guide.ledger[scale].values
         plan = [id for id in values if vocabulary.plan(id) == scale]
         first = next((id for id in plan if _makes_scale(guide, id, scale)), None)
         stated = values.get(scale, np.full(len(usual), np.nan))
-        factor = np.ones(len(usual))
+        factor, shown[scale] = np.ones(len(usual)), np.zeros(len(usual), dtype=bool)
         for place in range(len(usual)):
             # A scale for all positions is judged by all lengths, a position's own by those of its plan.
             own = slice(None) if len(usual) == 1 else slice(place, place + 1)
@@ -289,12 +308,13 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
             if first is not None:
                 with np.errstate(divide="ignore"):
                     tried.insert(0, float(guide.ledger[first].values[0] / values[first][0]))
-            factor[place] = _drawn_at(guide, values, [id for id in plan if id != first], tried, own)
+            plan_of_place = [id for id in plan if id != first]
+            factor[place], shown[scale][place] = _drawn_at(guide, values, plan_of_place, tried, own)
         scales[scale] = factor * usual
         values |= {id: values[id] * factor for id in plan}
         if scale in values:
             values[scale] = stated / factor
-    return Working(guide, values, scales)
+    return Working(guide, values, scales, shown)
 
 
 def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:
@@ -318,16 +338,10 @@ def _in_use(guide: Guide, values: Values, scale: str, place: slice) -> float | N
     if guide.ledger[scale].definition is not None or scale == "mu.l":
         return None
     found: list[np.ndarray] = []
-    for id, column in values.items():
-        definition = guide.ledger[id].definition
-        parts = (
-            [one.id for one in definition.factors if isinstance(one, Ref)] if isinstance(definition, Product) else []
-        )
-        if scale in parts and len(parts) == 2:
-            length = parts[1 - parts.index(scale)]
-            if length in values:
-                with np.errstate(all="ignore"):
-                    found.append(np.abs(column / values[length])[place])
+    for length in (id for id in values if vocabulary.plan(id) == scale):
+        for size in guide.sizes[length] & values.keys():
+            with np.errstate(all="ignore"):
+                found.append(np.abs(values[size] / values[length])[place])
     ratios = np.concatenate(found) if found else np.zeros(0)
     ratios = ratios[np.isfinite(ratios) & (ratios > 0)]
     middle = float(np.median(ratios)) if ratios.size else 0.0
@@ -344,10 +358,13 @@ def _makes_scale(guide: Guide, id: str, scale: str) -> bool:
     return isinstance(definition, Ref) and ledger[definition.id].definition is None
 
 
-def _drawn_at(guide: Guide, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice) -> float:
+def _drawn_at(
+    guide: Guide, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice
+) -> tuple[float, bool]:
     """The scale of a plan over the report's: of those `tried` the first that another confirms, else the best.
 
-    Only the lengths of the plan at a `place` of their columns count.
+    Only the lengths of the plan at a `place` of their columns count.  The second is whether the scale is shown: by
+    another, or by half of the lengths.
     """
 
     def right(factor: float) -> int:
@@ -360,5 +377,6 @@ def _drawn_at(guide: Guide, values: Values, plan: Sequence[str], tried: Sequence
     possible = [one for one in tried if np.isfinite(one) and 1 / LARGEST_SCALE < one < LARGEST_SCALE]
     first, *others = possible
     if any(abs(first / other - 1) < CONFIRMED for other in others):
-        return first
-    return max(possible, key=right)
+        return first, True
+    best = max(possible, key=right)
+    return best, 2 * right(best) >= sum(int(np.isfinite(values[id][place]).sum()) for id in plan)

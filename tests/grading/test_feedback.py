@@ -60,7 +60,12 @@ def marking(language: Language = "en", student: str = "Nguyễn Văn A") -> Mark
     )
     values = {(one.id, one.position): Answer(one.given, "", at(1, 1)) for one in cells if one.given is not None}
     problems = {("v.B", 4): Problem("not-a-number", "“see page 3” is no number", at(11, 8))}
-    return Marking(key, Submission(key.id, FILE, values, problems), cells, (Flag("classmate", ()),))
+    return Marking(
+        key,
+        Submission(key.id, FILE, values, problems),
+        cells,
+        (Flag("classmate", (("v.B", 3),), other="classmate-99"),),
+    )
 
 
 def sheet(book: bytes, tmp_path: Path) -> dict[tuple[str, str], Any]:
@@ -119,7 +124,7 @@ def test_feedback_holds_nothing_of_others_nor_of_the_instructors_disk(language: 
     for text in (*values, text_of(feedback_document(found, "Crank")), str(feedback_document(found, "Crank"))):
         assert "classmate-99" not in text
         assert "somewhere" not in text
-    assert "classmate-99 (1)" in grade_rows([found], language)[1]
+    assert any("= classmate-99 (1: v_B (3)" in str(one) for one in grade_rows([found], language)[1])
 
 
 def test_the_page_tells_errors_by_name_what_followed_and_points_by_part() -> None:
