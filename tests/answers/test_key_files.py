@@ -93,6 +93,6 @@ def test_an_endless_angle_has_six_figures_and_a_typed_one_all_of_its_own(tmp_pat
     file = tmp_path / "a.yaml"
     file.write_text(text, encoding="utf-8")
     _, *rows = key_rows(make_key(open_case(file, "en")))
-    shown = {(row[0], row[4]): row[5] for row in rows}
+    shown = {(row[0], row[5]): row[6] for row in rows}
     assert [shown["phi.1", position] for position in "128"] == [77.7, 129.129, 437.7]
     assert shown["s", ""] == 0.3512345678
