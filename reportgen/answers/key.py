@@ -21,8 +21,10 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.answers.wording import phrase
+from reportgen.answers.senses import MAGNITUDE, is_open, positive_sense
+from reportgen.answers.wording import capitalised, phrase
 from reportgen.case import Case
+from reportgen.document.outline import open_report
 from reportgen.document.tree import formula
 from reportgen.ledger.core import Ledger
 from reportgen.notation import vocabulary
@@ -209,10 +211,19 @@ class Row:
     """The id of the size of a signed rotation."""
     what: str = ""
     """What it is in words: normal acceleration of B about A."""
+    positive: str = ""
+    """Which sense counts as positive, in words; "" where there is none, or where the general rule says it."""
+    open_sense: bool = False
+    """Whether its sign is not judged, because the papers do not say which sense is positive."""
 
     @property
     def single(self) -> bool:
         return len(self.values) == 1
+
+    @property
+    def described(self) -> str:
+        """What it is and which sense of it counts as positive, as it stands beside the row."""
+        return capitalised("; ".join(filter(None, (self.what, self.positive))))
 
     def has(self, position: int) -> bool:
         """Whether the quantity has a value at a position: from 1, or 0 for a single value."""
@@ -275,6 +286,7 @@ def shown_number(row: Row, value: float) -> Number:
 def make_key(case: Case) -> Key:
     """The key of a case, from the ledger that its report prints."""
     assignment, machine, ledger, words = case.assignment, case.analysis.machine, case.ledger, case.words
+    report = open_report(case)
     on_paper, by_rounding = drawn_bands(ledger), computed_bands(ledger)
     worked = tuple(assignment.worked_positions)
     complete = set(worked) == set(range(1, machine.positions + 1))
@@ -283,6 +295,7 @@ def make_key(case: Case) -> Key:
         family = ledger[id]
         scale = family.how.scale
         values = np.array([family.at(k + 1).real for k in range(len(family.values))])
+        sense = positive_sense(id, report)
         if family.is_direction:
             # A vector of no length has none.
             exists = [ledger[family.of].at(k + 1) != 0 for k in range(len(values))]
@@ -310,12 +323,14 @@ def make_key(case: Case) -> Key:
             tuple(_sense(family, value, words["sense"]) for value in values),
             family.of if family.is_signed_rotation else "",
             phrase(id, ledger, words),
+            words["magnitude"] if sense == MAGNITUDE else sense,
+            is_open(values, sense),
         )
 
     parts, families = list(Chapter), ledger.families.values()
     # No rows for points, optional quantities and the sizes of signed rotations.
     shown = (one.id for one in families if not (one.hidden or one.is_plane or one.optional or one.id in ledger.signed))
-    rows = sorted(map(row, shown), key=lambda row: parts.index(row.part))
+    rows = sorted([row(id) for id in shown], key=lambda row: parts.index(row.part))
     student = assignment.report.student
     fields = {"name": student.name, "id": student.id, "class": student.class_}
     return Key(

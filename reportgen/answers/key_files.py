@@ -23,7 +23,6 @@ from reportgen.answers.paper import (
     symbol_width,
 )
 from reportgen.answers.sheet import Filling, grid, info_page, number_format, page
-from reportgen.answers.wording import capitalised
 from reportgen.document import tree
 from reportgen.document.tree import Cell, Column, Document, InlineMath, Inlines, Table, Text
 from reportgen.notation.expressions import Number, Symbol
@@ -98,7 +97,7 @@ def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
             row.id,
             words["parts"][row.part],
             symbol_text(row, key),
-            row.what,
+            row.described,
             row.unit,
             "" if row.single else key.labels[index],
             shown_number(row, float(value)).shown if value == value else None,
@@ -133,6 +132,7 @@ def key_data(key: Key) -> dict[str, Any]:
                 "role": row.role.value,
                 "symbol": symbol_text(row, key),
                 "what": row.what,
+                "positive": row.positive,
                 "kind": row.kind,
                 "unit": row.unit,
                 "decimals": row.decimals,
@@ -197,7 +197,7 @@ def _list(words: Mapping[str, Any], name: str, rows: Sequence[Row]) -> Table:
     titles = [heads["symbol"], words["answer_sheet"]["what"], heads["unit"], heads["value"]]
     titles += [words["key"][name] for name in ("drawn", "computed", *(["sense"] if senses else []))]
     body = (
-        cells((symbol_inlines(row, row.symbol in shared), capitalised(row.what), row.unit, *_values(row, 0, senses)))
+        cells((symbol_inlines(row, row.symbol in shared), row.described, row.unit, *_values(row, 0, senses)))
         for row in rows
     )
     return Table(columns, (cells(titles),), tuple(body), (Text(name),))
@@ -223,7 +223,7 @@ def _by_position(
 def _title(row: Row, with_id: bool) -> Inlines:
     """Symbol and unit of a quantity, perhaps with its id; below, what it is."""
     text = (f", {row.unit}" if row.unit else "") + (f" ({row.id})" if with_id else "")
-    return (InlineMath(row.symbol), *((Text(text),) if text else ()), tree.LineBreak(), Text(row.what))
+    return (InlineMath(row.symbol), *((Text(text),) if text else ()), tree.LineBreak(), Text(row.described))
 
 
 def _values(row: Row, index: int, senses: bool) -> tuple[Number | str, ...]:

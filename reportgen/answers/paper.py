@@ -9,7 +9,6 @@ from typing import Any
 
 from reportgen.answers.key import Key, Role, Row, words_of
 from reportgen.answers.sheet import asked_positions, info_rows, open_cells
-from reportgen.answers.wording import capitalised
 from reportgen.case import Case
 from reportgen.document import tree
 from reportgen.document.numbering import number
@@ -232,7 +231,7 @@ def _answer_table(
         cells(
             (
                 symbol_inlines(row, row.symbol in shared),
-                capitalised(row.what),
+                row.described,
                 row.unit,
                 *("" if k in open_at[row.id] else DASH for k in positions),
             )

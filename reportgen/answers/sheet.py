@@ -12,7 +12,6 @@ from itertools import groupby
 import numpy as np
 
 from reportgen.answers.key import Key, Role, Row, shown_number, symbol_text, words_of
-from reportgen.answers.wording import capitalised
 from reportgen.notation.vocabulary import Chapter
 from reportgen.workbook import Book, Entry, Sheet
 
@@ -98,7 +97,7 @@ def grid(
         lines.append((Entry(), Entry(str(parts[part]), "bold")))
         for row in members:
             cells = (filling(row, k) or Entry(None, "unasked") for k in (0, *positions))
-            what = Entry(capitalised(row.what))
+            what = Entry(row.described)
             names = (Entry(row.id, "note"), Entry(symbol_text(row, key)), what, Entry(row.unit))
             lines.append((*names, *cells, *(tail(row) if tail else ())))
     return tuple(lines)

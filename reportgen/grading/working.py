@@ -75,10 +75,15 @@ class Guide:
         return float(values[np.isfinite(values)].max(initial=0.0))
 
     def distance(self, id: str, one: np.ndarray | float, other: np.ndarray | float) -> np.ndarray:
-        """How far values (SI) lie apart: directions around the circle, arms by their sizes."""
-        if self.ledger[id].arm:
+        """How far values (SI) lie apart: directions around the circle; what has no sense of its own by size."""
+        if self.is_unsigned(id):
             one, other = np.abs(one), np.abs(other)
         return np.asarray(vocabulary.distance(id, np.asarray(one), np.asarray(other)))
+
+    def is_unsigned(self, id: str) -> bool:
+        """Whether the sign of a quantity is not judged: an arm's, or one of which the sheet leaves the sense open."""
+        row = self.key.find(id)
+        return self.ledger[id].arm or (row is not None and row.open_sense)
 
     @cached_property
     def rows(self) -> dict[str, Row]:
@@ -269,14 +274,14 @@ class Working:
         return tuple(dict.fromkeys([*judged, *map(self.guide.ledger.size_of, judged), *self.values]))
 
     def entered_values(self, id: str, computed: np.ndarray, blank: np.ndarray) -> np.ndarray:
-        """The student's values of a quantity, `blank` where there are none; an arm has the sign that is computed."""
+        """The student's values of a quantity, `blank` where there are none; the computed sign where none is judged."""
         given = self.values.get(id)
         if given is None:
             signed = self.values.get(self.guide.ledger.signed.get(id, ""))
             if signed is None:
                 return blank
             given = np.abs(signed)
-        elif self.guide.ledger[id].arm:
+        elif self.guide.is_unsigned(id):
             given = np.abs(given) * np.where(computed < 0, -1.0, 1.0)
         return np.where(np.isnan(given), blank, given)
 
