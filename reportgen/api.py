@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -23,6 +23,7 @@ from reportgen.scratch import scratch
 if TYPE_CHECKING:
     from reportgen.analysis import Analysis
     from reportgen.answers.asking import Ask
+    from reportgen.answers.key import Key
     from reportgen.document.tree import Document
 
 Engine = Literal["typst", "latex"]
@@ -152,6 +153,24 @@ ASKING = frozenset({"task", "key"})
 
 
 # --- writing files ------------------------------------------------------------------------------------
+
+
+def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None) -> None:
+    """Raises `AssignmentError` if a policy asks for what no machine of these assignments has."""
+    from reportgen.answers.key import make_key
+
+    def keys() -> Iterator[Key]:
+        """A key of each kind of machine; what cannot be computed is told where its turn comes."""
+        seen: set[str] = set()
+        for path in files:
+            with suppress(ReportgenError):
+                case = open_case(path, language)
+                if case.assignment.kind not in seen:
+                    seen.add(case.assignment.kind)
+                    yield make_key(case)
+
+    if ask is not None:
+        ask.check(keys(), language)
 
 
 def put(folder: Path, files: Mapping[str, bytes]) -> list[Path]:

@@ -105,12 +105,13 @@ def grade(
 ) -> Graded:
     """Mark the sheets of files, folders and downloads of a platform, with names from a roster if there is one.
 
-    Raises `AssignmentError` if `assignments` or `roster` is at fault.
+    Raises `AssignmentError` if `assignments` or `roster` is at fault, or the policy asks for what there is not.
     """
     files = assignment_files(assignments, language)
     students = read_roster(roster, language).students if roster else ()
     people = {comparable(name): student for student in students for name in (student.folder, student.id)}
     room = Classroom(files, policy, language, people)
+    policy.ask.check(room.keys, language)
     sheets: dict[str, Submission] = {}
     owners: dict[str, Owner] = {}
     problems: list[Problem] = []

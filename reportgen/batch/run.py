@@ -126,6 +126,8 @@ def _run(
     order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, stream: TextIO, temporary: Path | None
 ) -> Result:
     assigned, notes = _assigned(order, roster)
+    if order.ask is not None and ASKING & makers.keys():
+        api.check_ask(order.ask, (file for _, file in assigned if isinstance(file, Path)), order.language)
     out = order.out
     for folder in (out, *(out / student.folder for student, _ in assigned)):
         _remove_temporary(folder)

@@ -110,6 +110,7 @@ def key(
 
     with ending(lang):
         ask = None if policy is None else read_policy(policy, lang).ask
+        api.check_ask(ask, files, lang)
 
     def work(file: Path) -> None:
         with api.reported(out), scratch(out):

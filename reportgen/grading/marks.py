@@ -268,6 +268,6 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
         content.show_answers,
         content.take,
         content.overrule,
-        Ask(content.ask, content.by_section),
+        Ask(content.ask, content.by_section, path if "ask" in content.model_fields_set else None),
         Scale(content.mark.highest, content.mark.step),
     )

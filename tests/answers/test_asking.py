@@ -165,3 +165,30 @@ def test_a_task_speaks_of_scales_only_where_they_are_asked_for(language: Languag
     full = make_key(case)
     assert enter in text_of(task(case, full))
     assert enter not in text_of(task(case, Ask().of(full)))
+
+
+def test_a_pattern_that_fits_nothing_is_a_located_fault(tmp_path: Path) -> None:
+    """Neither a section nor an id of any of the machines; a section that one of them lacks is no fault."""
+    policy = tmp_path / "policy.yaml"
+    policy.write_text('ask:\n  - "*"\n  - "-cycle"\n  - "-sge.*"\n  - formula\n', encoding="utf-8")
+    ask = read_policy(policy, "en").ask
+    with pytest.raises(AssignmentError) as error:
+        ask.check([key("four-bar-01", "en"), key("engine-twin-05", "en")], "en")
+    found = [(problem.code, problem.mark.line, problem.mark.column, problem.hint) for problem in error.value.problems]
+    assert found[0][:3] == ("ask-fits-nothing", 4, 5)
+    assert found[1] == ("ask-fits-nothing", 5, 5, "did you mean “formulas”?")
+    assert "-sge.*" in str(error.value.problems[0])
+    # What fits one machine of several is right, and so is all that nobody's file says.
+    policy.write_text('ask: ["*", "-f.x.*", "-p.3"]\n', encoding="utf-8")
+    read_policy(policy, "en").ask.check([key("four-bar-01", "en"), key("engine-twin-05", "en")], "en")
+    Ask().check([small_key()], "en")
+
+
+def test_every_command_tells_what_fits_nothing(tmp_path: Path) -> None:
+    policy = tmp_path / "policy.yaml"
+    policy.write_text('ask: ["*", "-segs.*"]\n', encoding="utf-8")
+    ask = read_policy(policy, "vi").ask
+    with pytest.raises(AssignmentError, match="segs"):
+        api.check_ask(ask, [Path("assignments/four-bar-01.yaml")], "vi")
+    api.check_ask(ask, [tmp_path / "missing.yaml"], "vi")
+    api.check_ask(None, [Path("assignments/four-bar-01.yaml")], "vi")
