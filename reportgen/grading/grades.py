@@ -34,7 +34,7 @@ SYMBOL, PART, SHARE = 22.0, 40.0, 18.0
 def grade_rows(
     markings: Sequence[Marking], language: Language, missing: Sequence[Key] = (), scale: Scale | None = None
 ) -> tuple[tuple[Value, ...], ...]:
-    """Head and rows of `grades.csv`: who, points, the mark, points by part, all first errors, warnings, flags.
+    """Head and rows of `grades.csv`: who, points, the mark, points by part, all first errors, warnings, flags, remarks.
 
     `missing` are keys of those who handed nothing in; their points stay empty.
     """
@@ -46,7 +46,7 @@ def grade_rows(
     head = (
         *(names[name] for name in ("id", "name", "class", "points", "out_of", "percent", "mark")),
         *(str(words["parts"][part]) for part in parts),
-        *(names[name] for name in ("firsts", "warnings", "flags")),
+        *(names[name] for name in ("firsts", "warnings", "flags", "elsewhere")),
     )
     people = {key.id: person(key) for key in (*(marking.key for marking in markings), *missing)}
     rows: list[tuple[Value, ...]] = [head]
@@ -61,10 +61,11 @@ def grade_rows(
             "; ".join(_error_text(marking.key, cell, words) for cell in marking.first_errors),
             ", ".join(words["warning_names"][warning] for warning in marking.warnings),
             _flags(marking, words, people),
+            ", ".join(_cell_text(marking.key, cell) for cell in marking.elsewhere),
         )
         for marking in markings
     ]
-    rows += [(*_who(key), *(None,) * 4, *(None for _ in parts), "", "", "") for key in missing]
+    rows += [(*_who(key), *(None,) * 4, *(None for _ in parts), "", "", "", "") for key in missing]
     return tuple(rows)
 
 

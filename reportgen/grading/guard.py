@@ -19,10 +19,10 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.answers.key import Key, Role, Row, half_unit
+from reportgen.answers.key import Key, Role, Row
 from reportgen.grading.marks import Cells, Flag, Marked, Place, Submission, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM
-from reportgen.grading.working import Guide
+from reportgen.grading.working import Guide, last_half_unit
 from reportgen.notation import vocabulary
 
 SAME = 0.8
@@ -253,14 +253,8 @@ def _is_personal(guide: Guide, cell: Marked) -> bool:
     assert cell.given is not None
     if cell.verdict is Verdict.follows or (cell.mistake and cell.mistake != WRONG_DATUM) or cell.given == 0:
         return False
-    last = 2 * _half_unit(cell.given)
+    last = 2 * last_half_unit(cell.given)
     return all(_apart(guide, cell, cell.given, value) > LAST * last for value in (cell.expected, cell.own))
-
-
-def _half_unit(value: float) -> float:
-    """Half a unit of the last figure of a number as it was written, with three figures at least."""
-    written = f"{abs(value):.11e}".partition("e")[0].replace(".", "").rstrip("0")
-    return float(half_unit(np.array([value]), max(3, len(written)))[0])
 
 
 def _is_near(cell: Marked) -> bool:
@@ -279,7 +273,7 @@ def _meets(guide: Guide, cell: Marked, classmate: Classmate) -> bool | None:
         return None if theirs is None else _equal(cell, theirs)
     if _apart(guide, cell, value, cell.expected) < APART * cell.band:
         return None
-    return _equal(cell, theirs) or _apart(guide, cell, cell.given, value) <= _half_unit(cell.given) * (1 + 1e-9)
+    return _equal(cell, theirs) or _apart(guide, cell, cell.given, value) <= last_half_unit(cell.given) * (1 + 1e-9)
 
 
 def _tail(chances: Sequence[float], met: int) -> float:

@@ -23,6 +23,7 @@ from reportgen.grading.marks import Cells, Flag, Marked, Marking, Place, Policy,
 from reportgen.grading.mistakes import Mistake
 from reportgen.grading.naming import misread_data, mistakes_of_working, slips_of_writing
 from reportgen.grading.plans import mistakes_of_plans
+from reportgen.grading.remarks import not_from_own
 from reportgen.grading.submission import read_submission
 from reportgen.grading.working import Guide, Values, Working, lay_out, open_guide
 from reportgen.ledger.core import Ledger
@@ -53,6 +54,7 @@ def mark(guide: Guide, submission: Submission, classmates: Sequence[Classmate] =
         for place, mistake in found.items():
             cells[place] = replace(cells[place], mistake=mistake.name, where=mistake.where)
         cells |= _charged_once(working, cells, found)
+    cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
     flags: tuple[Flag, ...] = ()
     if guide.policy.guard:
         cells, flags = guard(guide, cells, classmates)

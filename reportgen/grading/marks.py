@@ -70,6 +70,7 @@ class Marked:
     `first` says that it is wrong and stands on no wrong value.  `mistake` names what went wrong (a key of
     `mistakes` in `words.yaml`), `where` the id of the quantity in which it was made.  `points` of `worth`
     are earned.  `classmates` are ids of assignments whose sheet or key has this value in a run of such values.
+    `elsewhere` says that it is right, but is not what the student's own values beside it give.
     """
 
     id: str
@@ -85,6 +86,7 @@ class Marked:
     mistake: str = ""
     where: str = ""
     classmates: tuple[str, ...] = ()
+    elsewhere: bool = False
 
     def equals(self, value: float, band: float) -> bool:
         """Whether a value was given that lies within a band of another."""
@@ -129,6 +131,11 @@ class Marking:
     submission: Submission
     cells: tuple[Marked, ...]
     flags: tuple[Flag, ...] = ()
+
+    @property
+    def elsewhere(self) -> list[Marked]:
+        """The right values that are not from the student's own."""
+        return [cell for cell in self.cells if cell.elsewhere]
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -9,7 +9,17 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.analysis import Analysis
-from reportgen.answers.key import Key, Role, Row, computed_bands, drawn_bands, is_chosen_length, is_direction, make_key
+from reportgen.answers.key import (
+    Key,
+    Role,
+    Row,
+    computed_bands,
+    drawn_bands,
+    half_unit,
+    is_chosen_length,
+    is_direction,
+    make_key,
+)
 from reportgen.assignment import Assignment
 from reportgen.case import Case
 from reportgen.grading.marks import Place, Policy, Submission
@@ -31,6 +41,9 @@ LARGEST_SCALE = 1e6
 
 MANY = 3
 """So many forces over their lengths show the scale that a plan was drawn at."""
+
+LEAST_FIGURES = 3
+"""Figures that a number has been written with, though noughts at its end do not show them."""
 
 CONFIRMED = 0.02
 """Two scales nearer than this are one: a millimetre in the length of a drawn crank."""
@@ -190,6 +203,7 @@ class Working:
     """
 
     guide: Guide
+    submission: Submission
     values: Values
     scales: Values
     shown: Values
@@ -221,7 +235,17 @@ class Working:
         A blank one on the way is replaced by the key's, or else follows like the rest.  `changes` are
         made to quantities that the sheet does not show.
         """
-        ledger, unseen = self.guide.ledger, changes or {}
+        return self._followed(blank_from_key, changes or {})[0]
+
+    @cached_property
+    def world(self) -> dict[str, np.ndarray]:
+        """All values as the student has them: entered, or following from these; the key's where a cell is blank."""
+        return self._followed(True, {})[1]
+
+    def _followed(
+        self, blank_from_key: bool, unseen: Mapping[str, Change]
+    ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+        ledger = self.guide.ledger
         result: dict[str, np.ndarray] = {}
 
         def entered(id: str) -> Change:
@@ -233,8 +257,8 @@ class Working:
 
             return change
 
-        follow(ledger, {**unseen, **{id: entered(id) for id in self.entered_ids}})
-        return result
+        values = follow(ledger, {**unseen, **{id: entered(id) for id in self.entered_ids}})
+        return result, values
 
     def also(self, row: Row, position: int) -> list[float]:
         """What a quantity may be taken to be as well: another like it, or for a scale its size over its length.
@@ -286,6 +310,12 @@ class Working:
         return np.where(np.isnan(given), blank, given)
 
 
+def last_half_unit(value: float) -> float:
+    """Half a unit of the last figure of a number as it was written, with three figures at least."""
+    written = f"{abs(value):.11e}".partition("e")[0].replace(".", "").rstrip("0")
+    return float(half_unit(np.array([value]), max(LEAST_FIGURES, len(written)))[0])
+
+
 def lay_out(guide: Guide, submission: Submission) -> Working:
     """The working of a submission, with every plan read as it was drawn.
 
@@ -319,7 +349,7 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
         values |= {id: values[id] * factor for id in plan}
         if scale in values:
             values[scale] = stated / factor
-    return Working(guide, values, scales, shown)
+    return Working(guide, submission, values, scales, shown)
 
 
 def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:

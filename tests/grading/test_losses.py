@@ -120,3 +120,26 @@ def test_a_slip_in_writing_the_scale_is_named_and_costs_one_mark() -> None:
     marking = mark(guide, replace(sheet, values={**sheet.values, ("mu.R23", AT[0]): given}))
     assert lost(marking) == 1
     assert [(cell.id, cell.mistake) for cell in marking.first_errors] == [("mu.R23", "other-scale")]
+
+
+FROM_ELSEWHERE: dict[str, tuple[str, Change]] = {
+    "two per cent beside its own length": ("R.05", lambda value: 1.02 * value),
+    "a_B for the tangential part": ("turn.eps.2", lambda value: 1.02 * value),
+    "figures exchanged": ("Pqt4", lambda value: value * 4433 / 4343),
+}
+
+
+@pytest.mark.parametrize("what", FROM_ELSEWHERE)
+def test_a_right_value_that_the_own_ones_do_not_give_is_told_and_costs_nothing(what: str) -> None:
+    guide = students.guide(hands.TWIN, AT)
+    id, change = FROM_ELSEWHERE[what]
+    marking = mark(guide, hands.work(guide, AT, changes={id: change}, blunt=0.3e-3))
+    assert lost(marking) == 0
+    assert [cell.id for cell in marking.elsewhere] == [id]
+
+
+@pytest.mark.parametrize("name", [hands.TWIN, hands.SLIDER])
+def test_who_went_on_from_the_own_values_hears_of_nothing(name: str) -> None:
+    guide = students.guide(name, AT)
+    for seed, how in enumerate(({}, {"figures": 3}, {"by_lengths": False}, *SCALES)):
+        assert mark(guide, hands.work(guide, AT, blunt=0.5e-3, seed=seed, **how)).elsewhere == []

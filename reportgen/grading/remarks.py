@@ -1,0 +1,70 @@
+"""Right values that the student's own do not give: nothing is taken for them, but both sides should know.
+
+The drawing's tolerance is wide: a reaction may be right within ± 180 N, and yet not be the student's own length times
+the own scale.  What is worked out from values that all stand on the sheet can be held against them more closely.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reportgen.grading.marks import Cells, Marked, Place, Verdict
+from reportgen.grading.working import Working, last_half_unit
+from reportgen.notation.evaluation import evaluate
+from reportgen.notation.expressions import refs
+
+ROOM = 2.0
+"""So many times the rounding of all that is written down may part a value from what the others give."""
+
+
+def not_from_own(working: Working, cells: Cells) -> frozenset[Place]:
+    """The places of right values that differ from what the student's own values beside them give."""
+    return frozenset(
+        place for place, cell in cells.items() if cell.verdict is Verdict.right and _differs(working, cell)
+    )
+
+
+def _differs(working: Working, cell: Marked) -> bool:
+    ledger, world = working.guide.ledger, working.world
+    id = ledger.size_of(cell.id)
+    definition = ledger[id].definition
+    assert cell.given is not None, "only a given value is right"
+    kind = ledger[id].kind
+    if definition is None or ledger[id].constructed or kind == "segment" or kind.endswith("scale"):
+        # What is measured or laid off on paper is as exact as a pencil.
+        return False
+    index = working.guide.rows[cell.id].at(cell.position)
+
+    def at(name: str) -> float:
+        values = world[name]
+        return float(values[index if len(values) > 1 else 0].real)
+
+    inputs = {name: at(name) for name in refs(definition)}
+    rounding = {name: _rounding(working, name, cell.position) for name in inputs}
+    if not inputs or any(share is None for share in rounding.values()) or not any(rounding.values()):
+        return False
+
+    def result(**moved: float) -> float:
+        values = {name: np.array([value]) for name, value in (inputs | moved).items()}
+        return abs(float(np.real(np.atleast_1d(evaluate(definition, values))[0])))
+
+    with np.errstate(all="ignore"):
+        own = result()
+        moves = [abs(result(**{name: inputs[name] * (1 + share)}) - own) for name, share in rounding.items() if share]
+    value = abs(float(working.values[cell.id][index]))
+    last = last_half_unit(cell.given) * float(working.unit(cell.id)[index])
+    return bool(np.isfinite(own) and abs(value - own) > ROOM * (sum(moves) + last))
+
+
+def _rounding(working: Working, id: str, position: int) -> float | None:
+    """The share by which a value that was gone on from may be rounded: 0 if it was given; None if it is not known."""
+    guide = working.guide
+    row = guide.key.find(id)
+    if row is None or row.id not in guide.rows:
+        family = guide.ledger[id]
+        given = family.definition is None or not refs(family.definition)
+        return 0.0 if given and not (family.hidden or family.is_plane) and row is not None else None
+    answer = working.submission.values.get((row.id, guide.place(row, position)))
+    if answer is None:
+        return None
+    return last_half_unit(answer.value) / abs(answer.value) if answer.value else 0.0
