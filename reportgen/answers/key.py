@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.answers.senses import MAGNITUDE, is_open, positive_sense
+from reportgen.answers.trapezoid import is_workable, trapezoid_errors
 from reportgen.answers.wording import capitalised, phrase
 from reportgen.case import Case
 from reportgen.document.outline import open_report
@@ -67,13 +68,17 @@ def drawn_bands(
 
 
 def computed_bands(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
-    """Half widths (SI) [N] when every value that is not given is rounded to `digits` significant figures."""
+    """Half widths (SI) [N] when every value that is not given is rounded to `digits` significant figures.
+
+    What stands on integrals over the cycle is worked out by the trapezoid rule.
+    """
     errors = {
         id: half_unit(family.values, digits)
         for id, family in ledger.families.items()
         if not (family.hidden or family.is_plane or family.exact or family.definition is None)
     }
-    return _carried_through(ledger, errors)
+    bands = _carried_through(ledger, errors)
+    return bands | {id: bands[id] + error for id, error in trapezoid_errors(ledger).items()}
 
 
 def measuring_errors(
@@ -286,7 +291,7 @@ def shown_number(row: Row, value: float) -> Number:
 def make_key(case: Case) -> Key:
     """The key of a case, from the ledger that its report prints."""
     assignment, machine, ledger, words = case.assignment, case.analysis.machine, case.ledger, case.words
-    report = open_report(case)
+    report, by_rule = open_report(case), trapezoid_errors(ledger)
     on_paper, by_rounding = drawn_bands(ledger), computed_bands(ledger)
     worked = tuple(assignment.worked_positions)
     complete = set(worked) == set(range(1, machine.positions + 1))
@@ -306,7 +311,7 @@ def make_key(case: Case) -> Key:
         part = Chapter.data if role is Role.given and len(values) == 1 else family.chapter
         # What is read from a diagram can be worked out on paper, an integral over the cycle cannot.
         workable = id != "M.difference" and (family.definition is not None or len(values) > 1)
-        workable = workable and (part is not Chapter.cycle or complete)
+        workable = workable and (part is not Chapter.cycle or complete) and is_workable(ledger, id, by_rule)
         asked = (role is Role.scale and not is_round_scale(family)) or (role is Role.asked and workable)
         return Row(
             id,

@@ -200,9 +200,10 @@ ROWS: tuple[Row, ...] = (
     Row(r"G(?P<sub>\d+)", "G", "weight", Chapter.loads, name="weight"),
     Row(rf"m\.{_NAME}", "m", "mass", Chapter.geometry, name="mass"),
     Row(r"J\.(?P<sub>\d+)", "J", "moment of inertia", Chapter.geometry, before="S", name="inertia"),
-    Row(rf"J\.{_NAME}(\.(?P<link>.+))?", "J", "moment of inertia", Chapter.geometry, name="reduced inertia"),
+    Row(rf"J\.{_NAME}(\.(?P<link>.+))?", "J", "moment of inertia", Chapter.cycle, name="reduced inertia"),
     # rotation
     Row(r"n", "n", "speed of rotation"),
+    Row(r"omega\.of", "ω", "angular velocity", Chapter.cycle),
     Row(rf"(turn\.)?omega\.{_NAME}", "ω", "angular velocity", Chapter.velocity, name="angular velocity"),
     Row(rf"(turn\.)?eps\.{_NAME}", "ε", "angular acceleration", Chapter.acceleration, name="angular acceleration"),
     # plans of velocities and accelerations
