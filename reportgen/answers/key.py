@@ -108,7 +108,22 @@ def measuring_errors(
             # Measured on the drawing of the mechanism, as a slider's way is.
             scale = ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
             errors[id] = np.full(len(family.values), 2 * error * scale)
+    for link, slope in _pressure_slopes(ledger).items():
+        errors[f"p.{link}"] = slope * 2 * error * ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
     return errors
+
+
+def _pressure_slopes(ledger: Ledger) -> dict[str, np.ndarray]:
+    """How steeply the pressure on each piston changes over its way [N], from the flatter side of each position."""
+    slopes: dict[str, np.ndarray] = {}
+    for id, family in ledger.families.items():
+        link = id.removeprefix("p.")
+        if family.kind == "pressure" and f"s.{link}" in ledger:
+            way = ledger[f"s.{link}"].values
+            with np.errstate(all="ignore"):
+                sides = [np.abs((np.roll(family.values, k) - family.values) / (np.roll(way, k) - way)) for k in (1, -1)]
+            slopes[link] = np.nan_to_num(np.min(np.where(np.isfinite(sides), sides, np.inf), axis=0), posinf=0.0)
+    return slopes
 
 
 def is_direction(id: str) -> bool:

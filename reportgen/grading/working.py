@@ -62,7 +62,7 @@ class Guide:
     def bands(self) -> dict[str, np.ndarray]:
         """The tolerances (SI) [N] of every row of the key.
 
-        They are the widest of drawing, rounding and a share of the quantity's maximum over the turn.
+        They are the widest of drawing, rounding and a share of the quantity's maximum within a quarter turn.
         """
         return self.bands_at({})
 
@@ -75,7 +75,7 @@ class Guide:
         policy = self.policy
         drawn, computed = drawn_bands(self.ledger, policy.paper, scales), self._computed
         return {
-            row.id: np.maximum(np.maximum(drawn[row.id], computed[row.id]), policy.share * self.size(row.id))
+            row.id: np.maximum(np.maximum(drawn[row.id], computed[row.id]), policy.share * self._size_near(row.id))
             * (1 + ALMOST)
             for row in self.key.rows
         }
@@ -86,6 +86,18 @@ class Guide:
             return 2 * np.pi
         values = np.abs(self.ledger[id].values)
         return float(values[np.isfinite(values)].max(initial=0.0))
+
+    def _size_near(self, id: str) -> np.ndarray:
+        """The largest value of a quantity within a quarter turn of each position (SI) [N]; of an angle, a full turn.
+
+        So the pressure of combustion makes no room in the intake stroke.
+        """
+        values = np.nan_to_num(np.abs(self.ledger[id].values))
+        if is_direction(id) or len(values) == 1:
+            return np.full(len(values), self.size(id))
+        reach = min(-(-self.count // 4), len(values) // 2)
+        near: np.ndarray = np.max([np.roll(values, shift) for shift in range(-reach, reach + 1)], axis=0)
+        return near
 
     def distance(self, id: str, one: np.ndarray | float, other: np.ndarray | float) -> np.ndarray:
         """How far values (SI) lie apart: directions around the circle; what has no sense of its own by size."""

@@ -113,6 +113,18 @@ def test_a_finer_drawing_is_read_more_finely() -> None:
     assert length.expected == pytest.approx(492.11 / 20.92, rel=1e-3)
 
 
+def test_the_bands_of_an_engine_know_its_strokes_and_the_scale_of_its_plans() -> None:
+    """In the intake stroke p₃ = 2 N/cm², though combustion comes to 280; R03 is read more finely at a finer scale."""
+    guide = students.guide("engine-single-III")
+    usual = guide.bands
+    finer = guide.bands_at({"mu.R23": np.full(len(guide.ledger["mu.R23"].values), 0.2)})
+    pressure, reaction = guide.key.row("p.3").values, np.abs(guide.ledger["R.03"].values)
+    assert pressure[2] == 2
+    assert usual["p.3"][2] / guide.ledger["p.3"].how.scale < 0.05
+    assert np.median(finer["R.03"] / usual["R.03"]) < 0.7
+    assert (usual["R.03"] < reaction).mean() > 0.9
+
+
 def test_a_slip_in_writing_the_scale_is_named_and_costs_one_mark() -> None:
     guide = students.guide(hands.TWIN, AT)
     sheet = hands.work(guide, AT, blunt=0.3e-3, force_scale=20920.0)
