@@ -249,7 +249,7 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
     tolerance:
       paper: 0.5 mm          # how far off each end of a measured length may lie
       digits: 3              # figures that values are computed with
-      share: 0.005           # of the quantity's maximum over the turn
+      share: 0.005           # of the quantity's maximum within a quarter turn
     points: {right: 1, follows: 1}
     weights:                 # by id of the quantity, the first pattern that fits; 0: not marked
       "seg.*": 0.5

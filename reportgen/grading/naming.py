@@ -12,10 +12,10 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.answers.key import Role, is_direction
+from reportgen.answers.key import Role, half_unit, is_direction
 from reportgen.grading.marks import Cells, Marked, Place, Verdict
 from reportgen.grading.mistakes import NO_CORIOLIS, OF_POSITION, WRONG_DATUM, Mistake, general_mistakes, mistakes_in
-from reportgen.grading.working import Change, Guide, Values, Working
+from reportgen.grading.working import Change, Guide, Values, Working, last_half_unit
 from reportgen.ledger.core import follow
 
 FEW_FIGURES = 2
@@ -272,9 +272,11 @@ def misread_data(working: Working, cells: Cells) -> dict[Place, Mistake]:
             continue
         datum = next((one for one in known if _explains(working, cell, one)), None)
         if datum is None:
-            possible = (one for one in _possible_data(working, cell) if _explains(working, cell, one))
+            possible = [one for one in _possible_data(working, cell) if _explains(working, cell, one)]
             datum = next((one for one in possible if not _is_contradicted(working.guide, cells, one)), None)
             known += [datum] if datum else []
+            # Elsewhere the datum was right, so it must be a slip in copying it: one figure, met in all figures.
+            datum = datum or next((one for one in possible if _is_slip(working, cell, one)), None)
         if datum is not None:
             found[place] = datum.mistake
     return found
@@ -307,6 +309,16 @@ def _explains(working: Working, cell: Marked, datum: _Datum) -> bool:
     with_it = float(_at(guide, cell, datum.id, np.array([datum.value]))[0])
     key = float(guide.ledger[cell.id].values[_index(guide, cell)].real)
     return abs(with_it - _given(working, cell)) <= band < abs(with_it - key)
+
+
+def _is_slip(working: Working, cell: Marked, datum: _Datum) -> bool:
+    """Whether a datum differs from the given one in its last figure by one, and gives the value as it is written."""
+    right = float(working.guide.ledger[datum.id].values[0])
+    last = 2 * float(half_unit(np.array([right]), NEAT)[0])
+    with_it = float(_at(working.guide, cell, datum.id, np.array([datum.value]))[0])
+    assert cell.given is not None, "a wrong value is given"
+    written = last_half_unit(cell.given) * float(working.unit(cell.id)[_index(working.guide, cell)])
+    return abs(abs(datum.value - right) - last) < last / 10 and abs(with_it - _given(working, cell)) <= written
 
 
 def _is_contradicted(guide: Guide, cells: Cells, datum: _Datum) -> bool:

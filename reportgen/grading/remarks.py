@@ -1,7 +1,8 @@
 """Right values that the student's own do not give: nothing is taken for them, but both sides should know.
 
 The drawing's tolerance is wide: a reaction may be right within ± 180 N, and yet not be the student's own length times
-the own scale.  What is worked out from values that all stand on the sheet can be held against them more closely.
+the own scale.  What is worked out from values that all stand on the sheet can be held against them more closely, and
+so can what is measured on a force plan of which all forces do.
 """
 
 from __future__ import annotations
@@ -10,11 +11,16 @@ import numpy as np
 
 from reportgen.grading.marks import Cells, Marked, Place, Verdict
 from reportgen.grading.working import Working, last_half_unit
+from reportgen.notation import vocabulary
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import refs
 
 ROOM = 2.0
 """So many times the rounding of all that is written down may part a value from what the others give."""
+
+
+CLOSES = 1.5
+"""So many times the error of a measured length may part it from the one with which the own forces close the plan."""
 
 
 def not_from_own(working: Working, cells: Cells) -> frozenset[Place]:
@@ -30,8 +36,9 @@ def _differs(working: Working, cell: Marked) -> bool:
     definition = ledger[id].definition
     assert cell.given is not None, "only a given value is right"
     kind = ledger[id].kind
-    if definition is None or ledger[id].constructed or kind == "segment" or kind.endswith("scale"):
-        # What is measured or laid off on paper is as exact as a pencil.
+    if kind == "segment":
+        return _differs_on_plan(working, cell)
+    if definition is None or ledger[id].constructed or kind.endswith("scale"):
         return False
     index = working.guide.rows[cell.id].at(cell.position)
 
@@ -54,6 +61,31 @@ def _differs(working: Working, cell: Marked) -> bool:
     value = abs(float(working.values[cell.id][index]))
     last = last_half_unit(cell.given) * float(working.unit(cell.id)[index])
     return bool(np.isfinite(own) and abs(value - own) > ROOM * (sum(moves) + last))
+
+
+def _differs_on_plan(working: Working, cell: Marked) -> bool:
+    """Whether a length on a force plan is not that of the own forces, all of which stand on the sheet."""
+    guide, plan = working.guide, vocabulary.plan(cell.id)
+    if guide.ledger[plan].kind != "force scale" or not _stands(working, plan, cell.position):
+        return False
+    known = (guide.ledger[one.of].of for id, one in guide.ledger.families.items() if vocabulary.plan(id) == plan)
+    laid = [id for id in known if id in guide.rows and plan not in guide.before[id]]
+    assert cell.given is not None, "only a given value is right"
+    if not all(_stands(working, id, cell.position) for id in laid):
+        return False
+    apart = abs(abs(cell.given) - abs(cell.own))
+    # What is rounded in the forces shows as well where the plan is large.
+    forces = (working.submission.values[id, guide.place(guide.rows[id], cell.position)].value for id in laid)
+    scale = working.submission.values[plan, cell.position].value
+    rounding = sum(map(last_half_unit, forces)) / abs(scale) if scale else np.inf
+    error = 2 * guide.policy.paper / guide.ledger[cell.id].how.scale
+    return bool(apart > CLOSES * error + rounding)
+
+
+def _stands(working: Working, id: str, position: int) -> bool:
+    """Whether a value that is asked for was filled in."""
+    row = working.guide.rows.get(id)
+    return row is not None and (id, working.guide.place(row, position)) in working.submission.values
 
 
 def _rounding(working: Working, id: str, position: int) -> float | None:

@@ -70,6 +70,8 @@ FIGURES: dict[str, float] = {
     "turn.eps.2": 10205,
     "turn.eps.4": -10205,
     # loads
+    "G4": 20,
+    "G5": 22,
     "m.2": 2.0387,
     "m.3": 2.2426,
     "m.4": 2.0387,

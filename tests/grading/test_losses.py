@@ -12,6 +12,7 @@ from reportgen.grading.marks import Marking
 from reportgen.grading.mistakes import Mistake
 from tests.grading import hands, students
 from tests.grading.hand import Change
+from tests.grading.published import FIGURES, POSITION
 
 AT = (4,)
 MOST = 2
@@ -155,3 +156,39 @@ def test_who_went_on_from_the_own_values_hears_of_nothing(name: str) -> None:
     guide = students.guide(name, AT)
     for seed, how in enumerate(({}, {"figures": 3}, {"by_lengths": False}, *SCALES)):
         assert mark(guide, hands.work(guide, AT, blunt=0.5e-3, seed=seed, **how)).elsewhere == []
+
+
+# --- a published student report -------------------------------------------------------------------
+
+
+def published(**other: float) -> Marking:
+    """The report's figures on a sheet, perhaps with some of them otherwise."""
+    guide = students.guide("engine-twin-05", (POSITION,))
+    figures = FIGURES | other
+    assert figures.keys() <= guide.rows.keys()
+    return mark(guide, students.sheet(guide, lambda row, position, value: figures.get(row.id)))
+
+
+def test_the_published_report_has_two_mistakes_and_a_remark() -> None:
+    """p3 positive in the intake stroke, 0.36 for s in the centres of percussion (once), R05 beside its polygon."""
+    marking = published()
+    assert lost(marking) == 2
+    assert {(cell.id, cell.mistake, cell.where) for cell in marking.first_errors} == {
+        ("l.S2K2", "wrong-datum", "s"),
+        ("p.3", "sign-reversed", "p.3"),
+    }
+    assert [cell.id for cell in marking.elsewhere] == ["seg.45.R05"]
+    assert marking.flags == ()
+
+
+def test_its_slip_in_writing_the_scale_is_named() -> None:
+    """0.92 stands in one line of it for 20.92."""
+    marking = published(**{"mu.R45": 0.92})
+    assert lost(marking) == 3
+    assert ("mu.R45", "other-scale") in {(cell.id, cell.mistake) for cell in marking.first_errors}
+
+
+def test_a_reaction_that_its_own_length_does_not_give_is_told() -> None:
+    marking = published(**{"seg.45.R05": 66.13})
+    assert lost(marking) == 2
+    assert [cell.id for cell in marking.elsewhere] == ["R.05"]
