@@ -339,7 +339,7 @@ def make_key(case: Case) -> Key:
             values / scale,
             on_paper[id] / scale,
             by_rounding[id] / scale,
-            _asked_at(values, worked, machine.count) if asked else (),
+            _asked_at(values, worked, machine.count, family.kind == "force scale") if asked else (),
             tuple(_sense(family, value, words["sense"]) for value in values),
             family.of if family.is_signed_rotation else "",
             phrase(id, ledger, words),
@@ -378,12 +378,15 @@ def _decimals(of_ledger: int | None, values: np.ndarray) -> int | None:
     return significant_decimals(float(np.nanmax(np.abs(values))), MAX_DIGITS)
 
 
-def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int) -> tuple[int, ...]:
-    """The worked positions; what repeats from turn to turn (all kinematics) is asked for in the first turn."""
+def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int, chosen: bool) -> tuple[int, ...]:
+    """The worked positions; what repeats from turn to turn (all kinematics) is asked for in the first turn.
+
+    What is `chosen` at each position, as a scale, may be another one though the report has the same.
+    """
     if len(values) == 1:
         return (0,)
     turns = np.reshape(values, (-1, count)) if len(values) > count else np.empty((0, count))
-    repeats = len(turns) > 0 and np.allclose(turns, turns[0], rtol=1e-9, atol=1e-12, equal_nan=True)
+    repeats = not chosen and len(turns) > 0 and np.allclose(turns, turns[0], rtol=1e-9, atol=1e-12, equal_nan=True)
     asked = ((k - 1) % count + 1 if repeats else k for k in worked)
     return tuple(dict.fromkeys(k for k in asked if np.isfinite(values[k - 1])))
 

@@ -76,7 +76,7 @@ def _differs_on_plan(working: Working, cell: Marked) -> bool:
     apart = abs(abs(cell.given) - abs(cell.own))
     # What is rounded in the forces shows as well where the plan is large.
     forces = (working.submission.values[id, guide.place(guide.rows[id], cell.position)].value for id in laid)
-    scale = working.submission.values[plan, cell.position].value
+    scale = working.submission.values[plan, guide.place(guide.rows[plan], cell.position)].value
     rounding = sum(map(last_half_unit, forces)) / abs(scale) if scale else np.inf
     error = 2 * guide.policy.paper / guide.ledger[cell.id].how.scale
     return bool(apart > CLOSES * error + rounding)
