@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -22,6 +22,8 @@ from reportgen.scratch import scratch
 
 if TYPE_CHECKING:
     from reportgen.analysis import Analysis
+    from reportgen.answers.asking import Ask
+    from reportgen.answers.key import Key
     from reportgen.document.tree import Document
 
 Engine = Literal["typst", "latex"]
@@ -91,8 +93,11 @@ def typeset(tree: Document, engine: Engine) -> tuple[str, bytes]:
 # --- products: what a batch makes of an assignment file -----------------------------------------------
 
 
-Maker = Callable[[Path, Engine, Language | None], Mapping[str, bytes]]
-"""Makes the files of one product, by name; it depends on its arguments alone, so that it can run anywhere."""
+Maker = Callable[..., Mapping[str, bytes]]
+"""Makes the files of one product, by name, from path, engine and language, and of `ASKING` also from `ask`.
+
+It depends on its arguments alone, so that it can run anywhere.
+"""
 
 KEY_FORMATS = ("pdf", "xlsx", "csv", "json")
 
@@ -102,28 +107,36 @@ def report_files(path: Path, engine: Engine, language: Language | None) -> Mappi
     return {"report.pdf": typeset(document(load(path, language)), engine)[1]}
 
 
-def task_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
-    """The student's handout, and the answer sheet to fill in; no answer is in them."""
+def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
+    """The student's handout, and the answer sheet to fill in, of what is to be asked; no answer is in them."""
+    from reportgen.answers.asking import Ask
     from reportgen.answers.key import make_key
     from reportgen.answers.paper import task
     from reportgen.answers.sheet import answer_book
     from reportgen.workbook import write_xlsx
 
     case = open_case(path, language)
-    key = make_key(case)
-    return {"task.pdf": typeset(task(case, key), engine)[1], "answers.xlsx": write_xlsx(answer_book(key))}
+    chosen = ask or Ask()
+    key = chosen.of(make_key(case))
+    files = {"task.pdf": typeset(task(case, key, chosen.by_section), engine)[1]}
+    return {**files, "answers.xlsx": write_xlsx(answer_book(key, chosen.by_section))}
 
 
 def key_files(
-    path: Path, engine: Engine, language: Language | None, formats: Sequence[str] = ("pdf", "xlsx")
+    path: Path,
+    engine: Engine,
+    language: Language | None,
+    formats: Sequence[str] = ("pdf", "xlsx"),
+    ask: Ask | None = None,
 ) -> Mapping[str, bytes]:
-    """The answer key in some of `KEY_FORMATS`."""
+    """The answer key in some of `KEY_FORMATS`; it says what the answer sheet asks for, and holds everything."""
     from reportgen.answers import key_files as files
+    from reportgen.answers.asking import Ask
     from reportgen.answers.key import make_key
     from reportgen.workbook import write_csv, write_xlsx
 
     case = open_case(path, language)
-    key = make_key(case)
+    key = (ask or Ask()).of(make_key(case))
     makers: Mapping[str, Callable[[], bytes]] = {
         "pdf": lambda: typeset(files.key_document(key, case.title), engine)[1],
         "xlsx": lambda: write_xlsx(files.key_book(key)),
@@ -135,9 +148,29 @@ def key_files(
 
 MAKERS: Mapping[str, Maker] = {"task": task_files, "report": report_files, "key": key_files}
 """The products by the names that `--make` takes."""
+ASKING = frozenset({"task", "key"})
+"""Those that depend on what the answer sheet asks for."""
 
 
 # --- writing files ------------------------------------------------------------------------------------
+
+
+def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None) -> None:
+    """Raises `AssignmentError` if a policy asks for what no machine of these assignments has."""
+    from reportgen.answers.key import make_key
+
+    def keys() -> Iterator[Key]:
+        """A key of each kind of machine; what cannot be computed is told where its turn comes."""
+        seen: set[str] = set()
+        for path in files:
+            with suppress(ReportgenError):
+                case = open_case(path, language)
+                if case.assignment.kind not in seen:
+                    seen.add(case.assignment.kind)
+                    yield make_key(case)
+
+    if ask is not None:
+        ask.check(keys(), language)
 
 
 def put(folder: Path, files: Mapping[str, bytes]) -> list[Path]:

@@ -43,13 +43,14 @@ class Making:
     """What a result depends on besides the assignment.
 
     `version` is that of this package, `templates` a SHA-256 of all words and frames; `language` is
-    empty where each file's own is meant.
+    empty where each file's own is meant.  `ask` says what the answer sheet asks for, if a policy says so.
     """
 
     version: str
     templates: str
     engine: Engine
     language: Language | None
+    ask: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,9 +85,9 @@ class Outcome:
     exit_code: int = 0
 
 
-def making(engine: Engine, language: Language | None) -> Making:
+def making(engine: Engine, language: Language | None, ask: str = "") -> Making:
     """How this installation would make a product now."""
-    return Making(version(), templates_hash(), engine, language)
+    return Making(version(), templates_hash(), engine, language, ask)
 
 
 def failed(problem: str) -> Outcome:
@@ -106,7 +107,7 @@ def run_job(job: Job) -> Outcome:
         return text.replace(f"{scratch}{os.sep}", "").replace(str(templates()), "templates")
 
     try:
-        if making(engine, language) != job.making:
+        if making(engine, language, job.making.ask) != job.making:
             return failed(word("other_templates", language))
         with tempfile.TemporaryDirectory(prefix="reportgen-", dir=job.scratch) as scratch:
             tempfile.tempdir = scratch

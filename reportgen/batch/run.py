@@ -8,11 +8,13 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TextIO
 
 from reportgen import api
-from reportgen.api import MAKERS, Engine, Maker
+from reportgen.answers.asking import Ask
+from reportgen.api import ASKING, MAKERS, Engine, Maker
 from reportgen.batch import manifest
 from reportgen.batch.manifest import Entry
 from reportgen.batch.pool import Job, Outcome, Pool, failed, local, making
@@ -21,7 +23,7 @@ from reportgen.batch.variants import make_variants
 from reportgen.errors import Fault, Mark, Problem
 from reportgen.notation.numbers import Language, write
 from reportgen.scratch import scratch
-from reportgen.words import DEFAULT_LANGUAGE, as_problem, word
+from reportgen.words import DEFAULT_LANGUAGE, as_problem, counted, word
 
 if TYPE_CHECKING:
     from rich.progress import ProgressColumn
@@ -45,6 +47,7 @@ class Order:
     """What is asked for: assignments drawn from `spec` into `out`, or found in `assignments`; exactly one of both.
 
     `jobs` processes of this machine (0: one for each core), unless a scheduler's address `cluster` is given.
+    `ask` is what the answer sheets ask for, None for the default.
     """
 
     roster: Path
@@ -56,6 +59,7 @@ class Order:
     language: Language | None = None
     jobs: int = 0
     cluster: str | None = None
+    ask: Ask | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,16 +109,25 @@ def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS
     where there is no cluster.
     """
     roster = read_roster(order.roster, order.language)
-    chosen = {name: makers[name] for name in order.products}
+    chosen = {
+        name: partial(makers[name], ask=order.ask) if _asked(order, name) else makers[name] for name in order.products
+    }
     workers = pool or _pool(order)
     with locked(order.out, order.language), api.reported(order.out), scratch(order.out) as temporary:
         return _run(order, roster, chosen, workers, stream, None if order.cluster else temporary)
+
+
+def _asked(order: Order, product: str) -> str:
+    """What the policy asks for, in a word for the manifest; "" where there is none or it does not matter."""
+    return str(order.ask) if order.ask is not None and product in ASKING else ""
 
 
 def _run(
     order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, stream: TextIO, temporary: Path | None
 ) -> Result:
     assigned, notes = _assigned(order, roster)
+    if order.ask is not None and ASKING & makers.keys():
+        api.check_ask(order.ask, (file for _, file in assigned if isinstance(file, Path)), order.language)
     out = order.out
     for folder in (out, *(out / student.folder for student, _ in assigned)):
         _remove_temporary(folder)
@@ -123,7 +136,7 @@ def _run(
     entries = {key: entry for key, entry in before.items() if entry.student in number}
     with api.reported(out):
         result = Result(manifest.write(out, entries.values()), notes)
-    how = making(order.engine, order.language)
+    how = {name: making(order.engine, order.language, _asked(order, name)) for name in makers}
     kept: list[Job] = []
     jobs: list[Job] = []
     refused: list[tuple[Student, Problem]] = []
@@ -133,7 +146,7 @@ def _run(
             refused.append((student, read))
             continue
         for product, maker in makers.items():
-            job = Job(student.id, student.folder, product, maker, *read, how, temporary)
+            job = Job(student.id, student.folder, product, maker, *read, how[product], temporary)
             entry = entries.get((job.student, product))
             (kept if entry is not None and entry.holds(job, out) else jobs).append(job)
     result.kept = len(kept)
@@ -172,7 +185,7 @@ def _run(
         manifest.write(out, entries.values())
     result.failures.sort(key=lambda failure: number[failure.student])
     if gone := {entry.student for entry in before.values()} - number.keys():
-        result.notes.append(word("batch_gone", order.language, count=len(gone)))
+        result.notes.append(counted("batch_gone", order.language, len(gone)))
     return result
 
 

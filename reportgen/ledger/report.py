@@ -14,8 +14,9 @@ from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.forces import enter_forces
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics import centres, enter_kinematics
-from reportgen.mechanism.structure import Linkage
-from reportgen.notation.expressions import PI, Expression, Symbol, call, total
+from reportgen.mechanism.structure import Crank, Linkage
+from reportgen.notation.evaluation import evaluate
+from reportgen.notation.expressions import PI, Expression, Symbol, call, circle_line, total
 from reportgen.notation.expressions import size as size_of
 from reportgen.notation.sheet import ZERO, Sheet, is_short
 from reportgen.notation.vocabulary import Chapter
@@ -72,13 +73,33 @@ def _masses(q: Sheet, analysis: Analysis) -> None:
 
 def _gas(q: Sheet, analysis: Analysis) -> None:
     """s/H and pressure read from the diagram, gas force P = p F."""
+    machine = analysis.machine
     for name, state in analysis.gas.items():
         if name in analysis.machine.idle:
             continue
         link, stroke = state.piston.link, state.piston.stroke
-        q.give(f"s.{link}", state.fraction * stroke, exact=False, scale=stroke)
+        _way(q, machine.linkage, link, state.fraction * stroke, stroke)
         p = q.give(f"p.{link}", state.pressure, exact=False)
         q.define(name, p * q["F"])
+
+
+def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
+    """A slider's way from its dead centre, measured on the drawing; there crank and rod lie in one line."""
+    driver, id = linkage.driver, f"s.{link}"
+    dyad = next((one for one in linkage.dyads if one.kind == "RRP" and one.links[1] == link), None)
+    if dyad is not None and isinstance(driver, Crank) and f"l.{driver.centre}{dyad.start}" in q:
+        on_paper = q.find(f"laid.{driver.centre}{dyad.start}") or q[f"drawn.{driver.centre}{dyad.start}"]
+        crank, rod = q["drawing"] * on_paper, q["drawing"] * q[f"laid.{dyad.start}{dyad.middle}"]
+        for reach in (rod + crank, rod - crank):
+            line = q[f"guide.{link}.at"], q[f"guide.{link}"], float(dyad.sign)
+            stop = circle_line(q[f"p.{driver.centre}"], reach, *line)
+            way = abs((q[f"p.{dyad.middle}"] - stop) * (q["mu.l"] / q["drawing"]))
+            found = evaluate(way, {name: family.values for name, family in q.families.items()})
+            if np.allclose(found, values, rtol=0, atol=ZERO * stroke):
+                q.define(id, way, scale=stroke)
+                return
+    drawn = q.give(f"way.{link}", values / q.si("mu.l"), Symbol("s"), "ratio", exact=False, hidden=True)
+    q.define(id, abs(q["mu.l"] * drawn), scale=stroke)
 
 
 def _applied(q: Sheet, analysis: Analysis) -> None:
@@ -90,7 +111,7 @@ def _applied(q: Sheet, analysis: Analysis) -> None:
             if isinstance(force.law, TableLaw):
                 course = force.law.course
                 way = course.fraction(analysis.motion) * course.stroke
-                q.give(f"s.{link}", way, exact=False, scale=course.stroke)
+                _way(q, analysis.machine.linkage, link, way, course.stroke)
             q.give(force.name, size, exact=is_short(size))
     for torque in analysis.machine.torques:
         size = loads[torque.name].couple

@@ -297,6 +297,11 @@ quotient: OfTwo = partial(call, "quotient")
 """a / b, and 0 where b is 0: the arm of a force that is not there."""
 
 
+def unit(vector: Operand) -> Call:
+    """A vector's direction, a vector of length 1; 0 for one of no length."""
+    return quotient(vector, call("abs", vector))
+
+
 # --- passes ---------------------------------------------------------------------------------------
 
 

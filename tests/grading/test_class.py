@@ -9,6 +9,7 @@ from pathlib import Path
 import pymupdf
 import pytest
 
+from reportgen.answers.asking import EVERYTHING, Ask
 from reportgen.answers.key import make_key
 from reportgen.batch import assess
 from reportgen.batch.assess import Graded
@@ -22,6 +23,8 @@ from tests.grading import demo
 from tests.grading.keys import csv_rows
 
 POLICY = read_policy(demo.DEMO / "policy.yaml")
+WHOLE = Policy(ask=Ask(EVERYTHING))
+"""The sheets of the class were filled in from first to last row."""
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +36,7 @@ def assignments(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def graded(assignments: Path) -> Graded:
-    return assess.grade([demo.SHEETS], assignments, Policy())
+    return assess.grade([demo.SHEETS], assignments, WHOLE)
 
 
 def test_each_students_slip_is_told(graded: Graded) -> None:
@@ -140,7 +143,7 @@ def test_files_of_a_student_hold_nothing_of_others(graded: Graded, tmp_path: Pat
 
 def test_marking_again_gives_the_same_bytes(graded: Graded, assignments: Path) -> None:
     once = dict(assess.files_of(graded, Policy(), "typst", None))
-    again = dict(assess.files_of(assess.grade([demo.SHEETS], assignments, Policy()), Policy(), "typst", None))
+    again = dict(assess.files_of(assess.grade([demo.SHEETS], assignments, WHOLE), Policy(), "typst", None))
     assert once == again
 
 

@@ -151,10 +151,11 @@ class Kinematics:
         id = f"l.{start}{end}"
         return self.q[id] if id in self.q else self.q.give(id, value, exact=is_short(value))
 
-    def drawn(self, start: str, end: str) -> None:
-        """A length as it is drawn."""
+    def drawn(self, start: str, end: str) -> Expression:
+        """Enter a length as it is drawn; gives the length (m) that the drawing then shows."""
         q, name = self.q, f"{start}{end}"
-        q.define(f"drawn.{name}", q[f"l.{name}"] / q["mu.l"], drawn_length(start, end))
+        drawn = q.define(f"drawn.{name}", q[f"l.{name}"] / q["mu.l"], drawn_length(start, end))
+        return q["drawing"] * q.construct(f"laid.{name}", q[f"l.{name}"] / q["mu.l"], of=drawn.id)
 
     # --- links
 
@@ -236,12 +237,14 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[st
     drawn = q[f"drawn.{centre}{pin}"]
     exact = q.families[drawn.id].exact
     μ_l = q.define("mu.l", length / drawn)
+    # What one length on paper is: the drawn crank says it, whatever is written down for μ_l.
+    q.construct("drawing", length / drawn)
     q.construct(f"p.{pin}", k.place(centre) + length * cis(φ1))
     further = [place for place in scheme.linkage.points if place.link == DRIVER]
     for place in further:
-        other = k.length(centre, place.name, abs(place.local))
-        q.construct(f"p.{place.name}", k.place(centre) + other * cis(φ1 + cmath.phase(place.local)))
-        k.drawn(centre, place.name)
+        k.length(centre, place.name, abs(place.local))
+        reach = k.drawn(centre, place.name)
+        q.construct(f"p.{place.name}", k.place(centre) + reach * cis(φ1 + cmath.phase(place.local)))
 
     q.define(f"v.{pin}", ω1 * length)
     q.define(f"a.{pin}", ω1**2 * length)
@@ -280,6 +283,7 @@ def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: Ma
     k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
     if "mu.l" not in q:
         q.give("mu.l", nice_up(size / LONGEST_DRAWN / 1e3) * 1e3)
+    q.construct("drawing", q["mu.l"])
     along = k.constant("guide.1", cmath.exp(1j * driver.guide.angle))
     at = k.constant("guide.1.at", driver.guide.at)
     q.construct(f"p.{pin}", at + q["s.1"] * along)
