@@ -176,9 +176,10 @@ class Report:
         return self.assignment.positions.count
 
     @property
-    def shown_every(self) -> int:
-        """Tables and drawings show one position in so many, and the worked ones; the results have them all."""
-        return -(-self.even_count // PLATES_UP_TO)
+    def thinned(self) -> int:
+        """Tables and drawings show one position in so many, and the worked ones; 0 where they show all."""
+        step = -(-self.even_count // PLATES_UP_TO)
+        return step if step > 1 else 0
 
     @property
     def positions(self) -> tuple[Position, ...]:
@@ -188,7 +189,7 @@ class Report:
     @property
     def all_positions(self) -> tuple[Position, ...]:
         """The positions of the cycle that are shown."""
-        evenly = range(1, self.machine.positions + 1, self.shown_every)
+        evenly = range(1, self.machine.positions + 1, self.thinned or 1)
         return self.machine.numbered(sorted({*evenly, *self.worked, *self.worked_forces}))
 
     @property
