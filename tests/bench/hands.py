@@ -94,7 +94,7 @@ def flagged(sheets: int) -> list[tuple[str, str]]:
             named += [any(cell.mistake for cell in marking.first_errors)] if mistake in NAMEABLE else []
     rows = [
         (f"honest sheets flagged in a class of {CLASS}, every other with one mistake", share(wrongly, worked)),
-        ("usual mistakes that have a name: told by it", share(sum(named), len(named))),
+        ("usual mistakes that have a name: a name is told", share(sum(named), len(named))),
         ("marks lost for one usual mistake at three positions: median, most", f"{median(costs):.0f}, {max(costs):.0f}"),
     ]
     for what in COPIES:
