@@ -133,6 +133,8 @@ def _with_a_wrong_input(
         yield "diameter-for-radius", instead(lambda values: 2 * values[id])
     elif given.kind == "speed of rotation":
         yield "rpm-for-radians", as_printed
+        # 2πn without the 60.
+        yield "minute-for-second", _times(60.0)
     elif id == "omega.1" and "n" in ledger:
         yield "rpm-for-radians", instead(lambda values: values["n"])
     elif given.kind == "weight" and family.kind == "mass":

@@ -371,7 +371,8 @@ def _neat(guide: Guide, id: str, value: float) -> float:
 
 
 def _rounded(value: float, like: float) -> float:
-    """A number to `NEAT` figures, to halves of the last one if `like` has more figures than these."""
-    parts = 1 if np.isclose(like, float(f"{like:.{NEAT - 1}e}"), rtol=1e-9) else 2
+    """A number to `NEAT` figures, to halves of the last one if `like` has more figures than these or begins with 1."""
+    begins_with_1 = f"{like:.0e}".startswith("1")
+    parts = 1 if np.isclose(like, float(f"{like:.{NEAT - 1}e}"), rtol=1e-9) and not begins_with_1 else 2
     step = 10.0 ** (np.floor(np.log10(value)) - NEAT + 1) / parts
     return float(round(value / step) * step)

@@ -273,9 +273,10 @@ class Working:
         return result, values
 
     def also(self, row: Row, position: int) -> list[float]:
-        """What a quantity may be taken to be as well: another like it, or for a scale its size over its length.
+        """What a quantity may be taken to be as well: another like it, or what another way of drawing gives.
 
-        Whoever takes a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was.
+        Whoever takes a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was.  On the lever M = F h′ μ_l
+        where pa is the drawn crank, though the report has μ_v/ω₁ for a plan at another scale.
         """
         ledger, index = self.guide.ledger, row.at(position)
         found = [float(self.values[other][index].real) for other in self.guide.alike[row.id] if other in self.values]
@@ -283,7 +284,20 @@ class Working:
             size, length = self.guide.makers[row.id]
             if size in self.values and self.values.get(length, np.zeros(1))[0]:
                 found.append(float(self.values[size][0] / self.values[length][0]))
+        found += self._by_length_scale(row, index)
         return [one for one in found if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)]
+
+    def _by_length_scale(self, row: Row, index: int) -> list[float]:
+        """The moment of a load on the lever by its drawn arm and μ_l as it is written down."""
+        load, arm = vocabulary.vector_of(row.id), f"h.{row.id.removeprefix('M.')}"
+        if vocabulary.row(row.id).name != "lever moment" or not {arm, "mu.l"} <= self.values.keys():
+            return []
+        drawn = self.world[arm] / self.factors.get("mu.v", np.ones(1))
+        return [float((self.world[load] * drawn)[index].real) * self._stated("mu.l")] if load in self.world else []
+
+    def _stated(self, scale: str) -> float:
+        """A scale (SI) as it is written down, right or not."""
+        return float(self.values[scale][0] * self.factors.get(scale, np.ones(1))[0])
 
     def _is_right(self, row: Row, known: float, value: float) -> bool:
         return bool(np.isclose(known, value, rtol=1e-9))

@@ -22,7 +22,7 @@ from tests.grading.test_guard import COPIES, Room
 from tests.grading.test_losses import SCALES, lost
 
 CLASS = 40
-NAMEABLE = {"omega.1", "R", "n", "H", "G2", "D", "s", "M.eq", "R.12.t"}
+NAMEABLE = {"omega.1", "R", "F", "m.2", "n", "H", "G2", "D", "s", "M.eq", "R.12.t"}
 """Mistakes of `hands.MISTAKES` that marking has a name for."""
 
 
@@ -73,7 +73,7 @@ def honest(name: str, sheets: int) -> list[tuple[str, str]]:
             for blunt in (0.3e-3, 0.5e-3):
                 worked += 1
                 losing += lost(mark(guide, hands.work(guide, (4,), blunt=blunt, seed=seed, **scale))) > 0
-    return [("honest sheets that lose a mark (± 0.3, ± 0.5 mm, 7 scales)", share(losing, worked))]
+    return [(f"honest sheets that lose a mark (± 0.3, ± 0.5 mm, {len(SCALES) + 1} scales)", share(losing, worked))]
 
 
 def flagged(sheets: int) -> list[tuple[str, str]]:
@@ -81,7 +81,8 @@ def flagged(sheets: int) -> list[tuple[str, str]]:
     rng = np.random.default_rng(40)
     guides = hands.variants(CLASS, rng)
     room = Room(guides, [hands.honest(guide, rng) for guide in guides])
-    wrongly, worked, named, costs = 0, 0, 0, []
+    wrongly, worked, costs = 0, 0, []
+    named: list[bool] = []
     for number in range(sheets):
         guide = guides[number % CLASS]
         mistake = "" if number % 2 else str(rng.choice(list(hands.MISTAKES)))
@@ -90,9 +91,10 @@ def flagged(sheets: int) -> list[tuple[str, str]]:
         worked += 1
         if mistake:
             costs.append(lost(marking))
-            named += mistake in NAMEABLE and any(cell.mistake for cell in marking.first_errors)
+            named += [any(cell.mistake for cell in marking.first_errors)] if mistake in NAMEABLE else []
     rows = [
         (f"honest sheets flagged in a class of {CLASS}, every other with one mistake", share(wrongly, worked)),
+        ("usual mistakes that have a name: a name is told", share(sum(named), len(named))),
         ("marks lost for one usual mistake at three positions: median, most", f"{median(costs):.0f}, {max(costs):.0f}"),
     ]
     for what in COPIES:

@@ -63,7 +63,7 @@ def test_points_of_the_class(graded: Graded) -> None:
 def test_unreadable_cells_are_located(graded: Graded) -> None:
     marking = next(one for one in graded.markings if one.key.id == "K225520103040")
     marks = [str(problem.mark) for problem in marking.submission.problems.values()]
-    assert all(mark.split("!")[1][0] in "DE" and "K225520103040.xlsx:" in mark for mark in marks)
+    assert all(mark.split("!")[1][0] in "EF" and "K225520103040.xlsx:" in mark for mark in marks)
 
 
 def test_what_is_no_sheet_that_can_be_read_is_told(assignments: Path, tmp_path: Path) -> None:
@@ -166,7 +166,7 @@ def test_comparing_names_the_first_divergence_without_marks_or_answers(assignmen
     lines, agrees = compare(assignments / "K225520103007.yaml", demo.SHEETS / "K225520103007.xlsx", language="en")
     assert not agrees
     assert "v_CB at position 2" in lines[0]
-    assert ".xlsx:Answers!E" in lines[0] or ".xlsx:Bài làm!E" in lines[0]
+    assert ".xlsx:Answers!F" in lines[0] or ".xlsx:Bài làm!F" in lines[0]
     guide = assess.open_guide(assess.api.load(assignments / "K225520103007.yaml"))
     right = guide.key.row("v.CB").values[1]
     hinted, _ = compare(

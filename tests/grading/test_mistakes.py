@@ -118,6 +118,7 @@ def test_named_mistakes_are_found() -> None:
         ("engine-twin-05", "R", "stroke-for-radius"),
         ("engine-twin-05", "L", "ratio-inverted"),
         ("engine-twin-05", "omega.1", "rpm-for-radians"),
+        ("engine-twin-05", "omega.1", "minute-for-second"),
         ("engine-twin-05", "m.3", "weight-for-mass"),
         ("engine-twin-05", "Pqt3", "weight-for-mass"),
         ("engine-twin-05", "F", "diameter-for-radius"),
