@@ -23,6 +23,7 @@ from reportgen.words import templates
 from reportgen.writers import layout
 from reportgen.writers.drawing import paint_typst
 from reportgen.writers.layout import NAMED, PRIMES, UNSPACED, Formulas
+from reportgen.writers.scripts import needs_system_fonts
 
 
 def literal(text: str) -> str:
@@ -136,7 +137,8 @@ def _compile(source: str) -> tuple[bytes, bool]:
     except ImportError as error:
         raise TypesetterError("typst is not installed: pip install typst") from error
     try:
-        pdf, warnings = typst.compile_with_warnings(source.encode(), ignore_system_fonts=True)
+        own = not needs_system_fonts(source)
+        pdf, warnings = typst.compile_with_warnings(source.encode(), ignore_system_fonts=own)
     except typst.TypstError as error:
         lines = str(getattr(error, "message", error)).splitlines()
         raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
