@@ -17,13 +17,14 @@ from reportgen.case import open_case
 from reportgen.document.tree import PageBreak, text_of
 from reportgen.errors import AssignmentError
 from reportgen.grading.marks import Policy, Scale, Verdict, read_policy
+from reportgen.grading.submission import read_submission
 from reportgen.grading.working import open_guide
 from reportgen.notation.numbers import Language
 from reportgen.notation.vocabulary import Chapter
-from reportgen.workbook import read, write_xlsx
+from reportgen.workbook import write_csv, write_xlsx
 from tests.answers.test_wording import FILES, key
 from tests.grading import students
-from tests.grading.keys import small_key
+from tests.grading.keys import csv_rows, small_key
 
 
 def ids(patterns: tuple[str, ...], found: Key) -> set[str]:
@@ -141,11 +142,22 @@ def test_what_is_not_asked_for_but_filled_in_is_judged_and_earns_nothing(tmp_pat
 
 
 def test_a_sheet_made_before_rows_had_words_is_read(tmp_path: Path) -> None:
-    """The sheets of the class of the examples have four columns before the positions."""
-    from tests.grading import demo
-
-    pages = read(next(demo.SHEETS.glob("*1.xlsx")))
-    assert [cell.text for cell in pages[0].rows[2][:4]] == ["mã", "Ký hiệu", "Đơn vị", "Giá trị"]
+    """Its columns are found by their heads: without the words of the rows the values stand one column earlier."""
+    guide = open_guide(students.assignment("four-bar-01", (2,)))
+    rows = csv_rows(guide.key)
+    head = next(row for row in rows if "Tên đại lượng" in row)
+    at, last = head.index("Tên đại lượng"), len(head) - 1
+    for number, row in enumerate(rows):
+        if len(row) == len(head) and row is not head and row[0]:
+            row[last] = number
+    old = [row[:at] + row[at + 1 :] if len(row) > at + 1 else row for row in rows]
+    for name, content in (("new.csv", rows), ("old.csv", old)):
+        (tmp_path / name).write_bytes(write_csv(content))
+    found = [read_submission(tmp_path / name, guide.key).values for name in ("new.csv", "old.csv")]
+    assert len(found[0]) > 10
+    assert {place: one.value for place, one in found[0].items()} == {
+        place: one.value for place, one in found[1].items()
+    }
 
 
 def test_the_batch_makes_tasks_anew_when_another_choice_is_ordered() -> None:
