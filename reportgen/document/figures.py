@@ -143,7 +143,7 @@ def drawing_scale(report: Report) -> float:
 def scale_note(report: Report, id: str, factor: float = 1.0, k: int | None = None) -> Chain:
     """A scale as printed below a figure; a figure drawn smaller by `factor` has a scale that much larger."""
     number = report.ledger.number(id, k)
-    return Chain((report.ledger.symbol(id), short(replace(number, value=number.value / factor))))
+    return Chain((report.ledger.symbol(id), short(replace(number, value=number.shown / factor))))
 
 
 def looks(report: Report, scale: float, factor: float = 1.0) -> Looks:

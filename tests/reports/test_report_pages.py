@@ -96,8 +96,9 @@ def test_a_figure_follows_its_mention_closely(report: Report) -> None:
             place.setdefault(number, page.number)
     prose: dict[str, int] = {}
     for page in report.pages:
+        words = page.get_textpage()
         for link in page.get_links():
-            text = page.get_textbox(link["from"]).strip(" .,;()\n")
+            text = page.get_textbox(link["from"], textpage=words).strip(" .,;()\n")
             if text in place and link.get("page", -1) in (place[text], place[text] - 1, place[text] + 1):
                 prose.setdefault(text, page.number)
     late = {
