@@ -24,7 +24,7 @@ KINDS = list({api.load(path).kind: path for path in reversed(FILES)}.values())
 RESULTS = {"velocity", "acceleration", "angular velocity", "angular acceleration", "force", "torque", "work", "power"}
 CONSTANTS = {"omega.1"}
 """What many lines are computed with, and which therefore may have more figures than a result."""
-VARIANTS = 10
+VARIANTS = 4
 LISTED = 0.01
 """Share of the printed quantities whose lines may be listed because their inputs have too few figures."""
 

@@ -95,10 +95,13 @@ def test_a_figure_follows_its_mention_closely(report: Report) -> None:
         for number in captions(page, word):
             place.setdefault(number, page.number)
     prose: dict[str, int] = {}
-    for page in report.pages:
-        words = page.get_textpage()
+    for page, found in zip(report.pages, report.bodies, strict=True):
         for link in page.get_links():
-            text = page.get_textbox(link["from"], textpage=words).strip(" .,;()\n")
+            left, top, right, bottom = link["from"]
+            inside = (
+                glyph for glyph in found if left < sum(glyph.box[::2]) / 2 < right and top < glyph.origin[1] < bottom
+            )
+            text = "".join(glyph.char for glyph in inside).strip(" .,;()")
             if text in place and link.get("page", -1) in (place[text], place[text] - 1, place[text] + 1):
                 prose.setdefault(text, page.number)
     late = {
