@@ -6,10 +6,10 @@ has is told as a warning.
 
 from __future__ import annotations
 
-import json
 import re
 import unicodedata
 import warnings
+from collections.abc import Callable
 
 COMMON = re.compile("[\u0000-\u024f\u0300-\u052f\u1e00-\u2bff\u3000-\u3003\ufb00-\ufb06\ufe00-\ufe0f]+")
 """Latin (Vietnamese included), Greek, Cyrillic, punctuation, arrows and the signs of mathematics: never asked for."""
@@ -18,6 +18,9 @@ NOWHERE = r"\u{10fffe}"
 """No character, and therefore in no font: the typesetter sets the same in its place as for a letter it lacks."""
 BATCH = 400
 """So many different letters are asked for at most; a text of more is not worth a warning."""
+
+Lacking = Callable[[str, bool], str]
+"""Those of some letters that none of the typesetter's own fonts has, or, if asked, the system's either."""
 
 QUESTION = """\
 #set text(font: "{font}", size: 10pt, top-edge: "bounds", bottom-edge: "bounds")
@@ -42,23 +45,17 @@ def uncommon(text: str) -> str:
     return "".join(letter for letter in left if unicodedata.category(letter)[0] in "LNPS")[:BATCH]
 
 
-def lacking(letters: str, system: bool) -> str:
-    """Those of the letters that none of the typesetter's own fonts, or the `system`'s either, has."""
-    import typst
-
-    if not letters:
-        return ""
+def question(letters: str) -> str:
+    """What the typesetter is asked: which of the letters, one at least, it sets as it sets what no font has."""
     listed = ", ".join(f'"\\u{{{ord(letter):x}}}"' for letter in letters)
-    question = QUESTION.format(font=FONT, letters=listed, nowhere=NOWHERE)
-    answer = typst.query(question.encode(), "<lacking>", field="value", one=True, ignore_system_fonts=not system)
-    return "".join(json.loads(answer))
+    return QUESTION.format(font=FONT, letters=listed, nowhere=NOWHERE)
 
 
-def needs_system_fonts(source: str) -> bool:
+def needs_system_fonts(text: str, lacking: Lacking) -> bool:
     """Whether a text has letters that only the system's fonts may have; warns of those that no font has."""
-    wanted = lacking(uncommon(source), system=False)
+    wanted = lacking(uncommon(text), False)
     if not wanted:
         return False
-    if missing := lacking(wanted, system=True):
+    if missing := lacking(wanted, True):
         warnings.warn(MissingLettersWarning(missing), stacklevel=2)
     return missing != wanted

@@ -23,7 +23,7 @@ from reportgen.words import templates
 from reportgen.writers import layout
 from reportgen.writers.drawing import paint_typst
 from reportgen.writers.layout import NAMED, PRIMES, UNSPACED, Formulas
-from reportgen.writers.scripts import needs_system_fonts
+from reportgen.writers.scripts import needs_system_fonts, question
 
 
 def literal(text: str) -> str:
@@ -137,12 +137,23 @@ def _compile(source: str) -> tuple[bytes, bool]:
     except ImportError as error:
         raise TypesetterError("typst is not installed: pip install typst") from error
     try:
-        own = not needs_system_fonts(source)
+        own = not needs_system_fonts(source, lacking)
         pdf, warnings = typst.compile_with_warnings(source.encode(), ignore_system_fonts=own)
     except typst.TypstError as error:
         lines = str(getattr(error, "message", error)).splitlines()
         raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
     return bytes(pdf), not any("did not converge" in warning.message for warning in warnings)
+
+
+def lacking(letters: str, system: bool) -> str:
+    """Those of the letters that none of the typesetter's own fonts, or the `system`'s either, has."""
+    import typst
+
+    if not letters:
+        return ""
+    asked = question(letters).encode()
+    answer = typst.query(asked, "<lacking>", field="value", one=True, ignore_system_fonts=not system)
+    return "".join(json.loads(answer))
 
 
 def _settled(source: str) -> str:
