@@ -21,9 +21,8 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.answers.senses import MAGNITUDE, is_open, positive_sense
 from reportgen.answers.trapezoid import is_workable, trapezoid_errors
-from reportgen.answers.wording import capitalised, phrase
+from reportgen.answers.wording import MAGNITUDE, capitalised, is_open, phrase, positive_sense
 from reportgen.case import Case
 from reportgen.document.outline import open_report
 from reportgen.document.tree import formula
