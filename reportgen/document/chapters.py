@@ -27,6 +27,12 @@ def signature(report: Report) -> tuple[Block, ...]:
 
 
 @member
+def started(report: Report) -> str:
+    """The key of the words for where position 1 is: the kind's own place, or a given angle of the crank."""
+    return "natural" if report.assignment.positions.start is None else "given"
+
+
+@member
 def begins_at(report: Report) -> str:
     """Where the first position is: at the "dead_centre" of the first slider, or wherever it is "given"."""
     return "dead_centre" if report.machine.sliders and report.machine.sliders[0].phase == 0 else "given"
