@@ -5,6 +5,7 @@ A run holds a lock on its folder for as long as it lives, so that another one do
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 import tempfile
@@ -13,6 +14,8 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 PREFIX = ".reportgen-"
+_NO_LOCKS = frozenset({errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS})
+"""What network folders that know no locks answer."""
 
 
 @contextmanager
@@ -26,10 +29,9 @@ def scratch(out: Path) -> Iterator[Path]:
     sweep(out)
     before = tempfile.tempdir
     try:
-        with tempfile.TemporaryDirectory(prefix=PREFIX, dir=out) as name, ExitStack() as held:
-            # Some network folders know no locks; there nothing is swept either.
+        with tempfile.TemporaryDirectory(prefix=PREFIX, dir=out) as name, ExitStack() as locks:
             with suppress(OSError):
-                held.enter_context(_held(Path(name)))
+                locks.enter_context(held(Path(name)))
             tempfile.tempdir = name
             yield Path(name)
     finally:
@@ -40,23 +42,33 @@ def scratch(out: Path) -> Iterator[Path]:
 
 
 def sweep(out: Path) -> None:
-    """Remove the folders of runs that are no more."""
+    """Remove the folders of runs that are no more; where there are no locks, nobody knows, and they stay."""
     for folder in out.glob(f"{PREFIX}*"):
-        with suppress(OSError), _held(folder):
-            shutil.rmtree(folder, ignore_errors=True)
+        with suppress(OSError), held(folder) as alone:
+            if alone:
+                shutil.rmtree(folder, ignore_errors=True)
 
 
 @contextmanager
-def _held(folder: Path) -> Iterator[None]:
-    """Holds the lock of a folder; raises `OSError` if another process does, or if there are no such locks."""
+def held(folder: Path) -> Iterator[bool]:
+    """Holds the lock of a folder, without leaving a trace; False where the system or the file system knows no locks.
+
+    Raises `BlockingIOError` if another process holds it, `OSError` if the folder cannot be opened.
+    """
     try:
         import fcntl
     except ImportError:  # no such locks on this system
-        yield
+        yield False
         return
     handle = os.open(folder, os.O_RDONLY)
     try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        yield
+        locked = True
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            if error.errno not in _NO_LOCKS:
+                raise
+            locked = False
+        yield locked
     finally:
         os.close(handle)

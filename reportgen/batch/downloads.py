@@ -12,7 +12,6 @@ import re
 import stat
 import unicodedata
 import zipfile
-import zlib
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -20,7 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from reportgen.errors import Fault, Mark
-from reportgen.workbook.package import MOST_RATIO, SMALL
+from reportgen.workbook.package import MOST_RATIO, SMALL, UNREADABLE_ZIP
 from reportgen.workbook.reading import BOOKS, LARGEST
 from reportgen.workbook.writing import MOMENT
 
@@ -139,7 +138,7 @@ def _from_archive(path: Path, faults: list[Fault]) -> Iterator[Handed]:
                 if _is_sheet(info.filename):
                     yield Handed(path / info.filename, owners[info.filename], _content(archive, info))
             faults += _without_sheet(path, owners)
-    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, ValueError):
+    except UNREADABLE_ZIP:
         faults.append(Fault("archive-damaged", mark))
     except OSError as error:
         faults.append(Fault("unreadable", mark, {"reason": type(error).__name__}))

@@ -6,7 +6,7 @@ import errno
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -22,7 +22,7 @@ from reportgen.batch.roster import Assigned, Roster, Student, match_files, read_
 from reportgen.batch.variants import make_variants
 from reportgen.errors import Fault, Mark, Problem
 from reportgen.notation.numbers import Language, write
-from reportgen.scratch import scratch
+from reportgen.scratch import held, scratch
 from reportgen.words import DEFAULT_LANGUAGE, as_problem, counted, word
 
 if TYPE_CHECKING:
@@ -32,7 +32,6 @@ DRAWN = "assignments"
 """The folder, among the results, of the assignment files that are drawn."""
 NO_ROOM = frozenset({errno.ENOSPC, errno.EROFS, errno.EIO, getattr(errno, "EDQUOT", errno.ENOSPC)})
 """Errors that every other student would meet, too."""
-NO_LOCKS = frozenset({errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS})
 _TEMPORARY = re.compile(r"\..+\.(?:pdf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
 """What `api.replace` leaves when it is killed."""
 
@@ -297,26 +296,14 @@ def locked(out: Path, language: Language | None) -> Iterator[None]:
 
     Raises `OutputError` if there is another one, or if there can be no such folder.
     """
-    with api.reported():
-        out.mkdir(parents=True, exist_ok=True)
-    try:
-        import fcntl
-    except ImportError:  # no such locks on this system
+    with ExitStack() as lock:
+        with api.reported():
+            out.mkdir(parents=True, exist_ok=True)
+            try:
+                lock.enter_context(held(out))
+            except BlockingIOError as error:
+                raise api.OutputError(word("out_in_use", language, out=out)) from error
         yield
-        return
-    handle = os.open(out, os.O_RDONLY)
-    try:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise api.OutputError(word("out_in_use", language, out=out)) from error
-        except OSError as error:
-            # Some network folders know no locks.
-            if error.errno not in NO_LOCKS:
-                raise
-        yield
-    finally:
-        os.close(handle)
 
 
 def _remove_temporary(folder: Path) -> None:

@@ -37,6 +37,18 @@ MOST_GROUPS = 1 << 20
 MOST_TRANSLATED = 20_000_000
 """Characters of all formulas that take the text of a shared one, as if each were as long as the longest shared."""
 
+UNREADABLE_ZIP = (
+    zipfile.BadZipFile,
+    zlib.error,
+    EOFError,
+    NotImplementedError,
+    RuntimeError,
+    ValueError,
+    OverflowError,
+)
+"""What `zipfile` raises of an archive that it cannot read: damaged, cut off, with numbers out of range, encrypted or
+packed in a way unknown to it (`RuntimeError` and a kind of it)."""
+
 _EMPTY_CELL = re.compile(rb"<((?:\w+:)?c)(?=\s)[^<>]*?(?:/>|>\s*</\1\s*>)")
 """A cell with a look and nothing in it."""
 _UNPLACED_CELL = re.compile(rb"<(?:\w+:)?c(?=[\s/>])(?![^<>]*\sr\s*=)")
@@ -71,7 +83,7 @@ class Package:
             raise self.refused("sheet-encrypted" if _ENCRYPTED in data else "sheet-old")
         try:
             self._zip = zipfile.ZipFile(io.BytesIO(data))
-        except (zipfile.BadZipFile, ValueError, OverflowError, NotImplementedError):
+        except UNREADABLE_ZIP:
             raise self.refused("sheet-no-zip") from None
         self._parts = {info.filename: info for info in self._zip.infolist()}
         self._thinned: dict[str, bytes] = {}
@@ -217,7 +229,7 @@ class Package:
                     if left < 0:
                         raise self.bomb()
                     yield chunk
-        except (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError, ValueError):
+        except (*UNREADABLE_ZIP, OSError):
             raise self.refused("sheet-damaged") from None
 
 

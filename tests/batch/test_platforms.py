@@ -115,7 +115,7 @@ def test_moodles_download_is_marked_and_given_back_under_its_names(
         folder = f"{PEOPLE[BAO]}_4713_assignsubmission_file"
         assert back.read(f"{folder}/feedback.pdf") == files[Path(BAO, "feedback.pdf")]
     assert len(names) == 6
-    assert {owner_of(name).number for name in names if owner_of(name)} == {"4711", "4712", "4713"}  # type: ignore[union-attr]
+    assert {owner.number for name in names if (owner := owner_of(name))} == {"4711", "4712", "4713"}
 
 
 def test_canvas_download_is_given_back_with_user_and_attachment(assignments: Path, tmp_path: Path) -> None:

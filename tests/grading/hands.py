@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -49,10 +50,9 @@ def handed_in(guide: Guide, worked: Mapping[int, Hand]) -> Submission:
     return Submission(guide.key.id, "sheet.csv", values, {})
 
 
-def work(guide: Guide, positions: Iterable[int], **how: object) -> Submission:
+def work(guide: Guide, positions: Iterable[int], seed: int = 0, **how: Any) -> Submission:
     """The sheet of a student who works every position alike, with other luck in drawing."""
-    seed = int(how.pop("seed", 0))  # type: ignore[call-overload]
-    hands = {k: Hand(task(guide, k), seed=100 * seed + k, **how) for k in positions}  # type: ignore[arg-type]
+    hands = {k: Hand(task(guide, k), seed=100 * seed + k, **how) for k in positions}
     return handed_in(guide, hands)
 
 

@@ -13,6 +13,7 @@ from reportgen.grading.marking import mark
 from reportgen.grading.marks import FLAGS_ONLY, TAKES, Policy, Submission, Verdict
 from reportgen.grading.mistakes import Mistake
 from reportgen.grading.working import Guide
+from reportgen.notation.numbers import Language
 from reportgen.notation.vocabulary import Chapter
 from reportgen.words import load_words, search_path
 from tests.grading import hands, students
@@ -184,8 +185,8 @@ def test_the_policy_can_overrule_it(room: Room) -> None:
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])
-def test_every_flag_has_its_words(language: str) -> None:
-    words = load_words(search_path(language))  # type: ignore[arg-type]
+def test_every_flag_has_its_words(language: Language) -> None:
+    words = load_words(search_path(language))
     for kind in (*TAKES, *FLAGS_ONLY, "taken"):
         assert words["warnings"][kind]
         assert words["warning_names"][kind]
