@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 SAMPLE := assignments/engine-twin-05.yaml
 
-.PHONY: setup report reports test lint bench pictures clean
+.PHONY: setup report reports test lint bench fuzz pictures clean
 
 setup: $(VENV)/.installed
 
@@ -26,6 +26,10 @@ lint: $(VENV)/.developing
 bench: $(VENV)/.developing
 	$(BIN)/python -m tests.bench
 	$(BIN)/python -m tests.bench.batch
+
+# The seed of the day: another ten thousand files each time.
+fuzz: $(VENV)/.developing
+	$(BIN)/python -W ignore -m tests.fuzz 10000 $(shell date +%Y%m%d)
 
 pictures: $(VENV)/.developing
 	$(BIN)/python docs/pictures.py

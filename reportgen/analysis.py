@@ -220,4 +220,5 @@ def _extreme(machine: Machine, angles: np.ndarray, torque: np.ndarray, sense: in
             angles = np.unique(np.clip(angles, 0.0, FULL_TURN))
         torque = analyse(machine, angles).torque
     best = int(np.nanargmax(sense * torque))
-    return float(angles[best] % (machine.turns * FULL_TURN)), float(torque[best])
+    # A turn closes at its end; a slide has come to it.
+    return float(angles[best] if machine.span else angles[best] % (machine.turns * FULL_TURN)), float(torque[best])

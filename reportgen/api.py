@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -18,9 +18,12 @@ from reportgen.assignment import Assignment
 from reportgen.case import Case, open_case
 from reportgen.errors import ReportgenError
 from reportgen.notation.numbers import Language
+from reportgen.scratch import scratch
 
 if TYPE_CHECKING:
     from reportgen.analysis import Analysis
+    from reportgen.answers.asking import Ask
+    from reportgen.answers.key import Key
     from reportgen.document.tree import Document
 
 Engine = Literal["typst", "latex"]
@@ -69,7 +72,8 @@ def build(
     `OutputError`.
     """
     assignment = load(path, language)
-    source, pdf = typeset(document(assignment), engine)
+    with reported(), scratch(Path(out)):
+        source, pdf = typeset(document(assignment), engine)
     files = {f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}
     return put(Path(out) / assignment.id, {**files, "report.pdf": pdf})[-1]
 
@@ -83,15 +87,17 @@ def typeset(tree: Document, engine: Engine) -> tuple[str, bytes]:
         return source, pdflatex.compile(source).pdf
     from reportgen.writers import typst
 
-    source = typst.write(tree)
-    return source, typst.compile(source)
+    return typst.typeset(tree)
 
 
 # --- products: what a batch makes of an assignment file -----------------------------------------------
 
 
-Maker = Callable[[Path, Engine, Language | None], Mapping[str, bytes]]
-"""Makes the files of one product, by name; it depends on its arguments alone, so that it can run anywhere."""
+Maker = Callable[..., Mapping[str, bytes]]
+"""Makes the files of one product, by name, from path, engine and language, and of `ASKING` also from `ask`.
+
+It depends on its arguments alone, so that it can run anywhere.
+"""
 
 KEY_FORMATS = ("pdf", "xlsx", "csv", "json")
 
@@ -101,28 +107,36 @@ def report_files(path: Path, engine: Engine, language: Language | None) -> Mappi
     return {"report.pdf": typeset(document(load(path, language)), engine)[1]}
 
 
-def task_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
-    """The student's handout, and the answer sheet to fill in; no answer is in them."""
+def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
+    """The student's handout, and the answer sheet to fill in, of what is to be asked; no answer is in them."""
+    from reportgen.answers.asking import Ask
     from reportgen.answers.key import make_key
     from reportgen.answers.paper import task
     from reportgen.answers.sheet import answer_book
     from reportgen.workbook import write_xlsx
 
     case = open_case(path, language)
-    key = make_key(case)
-    return {"task.pdf": typeset(task(case, key), engine)[1], "answers.xlsx": write_xlsx(answer_book(key))}
+    chosen = ask or Ask()
+    key = chosen.of(make_key(case))
+    files = {"task.pdf": typeset(task(case, key, chosen.by_section), engine)[1]}
+    return {**files, "answers.xlsx": write_xlsx(answer_book(key, chosen.by_section))}
 
 
 def key_files(
-    path: Path, engine: Engine, language: Language | None, formats: Sequence[str] = ("pdf", "xlsx")
+    path: Path,
+    engine: Engine,
+    language: Language | None,
+    formats: Sequence[str] = ("pdf", "xlsx"),
+    ask: Ask | None = None,
 ) -> Mapping[str, bytes]:
-    """The answer key in some of `KEY_FORMATS`."""
+    """The answer key in some of `KEY_FORMATS`; it says what the answer sheet asks for, and holds everything."""
     from reportgen.answers import key_files as files
+    from reportgen.answers.asking import Ask
     from reportgen.answers.key import make_key
     from reportgen.workbook import write_csv, write_xlsx
 
     case = open_case(path, language)
-    key = make_key(case)
+    key = (ask or Ask()).of(make_key(case))
     makers: Mapping[str, Callable[[], bytes]] = {
         "pdf": lambda: typeset(files.key_document(key, case.title), engine)[1],
         "xlsx": lambda: write_xlsx(files.key_book(key)),
@@ -134,17 +148,43 @@ def key_files(
 
 MAKERS: Mapping[str, Maker] = {"task": task_files, "report": report_files, "key": key_files}
 """The products by the names that `--make` takes."""
+ASKING = frozenset({"task", "key"})
+"""Those that depend on what the answer sheet asks for."""
 
 
 # --- writing files ------------------------------------------------------------------------------------
+
+
+def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None) -> None:
+    """Raises `AssignmentError` if a policy asks for what no machine of these assignments has."""
+    from reportgen.answers.key import make_key
+
+    def keys() -> Iterator[Key]:
+        """A key of each kind of machine; what cannot be computed is told where its turn comes."""
+        seen: set[str] = set()
+        for path in files:
+            with suppress(ReportgenError):
+                case = open_case(path, language)
+                if case.assignment.kind not in seen:
+                    seen.add(case.assignment.kind)
+                    yield make_key(case)
+
+    if ask is not None:
+        ask.check(keys(), language)
 
 
 def put(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
     """Write files by name into a folder, each in one step; raises `OutputError`."""
     with reported():
         folder.mkdir(parents=True, exist_ok=True)
-        for name, content in files.items():
-            replace(folder / name, content)
+        try:
+            for name, content in files.items():
+                replace(folder / name, content)
+        except OSError:
+            # A folder without a file tells nobody anything.
+            with suppress(OSError):
+                folder.rmdir()
+            raise
     return [folder / name for name in files]
 
 
@@ -159,15 +199,19 @@ def replace(target: Path, content: bytes) -> None:
         os.umask(umask)
         temporary.chmod(0o666 & ~umask)
         temporary.replace(target)
-    except BaseException:
+    except BaseException as error:
         temporary.unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            # A full disk does not say itself what had no room on it.
+            error.filename = error.filename or str(target)
         raise
 
 
 @contextmanager
-def reported() -> Iterator[None]:
-    """A full disk or a forbidden folder is a fault in one line."""
+def reported(about: Path | None = None) -> Iterator[None]:
+    """A full disk or a forbidden folder is a fault in one line, which names its path, or else `about`."""
     try:
         yield
     except OSError as error:
-        raise OutputError(f"{error.filename or ''}: {error.strerror or error}") from error
+        place = error.filename or about
+        raise OutputError(f"{place}: {error.strerror or error}" if place else str(error)) from error

@@ -127,6 +127,11 @@ class AngleIndicator:
             raise ValueError("every angle needs one pressure")
 
     @property
+    def rows(self) -> tuple[tuple[float, ...], ...]:
+        """The one row of pressures."""
+        return (self.pressures,)
+
+    @property
     def nodes(self) -> tuple[float, ...]:
         """The cycle angles where the pressure bends."""
         return self.angles

@@ -9,7 +9,7 @@ J_d = (a − b)/(δ ω_m²).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from reportgen.analysis import FULL_TURN, Analysis, analyse, breaks
 from reportgen.catalogue.machine import Machine
-from reportgen.mechanism.forces import virtual_work_torque
+from reportgen.mechanism.forces import Load, virtual_work_torque
 from reportgen.mechanism.motion import Motion
 
 Floats = NDArray[np.float64]
@@ -99,13 +99,13 @@ def reduced_torque(analysis: Analysis) -> np.ndarray:
     return np.asarray(-analysis.machine.turn * virtual_work_torque(analysis.machine.linkage, analysis.motion, static))
 
 
-def _possible(analysis: Analysis) -> float:
-    """The torque (N·m) of weights and loads if all acted on the fastest point and link, along their motion."""
-    motion, static = analysis.motion, (*analysis.weights, *analysis.applied)
+def possible(analysis: Analysis, loads: Sequence[Load]) -> float:
+    """The torque (N·m) of these loads if all acted on the fastest point and link, along their motion."""
+    motion = analysis.motion
     fastest = max(float(np.abs(point.v).max()) for point in motion.points.values())
     turning = max(float(np.abs(link.omega).max()) for link in motion.links.values())
-    force = sum(float(np.abs(load.force).max()) for load in static)
-    couple = sum(float(np.abs(load.couple).max()) for load in static)
+    force = sum(float(np.abs(load.force).max()) for load in loads)
+    couple = sum(float(np.abs(load.couple).max()) for load in loads)
     return (force * fastest + couple * turning) / abs(motion.rate)
 
 
@@ -117,7 +117,7 @@ def flywheel(machine: Machine, unevenness: float) -> Flywheel:
     every = np.sort(np.concatenate((grid, own)))
     angle = every[np.concatenate(([True], np.diff(every) > SAME))]
     analysis = analyse(machine, angle)
-    torque, least = reduced_torque(analysis), SAME * _possible(analysis)
+    torque, least = reduced_torque(analysis), SAME * possible(analysis, (*analysis.weights, *analysis.applied))
     idle = np.abs(torque).max() <= least
     return regulate(
         angle,

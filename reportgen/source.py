@@ -2,7 +2,8 @@
 
 Nothing is constructed: a scalar stays the text that was typed, so `2011-03-24`, `1/3.6` and `no` reach
 their readers unharmed.  What the language offers beyond mappings, lists and scalars (tags, anchors,
-aliases) is a fault here, and no text, however hostile, takes more than its size in memory.
+aliases) is a fault here.  No text, however hostile, takes more than its size in memory or a second or two: tokens,
+keys and faults are counted as they come.
 """
 
 from __future__ import annotations
@@ -11,16 +12,22 @@ import re
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import yaml
 
 from reportgen.errors import Fault, Mark
 
-LARGEST = 1_000_000
+LARGEST = 400_000
+"""Bytes of a file."""
+MOST_TOKENS = 30_000
+"""Values, keys and signs of a file; a table of 5 rows of 2000 values has two thirds of them."""
 DEEPEST = 12
 MOST_KEYS = 200
+MOST_FAULTS = 100
+"""After so many faults of its syntax a file is read no further."""
 _NULL = {"", "~", "null", "Null", "NULL"}
 _SYNTAX = (
     ("mapping values are not allowed", "syntax-colon"),
@@ -93,7 +100,7 @@ def read_source(path: Path) -> Source:
 
 def read_text(text: str, file: str = "") -> Source:
     """As `read_source`, for text already at hand."""
-    tabs = tuple(_tabs(text, file))
+    tabs = tuple(islice(_tabs(text, file), MOST_FAULTS))
     if tabs:
         return Source(file, text, faults=tabs)
     try:
@@ -103,6 +110,8 @@ def read_text(text: str, file: str = "") -> Source:
         return Source(file, text, faults=(Fault("control-character", mark_in(before, len(before), file)),))
     try:
         root = loader.get_single_node()
+    except _StoppedError:
+        return Source(file, text, faults=tuple(loader.faults))
     except yaml.MarkedYAMLError as fault:
         return Source(file, text, faults=(*loader.faults, _syntax(fault, file)))
     except ValueError:
@@ -131,8 +140,12 @@ def plain(node: Node) -> Any:
             return {key.text: plain(value) for key, value in entries}
 
 
+class _StoppedError(Exception):
+    """A file that is read no further; why is among the loader's faults."""
+
+
 class _Loader(yaml.SafeLoader):
-    """The safe loader, composing only, with tags, anchors, aliases and endless nesting refused."""
+    """The safe loader, composing only, with tags, anchors, aliases, endless nesting and endless length refused."""
 
     def __init__(self, text: str, file: str) -> None:
         super().__init__(text)
@@ -140,26 +153,44 @@ class _Loader(yaml.SafeLoader):
         self.faults: list[Fault] = []
         self.depth = 0
 
+    def fetch_more_tokens(self) -> None:
+        if self.tokens_taken > MOST_TOKENS:
+            here = Mark(self.file, self.line + 1, self.column + 1)
+            self.stop(Fault("too-long", here, {"most": str(MOST_TOKENS)}))
+        scanner: Any = super()  # whose methods the stubs leave without types
+        scanner.fetch_more_tokens()
+
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
-        parser: Any = self  # whose methods the stubs leave without types
+        parser: Any = self
         event = parser.peek_event()
         ends = event.start_mark, event.end_mark
         mark = _mark(event.start_mark, self.file)
+        if isinstance(parent, yaml.MappingNode) and index is None and len(parent.value) == MOST_KEYS:
+            self.stop(Fault("too-many", mark, {"most": str(MOST_KEYS)}))
         if isinstance(event, yaml.AliasEvent):
             parser.get_event()
-            self.faults.append(Fault("alias", mark))
+            self.add(Fault("alias", mark))
             return yaml.ScalarNode("tag:yaml.org,2002:null", "", *ends)
         if getattr(event, "anchor", None):
-            self.faults.append(Fault("alias", mark))
+            self.add(Fault("alias", mark))
             self.anchors.pop(event.anchor, None)
         if getattr(event, "tag", None):
-            self.faults.append(Fault("tag", mark, {"tag": str(event.tag)}))
+            self.add(Fault("tag", mark, {"tag": str(event.tag)}))
         self.depth += 1
         if self.depth > DEEPEST:
-            raise yaml.composer.ComposerError(None, None, "too deep", event.start_mark)
+            self.stop(Fault("too-deep", mark, {"deepest": str(DEEPEST)}))
         node = super().compose_node(parent, index)
         self.depth -= 1
         return node
+
+    def add(self, fault: Fault) -> None:
+        self.faults.append(fault)
+        if len(self.faults) >= MOST_FAULTS:
+            raise _StoppedError
+
+    def stop(self, fault: Fault) -> NoReturn:
+        self.faults.append(fault)
+        raise _StoppedError
 
 
 def _mark(place: yaml.Mark, file: str) -> Mark:
@@ -181,10 +212,6 @@ def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
 def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator[tuple[Scalar, Node]]:
     """The entries of a mapping; a key met again is a fault and is left out."""
     seen: dict[str, Mark] = {}
-    if len(node.value) > MOST_KEYS:
-        first_too_many = node.value[MOST_KEYS][0].start_mark
-        faults.append(Fault("too-many", _mark(first_too_many, file), {"most": str(MOST_KEYS)}))
-        return
     for key_node, value_node in node.value:
         key, value = _node(key_node, file, faults), _node(value_node, file, faults)
         if not isinstance(key, Scalar):
@@ -209,8 +236,6 @@ def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:
     place = fault.problem_mark or fault.context_mark
     mark = _mark(place, file) if place else Mark(file)
     problem = f"{fault.context or ''} {fault.problem or ''}"
-    if "too deep" in problem:
-        return Fault("too-deep", mark, {"deepest": str(DEEPEST)})
     if "'\\t'" in problem:
         return Fault("tab", mark)
     hint = next((key for words, key in _SYNTAX if words in problem), "syntax")

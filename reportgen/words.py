@@ -130,6 +130,11 @@ def word(key: str, language: Language | None, /, **arguments: object) -> str:
     return str(messages(language or DEFAULT_LANGUAGE)["cli"][key]).format(**arguments)
 
 
+def counted(key: str, language: Language | None, count: int, /, **arguments: object) -> str:
+    """A text of the command line that counts something; for one it has words of its own, under `key`_one."""
+    return word(f"{key}_one" if count == 1 else key, language, count=count, **arguments)
+
+
 def unexpected(error: BaseException, language: Language | None) -> str:
     """A fault of the program itself, in one line."""
     return word("unexpected", language, name=type(error).__name__, text=" ".join(str(error).split()))

@@ -21,14 +21,17 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.answers.trapezoid import is_workable, trapezoid_errors
+from reportgen.answers.wording import MAGNITUDE, capitalised, is_open, phrase, positive_sense
 from reportgen.case import Case
+from reportgen.document.outline import open_report
 from reportgen.document.tree import formula
 from reportgen.ledger.core import Ledger
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Call, Number, Ref, Symbol, refs
-from reportgen.notation.numbers import Language
-from reportgen.notation.sheet import Family
-from reportgen.notation.vocabulary import Chapter
+from reportgen.notation.numbers import Language, significant_decimals
+from reportgen.notation.sheet import Family, is_short
+from reportgen.notation.vocabulary import MAX_DIGITS, Chapter
 from reportgen.words import load_words, search_path
 
 PAPER_ERROR = 0.5e-3
@@ -46,12 +49,16 @@ SHARE = 1e-4
 """A change of this share of an error stands for its slope."""
 
 
-def drawn_bands(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndarray]:
+def drawn_bands(
+    ledger: Ledger, error: float = PAPER_ERROR, scales: Mapping[str, np.ndarray] | None = None
+) -> dict[str, np.ndarray]:
     """Half widths (SI) [N] when every length on paper is off by `error` (m) at each of its ends.
 
+    `scales` are those of plans drawn at others than the report's, as multiples of these, by id: a larger drawing is
+    read more finely.
     What is read or worked out from the drawing is also written down with so many figures only.
     """
-    bands = _carried_through(ledger, measuring_errors(ledger, error))
+    bands = _carried_through(ledger, measuring_errors(ledger, error, scales))
     for id, band in bands.items():
         # A direction is written down in whole degrees.
         last = WHOLE_DEGREE / 2 if is_direction(id) else half_unit(ledger[id].values, DIGITS)
@@ -60,35 +67,62 @@ def drawn_bands(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndar
 
 
 def computed_bands(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
-    """Half widths (SI) [N] when every value that is not given is rounded to `digits` significant figures."""
+    """Half widths (SI) [N] when every value that is not given is rounded to `digits` significant figures.
+
+    What stands on integrals over the cycle is worked out by the trapezoid rule.
+    """
     errors = {
         id: half_unit(family.values, digits)
         for id, family in ledger.families.items()
         if not (family.hidden or family.is_plane or family.exact or family.definition is None)
     }
-    return _carried_through(ledger, errors)
+    bands = _carried_through(ledger, errors)
+    return bands | {id: bands[id] + error for id, error in trapezoid_errors(ledger).items()}
 
 
-def measuring_errors(ledger: Ledger, error: float = PAPER_ERROR) -> dict[str, np.ndarray]:
+def measuring_errors(
+    ledger: Ledger, error: float = PAPER_ERROR, scales: Mapping[str, np.ndarray] | None = None
+) -> dict[str, np.ndarray]:
     """The own errors (SI) of what is measured: two ends of a length; of a direction, two ends over its length.
 
     Other angles are measured between lines as long as the drawn crank.
     """
     errors: dict[str, np.ndarray] = {}
+    drawn_at = scales or {}
     lengths = (float(one.values[0]) for one in ledger.families.values() if is_chosen_length(ledger, one))
     crank = min(lengths, default=np.inf)
     for id, family in ledger.families.items():
         if family.hidden or family.is_plane or not family.constructed:
             continue
         if family.kind == "segment":
-            errors[id] = np.full(len(family.values), 2 * error)
+            errors[id] = np.full(len(family.values), 2 * error * drawn_at.get(vocabulary.plan(id), 1.0))
         elif is_direction(id):
-            length = np.abs(_on_paper(ledger, id))
+            side = _on_paper(ledger, id)
+            length = np.abs(side.values) / drawn_at.get(vocabulary.plan(side.id), 1.0)
             with np.errstate(all="ignore"):
                 errors[id] = np.minimum(np.where(length > 0, 2 * error / length, np.pi), np.pi)
         elif family.kind == "angle":
-            errors[id] = np.full(len(family.values), 2 * error / crank)
+            errors[id] = np.full(len(family.values), 2 * error * drawn_at.get("mu.l", 1.0) / crank)
+        elif family.kind == "length" and isinstance(family.definition, Call) and family.definition.name == "abs":
+            # Measured on the drawing of the mechanism, as a slider's way is.
+            scale = ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
+            errors[id] = np.full(len(family.values), 2 * error * scale)
+    for link, slope in _pressure_slopes(ledger).items():
+        errors[f"p.{link}"] = slope * 2 * error * ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
     return errors
+
+
+def _pressure_slopes(ledger: Ledger) -> dict[str, np.ndarray]:
+    """How steeply the pressure on each piston changes over its way [N], from the flatter side of each position."""
+    slopes: dict[str, np.ndarray] = {}
+    for id, family in ledger.families.items():
+        link = id.removeprefix("p.")
+        if family.kind == "pressure" and f"s.{link}" in ledger:
+            way = ledger[f"s.{link}"].values
+            with np.errstate(all="ignore"):
+                sides = [np.abs((np.roll(family.values, k) - family.values) / (np.roll(way, k) - way)) for k in (1, -1)]
+            slopes[link] = np.nan_to_num(np.min(np.where(np.isfinite(sides), sides, np.inf), axis=0), posinf=0.0)
+    return slopes
 
 
 def is_direction(id: str) -> bool:
@@ -149,15 +183,16 @@ def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[s
     return bands
 
 
-def _on_paper(ledger: Ledger, id: str) -> np.ndarray:
-    """The drawn length (m) of the vector whose direction `dir.…` is measured."""
+def _on_paper(ledger: Ledger, id: str) -> Family:
+    """The drawn length (m) of the vector whose direction `dir.…` is measured, or the vector itself on paper."""
     definition = ledger[id].definition
     assert isinstance(definition, Call), f"{id} is no direction of a vector"
     (vector,) = definition.arguments
     assert isinstance(vector, Ref), f"{id} is no direction of a vector"
     # The side of a force plan that is drawn for a force; on other plans the vector itself lies on paper.
-    sides = (one.values for one in ledger.families.values() if one.of == vector.id and one.kind == "segment")
-    return next(sides, ledger[vector.id].values)
+    measured = Call("abs", (vector,))
+    sides = (one for one in ledger.families.values() if one.kind == "segment")
+    return next((one for one in sides if one.of == vector.id or one.definition == measured), ledger[vector.id])
 
 
 class Role(StrEnum):
@@ -193,10 +228,21 @@ class Row:
     sense: tuple[str, ...]
     size: str = ""
     """The id of the size of a signed rotation."""
+    what: str = ""
+    """What it is in words: normal acceleration of B about A."""
+    positive: str = ""
+    """Which sense counts as positive, in words; "" where there is none, or where the general rule says it."""
+    open_sense: bool = False
+    """Whether its sign is not judged, because the papers do not say which sense is positive."""
 
     @property
     def single(self) -> bool:
         return len(self.values) == 1
+
+    @property
+    def described(self) -> str:
+        """What it is and which sense of it counts as positive, as it stands beside the row."""
+        return capitalised("; ".join(filter(None, (self.what, self.positive))))
 
     def has(self, position: int) -> bool:
         """Whether the quantity has a value at a position: from 1, or 0 for a single value."""
@@ -259,6 +305,7 @@ def shown_number(row: Row, value: float) -> Number:
 def make_key(case: Case) -> Key:
     """The key of a case, from the ledger that its report prints."""
     assignment, machine, ledger, words = case.assignment, case.analysis.machine, case.ledger, case.words
+    report, by_rule = open_report(case), trapezoid_errors(ledger)
     on_paper, by_rounding = drawn_bands(ledger), computed_bands(ledger)
     worked = tuple(assignment.worked_positions)
     complete = set(worked) == set(range(1, machine.positions + 1))
@@ -267,6 +314,7 @@ def make_key(case: Case) -> Key:
         family = ledger[id]
         scale = family.how.scale
         values = np.array([family.at(k + 1).real for k in range(len(family.values))])
+        sense = positive_sense(id, report)
         if family.is_direction:
             # A vector of no length has none.
             exists = [ledger[family.of].at(k + 1) != 0 for k in range(len(values))]
@@ -277,7 +325,7 @@ def make_key(case: Case) -> Key:
         part = Chapter.data if role is Role.given and len(values) == 1 else family.chapter
         # What is read from a diagram can be worked out on paper, an integral over the cycle cannot.
         workable = id != "M.difference" and (family.definition is not None or len(values) > 1)
-        workable = workable and (part is not Chapter.cycle or complete)
+        workable = workable and (part is not Chapter.cycle or complete) and is_workable(ledger, id, by_rule)
         asked = (role is Role.scale and not is_round_scale(family)) or (role is Role.asked and workable)
         return Row(
             id,
@@ -286,19 +334,22 @@ def make_key(case: Case) -> Key:
             family.symbol,
             family.kind,
             ledger.units.get(family.how.unit, family.how.unit),
-            ledger.decimals[id],
+            _decimals(ledger.decimals[id], values / scale),
             values / scale,
             on_paper[id] / scale,
             by_rounding[id] / scale,
-            _asked_at(values, worked, machine.count) if asked else (),
+            _asked_at(values, worked, machine.count, family.kind == "force scale") if asked else (),
             tuple(_sense(family, value, words["sense"]) for value in values),
             family.of if family.is_signed_rotation else "",
+            phrase(id, ledger, words),
+            words["magnitude"] if sense == MAGNITUDE else sense,
+            is_open(values, sense),
         )
 
     parts, families = list(Chapter), ledger.families.values()
     # No rows for points, optional quantities and the sizes of signed rotations.
     shown = (one.id for one in families if not (one.hidden or one.is_plane or one.optional or one.id in ledger.signed))
-    rows = sorted(map(row, shown), key=lambda row: parts.index(row.part))
+    rows = sorted([row(id) for id in shown], key=lambda row: parts.index(row.part))
     student = assignment.report.student
     fields = {"name": student.name, "id": student.id, "class": student.class_}
     return Key(
@@ -319,12 +370,22 @@ def _role(ledger: Ledger, family: Family) -> Role:
     return Role.given if typed else Role.asked
 
 
-def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int) -> tuple[int, ...]:
-    """The worked positions; what repeats from turn to turn (all kinematics) is asked for in the first turn."""
+def _decimals(of_ledger: int | None, values: np.ndarray) -> int | None:
+    """The ledger's; data of several positions that are exact but endless, such as 129.128571…°, get 6 figures."""
+    if of_ledger is not None or len(values) == 1 or is_short(values):
+        return of_ledger
+    return significant_decimals(float(np.nanmax(np.abs(values))), MAX_DIGITS)
+
+
+def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int, chosen: bool) -> tuple[int, ...]:
+    """The worked positions; what repeats from turn to turn (all kinematics) is asked for in the first turn.
+
+    What is `chosen` at each position, as a scale, may be another one though the report has the same.
+    """
     if len(values) == 1:
         return (0,)
     turns = np.reshape(values, (-1, count)) if len(values) > count else np.empty((0, count))
-    repeats = len(turns) > 0 and np.allclose(turns, turns[0], rtol=1e-9, atol=1e-12, equal_nan=True)
+    repeats = not chosen and len(turns) > 0 and np.allclose(turns, turns[0], rtol=1e-9, atol=1e-12, equal_nan=True)
     asked = ((k - 1) % count + 1 if repeats else k for k in worked)
     return tuple(dict.fromkeys(k for k in asked if np.isfinite(values[k - 1])))
 

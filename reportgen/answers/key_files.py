@@ -36,9 +36,9 @@ BAND_DIGITS = 2
 """Significant figures of a band."""
 VALUE, BAND, SENSE = 15.6, 16.2, 23.0
 """Widths (mm) of the columns of a quantity at each position."""
-SYMBOL, UNIT = 24.0, 24.0
-SINGLE, SINGLE_BAND = 30.0, 24.0
-"""Widths (mm) of the columns of single values."""
+SYMBOL, UNIT = 16.0, 22.0
+SINGLE, SINGLE_BAND = 24.0, 17.0
+"""Widths (mm) of the columns of single values; what they are has the rest."""
 FINER, FINEST = 3, 7
 """Decimals of a band beyond those of its row; those of one whose row is exact."""
 
@@ -90,13 +90,14 @@ def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
     """The key as rows of CSV: id, part, symbol, unit, position, value as printed, direction, both bands."""
     words = words_of(key)
     sheet, names = words["answer_sheet"], words["key"]
-    quantity = (sheet["id"], names["part"], sheet["symbol"], sheet["unit"])
+    quantity = (sheet["id"], names["part"], sheet["symbol"], sheet["what"], sheet["unit"])
     head = (*quantity, words["table"]["position"], sheet["value"], names["sense"], names["drawn"], names["computed"])
     body = (
         (
             row.id,
             words["parts"][row.part],
             symbol_text(row, key),
+            row.described,
             row.unit,
             "" if row.single else key.labels[index],
             shown_number(row, float(value)).shown if value == value else None,
@@ -130,6 +131,8 @@ def key_data(key: Key) -> dict[str, Any]:
                 "part": row.part.value,
                 "role": row.role.value,
                 "symbol": symbol_text(row, key),
+                "what": row.what,
+                "positive": row.positive,
                 "kind": row.kind,
                 "unit": row.unit,
                 "decimals": row.decimals,
@@ -188,13 +191,16 @@ def _list(words: Mapping[str, Any], name: str, rows: Sequence[Row]) -> Table:
     """Single values, a quantity a row."""
     heads, shared = words["table"], shared_symbols(rows)
     senses = any(any(row.sense) for row in rows)
-    widths = [symbol_width(rows, shared, SYMBOL), UNIT, SINGLE, SINGLE_BAND, SINGLE_BAND]
-    titles = [heads["symbol"], heads["unit"], heads["value"], words["key"]["drawn"], words["key"]["computed"]]
-    if senses:
-        widths.append(SENSE)
-        titles.append(words["key"]["sense"])
-    body = (cells((symbol_inlines(row, row.symbol in shared), row.unit, *_values(row, 0, senses))) for row in rows)
-    return Table(tuple(map(Column, widths)), (cells(titles),), tuple(body), (Text(name),))
+    symbol = symbol_width(rows, shared, SYMBOL)
+    widths = [UNIT, SINGLE, SINGLE_BAND, SINGLE_BAND, *([SENSE] if senses else [])]
+    columns = (Column(symbol), Column(tree.TEXT_WIDTH - symbol - sum(widths), "left"), *map(Column, widths))
+    titles = [heads["symbol"], words["answer_sheet"]["what"], heads["unit"], heads["value"]]
+    titles += [words["key"][name] for name in ("drawn", "computed", *(["sense"] if senses else []))]
+    body = (
+        cells((symbol_inlines(row, row.symbol in shared), row.described, row.unit, *_values(row, 0, senses)))
+        for row in rows
+    )
+    return Table(columns, (cells(titles),), tuple(body), (Text(name),))
 
 
 def _by_position(
@@ -215,9 +221,9 @@ def _by_position(
 
 
 def _title(row: Row, with_id: bool) -> Inlines:
-    """Symbol and unit of a quantity, perhaps with its id."""
+    """Symbol and unit of a quantity, perhaps with its id; below, what it is."""
     text = (f", {row.unit}" if row.unit else "") + (f" ({row.id})" if with_id else "")
-    return (InlineMath(row.symbol), *((Text(text),) if text else ()))
+    return (InlineMath(row.symbol), *((Text(text),) if text else ()), tree.LineBreak(), Text(row.described))
 
 
 def _values(row: Row, index: int, senses: bool) -> tuple[Number | str, ...]:

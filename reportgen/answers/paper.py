@@ -20,12 +20,16 @@ from reportgen.notation.expressions import Number, Symbol
 from reportgen.notation.numbers import Language
 from reportgen.notation.vocabulary import Chapter
 
-MOST_POSITIONS = 8
-"""Columns of positions beside one another."""
+MOST_POSITIONS, MOST_FILLED = 8, 4
+"""Columns of positions beside one another: of what is given, and of what is to be filled in."""
 KNOWN_DIGITS = 5
 """Figures of what is given at each position."""
 SYMBOL, UNIT, VALUE = 16.0, 22.0, 15.3
 """Widths (mm) of the columns of the answer sheet."""
+WIDEST = 30.0
+"""Width (mm) of a column to be filled in by hand, where there is room."""
+LEAST_WHAT = 50.0
+"""Width (mm) that the words of a row need at least."""
 TABLE_SIZE, PADDING = 10.0, 4.0
 """Font size (points) of a table, and what its cells keep clear of their edges (mm)."""
 
@@ -110,10 +114,10 @@ def shared_symbols(rows: Iterable[Row]) -> frozenset[Symbol]:
 # --- the task -------------------------------------------------------------------------------------
 
 
-def task(case: Case, key: Key) -> Document:
+def task(case: Case, key: Key, by_section: bool = False) -> Document:
     """What a student is handed, from the given data to the empty answer sheet; no answer is in it.
 
-    Raises `TemplateError`.
+    `by_section` puts each section of the sheet on pages of its own, headed by whose it is.  Raises `TemplateError`.
     """
     report = open_report(case)
     prose, names, words, machine = report.prose, report.names(), case.words, case.analysis.machine
@@ -121,7 +125,8 @@ def task(case: Case, key: Key) -> Document:
     asked = asked_positions(key)
     (title, *given) = prose.render("given.md", names)
     names |= {
-        "sheet": tuple(answer_tables(key)),
+        "answer_tables": tuple(_sections(key) if by_section else answer_tables(key)),
+        "asks_scales": any(row.role is Role.scale for row in key.asked),
         "asked": tuple(map(key.label, asked)),
         "known_tables": tuple(_known_tables(key, every if machine.count <= PLATES_UP_TO else asked)),
     }
@@ -138,17 +143,31 @@ def task(case: Case, key: Key) -> Document:
     )
 
 
-def answer_tables(key: Key) -> Iterator[Table]:
-    """The empty sheet as tables to fill in by hand, a table or more for each part with something to fill in."""
+def _sections(key: Key) -> Iterator[Block]:
+    """The empty sheet with a page break before each section but the first, and whose it is on each."""
+    whose = " – ".join(filter(None, (key.id, key.student.get("name", ""), key.student.get("id", ""))))
+    parts = [part for part in Chapter if any(row.part is part for row in key.asked)]
+    for part in parts:
+        if part is not parts[0]:
+            yield tree.PageBreak()
+        yield heading(str(words_of(key)["parts"][part]), 2)
+        yield paragraph(whose)
+        yield from answer_tables(key, part)
+
+
+def answer_tables(key: Key, only: Chapter | None = None) -> Iterator[Table]:
+    """The empty sheet as tables to fill in by hand, a table or more for each part, or for `only` one of them."""
     words, open_at = words_of(key), open_cells(key)
     for part, members in groupby(key.rows, lambda row: row.part):
+        if only not in (None, part):
+            continue
         caption = (Text(str(words["parts"][part])),)
         rows = [row for row in members if row.positions]
         shared = shared_symbols(rows)
         singles = [row for row in rows if row.single]
         many = [row for row in rows if not row.single]
         for group, positions in ((singles, [0]), (many, sorted({k for row in many for k in row.positions}))):
-            for some in _split(positions):
+            for some in _split(positions, MOST_FILLED):
                 asked = [row for row in group if set(row.positions) & set(some)]
                 if asked:
                     yield _answer_table(_heads(key, words, some), asked, some, shared, open_at, caption)
@@ -159,7 +178,7 @@ def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
     words = words_of(key)
     caption = (Text(str(words["answer_sheet"]["known"])),)
     rows = [row for row in key.rows if row.role is Role.given and not row.single and row.part is not Chapter.formulas]
-    for some in _split(positions) if rows else ():
+    for some in _split(positions, MOST_POSITIONS) if rows else ():
         head = (words["table"]["symbol"], words["table"]["unit"], *map(key.label, some))
         body = (cells((symbol_inlines(row, False), row.unit, *(_known_number(row, k) for k in some))) for row in rows)
         columns = (Column(SYMBOL), Column(UNIT), *(Column(VALUE),) * len(some))
@@ -171,9 +190,9 @@ def _known_number(row: Row, position: int) -> Number:
     return Number(float(f"{row.values[row.at(position)]:.{KNOWN_DIGITS}g}"), None)
 
 
-def _split(positions: Sequence[int]) -> Iterator[Sequence[int]]:
-    """Positions in as few sets of nearly one size as fit a page."""
-    count = -(-len(positions) // MOST_POSITIONS)
+def _split(positions: Sequence[int], most: int) -> Iterator[Sequence[int]]:
+    """Positions in as few sets of nearly one size as have `most` at most."""
+    count = -(-len(positions) // most)
     for start in range(count):
         yield positions[start * len(positions) // count : (start + 1) * len(positions) // count]
 
@@ -184,7 +203,7 @@ def _heads(key: Key, words: Mapping[str, Any], positions: Sequence[int]) -> tupl
     labels = [key.label(k) for k in positions if k]
     if len(labels) == 1:
         labels = [sheet["at"].format(label=labels[0])]
-    return (table["symbol"], table["unit"], *(labels or [table["value"]]))
+    return (table["symbol"], sheet["what"], table["unit"], *(labels or [table["value"]]))
 
 
 def _answer_table(
@@ -195,25 +214,28 @@ def _answer_table(
     open_at: Mapping[str, Container[int]],
     caption: Inlines,
 ) -> Table:
-    """Quantities below one another, in as many sets side by side as the page has room for.
+    """Quantities below one another, each with what it is in words.
 
     `open_at` are the positions at which each row has a cell to fill in, by id.
     """
     symbol = symbol_width(rows, shared, SYMBOL)
-    beside = min(max(int(tree.TEXT_WIDTH // (symbol + UNIT + VALUE * len(positions))), 1), len(rows))
-    value = min((tree.TEXT_WIDTH / beside - symbol - UNIT) / len(positions), 1.5 * VALUE)
-    columns = (Column(symbol), Column(UNIT), *(Column(value),) * len(positions))
-    height = -(-len(rows) // beside)
-    filled = [
+    rest = tree.TEXT_WIDTH - symbol - UNIT
+    value = min((rest - LEAST_WHAT) / len(positions), WIDEST)
+    columns = (
+        Column(symbol),
+        Column(rest - value * len(positions), "left"),
+        Column(UNIT),
+        *(Column(value),) * len(positions),
+    )
+    body = (
         cells(
             (
                 symbol_inlines(row, row.symbol in shared),
+                row.described,
                 row.unit,
                 *("" if k in open_at[row.id] else DASH for k in positions),
             )
         )
         for row in rows
-    ]
-    filled += [(Cell(),) * len(columns)] * (beside * height - len(rows))
-    body = (tuple(cell for line in filled[start::height] for cell in line) for start in range(height))
-    return Table(columns * beside, (cells(heads) * beside,), tuple(body), caption)
+    )
+    return Table(columns, (cells(heads),), tuple(body), caption)

@@ -15,10 +15,13 @@ from reportgen.answers.key import Key, Role, Row, shown_number, symbol_text, wor
 from reportgen.notation.vocabulary import Chapter
 from reportgen.workbook import Book, Entry, Sheet
 
-NAMES = 4
-"""Columns before those of the positions: id, symbol, unit, single value."""
+NAMES = 5
+"""Columns before those of the positions: id, symbol, what it is, unit, single value."""
 HEAD = 3
 """Rows down to the head of the columns: title, note, head."""
+
+WHAT = 48.0
+"""Width (characters) of the column that says what a row is."""
 
 Filling = Callable[[Row, int], Entry | None]
 """What stands in the cell of a row at a position (0 for a single value); None where it has no cell."""
@@ -30,8 +33,11 @@ def asked_positions(key: Key) -> tuple[int, ...]:
 
 
 def rows_shown(key: Key) -> tuple[Row, ...]:
-    """The rows of the sheet: what is given, what is asked, scales."""
-    return tuple(row for row in key.rows if row.positions or row.role is Role.given)
+    """The rows of the sheet: what is given, what is asked, scales; formulas show their data if they are asked for."""
+    formulas = any(row.part is Chapter.formulas for row in key.asked)
+    given = (row.id for row in key.rows if row.role is Role.given and (formulas or row.part is not Chapter.formulas))
+    shown = frozenset(given)
+    return tuple(row for row in key.rows if row.positions or row.id in shown)
 
 
 def number_format(row: Row) -> str:
@@ -78,7 +84,7 @@ def grid(
     words = words_of(key)
     sheet, parts = words["answer_sheet"], words["parts"]
     heads = (
-        *(sheet[name] for name in ("id", "symbol", "unit", "value")),
+        *(sheet[name] for name in ("id", "symbol", "what", "unit", "value")),
         *(sheet["position"].format(label=key.label(k)) for k in positions),
         *tail_head,
     )
@@ -91,17 +97,20 @@ def grid(
         lines.append((Entry(), Entry(str(parts[part]), "bold")))
         for row in members:
             cells = (filling(row, k) or Entry(None, "unasked") for k in (0, *positions))
-            names = (Entry(row.id, "note"), Entry(symbol_text(row, key)), Entry(row.unit))
+            what = Entry(row.described)
+            names = (Entry(row.id, "note"), Entry(symbol_text(row, key)), what, Entry(row.unit))
             lines.append((*names, *cells, *(tail(row) if tail else ())))
     return tuple(lines)
 
 
-def page(name: str, rows: Sequence[Sequence[Entry]]) -> Sheet:
-    """A protected page in the sheet's layout."""
+def page(name: str, rows: Sequence[Sequence[Entry]], by_section: bool = False) -> Sheet:
+    """A protected page in the sheet's layout, printed with each section on pages of its own if that is asked for."""
     columns = len(rows[HEAD - 1])
     longest = max((len(str(row[0].value or "")) for row in rows[HEAD:]), default=0)
-    widths = (max(longest + 1.0, 11.0), 13.0, 13.0, *(12.0,) * (columns - NAMES + 1))
-    return Sheet(name, rows, widths, (HEAD, NAMES - 1), protected=True)
+    widths = (max(longest + 1.0, 11.0), 11.0, WHAT, 13.0, *(12.0,) * (columns - NAMES + 1))
+    # A section begins with its name in bold, behind an empty id.
+    begins = [number for number, row in enumerate(rows[HEAD:], start=HEAD) if len(row) == 2 and row[1].style == "bold"]
+    return Sheet(name, rows, widths, (HEAD, NAMES - 1), protected=True, breaks=begins[1:] if by_section else ())
 
 
 def info_rows(key: Key) -> tuple[tuple[str, str], ...]:
@@ -124,7 +133,7 @@ def info_page(key: Key) -> Sheet:
     return Sheet(words_of(key)["answer_sheet"]["info"], rows, (24.0, 44.0), protected=True)
 
 
-def answer_book(key: Key) -> Book:
+def answer_book(key: Key, by_section: bool = False) -> Book:
     """The empty sheet as a workbook: given values filled in, cells to fill in unlocked, the rest protected."""
     sheet, cells = words_of(key)["answer_sheet"], open_cells(key)
 
@@ -134,4 +143,4 @@ def answer_book(key: Key) -> Book:
         return given_entry(row, position)
 
     rows = grid(key, sheet["title"], sheet["note"], filling, rows_shown(key), asked_positions(key))
-    return Book((page(sheet["answers"], rows), info_page(key)), f"{sheet['title']} {key.id}")
+    return Book((page(sheet["answers"], rows, by_section), info_page(key)), f"{sheet['title']} {key.id}")

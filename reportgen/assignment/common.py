@@ -91,7 +91,7 @@ class Positions(Part):
 class Drawing(Part):
     """Lengths on paper that were asked for; what is None is chosen."""
 
-    crank: Annotated[Given, quantity("mm", least=10, most=150)] | None = None
+    crank: Annotated[Given, quantity("mm", least=0.1, most=150)] | None = None
 
 
 @dataclass(frozen=True, slots=True)

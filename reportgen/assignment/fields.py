@@ -25,6 +25,8 @@ MOST_WORKED = 720
 _FORBIDDEN = {"Cc", "Cs", "Co", "Zl", "Zp"}
 _UNIT_PATTERN = r"[A-Za-zµ°][^,]*"
 _SLUG = r"[a-z0-9][a-z0-9-]{0,60}"
+RESERVED = re.compile(r"(CON|PRN|AUX|NUL|CLOCK|CONIN|CONOUT|COM[0-9]|LPT[0-9])")
+"""Names, in capitals, that some systems keep for devices."""
 _INTEGER = re.compile(r"[+-]?[0-9]{1,9}")
 
 
@@ -54,20 +56,25 @@ class Reader:
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """Where a number may lie; `above` and `below` are open ends, `least` and `most` closed ones."""
+    """Where a number may lie; `above` and `below` are open ends, `least` and `most` closed ones.
+
+    What is smaller than `tiny` but not 0 is a slip of the pen, too: no machine has a mass of 1e-300 kg.
+    """
 
     above: float = -math.inf
     below: float = math.inf
     least: float = -math.inf
     most: float = math.inf
+    tiny: float = 0.0
 
     def __contains__(self, value: float) -> bool:
-        return self.above < value < self.below and self.least <= value <= self.most
+        within = self.above < value < self.below and self.least <= value <= self.most
+        return within and (value == 0 or abs(value) >= self.tiny)
 
     def __str__(self) -> str:
         low = f"> {self.above:g}" if self.above > -math.inf else f"≥ {self.least:g}"
         high = f"< {self.below:g}" if self.below < math.inf else f"≤ {self.most:g}"
-        return f"{low}, {high}"
+        return f"{low}, {high}" + (f"; |x| ≥ {self.tiny:g}, x = 0" if self.tiny else "")
 
     def require(self, value: float, text: str, unit: str = "", **hint: str) -> None:
         """Raises the fault of a value, typed as `text`, that does not lie here."""
@@ -267,26 +274,26 @@ def quantity(unit: str, **ends: float) -> Quantity:
 
 Line = Annotated[str, Text()]
 Date = Annotated[datetime.date, Day()]
-Length = Annotated[Given, quantity("mm", above=0, below=1e5)]
-Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5)]
-Offset = Annotated[Given, quantity("mm", least=0, below=1e5)]
-Angle = Annotated[Given, quantity("deg", least=-360, most=360)]
+Length = Annotated[Given, quantity("mm", least=0.1, below=1e5)]
+Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5, tiny=1e-4)]
+Offset = Annotated[Given, quantity("mm", least=0, below=1e5, tiny=1e-4)]
+Angle = Annotated[Given, quantity("deg", least=-360, most=360, tiny=1e-6)]
 CycleAngle = Annotated[Given, quantity("deg", least=0, most=720)]
-RotationalSpeed = Annotated[Given, quantity("rpm", above=0, most=1e5)]
-AngularVelocity = Annotated[Given, quantity("rad/s", above=0, most=1e5)]
-Force = Annotated[Given, quantity("N", least=-1e9, most=1e9)]
-ForceSize = Annotated[Given, quantity("N", least=0, most=1e9)]
+RotationalSpeed = Annotated[Given, quantity("rpm", least=1e-3, most=1e5)]
+AngularVelocity = Annotated[Given, quantity("rad/s", least=1e-4, most=1e5)]
+Force = Annotated[Given, quantity("N", least=-1e9, most=1e9, tiny=1e-6)]
+ForceSize = Annotated[Given, quantity("N", least=0, most=1e9, tiny=1e-6)]
 ForceUnit = Annotated[Given, UnitOf("N")]
-Weight = Annotated[Given, quantity("N", least=0, most=1e7)]
-Mass = Annotated[Given, quantity("kg", least=0, most=1e6)]
-MomentOfInertia = Annotated[Given, quantity("kg m2", least=0, most=1e7)]
-Acceleration = Annotated[Given, quantity("m/s2", above=0, most=100)]
-Pressure = Annotated[Given, quantity("N/cm2", least=0, most=1e5)]
-RodRatio = Annotated[Given, Ratio(Interval(above=0, below=1), inverse="inverse-ratio")]
-Share = Annotated[Given, Ratio(Interval(least=0, most=1))]
+Weight = Annotated[Given, quantity("N", least=0, most=1e7, tiny=1e-6)]
+Mass = Annotated[Given, quantity("kg", least=0, most=1e6, tiny=1e-6)]
+MomentOfInertia = Annotated[Given, quantity("kg m2", least=0, most=1e7, tiny=1e-12)]
+Acceleration = Annotated[Given, quantity("m/s2", least=1e-3, most=100)]
+Pressure = Annotated[Given, quantity("N/cm2", least=0, most=1e5, tiny=1e-6)]
+RodRatio = Annotated[Given, Ratio(Interval(least=0.001, below=1), inverse="inverse-ratio")]
+Share = Annotated[Given, Ratio(Interval(least=0, most=1, tiny=1e-6))]
 PressureUnit = Annotated[Given, UnitOf("N/cm2")]
 Nodes = Field(min_length=2, max_length=2000)
 """How many nodes a table may have."""
 Fractions = Annotated[tuple[Annotated[float, Decimal(Interval(least=0, most=1))], ...], Nodes]
 CycleAngles = Annotated[tuple[CycleAngle, ...], Nodes]
-Values = Annotated[tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9))], ...], Nodes]
+Values = Annotated[tuple[Annotated[float, Decimal(Interval(least=-1e9, most=1e9, tiny=1e-6))], ...], Nodes]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator, Sequence
+import unicodedata
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -13,6 +14,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
 from reportgen.assignment.common import Assignment, Draft, Kind, file_model, sections, worked_positions
+from reportgen.assignment.fields import RESERVED
 from reportgen.errors import Fault, Finding, Mark, Where
 from reportgen.notation.numbers import Language
 from reportgen.source import List, Node, Scalar, Source, Table, plain, read_source
@@ -20,6 +22,7 @@ from reportgen.words import DEFAULT_LANGUAGE, as_error, close_or_known
 
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"
+_CONTROLS = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 _FORMS = {"object": "table", "array": "list"}
 
 
@@ -53,6 +56,15 @@ def assess(
     return Assignment(kind.name, **values, source=path, id=path.stem, turns=kind.turns, added=kind.added), []
 
 
+def name_faults(path: Path) -> Iterator[Fault]:
+    """The name of a file, without its ending, is that of a folder too: one that any system has, and that lies below."""
+    stem = path.stem
+    shown = "".join(character for character in stem if unicodedata.category(character) not in _CONTROLS)
+    outside = stem.strip(" .") == "" or stem != shown.strip() or stem.endswith(".")
+    if outside or RESERVED.fullmatch(stem.partition(".")[0].strip().upper()):
+        yield Fault("file-name", Mark(str(path)), {"text": stem})
+
+
 def read_model(path: Path, model: type[Model], language: Language | None = None) -> Model:
     """The content of a file that is no assignment, e.g. a marking policy.
 
@@ -67,6 +79,12 @@ def read_model(path: Path, model: type[Model], language: Language | None = None)
     if faults or value is None:
         raise as_error(faults, language or language_of(source))
     return value
+
+
+def placed(source: Source, findings: Iterable[Finding]) -> list[Fault]:
+    """Findings with their marks in a file that was read."""
+    top = _top(source)[0]
+    return [] if top is None else [_placed(finding, top) for finding in findings]
 
 
 def misread(top: Table, kind: Kind) -> list[Fault]:
@@ -177,7 +195,9 @@ def _real(location: Where, content: Any) -> Iterator[str | int]:
     for number, step in enumerate(location):
         last = number == len(location) - 1
         if isinstance(content, dict):
-            if step in content:
+            # The member of a union may be named as one of its own keys is: `by: way` beside `way: [...]`.
+            named_alike = not last and isinstance(location[number + 1], str) and isinstance(content.get(step), list)
+            if step in content and not named_alike:
                 content = content[step]
             elif not last:
                 continue

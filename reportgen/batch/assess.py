@@ -5,29 +5,29 @@ One sheet that cannot be read never stops the others; nobody's data goes into an
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Container, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
 from reportgen import api, catalogue
 from reportgen.answers.key import Key
 from reportgen.api import Engine
-from reportgen.batch.roster import assignment_files, comparable, folder_name
+from reportgen.batch import gradebooks
+from reportgen.batch.downloads import Owner, handed_in, zipped
+from reportgen.batch.roster import Student, assignment_files, comparable, folder_name, read_roster
 from reportgen.errors import AssignmentError, Fault, Mark, Problem, ReportgenError
 from reportgen.grading.feedback import feedback_book, feedback_document
-from reportgen.grading.grades import class_document, grade_rows
+from reportgen.grading.grades import class_document, grade_rows, person
+from reportgen.grading.guard import Classmate
 from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking, Policy
+from reportgen.grading.marks import Marking, Policy, Submission
 from reportgen.grading.submission import read_submission
 from reportgen.grading.working import Guide, open_guide
 from reportgen.notation.numbers import Language
-from reportgen.words import as_problem, word
+from reportgen.scratch import scratch
+from reportgen.words import as_problem, counted, word
 from reportgen.workbook import write_csv, write_xlsx
-from reportgen.workbook.reading import BOOKS
-
-SUBMISSIONS = BOOKS | {".csv"}
-"""Endings of files that may be meant as sheets; a fault is reported for those that cannot be read."""
 
 
 @dataclass(frozen=True)
@@ -37,13 +37,19 @@ class Classroom:
     files: Mapping[str, Path]
     policy: Policy
     language: Language | None
+    people: Mapping[str, Student] = field(default_factory=dict)
+    """What a roster says of the students, by the stem of their files."""
     opened: dict[str, Guide] = field(default_factory=dict)
 
     def guide(self, name: str) -> Guide:
         """The marking guide of an assignment.  Raises `KeyError` for a name that no file has."""
         stem = comparable(name)
         if stem not in self.opened:
-            self.opened[stem] = open_guide(api.load(self.files[stem], self.language), self.policy)
+            guide = open_guide(api.load(self.files[stem], self.language), self.policy)
+            known = self.people[stem].card if stem in self.people else {}
+            student = {name: known[name] for name in ("name", "id", "class") if name in known}
+            student |= dict(guide.key.student)
+            self.opened[stem] = replace(guide, key=replace(guide.key, student=student))
         return self.opened[stem]
 
     @cached_property
@@ -61,47 +67,108 @@ class Classroom:
 
 @dataclass(frozen=True, slots=True)
 class Graded:
-    """What marking a class gave: markings by assignment, faults of sheets, keys of those who handed nothing in."""
+    """What marking a class gave: markings by assignment, faults of sheets, keys of those who handed nothing in.
+
+    `owners` are those who handed the sheets in, by assignment, where they come from a learning platform; `emails`
+    are known from a roster.
+    """
 
     markings: tuple[Marking, ...]
     problems: tuple[Problem, ...]
     missing: tuple[Key, ...]
+    owners: Mapping[str, Owner] = field(default_factory=dict)
+    emails: Mapping[str, str] = field(default_factory=dict)
+
+    def results(self) -> list[gradebooks.Graded]:
+        """The share of each student, with what a platform may know him or her by."""
+        return [
+            gradebooks.Graded(
+                person(marking.key),
+                frozenset(
+                    one.casefold()
+                    for one in (marking.key.student.get("id", marking.key.id), self.emails.get(marking.key.id))
+                    if one
+                ),
+                self.owners[marking.key.id].number if marking.key.id in self.owners else "",
+                marking.share,
+            )
+            for marking in self.markings
+        ]
 
 
-def grade(submissions: Sequence[Path], assignments: Path, policy: Policy, language: Language | None = None) -> Graded:
-    """Mark the sheets of files and folders; raises `AssignmentError` if `assignments` is at fault."""
-    room = Classroom(assignment_files(assignments, language), policy, language)
-    markings: dict[str, Marking] = {}
+def grade(
+    submissions: Sequence[Path],
+    assignments: Path,
+    policy: Policy,
+    language: Language | None = None,
+    roster: Path | None = None,
+) -> Graded:
+    """Mark the sheets of files, folders and downloads of a platform, with names from a roster if there is one.
+
+    Raises `AssignmentError` if `assignments` or `roster` is at fault, or the policy asks for what there is not.
+    """
+    files = assignment_files(assignments, language)
+    students = read_roster(roster, language).students if roster else ()
+    people = {comparable(name): student for student in students for name in (student.folder, student.id)}
+    room = Classroom(files, policy, language, people)
+    policy.ask.check(room.keys, language)
+    sheets: dict[str, Submission] = {}
+    owners: dict[str, Owner] = {}
     problems: list[Problem] = []
-    for path in _sheets(submissions):
+    faults: list[Fault] = []
+    for handed in handed_in(submissions, faults):
+        path, owner = handed.path, handed.owner
         try:
-            submission = read_submission(path, lambda name: room.guide(name).key, language)
-            earlier = markings.get(submission.assignment)
+            submission = read_submission(path, lambda name: room.guide(name).key, language, handed.data)
+            name = room.guide(submission.assignment).key.student.get("name", "")
+            if owner and not owner.may_be(name):
+                fault = Fault("sheet-other-hands", Mark(str(path)), {"text": name, "owner": owner.name})
+                problems.append(as_problem(fault, language))
+                continue
+            earlier = sheets.get(submission.assignment)
             if earlier is not None:
-                kept, left = _preferred(Path(earlier.submission.file), path, submission.assignment)
+                kept, left = _preferred(Path(earlier.file), path, submission.assignment)
                 fault = Fault("sheet-twice", Mark(str(left)), {"text": submission.assignment, "first": kept.name})
                 problems.append(as_problem(fault, language))
                 if kept != path:
                     continue
-            guide = room.guide(submission.assignment)
-            classmates = room.keys if policy.guard else ()
-            markings[submission.assignment] = mark(guide, submission, classmates)
+            named = _named(path, room.files)
+            if named not in (None, comparable(submission.assignment)):
+                about = {"named": room.files[named].stem, "text": submission.assignment}
+                problems.append(as_problem(Fault("sheet-named-otherwise", Mark(str(path)), about), language))
+            sheets[submission.assignment] = submission
+            owners.pop(submission.assignment, None)
+            if owner:
+                owners[submission.assignment] = owner
         except AssignmentError as error:
             problems += error.problems
+    # Whose values a sheet has, shows beside all the others.
+    classmates = [Classmate(key, sheets.get(key.id)) for key in room.keys] if policy.guard else []
+    markings = {name: mark(_asked(room.guide(name), sheet), sheet, classmates) for name, sheet in sheets.items()}
     missing = tuple(key for key in room.keys if key.id not in markings)
     order = {name: index for index, name in enumerate(room.files)}
     marked = sorted(markings.values(), key=lambda marking: order[comparable(marking.key.id)])
-    return Graded(tuple(marked), tuple(problems), missing)
+    problems += [as_problem(fault, language) for fault in faults]
+    emails = {
+        key.id: people[stem].card["email"]
+        for key in room.keys
+        if (stem := comparable(key.id)) in people and "email" in people[stem].card
+    }
+    return Graded(tuple(marked), tuple(problems), missing, owners, emails)
 
 
-def _sheets(paths: Sequence[Path]) -> Iterator[Path]:
-    """The answer sheets among files and in folders, without what a spreadsheet keeps beside an open file."""
-    for path in paths:
-        if path.is_dir():
-            inside = sorted(file for file in path.rglob("*") if file.suffix.lower() in SUBMISSIONS and file.is_file())
-            yield from (file for file in inside if not file.name.startswith((".", "~$")))
-        else:
-            yield path
+def _asked(guide: Guide, submission: Submission) -> Guide:
+    """The guide with the cells that the policy asks for; what else is filled in is judged but earns no marks."""
+    policy = guide.policy
+    filled = {id for id, _ in (*submission.values, *submission.problems)}
+    key = policy.ask.of(guide.key, filled)
+    beyond = {row.id: 0.0 for row in key.asked if not policy.ask.wants(row)}
+    return replace(guide, key=key, policy=replace(policy, weights={**beyond, **policy.weights}))
+
+
+def _named(path: Path, known: Container[str]) -> str | None:
+    """The assignment that a sheet's file, or else its folder, is named after, as a `comparable` stem."""
+    return next((name for name in map(comparable, (path.stem, path.parent.name)) if name in known), None)
 
 
 def _preferred(first: Path, second: Path, assignment: str) -> tuple[Path, Path]:
@@ -110,31 +177,61 @@ def _preferred(first: Path, second: Path, assignment: str) -> tuple[Path, Path]:
     return (second, first) if own == [False, True] else (first, second)
 
 
-def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None) -> Iterator[Path]:
-    """Write every file of a graded class below `out`: two for each student, two for the instructor.
+def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language | None) -> Iterator[tuple[Path, bytes]]:
+    """Every file of a graded class with its content: two for each student, two for the instructor.
 
-    Each appears in one step as soon as it is made; raises `OutputError`.
+    What goes back to a learning platform is also put into `feedback.zip`, under the names by which it knows its
+    students.
     """
+    returned: dict[str, bytes] = {}
     for marking in graded.markings:
         key = marking.key
         # As the batch names it, or the assignment's own stem.
-        folder = out / (folder_name(key.student["id"]) if "id" in key.student else key.id)
-        yield from api.put(folder, {"feedback.xlsx": write_xlsx(feedback_book(marking, policy.show_answers))})
+        folder = Path(folder_name(key.student["id"]) if "id" in key.student else key.id)
+        sheet = write_xlsx(feedback_book(marking, policy.show_answers))
+        yield folder / "feedback.xlsx", sheet
         tree = feedback_document(marking, catalogue.title(key.kind, key.language), policy.show_answers)
-        yield from api.put(folder, {"feedback.pdf": api.typeset(tree, engine)[1]})
+        page = api.typeset(tree, engine)[1]
+        yield folder / "feedback.pdf", page
+        if owner := graded.owners.get(key.id):
+            returned |= {f"{owner.prefix}feedback.xlsx": sheet, f"{owner.prefix}feedback.pdf": page}
+    if returned:
+        yield Path("feedback.zip"), zipped(returned)
     if graded.markings:
         key = graded.markings[0].key
         spoken = language or key.language
-        yield from api.put(out, {"grades.csv": write_csv(grade_rows(graded.markings, spoken, graded.missing))})
-        page = class_document(graded.markings, catalogue.title(key.kind, spoken), spoken, graded.missing)
-        yield from api.put(out, {"class.pdf": api.typeset(page, engine)[1]})
+        yield Path("grades.csv"), write_csv(grade_rows(graded.markings, spoken, graded.missing, policy.scale))
+        title = catalogue.title(key.kind, spoken)
+        overview = class_document(graded.markings, title, spoken, graded.missing, policy.scale)
+        yield Path("class.pdf"), api.typeset(overview, engine)[1]
+
+
+def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None) -> Iterator[Path]:
+    """Write every file of a graded class below `out`, each in one step; raises `OutputError`."""
+    with api.reported(out), scratch(out):
+        for name, content in files_of(graded, policy, engine, language):
+            yield from api.put(out / name.parent, {name.name: content})
+
+
+def put_gradebook(
+    graded: Graded, path: Path, column: str, policy: Policy, out: Path, language: Language | None
+) -> tuple[Path, list[Problem]]:
+    """Write a platform's table with the marks below `out`, under its own name, and tell whom it has no row for.
+
+    Raises `AssignmentError` if the table is at fault, `OutputError`.
+    """
+    content, faults = gradebooks.fill(path, graded.results(), policy.scale, column, language)
+    # The file that was downloaded stays as it is.
+    taken = path.name == "grades.csv" or (out / path.name).resolve() == path.resolve()
+    (written,) = api.put(out, {f"filled-{path.name}" if taken else path.name: content})
+    return written, [as_problem(fault, language) for fault in faults]
 
 
 def summary(graded: Graded, language: Language | None) -> Iterator[str]:
     """A line for each student marked, and how many handed nothing in."""
     for marking in graded.markings:
         points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
-        firsts = len(marking.first_errors)
-        yield word("graded", language, id=marking.key.id, points=points, out_of=out_of, firsts=firsts)
+        who, firsts = person(marking.key), len(marking.first_errors)
+        yield word("graded", language, id=who, points=points, out_of=out_of, firsts=firsts)
     if graded.missing:
-        yield word("graded_missing", language, count=len(graded.missing))
+        yield counted("graded_missing", language, len(graded.missing))

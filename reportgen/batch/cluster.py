@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable, Iterator
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
 from typing import Any
 
@@ -16,6 +17,10 @@ AHEAD = 2
 """Jobs that are handed out for each of the cluster's threads, so that none waits for the next one."""
 ANSWER = 10
 """Seconds in which a scheduler answers."""
+BEAT = 0.05
+"""Seconds between two looks at what is done."""
+WORKERLESS = 60
+"""Seconds without any worker after which nobody waits for one."""
 
 _one_at_a_time = threading.Lock()
 
@@ -24,6 +29,10 @@ class ClusterError(ReportgenError):
     """The scheduler cannot be used: Dask is not installed, nobody answers, or it has gone; exit code 3."""
 
     exit_code = SYSTEM
+
+
+class WorkersLostError(Exception):
+    """No worker has been left for a while."""
 
 
 def cluster(address: str, language: Language | None) -> Pool:
@@ -50,8 +59,11 @@ def cluster(address: str, language: Language | None) -> Pool:
                 yield from _results(client, iter(jobs), suspects.append)
                 for job in suspects:
                     retried(job)
-                    outcome = _outcome(job, client.submit(_run, job, pure=False))
+                    (future,) = _first_done(client, [client.submit(_run, job, pure=False)])
+                    outcome = _outcome(job, future)
                     yield job, outcome or failed(word("worker_died", job.making.language))
+            except WorkersLostError as error:
+                raise ClusterError(word("workers_lost", language, address=address)) from error
             except (distributed.client.FutureCancelledError, OSError) as error:
                 raise ClusterError(word("scheduler_lost", language, address=address)) from error
 
@@ -60,25 +72,40 @@ def cluster(address: str, language: Language | None) -> Pool:
 
 def _results(client: Any, jobs: Iterator[Job], suspect: Callable[[Job], None]) -> Results:
     """Results as they come; only so many jobs are handed out that results never pile up on the workers."""
-    from distributed import as_completed
-
     handed_out: dict[Any, Job] = {}
 
-    def hand_out() -> list[Any]:
+    def hand_out() -> None:
         room = AHEAD * max(_threads(client), 1) - len(handed_out)
-        new = {client.submit(_run, job, pure=False): job for job in islice(jobs, max(room, 0))}
-        handed_out.update(new)
-        return list(new)
+        handed_out.update({client.submit(_run, job, pure=False): job for job in islice(jobs, max(room, 0))})
 
-    running = as_completed(hand_out(), loop=client.loop)
-    for future in running:
-        job = handed_out.pop(future)
-        outcome = _outcome(job, future)
-        running.update(hand_out())
-        if outcome is None:
-            suspect(job)
-        else:
-            yield job, outcome
+    hand_out()
+    while handed_out:
+        for future in _first_done(client, list(handed_out)):
+            job = handed_out.pop(future)
+            outcome = _outcome(job, future)
+            hand_out()
+            if outcome is None:
+                suspect(job)
+            else:
+                yield job, outcome
+
+
+def _first_done(client: Any, futures: Sequence[Any]) -> set[Any]:
+    """Those of the futures that are done, one at least.
+
+    Raises `WorkersLostError` when there has been no worker for `WORKERLESS` seconds: dead ones may come back, but
+    nobody waits for ever.
+    """
+    seen = time.monotonic()
+    while True:
+        done = {future for future in futures if future.done()}
+        if done:
+            return done
+        time.sleep(BEAT)
+        if _threads(client):
+            seen = time.monotonic()
+        elif time.monotonic() - seen > WORKERLESS:
+            raise WorkersLostError
 
 
 def _outcome(job: Job, future: Any) -> Outcome | None:

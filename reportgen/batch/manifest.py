@@ -25,6 +25,8 @@ JOURNAL = ".manifest.journal"
 FORMAT = "reportgen-batch/1"
 MADE_OF = ("assignment", "engine", "language", "templates", "version")
 """All that decides the bytes of a product."""
+ASK = "ask"
+"""What the answer sheet asks for decides them too, where a policy says so."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,9 +61,10 @@ def entry(job: Job, outcome: Outcome) -> Entry:
 
 
 def made_of(job: Job) -> dict[str, str | None]:
-    """The values of `MADE_OF` for a job."""
+    """The values of `MADE_OF` for a job, and of `ASK`."""
     how = job.making
-    return dict(zip(MADE_OF, (job.assignment, how.engine, how.language, how.templates, how.version), strict=True))
+    made = dict(zip(MADE_OF, (job.assignment, how.engine, how.language, how.templates, how.version), strict=True))
+    return {**made, **({ASK: how.ask} if how.ask else {})}
 
 
 def read(out: Path) -> dict[tuple[str, str], Entry]:
@@ -120,8 +123,9 @@ def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
 def _entry(line: dict[str, Any]) -> Entry | None:
     """The entry of a line, unless the line is not of the form that `journal` gives."""
+    made = {key: line.get(key) for key in (*MADE_OF, *((ASK,) if ASK in line else ()))}
     try:
-        entry = _ENTRY.validate_python({**line, "made_of": {key: line.get(key) for key in MADE_OF}})
+        entry = _ENTRY.validate_python({**line, "made_of": made})
     except ValidationError:
         return None
     return entry if all(Path(name).name == name for name in entry.files) else None

@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from hashlib import sha256
 from multiprocessing.process import BaseProcess, parent_process
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pebble import concurrent
 
@@ -43,13 +43,14 @@ class Making:
     """What a result depends on besides the assignment.
 
     `version` is that of this package, `templates` a SHA-256 of all words and frames; `language` is
-    empty where each file's own is meant.
+    empty where each file's own is meant.  `ask` says what the answer sheet asks for, if a policy says so.
     """
 
     version: str
     templates: str
     engine: Engine
     language: Language | None
+    ask: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +64,8 @@ class Job:
     file: str
     content: bytes
     making: Making
+    scratch: Path | None = None
+    """Where its temporary files go; None: where the system has them, on other machines."""
 
     @property
     def assignment(self) -> str:
@@ -82,9 +85,9 @@ class Outcome:
     exit_code: int = 0
 
 
-def making(engine: Engine, language: Language | None) -> Making:
+def making(engine: Engine, language: Language | None, ask: str = "") -> Making:
     """How this installation would make a product now."""
-    return Making(version(), templates_hash(), engine, language)
+    return Making(version(), templates_hash(), engine, language, ask)
 
 
 def failed(problem: str) -> Outcome:
@@ -98,15 +101,16 @@ def run_job(job: Job) -> Outcome:
     It is made in a folder of its own whose name is left out of what is said of failures.
     """
     engine, language = job.making.engine, job.making.language
-    scratch = ""
+    scratch, before = "", tempfile.tempdir
 
     def without_paths(text: str) -> str:
         return text.replace(f"{scratch}{os.sep}", "").replace(str(templates()), "templates")
 
     try:
-        if making(engine, language) != job.making:
+        if making(engine, language, job.making.ask) != job.making:
             return failed(word("other_templates", language))
-        with tempfile.TemporaryDirectory(prefix="reportgen-") as scratch:
+        with tempfile.TemporaryDirectory(prefix="reportgen-", dir=job.scratch) as scratch:
+            tempfile.tempdir = scratch
             file = Path(scratch, job.file)
             file.write_bytes(job.content)
             return Outcome(files=dict(job.maker(file, engine, language)))
@@ -120,6 +124,8 @@ def run_job(job: Job) -> Outcome:
     except Exception as error:
         # A fault of the program itself must not cost the others their results.
         return failed(without_paths(unexpected(error, language)))
+    finally:
+        tempfile.tempdir = before
 
 
 Retried = Callable[[Job], None]
@@ -140,9 +146,8 @@ NAME = "reportgen-job"
 def local(workers: int) -> Pool:
     """A pool of so many processes at a time; the server that starts them begins to load at once."""
     # It understands `context` but is annotated with another name.
-    start: Callable[[Job], Future[Outcome]] = concurrent.process(  # type: ignore[call-overload]
-        name=NAME, timeout=LIMIT, context=_context()
-    )(_work)
+    process: Any = concurrent.process
+    start: Callable[[Job], Future[Outcome]] = process(name=NAME, timeout=LIMIT, context=_context())(_work)
 
     def pool(jobs: Iterable[Job], retried: Retried) -> Results:
         waiting = deque((job, 1) for job in jobs)

@@ -5,6 +5,7 @@ path such as `parameters.H`, `positions.start` or `report.supervisor`, which set
 columns are left alone, and so is a second one for the same thing (a class and a class of the course).  A name may
 stand in two columns, one for the family name and one for the given name, and is put together in their order.
 Headings may follow a title; empty rows are passed over.  A table of variants is read by the same headings.
+The participants' lists of Moodle and the gradebook of Canvas are rosters as they come.
 """
 
 from __future__ import annotations
@@ -14,14 +15,14 @@ import hashlib
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import get_args
 
 from pydantic_core import PydanticCustomError
 
-from reportgen.assignment.fields import Text
+from reportgen.assignment.fields import RESERVED, Text
 from reportgen.errors import Fault, Mark, Problem
 from reportgen.notation.numbers import Language
 from reportgen.source import Scalar
@@ -124,6 +125,8 @@ def records(page: Page, headings: Sequence[Column], start: int, faults: list[Fau
             yield Record(values, first.mark, cells, frozenset(refused))
 
 
+CANVAS_ID = "SIS User ID"
+"""How the gradebook of Canvas heads the number that the school gave a student."""
 PERSONAL = ("name", "id", "class", "section", "email")
 NAME_PARTS = ("family", "given")
 SECTIONS = ("parameters", "positions", "drawing", "indicator", "report")
@@ -135,7 +138,6 @@ KEPT_CHARACTERS = 32
 """Characters of an id that is changed; the hash after them distinguishes it from all others."""
 HASH_DIGITS = 12
 _ORDINARY = re.compile(rf"[A-Z0-9][A-Z0-9_-]{{0,{LONGEST_NAME - 1}}}")
-_RESERVED = re.compile(r"(CON|PRN|AUX|NUL|CLOCK|CONIN|CONOUT|COM[0-9]|LPT[0-9])")
 _LIKE_HASHED = re.compile(rf".*-[0-9A-F]{{{HASH_DIGITS}}}")
 
 
@@ -180,9 +182,17 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
     if start is None:
         first = next((cell.mark for row in page.rows for cell in row if not cell.blank), Mark(str(path)))
         raise as_error([Fault("no-id-column", first)], language)
-    headings = [_normal(column, faults) for column in columns(page.rows[start])]
+    found = columns(page.rows[start])
+    of_canvas = any(cell.text.strip() == CANVAS_ID for cell in page.rows[start])
+    if of_canvas:
+        # Its "ID" is the platform's own number.
+        found = [column for column in found if column.name != "id" or page.rows[start][column.index].text != "ID"]
+    headings = [_normal(column, faults) for column in found]
     used = _used(headings)
     rows = [row for row in records(page, used, start + 1, faults) if row.values or row.refused]
+    if of_canvas:
+        # Points possible, and a student for trying out, have no student number.
+        rows = [_in_spoken_order(row) for row in rows if "id" in row.values]
     faults += [fault for row in rows for fault in _unfit(row)]
     faults += _id_faults(rows)
     if not rows:
@@ -191,6 +201,15 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
         raise as_error(faults, language)
     overriding = tuple(column for column in used if _PATH.fullmatch(column.name))
     return Roster(tuple(map(_student, rows)), overriding)
+
+
+def _in_spoken_order(row: Record) -> Record:
+    """A row of Canvas, which writes "An, Nguyễn Văn"."""
+    name = row.values.get("name")
+    if name is None or name.text.count(", ") != 1:
+        return row
+    last, _, first = name.text.partition(", ")
+    return replace(row, values={**row.values, "name": Scalar(f"{first} {last}", name.mark)})
 
 
 def _page(pages: Sequence[Page]) -> tuple[Page, int | None]:
@@ -269,7 +288,7 @@ def folder_name(id: str) -> str:
     in small letters, since some systems do not distinguish them from capitals.
     """
     composed = unicodedata.normalize("NFC", id)
-    if _ORDINARY.fullmatch(composed) and not _RESERVED.fullmatch(composed) and not _LIKE_HASHED.fullmatch(composed):
+    if _ORDINARY.fullmatch(composed) and not RESERVED.fullmatch(composed) and not _LIKE_HASHED.fullmatch(composed):
         return composed
     digest = hashlib.sha256(composed.encode("utf-8", "surrogatepass")).hexdigest()[:HASH_DIGITS]
     bare = unicodedata.normalize("NFD", composed.replace("đ", "d").replace("Đ", "D"))

@@ -6,13 +6,15 @@ import errno
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TextIO
 
 from reportgen import api
-from reportgen.api import MAKERS, Engine, Maker
+from reportgen.answers.asking import Ask
+from reportgen.api import ASKING, MAKERS, Engine, Maker
 from reportgen.batch import manifest
 from reportgen.batch.manifest import Entry
 from reportgen.batch.pool import Job, Outcome, Pool, failed, local, making
@@ -20,7 +22,8 @@ from reportgen.batch.roster import Assigned, Roster, Student, match_files, read_
 from reportgen.batch.variants import make_variants
 from reportgen.errors import Fault, Mark, Problem
 from reportgen.notation.numbers import Language, write
-from reportgen.words import DEFAULT_LANGUAGE, as_problem, word
+from reportgen.scratch import held, scratch
+from reportgen.words import DEFAULT_LANGUAGE, as_problem, counted, word
 
 if TYPE_CHECKING:
     from rich.progress import ProgressColumn
@@ -29,7 +32,6 @@ DRAWN = "assignments"
 """The folder, among the results, of the assignment files that are drawn."""
 NO_ROOM = frozenset({errno.ENOSPC, errno.EROFS, errno.EIO, getattr(errno, "EDQUOT", errno.ENOSPC)})
 """Errors that every other student would meet, too."""
-NO_LOCKS = frozenset({errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS})
 _TEMPORARY = re.compile(r"\..+\.(?:pdf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
 """What `api.replace` leaves when it is killed."""
 
@@ -44,6 +46,7 @@ class Order:
     """What is asked for: assignments drawn from `spec` into `out`, or found in `assignments`; exactly one of both.
 
     `jobs` processes of this machine (0: one for each core), unless a scheduler's address `cluster` is given.
+    `ask` is what the answer sheets ask for, None for the default.
     """
 
     roster: Path
@@ -55,6 +58,7 @@ class Order:
     language: Language | None = None
     jobs: int = 0
     cluster: str | None = None
+    ask: Ask | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,23 +108,34 @@ def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS
     where there is no cluster.
     """
     roster = read_roster(order.roster, order.language)
-    chosen = {name: makers[name] for name in order.products}
+    chosen = {
+        name: partial(makers[name], ask=order.ask) if _asked(order, name) else makers[name] for name in order.products
+    }
     workers = pool or _pool(order)
-    with locked(order.out, order.language):
-        return _run(order, roster, chosen, workers, stream)
+    with locked(order.out, order.language), api.reported(order.out), scratch(order.out) as temporary:
+        return _run(order, roster, chosen, workers, stream, None if order.cluster else temporary)
 
 
-def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, stream: TextIO) -> Result:
+def _asked(order: Order, product: str) -> str:
+    """What the policy asks for, in a word for the manifest; "" where there is none or it does not matter."""
+    return str(order.ask) if order.ask is not None and product in ASKING else ""
+
+
+def _run(
+    order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, stream: TextIO, temporary: Path | None
+) -> Result:
     assigned, notes = _assigned(order, roster)
+    if order.ask is not None and ASKING & makers.keys():
+        api.check_ask(order.ask, (file for _, file in assigned if isinstance(file, Path)), order.language)
     out = order.out
     for folder in (out, *(out / student.folder for student, _ in assigned)):
         _remove_temporary(folder)
     before = manifest.read(out)
     number = {student.id: number for number, (student, _) in enumerate(assigned)}
     entries = {key: entry for key, entry in before.items() if entry.student in number}
-    with api.reported():
+    with api.reported(out):
         result = Result(manifest.write(out, entries.values()), notes)
-    how = making(order.engine, order.language)
+    how = {name: making(order.engine, order.language, _asked(order, name)) for name in makers}
     kept: list[Job] = []
     jobs: list[Job] = []
     refused: list[tuple[Student, Problem]] = []
@@ -130,7 +145,7 @@ def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, 
             refused.append((student, read))
             continue
         for product, maker in makers.items():
-            job = Job(student.id, student.folder, product, maker, *read, how)
+            job = Job(student.id, student.folder, product, maker, *read, how[product], temporary)
             entry = entries.get((job.student, product))
             (kept if entry is not None and entry.holds(job, out) else jobs).append(job)
     result.kept = len(kept)
@@ -142,7 +157,7 @@ def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, 
         def add(entry: Entry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
             """Each entry stands in the journal before its event is shown."""
             entries[entry.student, entry.product] = entry
-            with api.reported():
+            with api.reported(out):
                 record(entry)
             result.exit_code = max(result.exit_code, exit_code)
             if problems:
@@ -165,11 +180,11 @@ def _run(order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, 
                 file_name = files[job.student]
                 problems = tuple(one if isinstance(one, str) else one.in_file(file_name) for one in outcome.problems)
                 add(manifest.entry(job, outcome), problems, outcome.exit_code)
-    with api.reported():
+    with api.reported(out):
         manifest.write(out, entries.values())
     result.failures.sort(key=lambda failure: number[failure.student])
     if gone := {entry.student for entry in before.values()} - number.keys():
-        result.notes.append(word("batch_gone", order.language, count=len(gone)))
+        result.notes.append(counted("batch_gone", order.language, len(gone)))
     return result
 
 
@@ -281,26 +296,14 @@ def locked(out: Path, language: Language | None) -> Iterator[None]:
 
     Raises `OutputError` if there is another one, or if there can be no such folder.
     """
-    with api.reported():
-        out.mkdir(parents=True, exist_ok=True)
-    try:
-        import fcntl
-    except ImportError:  # no such locks on this system
+    with ExitStack() as lock:
+        with api.reported():
+            out.mkdir(parents=True, exist_ok=True)
+            try:
+                lock.enter_context(held(out))
+            except BlockingIOError as error:
+                raise api.OutputError(word("out_in_use", language, out=out)) from error
         yield
-        return
-    handle = os.open(out, os.O_RDONLY)
-    try:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise api.OutputError(word("out_in_use", language, out=out)) from error
-        except OSError as error:
-            # Some network folders know no locks.
-            if error.errno not in NO_LOCKS:
-                raise
-        yield
-    finally:
-        os.close(handle)
 
 
 def _remove_temporary(folder: Path) -> None:

@@ -280,14 +280,15 @@ def _summary(efforts: Mapping[str, Effort], language: Language) -> Iterator[str]
 
 
 def _csv(files: Sequence[StudentFile]) -> bytes:
-    """One row a student: id, file, variant, values drawn or set, as the file now has them, and its figures."""
+    """One row a student: id, name, file, variant, values drawn or set, as the file now has them, and its figures."""
     places: list[Where] = list(dict.fromkeys(where for file in files for where in file.drawn.settings))
-    rows: list[list[str | float | None]] = [["id", "file", "variant", *map(path_text, places), *Effort._fields]]
+    rows: list[list[str | float | None]] = [["id", "name", "file", "variant", *map(path_text, places), *Effort._fields]]
     for file in files:
         top = read_source(file.path).top
         found = (at(top, where) for where in (("variant",), *places))
         values = [node.text if isinstance(node, Scalar) else None for node in found]
         tail = file.effort or (None,) * len(Effort._fields)
         rounded = [None if value is None else float(f"{value:.6g}") for value in tail]
-        rows.append([file.drawn.student.id, file.path.name, *values, *rounded])
+        student = file.drawn.student
+        rows.append([student.id, student.card.get("name"), file.path.name, *values, *rounded])
     return write_csv(rows)

@@ -8,7 +8,7 @@ evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -17,7 +17,8 @@ from typing import Any
 
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
-from reportgen.errors import AssignmentError, Fault, Problem
+from reportgen.catalogue import reach
+from reportgen.errors import AssignmentError, Fault, Finding, Problem
 from reportgen.notation.numbers import Language
 from reportgen.source import Source, read_source
 from reportgen.words import FILE, as_error, load_words, templates
@@ -54,7 +55,19 @@ def kind(name: str) -> Kind:
 
 def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
     """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
-    return reading.assess(source, path, kinds(), kind)
+    assignment, faults = reading.assess(source, path, kinds(), kind)
+    if assignment is not None:
+        faults = reading.placed(source, _out_of_reach(assignment))
+    return (None if faults else assignment), faults
+
+
+def _out_of_reach(assignment: Assignment) -> Iterator[Finding]:
+    """Whether the machine of an assignment comes too near to a dead point on its way, or is too large to draw."""
+    machine = module(assignment.kind).machine(assignment)
+    way = reach.Way(machine.start, machine.start + machine.turn * machine.span, False) if machine.span else reach.Way()
+    yield from reach.near_dead_point(machine.linkage, way, ("parameters",))
+    if machine.drawn:
+        yield from reach.too_large(machine.linkage, machine.drawn, ("drawing", "crank"))
 
 
 def title(name: str, language: Language) -> str:
@@ -74,7 +87,8 @@ def load(path: Path | str, language: Language | None = None) -> Assignment:
     """
     source = read_source(Path(path))
     assignment, faults = assess(source, Path(path))
-    if assignment is None:
+    faults = [*reading.name_faults(Path(path)), *faults]
+    if assignment is None or faults:
         raise as_error(faults, language or reading.language_of(source))
     return assignment.with_language(language) if language else assignment
 
@@ -97,16 +111,25 @@ def sample(name: str, language: Language) -> str:
 
 
 def schema() -> dict[str, Any]:
-    """JSON Schema (2020-12) of an assignment file of any kind."""
+    """JSON Schema (draft-07, which every editor knows) of an assignment file of any kind."""
     from pydantic import BaseModel
     from pydantic.json_schema import JsonSchemaMode, models_json_schema
 
     # All at once: models of one name in different kinds get names of their own.
     models: list[tuple[type[BaseModel], JsonSchemaMode]] = [(file_model(kind(name)), "validation") for name in kinds()]
     found, definitions = models_json_schema(models, by_alias=True)
-    return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "reportgen assignment",
-        "oneOf": [found[model] for model in models],
-        **definitions,
-    }
+    modern = {"title": "reportgen assignment", "oneOf": [found[model] for model in models], **definitions}
+    return {"$schema": "http://json-schema.org/draft-07/schema#", **_as_draft_07(modern)}
+
+
+def _as_draft_07(part: Any) -> Any:
+    """A schema of draft 2020-12 in the words of draft-07; the models use but one that the drafts do not share."""
+    match part:
+        case dict():
+            return {"definitions" if key == "$defs" else key: _as_draft_07(value) for key, value in part.items()}
+        case list():
+            return [_as_draft_07(item) for item in part]
+        case str():
+            return part.replace("#/$defs/", "#/definitions/")
+        case _:
+            return part

@@ -24,6 +24,7 @@ from reportgen.assignment.fields import (
     Share,
     Weight,
 )
+from reportgen.catalogue.loads import Applied, Torque
 from reportgen.catalogue.machine import Machine
 from reportgen.errors import Finding
 from reportgen.mechanism.structure import Inertia, Linkage, LinkPoint
@@ -33,7 +34,7 @@ from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import drawn_length
 from reportgen.units import Given
 
-OPENING = ("given", "contents", "foreword", "structure", "motion")
+OPENING = ("contents", "given", "scheme", "overview", "foreword", "symbols", "structure", "motion")
 CLOSING = ("conclusion", "references", "checks")
 CRANK_DRAWN = 0.04
 """Drawn length of the crank (m on paper) when none is asked for."""
@@ -41,7 +42,7 @@ MIDDLE = 0.5
 """Where the mass centre of a uniform bar lies."""
 FULL_TURN = 2 * np.pi
 
-Unevenness = Annotated[Given, Ratio(Interval(above=0, most=0.5))]
+Unevenness = Annotated[Given, Ratio(Interval(least=1e-4, most=0.5))]
 
 
 class FixedPoint(Part):
@@ -205,11 +206,12 @@ class GivenSheet(Sheet):
 
         The centre of a link without mass is entered only if its place is given, or `always`.
         """
+        self.set_out("places")
         if not (always or any(self.typed(letter, link) for letter in "sGmJ")):
             return
         length, share = self[f"l.{start}{end}"], self.typed("s", link)
         s = self.give(f"s.{link}", MIDDLE if share is None else share.si, kind="ratio")
-        self.define(f"l.{start}S{link}", s * length)
+        self.set_out("places", self.define(f"l.{start}S{link}", s * length))
         self.mass(link)
         m = self.find(f"m.{link}")
         self.moment(link, None if m is None else m * length**2 / 12)
@@ -300,15 +302,23 @@ def driven(
 ) -> Machine:
     """The machine of an assignment whose crank stands at the angle `start` in position 1.
 
-    `sections` go to `outline`, all further fields of its `Machine` are given by name.
+    `sections` go to `outline`, all further fields of its `Machine` are given by name; loads that are zero throughout
+    are left out.
     """
     given, positions = assignment.parameters, assignment.positions
-    loaded = bool(own.get("applied") or own.get("torques"))
+    declared = [load for kind in ("applied", "torques") for load in own.get(kind, ())]
+    acting = [load for load in declared if load.law.acts]
+    parts = dict(sections or {})
+    if parts.get("load") == "cycle" and not acting:
+        parts["load"] = "no-gas"
     fields: dict[str, Any] = {
         "count": positions.count,
         "turns": assignment.turns,
-        "outline": outline(bool(linkage.inertias), loaded, given.flywheel, **(sections or {})),
+        "outline": outline(bool(linkage.inertias), bool(acting), given.flywheel, **parts),
     }
+    own["applied"] = tuple(load for load in acting if isinstance(load, Applied))
+    own["torques"] = tuple(load for load in acting if isinstance(load, Torque))
+    own["idle"] = tuple(load.name for load in declared if not load.law.acts)
     return Machine(
         kind=assignment.kind,
         linkage=linkage,

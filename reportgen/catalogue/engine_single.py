@@ -36,8 +36,8 @@ UP = math.pi / 2
 MOST_LETTERED = 4
 """Two dead centres and two greatest speeds."""
 
-TimeRatio = Annotated[Given, Ratio(Interval(above=1, below=2))]
-GyrationRatio = Annotated[Given, Ratio(Interval(above=0, most=1))]
+TimeRatio = Annotated[Given, Ratio(Interval(least=1 + 1e-6, below=2))]
+GyrationRatio = Annotated[Given, Ratio(Interval(least=1e-4, most=1))]
 Indicator = given_loads.Diagram
 
 
@@ -137,6 +137,7 @@ def _enter_lengths(q: GivenSheet, given: Parameters) -> tuple[Ref, Ref]:
     4R² = H² − q₁ and 4L² = H² + q₂ with q₁ = 2He tan(θ/2), q₂ = 2He/tan(θ/2).
     """
     e = q.datum("e", given.e) if given.e.si else None
+    q.set_out("synthesis")
     if given.R is not None and given.L is not None:
         R, L = q.datum("R", given.R), q.datum("L", given.L)
         q.define("H", 2 * R if e is None else sqrt((L + R) ** 2 - e**2) - sqrt((L - R) ** 2 - e**2))
@@ -148,7 +149,9 @@ def _enter_lengths(q: GivenSheet, given: Parameters) -> tuple[Ref, Ref]:
     θ = q.define("theta", Number(180.0, unit="°") * (K - 1) / (K + 1))
     q1 = q.define("q.1", 2 * H * e * tan(θ / 2), Symbol("q", "1"), "product of lengths")
     q2 = q.define("q.2", 2 * H * e / tan(θ / 2), Symbol("q", "2"), "product of lengths")
-    return q.define("R", sqrt(H**2 - q1) / 2), q.define("L", sqrt(H**2 + q2) / 2)
+    R, L = q.define("R", sqrt(H**2 - q1) / 2), q.define("L", sqrt(H**2 + q2) / 2)
+    q.set_out("synthesis", q1, q2, R, L)
+    return R, L
 
 
 def _geometry(given: Parameters, positions: Positions) -> OffsetSlider:
@@ -193,14 +196,15 @@ def machine(assignment: Assignment) -> Machine:
         linkage,
         geometry.crank_angle(start),
         {"sizes": "synthesis", "load": "cycle"},
-        formulas=lambda q: offset_slider(q, angles, offset, True),
+        formulas=lambda q: offset_slider(q, geometry.turn, angles, offset, True),
         count=len(places),
         pistons=(piston,),
         applied=gas_forces((piston,)),
         sliders=(piston,),
         paths=("S2",),
         compared=compared((*OFFSET_PLANS, *CENTRE_PLANS)),
-        equations=loop_equations(offset is not None),
+        equations=loop_equations(geometry.turn, offset is not None),
+        facts={"form": "inline" if offset is None else f"offset-{positions.direction}"},
         places=places,
         labels=labels,
     )

@@ -110,6 +110,7 @@ def machine(assignment: Assignment) -> Machine:
     L = q.define("L", R / λ)
     for id, length in {"O1A": R, "O1C": R, "AB": L, "CD": L, "AS2": s * L, "CS4": s * L}.items():
         q.define(f"l.{id}", length)
+    q.set_out("synthesis", R, *q.worked(λ), L, q["l.AS2"], q["l.CS4"])
     q.drawn("O1", "A", assignment.drawing.crank, CRANK_DRAWN)
     q.define("F", PI * D**2 / 4)
     for link in (2, 3, 4, 5):
@@ -137,8 +138,8 @@ def machine(assignment: Assignment) -> Machine:
     steps = even_angles(positions, TURNS)
 
     def formulas(q: Sheet) -> None:
-        centred_slider(q, 2, 3, "B", phases[0] + steps, "l.AS2", "S2")
-        centred_slider(q, 4, 5, "D", phases[1] + steps, "l.CS4", "S4")
+        centred_slider(q, turn, 2, 3, "B", phases[0] + steps, "l.AS2", "S2")
+        centred_slider(q, turn, 4, 5, "D", phases[1] + steps, "l.CS4", "S4")
 
     plans = ("v.B", "omega.2", "v.S2", "a.B", "eps.2", "a.S2", "v.D", "omega.4", "v.S4", "a.D", "eps.4", "a.S4")
     return driven(
@@ -151,6 +152,7 @@ def machine(assignment: Assignment) -> Machine:
         pistons=pistons,
         applied=gas_forces(pistons),
         sliders=pistons,
+        positive={piston.pin: -1j for piston in pistons},
         paths=("S2", "S4"),
         compared=compared(plans),
     )

@@ -31,7 +31,7 @@ TURNS = 1
 
 Indicator = given_loads.Diagram
 INDICATOR_OPTIONAL = True
-Force = Annotated[Given, quantity("N", least=-1e7, most=1e7)]
+Force = Annotated[Given, quantity("N", least=-1e7, most=1e7, tiny=1e-6)]
 
 
 class Parameters(Driven, masses=(2, 3, 4, 5), moments=(2, 4), shares=(2, 4), loads=("PC", "PE", "D")):
@@ -115,7 +115,8 @@ def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> Give
     q.datum("beta", given.beta, "β", "angle")
     q.speed()
     q.drawn("A", "B", crank)
-    q.define("lambda", q.define("R", q["l.AB"]) / q.define("L", q["l.BC"]))
+    R, L = q.define("R", q["l.AB"]), q.define("L", q["l.BC"])
+    q.set_out("proportions", R, L, q.define("lambda", R / L))
     q.give("delta", turn * (given.beta.si - given.alpha.si), "δ", "angle")
     for force, pin in ((given.PC, "C"), (given.PE, "E")):
         if force is not None:
@@ -164,8 +165,8 @@ def machine(assignment: Assignment) -> Machine:
     on_rod = given.joint == "D"
 
     def formulas(q: Sheet) -> None:
-        centred_slider(q, 2, 3, "C", angle, "l.BD", "D" if on_rod else "")
-        second_cylinder(q, given.joint)
+        centred_slider(q, turn, 2, 3, "C", angle, "l.BD", "D" if on_rod else "")
+        second_cylinder(q, turn, given.joint)
 
     plans = ("v.C", "omega.2", "v.E", "omega.4", "a.C", "eps.2", "a.E", "eps.4", *(("v.D", "a.D") if on_rod else ()))
     return driven(
@@ -179,7 +180,9 @@ def machine(assignment: Assignment) -> Machine:
         pistons=pistons,
         applied=gas_forces(pistons) if pistons else _constant(given),
         sliders=courses,
+        positive={"C": -cmath.exp(1j * given.alpha.si), "E": -cmath.exp(1j * given.beta.si)},
         paths=("D",) if on_rod else (),
+        facts={"joint": given.joint, "form": "articulated" if on_rod else "common"},
         compared=compared(plans),
         places=places,
         labels=labels,

@@ -37,6 +37,7 @@ from reportgen.notation.expressions import (
     atan2,
     column,
     cos,
+    signed,
     sin,
     sqrt,
 )
@@ -66,30 +67,31 @@ def proportions(q: Sheet) -> None:
     """
     AB, BC, CD, AD = sides = tuple(q[f"l.{id}"] for id in ("AB", "BC", "DC", "AD"))
     first, one, other, last = sorted(sides, key=q.si)
-    q.define("sum.ends", first + last, Symbol("l", "", "′"), "length")
-    q.define("sum.others", one + other, Symbol("l", "", "″"), "length")
+    ends = q.define("sum.ends", first + last, Symbol("l", "", "′"), "length")
+    q.set_out("sums", ends, q.define("sum.others", one + other, Symbol("l", "", "″"), "length"))
+    q.set_out("swing")
     if not _rocks(q):
         return
     angle = partial(q.define, kind="angle", scale=1.0)
-    α, ψ = [], []
+    lengths, α, ψ = [], [], []
     for number, length in (("1", BC + AB), ("2", BC - AB)):
-        AC = q.define(f"l.AC{number}", length)
+        lengths.append(AC := q.define(f"l.AC{number}", length))
         α.append(angle(f"alpha.{number}", acos(_cosine(AC, AD, CD)), Symbol("α", number)))
         ψ.append(angle(f"psi.{number}", acos(_cosine(AD, CD, AC)), Symbol("ψ", number)))
     larger, smaller = sorted(α, key=q.si, reverse=True)
     θ = angle("theta", larger - smaller)
-    q.define("K", (STRAIGHT + θ) / (STRAIGHT - θ))
-    angle("swing", ψ[0] - ψ[1], "ψ")
+    K = q.define("K", (STRAIGHT + θ) / (STRAIGHT - θ))
+    q.set_out("extremes", *lengths, *α, *ψ)
+    q.set_out("swing", angle("swing", ψ[0] - ψ[1], "ψ"), θ, K)
 
 
 def triangle(q: Sheet, name: str) -> None:
     """l_BE² = x² + y² of a coupler point given by x along BC and y across it; off BC, l_CE² = (l − x)² + y²."""
     x, y, BC = q[f"{name}.along"], q[f"{name}.across"], q["l.BC"]
+    BE = q.define(f"l.B{name}", sqrt(x**2 + y**2) if q.si(y) else abs(x))
+    q.set_out("places", BE)
     if q.si(y):
-        q.define(f"l.B{name}", sqrt(x**2 + y**2))
-        q.define(f"l.C{name}", sqrt((BC - x) ** 2 + y**2))
-    else:
-        q.define(f"l.B{name}", abs(x))
+        q.set_out("places", q.define(f"l.C{name}", sqrt((BC - x) ** 2 + y**2)))
 
 
 # --- the analytic method --------------------------------------------------------------------------
@@ -98,26 +100,37 @@ def triangle(q: Sheet, name: str) -> None:
 def analytic_method(q: Sheet, angle: Floats, points: Iterable[LinkPoint], turn: int, side: int) -> None:
     """Enter positions, entries of the matrices and rates at φ₁ = `angle` [N], C on the `side` ±1 of BD in these axes.
 
+    ω and ε are positive anticlockwise, φ with the crank.
+
     Ids: `f.phi.1`, `l.BD`, `f.phi.2`, `f.phi.3`; entries `A.11`, `B.1`, `dA.11`, `dB.1`; `A.det`;
     `f.omega.2`, …, `q.2`, `f.eps.3`; of every coupler point `f.x.E.v`, `f.y.E.v`, `f.v.E`, likewise for a.
     """
     AB, BC, CD, ω1 = q["l.AB"], q["l.BC"], q["l.DC"], q["omega.1"]
     φ1, φ2, φ3 = _positions(q, angle, side)
     a, b = partial(_entries, q, "A", "a", "length", 0.1), partial(_entries, q, "B", "b", "length", 0.1)
-    a({"11": -BC * sin(φ2), "12": CD * sin(φ3), "21": BC * cos(φ2), "22": -CD * cos(φ3)})
-    b({"1": AB * sin(φ1), "2": -AB * cos(φ1)})
+    q.set_out("entries", *a({"11": -BC * sin(φ2), "12": CD * sin(φ3), "21": BC * cos(φ2), "22": -CD * cos(φ3)}))
+    q.set_out("entries", *b({"1": signed(turn, AB * sin(φ1)), "2": signed(-turn, AB * cos(φ1))}))
     q.define("A.det", BC * CD * sin(φ2 - φ3), "Δ", "product of lengths")
     # Cramer's rule, with what stands in both numerators and in Δ left out.
-    ω2 = q.define("f.omega.2", ω1 * AB * sin(φ3 - φ1) / (BC * sin(φ2 - φ3)), scale=1.0)
-    ω3 = q.define("f.omega.3", ω1 * AB * sin(φ2 - φ1) / (CD * sin(φ2 - φ3)), scale=1.0)
+    ω2 = q.define("f.omega.2", signed(turn, ω1 * AB * sin(φ3 - φ1) / (BC * sin(φ2 - φ3))), scale=1.0)
+    ω3 = q.define("f.omega.3", signed(turn, ω1 * AB * sin(φ2 - φ1) / (CD * sin(φ2 - φ3))), scale=1.0)
+    q.set_out("velocity", ω2, ω3)
     a, b = partial(_entries, q, "dA", "ȧ", "velocity", 1.0), partial(_entries, q, "dB", "ḃ", "velocity", 1.0)
-    a({"11": -ω2 * BC * cos(φ2), "12": ω3 * CD * cos(φ3), "21": -ω2 * BC * sin(φ2), "22": ω3 * CD * sin(φ3)})
-    b({"1": ω1 * AB * cos(φ1), "2": ω1 * AB * sin(φ1)})
+    rates = [
+        *a({"11": signed(-turn, ω2 * BC * cos(φ2)), "12": signed(turn, ω3 * CD * cos(φ3))}),
+        *a({"21": signed(-turn, ω2 * BC * sin(φ2)), "22": signed(turn, ω3 * CD * sin(φ3))}),
+        *b({"1": signed(turn, ω1 * AB * cos(φ1)), "2": signed(turn, ω1 * AB * sin(φ1))}),
+    ]
+    q.set_out("entry_rates", *rates)
     top2 = ω1**2 * AB * cos(φ1 - φ3) + ω2**2 * BC * cos(φ2 - φ3) - ω3**2 * CD
     top3 = ω1**2 * AB * cos(φ1 - φ2) + ω2**2 * BC - ω3**2 * CD * cos(φ2 - φ3)
     for link, top, length in (("2", top2, BC), ("3", top3, CD)):
         q_k = q.define(f"q.{link}", top, Symbol("q", link), "acceleration", scale=1.0)
-        q.define(f"f.eps.{link}", -q_k / (length * sin(φ2 - φ3)), scale=1.0)
+        ε = q.define(f"f.eps.{link}", signed(-turn, q_k / (length * sin(φ2 - φ3))), scale=1.0)
+        q.set_out("acceleration", q_k, ε)
+    q.set_out("slopes")
+    q.set_out("coupler_velocity")
+    q.set_out("coupler_acceleration")
     for point in points:
         _coupler_point(q, point, turn)
 
@@ -132,13 +145,18 @@ def _positions(q: Sheet, angle: Floats, side: int) -> tuple[Ref, Ref, Ref]:
     β, γ = acos(_cosine(BC, BD, CD)), acos(_cosine(CD, BD, BC))
     φ2 = q.define("f.phi.2", β - δ if side > 0 else -β - δ, scale=1.0)
     φ3 = q.define("f.phi.3", STRAIGHT - δ - γ if side > 0 else STRAIGHT - δ + γ, scale=1.0)
+    q.set_out("position", BD, φ2, φ3)
     return φ1, φ2, φ3
 
 
-def _entries(q: Sheet, matrix: str, letter: str, kind: str, scale: float, entries: Mapping[str, Expression]) -> None:
+def _entries(
+    q: Sheet, matrix: str, letter: str, kind: str, scale: float, entries: Mapping[str, Expression]
+) -> list[Ref]:
     """The entries of a matrix by their places: a₁₁ of [A], ȧ₁₁ of [Ȧ]."""
-    for place, entry in entries.items():
+    return [
         q.define(f"{matrix}.{place}", entry, Symbol(letter, place), kind, scale=scale)
+        for place, entry in entries.items()
+    ]
 
 
 def _coupler_point(q: Sheet, point: LinkPoint, turn: int) -> None:
@@ -149,25 +167,35 @@ def _coupler_point(q: Sheet, point: LinkPoint, turn: int) -> None:
     if point.local.imag:
         x, y = q[f"{name}.along"], q[f"{name}.across"]
         slope = atan(y / x) if point.local.real > 0 else atan2(y, x)
-        φ = φ + q.define(f"eta.{name}", slope if turn > 0 else -slope, Symbol("η", name), "angle", scale=1.0)
-    components(q, "v", name, -(ω1 * AB * sin(φ1) + ω2 * BP * sin(φ)), ω1 * AB * cos(φ1) + ω2 * BP * cos(φ))
-    a_x = -(ω1**2 * AB * cos(φ1) + ε2 * BP * sin(φ) + ω2**2 * BP * cos(φ))
-    a_y = ε2 * BP * cos(φ) - ω1**2 * AB * sin(φ1) - ω2**2 * BP * sin(φ)
-    components(q, "a", name, a_x, a_y)
+        η = q.define(f"eta.{name}", slope if turn > 0 else -slope, Symbol("η", name), "angle", scale=1.0)
+        φ = φ + η
+        q.set_out("slopes", η)
+    v, a = signed(turn, ω2), signed(turn, ε2)
+    v_x, v_y = -(ω1 * AB * sin(φ1) + v * BP * sin(φ)), ω1 * AB * cos(φ1) + v * BP * cos(φ)
+    q.set_out("coupler_velocity", *components(q, "v", name, v_x, v_y))
+    a_x = -(ω1**2 * AB * cos(φ1) + a * BP * sin(φ) + ω2**2 * BP * cos(φ))
+    a_y = a * BP * cos(φ) - ω1**2 * AB * sin(φ1) - ω2**2 * BP * sin(φ)
+    q.set_out("coupler_acceleration", *components(q, "a", name, a_x, a_y))
 
 
 # --- what the words show --------------------------------------------------------------------------
 
 
-def equations() -> dict[str, tuple[Chain, ...]]:
+def equations(turn: int) -> dict[str, tuple[Chain, ...]]:
     """The closed loop by components; the matrix equations in symbols, and `-numbers` with entries to fill in."""
     AB, BC, CD, AD = (Symbol("l", name) for name in ("AB", "BC", "CD", "AD"))
     φ1, φ2, φ3 = (Symbol("φ", link) for link in "123")
     ω1, ω2, ω3 = (Symbol("ω", link) for link in "123")
     ω, ε = column(ω2, ω3), column(Symbol("ε", "2"), Symbol("ε", "3"))
     A = Matrix(((-BC * sin(φ2), CD * sin(φ3)), (BC * cos(φ2), -CD * cos(φ3))))
-    dA = Matrix(((-ω2 * BC * cos(φ2), ω3 * CD * cos(φ3)), (-ω2 * BC * sin(φ2), ω3 * CD * sin(φ3))))
-    B, dB = column(AB * sin(φ1), -AB * cos(φ1)), column(ω1 * AB * cos(φ1), ω1 * AB * sin(φ1))
+    dA = Matrix(
+        (
+            (signed(-turn, ω2 * BC * cos(φ2)), signed(turn, ω3 * CD * cos(φ3))),
+            (signed(-turn, ω2 * BC * sin(φ2)), signed(turn, ω3 * CD * sin(φ3))),
+        )
+    )
+    B = column(signed(turn, AB * sin(φ1)), signed(-turn, AB * cos(φ1)))
+    dB = column(signed(turn, ω1 * AB * cos(φ1)), signed(turn, ω1 * AB * sin(φ1)))
     a11, a12, a21, a22 = (Symbol("a", place) for place in ("11", "12", "21", "22"))
     filled_A, filled_dA = (
         Matrix(tuple(tuple(Ref(f"{name}.{i}{j}") for j in "12") for i in "12")) for name in ("A", "dA")
@@ -250,6 +278,7 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     if given.force is not None:
         q.datum("P.given", given.force.P, Symbol("P", "3"), "force")
         q.datum("P.angle", given.force.angle, Symbol("α", "P"), "angle")
+    q.set_out("loads", "M3", "P3")
     proportions(q)
     return q
 
@@ -308,6 +337,10 @@ def machine(assignment: Assignment) -> Machine:
         torques=torque_on(given.torque, 3, linkage, positions, start),
         paths=tuple(names),
         compared=compared(plans),
-        equations=equations(),
-        facts={"left": turn * given.side > 0},
+        equations=equations(turn),
+        facts={
+            "form": "rocker" if _rocks(q) else "crank",
+            "side": "left" if turn * given.side > 0 else "right",
+            "coupler": "EF" if given.E and given.BF else "E" if given.E else "F" if given.BF else "plain",
+        },
     )

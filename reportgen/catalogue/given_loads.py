@@ -171,7 +171,7 @@ PRESS_CHECKS = (same_length("parameters.press", "s", ("P",)), increasing("parame
 
 # --- a torque on a link ------------------------------------------------------------------------------
 
-TorqueSize = Annotated[Given, quantity("N m", least=0, most=1e9)]
+TorqueSize = Annotated[Given, quantity("N m", least=0, most=1e9, tiny=1e-6)]
 
 
 class LinkTorque(Part):

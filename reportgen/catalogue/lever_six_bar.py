@@ -59,8 +59,12 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     q.datum("F.y", given.guide, Symbol("y", "F"), "length")
     q.speed()
     q.give("drawn.BA", crank.si if crank else CRANK_DRAWN, drawn_length("A", "B"))
-    q.define("l.AE", q["l.AC"] - q["l.CE"])
+    q.set_out("places", q.define("l.AE", q["l.AC"] - q["l.CE"]))
     q.bodies(BARS, 5, always=True)
+    q.set_out(
+        "lengths", "l.BA", "l.AC", "l.DC", "l.AE", "l.EF", *(f"l.{start}S{link}" for link, (start, _) in BARS.items())
+    )
+    q.set_out("loads", "P5")
     if given.force is not None:
         q.datum("P.given", given.force.P, Symbol("P", "5"), "force")
     return q

@@ -112,16 +112,21 @@ def machine(assignment: Assignment) -> Machine:
         places=places,
         labels=labels,
     )
-    loads = _loads(given, linkage, _motion_at(built))
+    declared = _loads(given, linkage, _motion_at(built))
+    loads = tuple(load for load in declared if load.law.acts)
     drawn = assignment.drawing.crank
+    q = _sheet(given, linkage, built, drawn.si if drawn else None)
+    q.set_out("lengths", *(f"l.{arm}" for arm in linkage_words.arms(given)))
+    q.set_out("loads", *(load.name for load in loads))
     return replace(
         built,
-        sheet=_sheet(given, linkage, built, drawn.si if drawn else None),
+        sheet=q,
         applied=tuple(load for load in loads if isinstance(load, Applied)),
         torques=tuple(load for load in loads if isinstance(load, Torque)),
         outline=outline(bool(linkage.inertias), bool(loads), given.flywheel, driver="crank" if crank else "slide"),
         unevenness=None if given.flywheel is None else given.flywheel.delta.si,
-        facts=linkage_words.facts(given, tuple(load.name for load in loads)),
+        idle=tuple(load.name for load in declared if load not in loads),
+        facts=linkage_words.facts(given, tuple(load.name for load in declared), {load.name for load in loads}),
     )
 
 
@@ -153,7 +158,7 @@ def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | N
                 q.datum(f"l.{outer}{middle}", length)
         elif isinstance(group, file.RRP):
             q.datum("l." + "".join(group.joints), group.length)
-    if any(body.mass for body in linkage.inertias):
+    if any(body.G or body.m for body in given.masses):
         q.datum("g", given.g)
     for body in given.masses:
         q.mass(body.link, body.G, body.m)
@@ -187,6 +192,10 @@ class Resistance:
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return self.reversals
+
+    @property
+    def acts(self) -> bool:
+        return self.size != 0
 
 
 def _loads(given: file.Parameters, linkage: Linkage, motion_at: MotionAt) -> tuple[Applied | Torque, ...]:

@@ -62,8 +62,8 @@ Name = Annotated[str, PointName()]
 Link = Annotated[int, Whole(1, LAST_LINK)]
 Carrier = Annotated[int, Whole(0, LAST_LINK)]
 GroupLink = Annotated[int, Whole(2, LAST_LINK)]
-Speed = Annotated[Given, quantity("m/s", above=0, most=1e3)]
-Torque = Annotated[Given, quantity("N m", least=-1e9, most=1e9)]
+Speed = Annotated[Given, quantity("m/s", least=1e-6, most=1e3)]
+Torque = Annotated[Given, quantity("N m", least=-1e9, most=1e9, tiny=1e-6)]
 DriverWays = Annotated[tuple[Offset, ...], Nodes]
 
 NOWHERE = Given(0.0, 0.0, "mm", "0 mm")
@@ -380,13 +380,12 @@ class Parameters(Part):
     @property
     def linkage(self) -> Linkage:
         """The whole mechanism: frame, driver, groups in their order, points, masses."""
+        bodies = (Inertia(one.link, one.at, one.mass(self.g.si), one.J.si if one.J else 0.0) for one in self.masses)
         return Linkage(
             ground={name: place(at) for name, at in self.frame.items()},
             driver=self.driver.driver,
             dyads=tuple(group.dyad for group in self.groups),
             points=tuple(LinkPoint(name, one.link, place(one.at)) for name, one in self.points.items()),
-            inertias=tuple(
-                Inertia(body.link, body.at, body.mass(self.g.si), body.J.si if body.J else 0.0) for body in self.masses
-            ),
+            inertias=tuple(one for one in bodies if one.mass or one.moment),
             gravity=-1j * self.g.si,
         )

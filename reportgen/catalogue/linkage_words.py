@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -28,6 +28,11 @@ class GroupRow:
     """Which of two ways it is assembled: left, right, far, near, towards, away, or ""."""
     offset: Number | None = None
     across: Number | None = None
+
+    @property
+    def drawing(self) -> str:
+        """Which words say how it is drawn."""
+        return "RPR-offset" if self.offset else self.kind
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +71,25 @@ class LoadRow:
     nodes: tuple[float, ...] = ()
     rows: tuple[tuple[float, ...], ...] = ()
     bore: Number | None = None
+    intake: str = ""
+
+    @property
+    def phrase(self) -> str:
+        """Which words tell of it: by what it is and what it follows, or whether it is against the motion."""
+        acting = "torque" if self.torque else "force"
+        match self.by:
+            case "constant":
+                return f"{acting}-against" if self.against else acting
+            case "gas":
+                return f"gas-{self.intake}".replace(" ", "-")
+            case "stroke":
+                return "stroke"
+        return f"{acting}-{self.by}"
+
+    @property
+    def table(self) -> str:
+        """The key of the table of its values."""
+        return f"tab.gas.law.{self.id}" if self.by == "gas" else f"tab.law.{self.id}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,14 +103,13 @@ class MotionRow:
     point: str = ""
 
 
-def facts(given: file.Parameters, loads: tuple[str, ...]) -> dict[str, Any]:
-    """What the words of the kind name; `loads` are the ids of the loads in the order of the file."""
+def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]) -> dict[str, Any]:
+    """What the words of the kind name; `loads` are the ids of the loads in the order of the file.
+
+    Only those that are `acting` are told of.
+    """
     rows = tuple(map(_group, given.groups))
-    crank = given.driver
-    arms = [f"{crank.centre}{crank.pin}"] if isinstance(crank, file.CrankDriver) else []
-    arms += [rod for row in rows for rod, _ in row.lengths]
-    origins = _origins(given)
-    arms += [f"{origins[point.link]}{name}" for name, point in given.points.items()]
+    shown = tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting)
     return {
         "frame": [(vocabulary.point(name), *map(number, at)) for name, at in given.frame.items()],
         "quantities": tuple(_quantities(given, rows)),
@@ -94,11 +117,21 @@ def facts(given: file.Parameters, loads: tuple[str, ...]) -> dict[str, Any]:
         "guides": tuple(_guides(given)),
         "points": tuple(PointRow(name, one.link, *map(number, one.at)) for name, one in given.points.items()),
         "motions": tuple(_motions(given)),
-        "arms": arms,
-        "bodies": bool(given.masses),
-        "loads": tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True)),
-        "load_ids": loads,
+        "listed": "given" if given.masses else "massless",
+        "loads": shown,
+        "interpolated": tuple(load for load in shown if load.nodes),
+        "gases": tuple(load for load in shown if load.by == "gas"),
     }
+
+
+def arms(given: file.Parameters) -> Iterator[str]:
+    """The lengths that do not change, by their ends: crank, rods, points of the links."""
+    if isinstance(given.driver, file.CrankDriver):
+        yield f"{given.driver.centre}{given.driver.pin}"
+    for group in given.groups:
+        yield from (rod for rod, _ in _group(group).lengths)
+    origins = _origins(given)
+    yield from (f"{origins[point.link]}{name}" for name, point in given.points.items())
 
 
 def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[tuple[str, str, str]]:
@@ -183,7 +216,7 @@ def _load(load: file.Loading, name: str) -> LoadRow:
         case file.OverStroke():
             return LoadRow(name, load.link, "stroke", False, nodes=load.s, rows=(load.inward, load.outward))
         case file.Gas():
-            return LoadRow(name, load.link, "gas", False, bore=number(load.D))
+            return LoadRow(name, load.link, "gas", False, bore=number(load.D), intake=load.intake)
     torque, way = load.at is None, number(load.direction)
     if isinstance(load, file.Constant):
         size = load.F or load.M

@@ -105,6 +105,10 @@ class Law(Protocol):
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         """Cycle angles where the force bends or jumps, in any order and any turn."""
 
+    @property
+    def acts(self) -> bool:
+        """Whether it is anything at all at some place of the cycle."""
+
 
 @dataclass(frozen=True)
 class TableLaw:
@@ -131,6 +135,10 @@ class TableLaw:
         corners = (*self.table.breaks(course.share_at(motion_at), course.dead_centres), *course.dead_centres)
         return (corner - course.phase for corner in corners)
 
+    @property
+    def acts(self) -> bool:
+        return any(map(any, self.table.rows))
+
 
 @dataclass(frozen=True)
 class AngleLaw:
@@ -149,6 +157,10 @@ class AngleLaw:
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return self.angles
 
+    @property
+    def acts(self) -> bool:
+        return any(self.values)
+
 
 @dataclass(frozen=True)
 class WayLaw:
@@ -163,6 +175,10 @@ class WayLaw:
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return (way / self.span * FULL_TURN for way in self.ways)
+
+    @property
+    def acts(self) -> bool:
+        return any(self.values)
 
 
 @dataclass(frozen=True)
@@ -191,6 +207,10 @@ class CuttingLaw:
             corners = crossings(lambda angle: share_at(angle) - wanted, np.zeros(2), np.full(2, course.bottom_angle))
         return (corner - course.phase for corner in corners)
 
+    @property
+    def acts(self) -> bool:
+        return self.force != 0
+
 
 @dataclass(frozen=True)
 class Constant:
@@ -203,6 +223,10 @@ class Constant:
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return ()
+
+    @property
+    def acts(self) -> bool:
+        return self.size != 0
 
 
 @dataclass(frozen=True)
@@ -222,6 +246,10 @@ class Opposing:
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return self.reversals
+
+    @property
+    def acts(self) -> bool:
+        return self.size != 0
 
 
 def by_stroke(fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]) -> Indicator:

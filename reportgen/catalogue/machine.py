@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.catalogue.loads import Applied, Course, Piston, Torque
-from reportgen.mechanism.structure import Linkage
+from reportgen.mechanism.structure import Crank, Linkage
 from reportgen.notation.expressions import Chain
 from reportgen.notation.sheet import Sheet
 
@@ -64,8 +64,12 @@ class Machine:
     """All forces that are neither weight nor inertia, the gas on `pistons` among them."""
     torques: tuple[Torque, ...] = ()
     """Torques other than inertia couples."""
+    idle: tuple[str, ...] = ()
+    """Names of loads that the file gives as zero throughout; they are in neither of the two above."""
     sliders: tuple[Course, ...] = ()
     """Sliders with dead centres, the pistons among them."""
+    positive: Mapping[str, complex] = field(default_factory=dict)
+    """Unit vectors along which the motion of sliders counts as positive, by their pins; else along their guides."""
     paths: tuple[str, ...] = ()
     """Points whose paths the position plan shows."""
     compared: tuple[tuple[str, str], ...] = ()
@@ -105,6 +109,13 @@ class Machine:
     def angles(self, cycle_angle: np.ndarray) -> np.ndarray:
         """Driver angles at the given cycle angles; the coordinates (m) of a sliding driver."""
         return self.start + self.turn * cycle_angle * (self.span / (2 * np.pi) if self.span else 1.0)
+
+    @property
+    def drawn(self) -> float:
+        """The crank's drawn length (m on paper) where the file or the kind sets it, else 0."""
+        driver = self.linkage.driver
+        id = f"drawn.{driver.centre}{driver.pin}" if isinstance(driver, Crank) else ""
+        return self.sheet.si(id) if id in self.sheet else 0.0
 
     def position(self, number: int) -> Position:
         """A position by its number from 1."""

@@ -15,8 +15,10 @@ from reportgen.catalogue.loads import FULL_TURN, MotionAt, NotToAndFro, course, 
 from reportgen.errors import Finding, Where
 from reportgen.mechanism.dyads import SINGULAR, Complexes, Floats, cross, unit
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
+from reportgen.mechanism.structure import GROUND, Crank, Dyad, Guide, Linkage
+from reportgen.notation.numbers import nice_down
 
+MM = 1e3
 STEPS = 720
 HALVINGS = 40
 NEAR = 0.3
@@ -25,6 +27,12 @@ ROUND = 1e-12
 """A clearance this little below 0 is rounding."""
 ZOOMS, NODES = 4, 41
 """How often a neighbourhood is looked at closer, and at how many places: 20⁴ times finer than the samples."""
+
+
+SHEET = (1.08, 0.70)
+"""What a mechanism in all its positions may take of a sheet A0 (m), lying or standing; labels and caption need more."""
+LEAST_ANGLE = 0.1
+"""Angle of transmission (degrees) of a group from which on its forces come out to nine figures and more."""
 
 
 Clear = Callable[[Floats], Floats]
@@ -87,6 +95,48 @@ def findings(linkage: Linkage, members: Mapping[tuple[int, int], Member], way: W
             at = {"angle" if way.turning else "first": way.shown(place)}
             yield Finding(f"dead-point{of_slide}", member.where, {**about, **at})
             return
+
+
+def near_dead_point(linkage: Linkage, way: Way, where: Where) -> Iterator[Finding]:
+    """The first group that comes so near to a dead point that its accelerations and forces are mere rounding."""
+    places = np.linspace(way.start, way.end, STEPS + 1)
+    motion = solve_motion(linkage, places, 1.0)
+    size, of_slide = _size(motion), "" if way.turning else "-slide"
+    limit = np.sin(np.radians(LEAST_ANGLE))
+    for dyad in linkage.dyads:
+
+        def clear(at: Floats, dyad: Dyad = dyad) -> Floats:
+            return clearance(dyad, solve_motion(linkage, at, 1.0), size)
+
+        place, least = _least(clear, way, places, clearance(dyad, motion, size))
+        if not least < limit**2:
+            continue
+        sine = float(np.sqrt(max(least, 0.0)))
+        about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "at": way.shown(place)}
+        if dyad.kind == "RPR" and not dyad.lengths[1]:
+            about |= {"near": f"{sine * size * 1e3:.3g}", "least": f"{limit * size * 1e3:.3g}"}
+            yield Finding(f"near-pivot{of_slide}", where, about, at="key")
+        else:
+            about |= {"near": f"{np.degrees(sine):.2g}", "least": f"{LEAST_ANGLE:g}"}
+            yield Finding(f"near-dead-point{of_slide}", where, about, at="key")
+        return
+
+
+def too_large(linkage: Linkage, drawn: float, where: Where) -> Iterator[Finding]:
+    """A mechanism that no sheet A0 holds when its crank is drawn `drawn` long (m on paper)."""
+    motion = solve_motion(linkage, np.linspace(0.0, FULL_TURN, STEPS + 1), 1.0)
+    places = np.array([np.broadcast_to(point.p, (STEPS + 1,)) for point in motion.points.values()])
+    assert isinstance(linkage.driver, Crank)
+    scale = drawn / linkage.driver.length
+    width, height = float(np.ptp(places.real)) * scale, float(np.ptp(places.imag)) * scale
+    excess = min(max(width / across, height / up) for across, up in (SHEET, SHEET[::-1]))
+    if excess > 1:
+        sizes = {
+            "width": f"{width * MM:.0f}",
+            "height": f"{height * MM:.0f}",
+            "most": f"{nice_down(drawn * MM / excess):g}",
+        }
+        yield Finding("too-large-to-draw", where, {"text": f"{drawn * MM:g} mm", **sizes})
 
 
 def to_and_fro(linkage: Linkage, slider: int, motion_at: MotionAt, where: Where) -> Iterator[Finding]:

@@ -48,6 +48,7 @@ def machine(assignment: Assignment) -> Machine:
     q.gravity()
     for link in (2, 3):
         q.mass(link)
+    q.set_out("loads", "s.3", "P3")
 
     axis, radius = given.guide.si, q.si(r)
     along = cmath.rect(1.0, axis)
@@ -66,11 +67,12 @@ def machine(assignment: Assignment) -> Machine:
     def formulas(q: Sheet) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
         φ = q.angle("phi.3", start + even_angles(positions), "φ")
-        line("f.x.B", r * cos(φ))
-        line("f.v.B", -ω1 * r * sin(φ))
-        line("f.v.r", ω1 * r * cos(φ))
-        line("f.a.B", -(ω1**2) * r * cos(φ))
-        line("f.a.r", -(ω1**2) * r * sin(φ), Symbol("a", "r"))
+        x_B = line("f.x.B", r * cos(φ))
+        v_B, v_r = line("f.v.B", -ω1 * r * sin(φ)), line("f.v.r", ω1 * r * cos(φ))
+        a_B = line("f.a.B", -(ω1**2) * r * cos(φ))
+        a_r = line("f.a.r", -(ω1**2) * r * sin(φ), Symbol("a", "r"))
+        q.set_out("velocity", x_B, v_B, v_r)
+        q.set_out("acceleration", a_B, a_r)
 
     return driven(
         assignment,

@@ -29,8 +29,8 @@ CENTRES = {2: "B", 3: "S3", 4: "S4", 5: "E"}
 """Mass centres of the links that may have mass."""
 RODS = {3: "CD", 4: "DE"}
 
-Force = Annotated[Given, quantity("N", above=0, most=1e7)]
-FreeShare = Annotated[Given, Ratio(Interval(least=0, below=0.5))]
+Force = Annotated[Given, quantity("N", least=1e-6, most=1e7)]
+FreeShare = Annotated[Given, Ratio(Interval(least=0, below=0.5, tiny=1e-6))]
 
 
 class CuttingForce(Part):
@@ -58,10 +58,12 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     q = GivenSheet(given)
     a, b = q.datum("a", given.a, "a", "length"), q.datum("b", given.b, "b", "length")
     l3 = q.datum("l.CD", given.l3, Symbol("l", "3"))
-    q.datum("l.DE", given.l4, Symbol("l", "4"))
+    l4 = q.datum("l.DE", given.l4, Symbol("l", "4"))
     H = q.datum("H", given.H)
     q.speed()
     l1 = q.define("l.AB", a * H / (2 * l3), Symbol("l", "1"))
+    q.set_out("synthesis", "theta", l1)
+    q.set_out("lengths", l1, l3, l4)
     if given.cutting is not None:
         q.datum("P.given", given.cutting.F, "P", "force")
         if given.cutting.free.si:
@@ -72,8 +74,10 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     for link, rod in RODS.items():
         l, m, share, moment = q[f"l.{rod}"], f"m.{link}", getattr(given, f"s{link}"), q.typed("J", link)  # noqa: E741
         if m in q or moment:
-            q.define(f"l.{rod[0]}S{link}", q.give(f"s.{link}", share.si, kind="ratio") * l)
+            centre = q.define(f"l.{rod[0]}S{link}", q.give(f"s.{link}", share.si, kind="ratio") * l)
+            q.set_out("lengths", centre)
             q.moment(link, q[m] * l**2 / 12 if m in q else None)
+    q.set_out("loads", "f.x.E", "P5")
     if crank is not None:
         q.drawn("A", "B", crank)
     else:  # by the finest round scale at which all stays on the page
@@ -124,7 +128,7 @@ def machine(assignment: Assignment) -> Machine:
         q.define("drawn.AC", q["a"] / q["mu.l"], drawn_length("A", "C"))
         slotted.swing(q, q["H"] / (2 * q["l.CD"]))
         slotted.strokes(q, q["H"])
-        slotted.ram_formulas(q, start + even_angles(positions))
+        slotted.ram_formulas(q, positions.sign, start + even_angles(positions))
 
     applied: tuple[Applied, ...] = ()
     if cutting is not None:
@@ -141,5 +145,6 @@ def machine(assignment: Assignment) -> Machine:
         sliders=(course,),
         paths=("D",),
         compared=slotted.RAM_COMPARED,
-        equations=slotted.ram_equations(),
+        equations=slotted.ram_equations(positions.sign),
+        facts={"form": "parted" if "free" in q else "whole"},
     )

@@ -62,8 +62,9 @@ def machine(assignment: Assignment) -> Machine:
         q.datum("guide.angle", given.guide, "α", "angle")
     q.speed()
     q.drawn("A", "B", assignment.drawing.crank)
+    q.set_out("places")
     if has_centre:
-        q.define("l.BS2", q.give("s", MIDDLE if given.s is None else given.s.si) * l)
+        q.set_out("places", q.define("l.BS2", q.give("s", MIDDLE if given.s is None else given.s.si) * l))
     if isinstance(given.force, given_loads.ConstantForce):
         q.datum("P.given", given.force.F, "P", "force")
     q.gravity()
@@ -71,6 +72,7 @@ def machine(assignment: Assignment) -> Machine:
     m2 = q.find("m.2")
     q.moment(2, None if m2 is None else m2 * l**2 / 12)
     q.mass(3)
+    q.set_out("loads", "s.3", "P3")
 
     geometry = OffsetSlider(q.si(r), q.si(l), turn * given.e.si, given.guide.si, turn)
     start = geometry.stretched if positions.start is None else geometry.phi(positions.start.si)
@@ -83,12 +85,13 @@ def machine(assignment: Assignment) -> Machine:
         q,
         linkage,
         geometry.crank_angle(start),
-        formulas=lambda q: offset_slider(q, start + even_angles(positions), offset, has_centre),
+        formulas=lambda q: offset_slider(q, turn, start + even_angles(positions), offset, has_centre),
         applied=()
         if given.force is None
         else (Applied("P3", 3, "C", cmath.rect(1.0, geometry.axis), TableLaw(course, given.force.table, turns=TURNS)),),
         sliders=(course,),
         paths=("S2",) if has_centre else (),
         compared=compared((*OFFSET_PLANS, *(CENTRE_PLANS if has_centre else ()))),
-        equations=loop_equations(offset is not None),
+        equations=loop_equations(turn, offset is not None),
+        facts={"form": "inline" if e is None else "offset"},
     )

@@ -1,7 +1,9 @@
 """Crank and slider: geometry, linkage and closed formulas, with the guide through the crank centre or beside it.
 
+ω₂, ε₂ are positive anticlockwise in all formulas: with a `turn` of ±1, the crank's rotation, φ̇ = ω₁ is turned so.
+
 Centred, φ the crank's angle from the slider's outer dead centre in the direction of rotation, β the rod's angle to the
-axis, λ = R/L; x, v, a count from the dead centre towards the crank; ω₂, ε₂ as β grows.
+axis, λ = R/L; x, v, a count from the dead centre towards the crank; β grows as the rod turns against the crank.
 
 With an offset e: A crank centre, B pin, C slider; x runs from A along the guide away from the crank, y is x turned by
 90° in the direction of rotation, so that ω₁ > 0; φ is the crank's angle from x, β the rod's, r = l_AB, l = l_BC.
@@ -22,7 +24,7 @@ import numpy as np
 
 from reportgen.catalogue.loads import FULL_TURN, Course, Floats, halved
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.notation.expressions import Chain, Expression, Number, Symbol, asin, cos, sin, sqrt, tan
+from reportgen.notation.expressions import Chain, Expression, Number, Ref, Symbol, asin, cos, signed, sin, sqrt, tan
 from reportgen.notation.sheet import Sheet
 
 HALVINGS = 60
@@ -39,7 +41,7 @@ def compared(plans: Iterable[str]) -> tuple[tuple[str, str], ...]:
 
 
 def centred_slider(
-    q: Sheet, rod: int, slider: int, joint: str, angle: Floats, along: str = "", centre: str = ""
+    q: Sheet, turn: int, rod: int, slider: int, joint: str, angle: Floats, along: str = "", centre: str = ""
 ) -> None:
     """The closed formulas at φ = `angle` [N] of a slider whose pin is `joint`; uses R, L, lambda, omega.1.
 
@@ -50,34 +52,38 @@ def centred_slider(
     line = partial(q.define, scale=1.0)
     φ = q.angle(f"phi.{slider}", angle)
     β = line(f"beta.{rod}", asin(λ * sin(φ)))
-    q.define(f"x.{slider}", R * (1 - cos(φ)) + L * (1 - cos(β)), Symbol("x", joint), "length", scale=0.01)
-    line(f"f.v.{joint}", ω1 * R * sin(φ + β) / cos(β))
-    ω2 = line(f"f.omega.{rod}", ω1 * λ * cos(φ) / cos(β))
-    line(f"f.a.{joint}", ω1**2 * R * (cos(φ + β) / cos(β) + λ * cos(φ) ** 2 / cos(β) ** 3))
-    ε2 = line(f"f.eps.{rod}", -(ω1**2) * λ * (1 - λ**2) * sin(φ) / cos(β) ** 3)
+    x = q.define(f"x.{slider}", R * (1 - cos(φ)) + L * (1 - cos(β)), Symbol("x", joint), "length", scale=0.01)
+    v = line(f"f.v.{joint}", ω1 * R * sin(φ + β) / cos(β))
+    ω2 = line(f"f.omega.{rod}", signed(-turn, ω1 * λ * cos(φ) / cos(β)))
+    a = line(f"f.a.{joint}", ω1**2 * R * (cos(φ + β) / cos(β) + λ * cos(φ) ** 2 / cos(β) ** 3))
+    ε2 = line(f"f.eps.{rod}", signed(turn, ω1**2 * λ * (1 - λ**2) * sin(φ) / cos(β) ** 3))
+    velocity, acceleration = f"velocity_{slider}", f"acceleration_{slider}"
+    q.set_out(velocity, β, x, v, ω2)
+    q.set_out(acceleration, a, ε2)
     if centre:
         s = q[along]
-        components(q, "v", centre, (1 - s / L) * ω1 * R * cos(φ), -(ω1 * R * sin(φ) + s * ω2 * sin(β)))
-        a_y = -(ω1**2 * R * cos(φ) + s * (ε2 * sin(β) + ω2**2 * cos(β)))
-        components(q, "a", centre, -((1 - s / L) * ω1**2 * R * sin(φ)), a_y)
+        v_y = -(ω1 * R * sin(φ) + signed(-turn, s * ω2 * sin(β)))
+        q.set_out(velocity, *components(q, "v", centre, (1 - s / L) * ω1 * R * cos(φ), v_y))
+        a_y = -(ω1**2 * R * cos(φ) + s * (ω2**2 * cos(β) + signed(-turn, ε2 * sin(β))))
+        q.set_out(acceleration, *components(q, "a", centre, -((1 - s / L) * ω1**2 * R * sin(φ)), a_y))
 
 
-def components(q: Sheet, what: str, point: str, x: Expression, y: Expression) -> None:
+def components(q: Sheet, what: str, point: str, x: Expression, y: Expression) -> tuple[Ref, Ref, Ref]:
     """The velocity or acceleration of a point by its components, and its size."""
     kind = {"v": "velocity", "a": "acceleration"}[what]
     along = q.define(f"f.x.{point}.{what}", x, Symbol(what, f"{point}x"), kind, scale=1.0)
     across = q.define(f"f.y.{point}.{what}", y, Symbol(what, f"{point}y"), kind, scale=1.0)
-    q.define(f"f.{what}.{point}", sqrt(along**2 + across**2))
+    return along, across, q.define(f"f.{what}.{point}", sqrt(along**2 + across**2))
 
 
 # --- the second cylinder of a V engine --------------------------------------------------------------
 
 
-def second_cylinder(q: Sheet, joint: str) -> None:
+def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
     """The closed formulas of piston E, whose rod 4 hangs on D on the main rod, at l_BD from the crank pin, or on B.
 
-    sin γ = h/l₄;  v_E = v∥ − v⊥ tan γ;  a_E = a∥ − a⊥ tan γ − v⊥²/(l₄ cos³γ).  Uses `delta` and what `centred_slider`
-    enters; enters `beta.4`, `f.v.E`, `f.omega.4`, `f.a.E`, `f.eps.4`.
+    sin γ = h/l₄;  v_E = v⊥ tan γ − v∥;  a_E = a⊥ tan γ + v⊥²/(l₄ cos³γ) − a∥, towards the crank.  Uses `delta` and
+    what `centred_slider` enters; enters `beta.4`, `f.v.E`, `f.omega.4`, `f.a.E`, `f.eps.4`.
     """
     R, ω1, φ, δ, l4 = q["R"], q["omega.1"], q["phi.3"], q["delta"], q[f"l.{joint}E"]
     line = partial(q.define, scale=1.0)
@@ -104,12 +110,17 @@ def second_cylinder(q: Sheet, joint: str) -> None:
     γ = line("beta.4", asin(h / l4), "γ")
     v1 = line("f.across.v", across(".v"), Symbol("v", "⊥"), "velocity")
     v2 = line("f.along.v", along(".v"), Symbol("v", "∥"), "velocity")
-    line("f.v.E", v2 - v1 * tan(γ))
-    ω4 = line("f.omega.4", v1 / (l4 * cos(γ)))
+    v = line("f.v.E", v1 * tan(γ) - v2)
+    ω4 = line("f.omega.4", signed(-turn, v1 / (l4 * cos(γ))))
     a1 = line("f.across.a", across(".a"), Symbol("a", "⊥"), "acceleration")
     a2 = line("f.along.a", along(".a"), Symbol("a", "∥"), "acceleration")
-    line("f.a.E", a2 - a1 * tan(γ) - v1**2 / (l4 * cos(γ) ** 3))
-    line("f.eps.4", (a1 + l4 * ω4**2 * sin(γ)) / (l4 * cos(γ)))
+    a = line("f.a.E", a1 * tan(γ) + v1**2 / (l4 * cos(γ) ** 3) - a2)
+    ε4 = line("f.eps.4", signed(-turn, (a1 + l4 * ω4**2 * sin(γ)) / (l4 * cos(γ))))
+    of_joint = {what: (f"f.x.{joint}.{what}", f"f.y.{joint}.{what}", f"f.{what}.{joint}") for what in "va"}
+    q.set_out("velocity_main", φ, "beta.2", "f.v.C", "f.omega.2", *of_joint["v"])
+    q.set_out("velocity_second", f"f.x.{joint}", f"f.y.{joint}", h, γ, v1, v2, v, ω4)
+    q.set_out("acceleration_main", "f.a.C", "f.eps.2", *of_joint["a"])
+    q.set_out("acceleration_second", a1, a2, a, ε4)
 
 
 # --- with an offset ---------------------------------------------------------------------------------
@@ -190,7 +201,7 @@ class OffsetSlider:
         )
 
 
-def offset_slider(q: Sheet, angle: Floats, offset: Expression | None, centre: bool) -> None:
+def offset_slider(q: Sheet, turn: int, angle: Floats, offset: Expression | None, centre: bool) -> None:
     """The closed formulas at φ = `angle` [N], with `offset` e or none, of S2 too if there is a `centre`.
 
     Enters `phi.3`, `beta.2`, `x.C`, `f.omega.2`, `f.v.C`, `f.eps.2`, `f.a.C`, and of S2 its components, `f.v.S2`,
@@ -200,20 +211,23 @@ def offset_slider(q: Sheet, angle: Floats, offset: Expression | None, centre: bo
     line = partial(q.define, scale=1.0)
     φ = q.angle("phi.3", angle, "φ")
     β = line("beta.2", asin(-r * sin(φ) / l if offset is None else (offset - r * sin(φ)) / l), "β")
-    line("x.C", r * cos(φ) + l * cos(β), Symbol("x", "C"), "length")
-    ω2 = line("f.omega.2", -ω1 * r * cos(φ) / (l * cos(β)))
-    line("f.v.C", -ω1 * r * sin(φ - β) / cos(β))
-    ε2 = line("f.eps.2", (ω1**2 * (r * sin(φ)) + ω2**2 * l * sin(β)) / (l * cos(β)))
-    line("f.a.C", -((ω1**2 * r * cos(φ - β) + ω2**2 * l) / cos(β)))
+    x = line("x.C", r * cos(φ) + l * cos(β), Symbol("x", "C"), "length")
+    ω2 = line("f.omega.2", signed(-turn, ω1 * r * cos(φ) / (l * cos(β))))
+    v_C = line("f.v.C", -ω1 * r * sin(φ - β) / cos(β))
+    ε2 = line("f.eps.2", signed(turn, (ω1**2 * (r * sin(φ)) + ω2**2 * l * sin(β)) / (l * cos(β))))
+    a_C = line("f.a.C", -((ω1**2 * r * cos(φ - β) + ω2**2 * l) / cos(β)))
+    q.set_out("velocity", β, x, ω2, v_C)
+    q.set_out("acceleration", ε2, a_C)
     if centre:
-        s = q["l.BS2"]
-        components(q, "v", "S2", -(ω1 * r * sin(φ) + ω2 * s * sin(β)), ω1 * r * cos(φ) + ω2 * s * cos(β))
-        a_x = -(ω1**2 * r * cos(φ) + s * (ε2 * sin(β) + ω2**2 * cos(β)))
-        a_y = s * (ε2 * cos(β) - ω2**2 * sin(β)) - ω1**2 * r * sin(φ)
-        components(q, "a", "S2", a_x, a_y)
+        s, v, a = q["l.BS2"], signed(turn, ω2), signed(turn, ε2)
+        v_x, v_y = -(ω1 * r * sin(φ) + v * s * sin(β)), ω1 * r * cos(φ) + v * s * cos(β)
+        q.set_out("velocity", *components(q, "v", "S2", v_x, v_y))
+        a_x = -(ω1**2 * r * cos(φ) + s * (a * sin(β) + ω2**2 * cos(β)))
+        a_y = s * (a * cos(β) - ω2**2 * sin(β)) - ω1**2 * r * sin(φ)
+        q.set_out("acceleration", *components(q, "a", "S2", a_x, a_y))
 
 
-def loop_equations(offset: bool) -> dict[str, tuple[Chain, ...]]:
+def loop_equations(turn: int, offset: bool) -> dict[str, tuple[Chain, ...]]:
     """The closed loop of the links by components, and its first and second derivatives."""
     r, l, e = Symbol("l", "AB"), Symbol("l", "BC"), Symbol("e")  # noqa: E741
     ω1, ω2, ε2 = Symbol("ω", "1"), Symbol("ω", "2"), Symbol("ε", "2")
@@ -222,12 +236,12 @@ def loop_equations(offset: bool) -> dict[str, tuple[Chain, ...]]:
     return {
         "closure": (Chain((r * cos(φ) + l * cos(β), x)), Chain((r * sin(φ) + l * sin(β), e if offset else nothing))),
         "velocity": (
-            Chain((-ω1 * r * sin(φ) - ω2 * l * sin(β), v)),
-            Chain((ω1 * r * cos(φ) + ω2 * l * cos(β), nothing)),
+            Chain((-ω1 * r * sin(φ) + signed(-turn, ω2 * l * sin(β)), v)),
+            Chain((ω1 * r * cos(φ) + signed(turn, ω2 * l * cos(β)), nothing)),
         ),
         "acceleration": (
-            Chain((-(ω1**2) * r * cos(φ) - ε2 * l * sin(β) - ω2**2 * l * cos(β), a)),
-            Chain((-(ω1**2) * r * sin(φ) + ε2 * l * cos(β) - ω2**2 * l * sin(β), nothing)),
+            Chain((-(ω1**2) * r * cos(φ) + signed(-turn, ε2 * l * sin(β)) - ω2**2 * l * cos(β), a)),
+            Chain((-(ω1**2) * r * sin(φ) + signed(turn, ε2 * l * cos(β)) - ω2**2 * l * sin(β), nothing)),
         ),
     }
 

@@ -16,7 +16,21 @@ from dataclasses import dataclass
 from reportgen.catalogue.driven import natural_lines
 from reportgen.catalogue.loads import FULL_TURN, Course, Floats
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.notation.expressions import PI, Chain, Expression, Number, Ref, Symbol, acos, asin, cos, sin, sqrt, tan
+from reportgen.notation.expressions import (
+    PI,
+    Chain,
+    Expression,
+    Number,
+    Ref,
+    Symbol,
+    acos,
+    asin,
+    cos,
+    signed,
+    sin,
+    sqrt,
+    tan,
+)
 from reportgen.notation.sheet import Sheet
 
 ROUND = 1e-12
@@ -130,73 +144,81 @@ class Ram:
 # --- closed formulas --------------------------------------------------------------------------------
 
 
-def lever_formulas(q: Sheet, angle: Floats, crank: str, centres: str) -> None:
+def lever_formulas(q: Sheet, turn: int, angle: Floats, crank: str, centres: str) -> None:
     """`phi.A`, `f.S`, `f.omega.3`, `f.v.r`, `f.eps.3` at φ₁ = `angle` [N] by the lengths r, d of these ids:
 
-    S² = d² + r² + 2dr sin φ;  ω₃ = ω₁r(r + d sin φ)/S²;  v_r = ω₁dr cos φ/S;  ε₃ = ω₁²dr(d² − r²) cos φ/S⁴.
+    S² = d² + r² + 2dr sin φ;  ω₃ = ω₁r(r + d sin φ)/S²;  v_r = ω₁dr cos φ/S;  ε₃ = ω₁²dr(d² − r²) cos φ/S⁴;
+    ω₃ and ε₃ anticlockwise, so with a minus for the `turn` −1.
     """
     line = natural_lines(q, crank)
     φ = q.angle("phi.A", angle, Symbol("φ", "1"))
     r, d, ω1 = q[crank], q[centres], q["omega.1"]
     square = d**2 + r**2 + 2 * d * r * sin(φ)
     S = line("f.S", sqrt(square), "S", "length")
-    line("f.omega.3", ω1 * r * (r + d * sin(φ)) / square)
+    line("f.omega.3", signed(turn, ω1 * r * (r + d * sin(φ)) / square))
     line("f.v.r", ω1 * d * r * cos(φ) / S)
-    line("f.eps.3", ω1**2 * d * r * (d**2 - r**2) * cos(φ) / square**2)
+    line("f.eps.3", signed(turn, ω1**2 * d * r * (d**2 - r**2) * cos(φ) / square**2))
 
 
-def lever_end(q: Sheet, angle: Floats) -> None:
+def lever_end(q: Sheet, turn: int, angle: Floats) -> None:
     """The closed formulas of the lever CD at φ = `angle` [N]: a_r = ω₃²S − ω₁²r(r + d sin φ)/S;  aᵏ = 2ω₃v_r.
 
     Uses `l.AB`, `l.AC`, `l.CD`, `omega.1`.  Ids: those of `lever_formulas`, `f.v.D`, `f.a.k`, `f.a.r`,
     `f.a.D.n`, `f.a.D.t`, `f.a.D`.
     """
-    lever_formulas(q, angle, "l.AB", "l.AC")
+    lever_formulas(q, turn, angle, "l.AB", "l.AC")
     line = natural_lines(q, "l.AB")
     r, d, l, ω1, φ = q["l.AB"], q["l.AC"], q["l.CD"], q["omega.1"], q["phi.A"]  # noqa: E741
     ω3, S = q["f.omega.3"], q["f.S"]
-    line("f.v.D", ω3 * l)
-    line("f.a.k", 2 * ω3 * q["f.v.r"], Symbol("a", "k"))
-    line("f.a.r", ω3**2 * S - ω1**2 * (r * (r + d * sin(φ))) / S, Symbol("a", "r"))
+    v_D = line("f.v.D", ω3 * l)
+    a_k = line("f.a.k", 2 * ω3 * q["f.v.r"], Symbol("a", "k"))
+    a_r = line("f.a.r", ω3**2 * S - ω1**2 * (r * (r + d * sin(φ))) / S, Symbol("a", "r"))
     normal = line("f.a.D.n", ω3**2 * l)
     tangential = line("f.a.D.t", q["f.eps.3"] * l)
-    line("f.a.D", sqrt(normal**2 + tangential**2))
+    a_D = line("f.a.D", sqrt(normal**2 + tangential**2))
+    q.set_out("velocity", S, ω3, q["f.v.r"], v_D)
+    q.set_out("acceleration", q["f.eps.3"], a_k, a_r, normal, tangential, a_D)
 
 
-def ram_formulas(q: Sheet, angle: Floats) -> None:
+def ram_formulas(q: Sheet, turn: int, angle: Floats) -> None:
     """The closed formulas of the ram at φ₁ = `angle` [N].
 
     Uses `l.AB`, `l.CD`, `l.DE`, `a`, `b`, `omega.1`.  Ids: those of `lever_formulas`, `phi.3`, `phi.4`, `f.x.E`,
     `f.omega.4`, `f.v.E`, `f.eps.4`, `f.a.Dx`, `f.a.E`.
     """
-    lever_formulas(q, angle, "l.AB", "a")
+    lever_formulas(q, turn, angle, "l.AB", "a")
     line = natural_lines(q, "l.AB")
     l1, l3, l4, φ1, ω3, ε3 = (q[id] for id in ("l.AB", "l.CD", "l.DE", "phi.A", "f.omega.3", "f.eps.3"))
     φ3 = q.define("phi.3", acos(l1 * cos(φ1) / q["f.S"]))
     φ4 = q.define("phi.4", STRAIGHT - asin((q["b"] - l3 * sin(φ3)) / l4))
-    line("f.x.E", l3 * cos(φ3) + l4 * cos(φ4))
+    x = line("f.x.E", l3 * cos(φ3) + l4 * cos(φ4))
     ω4 = line("f.omega.4", -ω3 * l3 * cos(φ3) / (l4 * cos(φ4)))
-    line("f.v.E", -(ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))
-    ε4 = line("f.eps.4", l3 * (ω3**2 * sin(φ3) - ε3 * cos(φ3)) / (l4 * cos(φ4)) + ω4**2 * tan(φ4))
-    a_D = line("f.a.Dx", -l3 * (ε3 * sin(φ3) + ω3**2 * cos(φ3)))
-    line("f.a.E", a_D - l4 * (ε4 * sin(φ4) + ω4**2 * cos(φ4)))
+    v = line("f.v.E", signed(-turn, ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))
+    square3 = l3 * (ω3**2 * sin(φ3) + signed(-turn, ε3 * cos(φ3)))
+    ε4 = line("f.eps.4", signed(turn, square3 / (l4 * cos(φ4)) + ω4**2 * tan(φ4)))
+    a_D = line("f.a.Dx", -l3 * (signed(turn, ε3 * sin(φ3)) + ω3**2 * cos(φ3)))
+    a = line("f.a.E", a_D - l4 * (signed(turn, ε4 * sin(φ4)) + ω4**2 * cos(φ4)))
+    q.set_out("velocity", q["f.S"], φ3, φ4, x, ω3, q["f.v.r"], ω4, v)
+    q.set_out("acceleration", ε3, ε4, a_D, a)
+    q.set_out("course", φ1, x, v, a, ω3, ε3, ω4, ε4)
 
 
 def swing(q: Sheet, sine: Expression) -> None:
     """The lever's greatest angle θ from CA by its sine, and the ratio K = (180° + 2θ)/(180° − 2θ) of the
     crank's turns for the lever's two ways."""
     θ = q.define("theta", asin(sine))
-    q.define("K", (STRAIGHT + 2 * θ) / (STRAIGHT - 2 * θ))
+    q.set_out("swing", θ, q.define("K", (STRAIGHT + 2 * θ) / (STRAIGHT - 2 * θ)))
 
 
 def strokes(q: Sheet, H: Ref) -> None:
     """The times of a turn and of the ram's two strokes, and its mean speeds over the stroke H."""
     K = q["K"]
-    T = q.define("t.turn", 2 * PI / q["omega.1"], "T", "time")
+    ω1 = q["omega.1"]
+    T = q.define("t.turn", 2 * PI / ω1, "T", "time")
     work = q.define("t.work", T * K / (1 + K), Symbol("t", "1"), "time")
     back = q.define("t.back", T - work, Symbol("t", "2"), "time")
-    q.define("v.work", H / work, Symbol("v", "m1"))
-    q.define("v.back", H / back, Symbol("v", "m2"))
+    there, home = q.define("v.work", H / work, Symbol("v", "m1")), q.define("v.back", H / back, Symbol("v", "m2"))
+    q.set_out("strokes", *q.worked(ω1), T, work, back, there, home)
 
 
 LEVER_COMPARED = (
@@ -215,26 +237,28 @@ RAM_COMPARED = (
 # --- the equations they are solved from -------------------------------------------------------------
 
 
-def lever_equations(r: Symbol, d: Symbol) -> dict[str, tuple[Chain, ...]]:
+def lever_equations(turn: int, r: Symbol, d: Symbol) -> dict[str, tuple[Chain, ...]]:
     """The triangle ABC on x and y, along and across the lever, and what its derivatives say of the lever."""
     S, φ1, φ3, ω1, ω3 = Symbol("S"), Symbol("φ", "1"), Symbol("φ", "3"), Symbol("ω", "1"), Symbol("ω", "3")
     v_r, ε3 = Symbol("v", "r"), Symbol("ε", "3")
     return {
         "closure": (Chain((S * cos(φ3), r * cos(φ1))), Chain((S * sin(φ3), d + r * sin(φ1)))),
         "between": (Chain((S * cos(φ1 - φ3), r + d * sin(φ1))), Chain((S * sin(φ1 - φ3), -d * cos(φ1)))),
-        "velocity": (Chain((S * ω3, ω1 * r * cos(φ1 - φ3))), Chain((v_r, -ω1 * r * sin(φ1 - φ3)))),
-        "acceleration": (Chain((S * ε3 + 2 * v_r * ω3, -(ω1**2) * r * sin(φ1 - φ3))),),
+        "velocity": (Chain((S * ω3, signed(turn, ω1 * r * cos(φ1 - φ3)))), Chain((v_r, -ω1 * r * sin(φ1 - φ3)))),
+        "acceleration": (Chain((S * ε3 + 2 * v_r * ω3, signed(-turn, ω1**2 * r * sin(φ1 - φ3)))),),
     }
 
 
-def ram_equations() -> dict[str, tuple[Chain, ...]]:
+def ram_equations(turn: int) -> dict[str, tuple[Chain, ...]]:
     """Both closed loops by components, and their first and second derivatives."""
     l1, l3, l4 = (Symbol("l", link) for link in "134")
     φ3, φ4, ω3, ω4, ε3, ε4 = (Symbol(letter, link) for letter in "φωε" for link in "34")
     nothing = Number(0.0)
-    triangle = lever_equations(l1, Symbol("a"))
-    along = ε3 * l3 * sin(φ3) + ω3**2 * l3 * cos(φ3) + ε4 * l4 * sin(φ4) + ω4**2 * l4 * cos(φ4)
-    across = ε3 * l3 * cos(φ3) - ω3**2 * l3 * sin(φ3) + ε4 * l4 * cos(φ4) - ω4**2 * l4 * sin(φ4)
+    triangle = lever_equations(turn, l1, Symbol("a"))
+    ε3_x, ε3_y = signed(turn, ε3 * l3 * sin(φ3)), signed(turn, ε3 * l3 * cos(φ3))
+    ε4_x, ε4_y = signed(turn, ε4 * l4 * sin(φ4)), signed(turn, ε4 * l4 * cos(φ4))
+    along = ε3_x + ω3**2 * l3 * cos(φ3) + ε4_x + ω4**2 * l4 * cos(φ4)
+    across = ε3_y - ω3**2 * l3 * sin(φ3) + ε4_y - ω4**2 * l4 * sin(φ4)
     return {
         "closure": (
             *triangle["closure"],
@@ -244,7 +268,7 @@ def ram_equations() -> dict[str, tuple[Chain, ...]]:
         "between": triangle["between"],
         "velocity": (
             *triangle["velocity"],
-            Chain((Symbol("v", "E"), -(ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))),
+            Chain((Symbol("v", "E"), signed(-turn, ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))),
             Chain((ω3 * l3 * cos(φ3) + ω4 * l4 * cos(φ4), nothing)),
         ),
         "acceleration": (*triangle["acceleration"], Chain((Symbol("a", "E"), -along)), Chain((across, nothing))),

@@ -76,6 +76,9 @@ def machine(assignment: Assignment) -> Machine:
     q.bar(3, "C", "D")
     if given.torque is not None:
         q.datum("M.given", given.torque.M, Symbol("M", "3"))
+    q.set_out("lengths", r, d, l)
+    q.set_out("swing")
+    q.set_out("loads", "M3")
 
     geometry = SlottedCrank(q.si(r), q.si(d), given.axis.si, positions.sign)
     start = math.pi / 2 if positions.start is None else geometry.phi(positions.start.si)
@@ -92,7 +95,7 @@ def machine(assignment: Assignment) -> Machine:
         q.define("drawn.AC", d / q["mu.l"], drawn_length("A", "C"))
         if geometry.swings:
             slotted.swing(q, r / d)
-        slotted.lever_end(q, start + even_angles(positions))
+        slotted.lever_end(q, positions.sign, start + even_angles(positions))
 
     return driven(
         assignment,
@@ -103,5 +106,6 @@ def machine(assignment: Assignment) -> Machine:
         torques=torque_on(given.torque, 3, linkage, positions, geometry.crank_angle(start)),
         paths=("D",),
         compared=slotted.LEVER_COMPARED,
-        equations=slotted.lever_equations(Symbol("l", "AB"), Symbol("l", "AC")),
+        facts={"form": "swings" if geometry.swings else "turns", "axis": "given" if "axis.CA" in q else "vertical"},
+        equations=slotted.lever_equations(positions.sign, Symbol("l", "AB"), Symbol("l", "AC")),
     )

@@ -19,7 +19,7 @@ from reportgen.catalogue.loads import Applied, TableLaw, course, crank_motion
 from reportgen.catalogue.machine import Machine
 from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage
-from reportgen.notation.expressions import Symbol, acos, atan2, cos, sin, sqrt
+from reportgen.notation.expressions import Symbol, acos, atan2, cos, signed, sin, sqrt
 from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
 
@@ -47,6 +47,7 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     q.speed()
     q.drawn("O", "A", crank)
     q.bodies(BARS, 5)
+    q.set_out("loads", "s.5", "P5")
     return q
 
 
@@ -103,12 +104,16 @@ def machine(assignment: Assignment) -> Machine:
         φ3 = line("f.phi.3", atan2(y, x) - δ if minus else atan2(y, x) + δ)
         φ2 = line("f.phi.2", atan2(l * sin(φ3) - y, l * cos(φ3) - x))
         line("f.y.C", y_D + 2 * l * sin(φ3))
-        ω2 = line("f.omega.2", ω1 * r * sin(φ1 - φ3) / (b * sin(φ3 - φ2)))
-        ω3 = line("f.omega.3", ω1 * r * sin(φ1 - φ2) / (l * sin(φ3 - φ2)))
-        line("f.v.C", 2 * l * ω3 * cos(φ3))
+        ω2 = line("f.omega.2", signed(turn, ω1 * r * sin(φ1 - φ3) / (b * sin(φ3 - φ2))))
+        ω3 = line("f.omega.3", signed(turn, ω1 * r * sin(φ1 - φ2) / (l * sin(φ3 - φ2))))
+        v_C = line("f.v.C", 2 * l * ω3 * cos(φ3))
         top = ω1**2 * r * cos(φ1 - φ2) + ω2**2 * b - ω3**2 * l * cos(φ3 - φ2)
-        ε3 = line("f.eps.3", line("f.q", top, "q", "acceleration") / (l * sin(φ3 - φ2)))
-        line("f.a.C", 2 * l * (ε3 * cos(φ3) - ω3**2 * sin(φ3)))
+        numerator = line("f.q", top, "q", "acceleration")
+        ε3 = line("f.eps.3", signed(turn, numerator / (l * sin(φ3 - φ2))))
+        a_C = line("f.a.C", 2 * l * (ε3 * cos(φ3) + signed(-turn, ω3**2 * sin(φ3))))
+        q.set_out("position", x, y, s, φ3, φ2)
+        q.set_out("velocity", ω2, ω3, v_C)
+        q.set_out("acceleration", numerator, ε3, a_C)
 
     return driven(
         assignment,
@@ -119,6 +124,6 @@ def machine(assignment: Assignment) -> Machine:
         applied=tuple(Applied("P5", 5, "C", 1j, TableLaw(way, press.table, turns=1)) for way in sliders if press),
         sliders=sliders,
         paths=("B",),
-        facts={"minus": minus},
+        facts={"form": "less" if minus else "plus"},
         compared=tuple((plan, f"f.{plan}") for plan in ("omega.2", "omega.3", "v.C", "eps.3", "a.C")),
     )

@@ -8,6 +8,8 @@ from __future__ import annotations
 import gc
 import io
 import sys
+import warnings
+from typing import TextIO
 
 from reportgen.cli import instructor, student
 from reportgen.cli.common import SYSTEM, app, complain_of_program
@@ -25,6 +27,7 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     gc.set_threshold(COLLECTED)
+    warnings.showwarning = _tell
     try:
         app()
     except Exception as error:
@@ -33,3 +36,15 @@ def main() -> None:
     finally:
         # All memory goes with the process: no need to look through it once more on the way out.
         gc.freeze()
+
+
+def _tell(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    """Print a warning as the command line's other messages are."""
+    print(f"reportgen: {message}", file=file or sys.stderr)

@@ -22,6 +22,10 @@ from reportgen.cli.common import (
     say,
 )
 
+PolicyOption = Annotated[
+    Path | None,
+    typer.Option("--policy", metavar="FILE", help="What is asked for and how it is marked.", show_default=False),
+]
 Roster = Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)]
 
 
@@ -63,16 +67,19 @@ def batch(
     cluster: Annotated[
         str | None, typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler to work for us.")
     ] = None,
+    policy: PolicyOption = None,
 ) -> None:
     """Make task, report or key of everybody on ROSTER; go on where an earlier run was stopped."""
     from reportgen.api import MAKERS
     from reportgen.batch.run import Order, run_batch
+    from reportgen.grading.marks import read_policy
 
     if (spec is None) == (assignments is None):
         raise typer.BadParameter(say("one_of_spec", lang))
     products = listed(make, MAKERS, "--make", "no_product", lang)
-    order = Order(roster, spec, assignments, out, products, engine, lang, jobs or 0, cluster)
     with ending(lang):
+        ask = None if policy is None else read_policy(policy, lang).ask
+        order = Order(roster, spec, assignments, out, products, engine, lang, jobs or 0, cluster, ask)
         try:
             result = run_batch(order, sys.stderr)
         except KeyboardInterrupt:
@@ -92,14 +99,22 @@ def key(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the keys.")] = Path("out"),
     engine: EngineOption = "typst",
     lang: LangOption = None,
+    policy: PolicyOption = None,
 ) -> None:
     """Write the answer key of each FILE to DIR/<id>/: every value with the bands within which it is right."""
     from reportgen import api
+    from reportgen.grading.marks import read_policy
+    from reportgen.scratch import scratch
 
     formats = listed(format, api.KEY_FORMATS, "--format", "no_format", lang)
 
+    with ending(lang):
+        ask = None if policy is None else read_policy(policy, lang).ask
+        api.check_ask(ask, files, lang)
+
     def work(file: Path) -> None:
-        made = api.key_files(file, engine, lang, formats)
+        with api.reported(out), scratch(out):
+            made = api.key_files(file, engine, lang, formats, ask)
         print(*api.put(out / file.stem, made), sep="\n", flush=True)
 
     for_each(files, lang, work)
@@ -109,17 +124,25 @@ def key(
 def grade(
     submissions: Annotated[
         list[Path],
-        typer.Argument(metavar="SUBMISSION", help="Filled answer sheets, or folders of them.", show_default=False),
+        typer.Argument(metavar="SUBMISSION", help="Sheets, folders, downloads of a platform.", show_default=False),
     ],
     assignments: Annotated[
         Path, typer.Option("--assignments", metavar="DIR", help="The class's assignment files.", show_default=False)
     ],
-    policy: Annotated[
-        Path | None, typer.Option("--policy", metavar="FILE", help="How to mark.", show_default=False)
-    ] = None,
+    policy: PolicyOption = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out/marked"),
     engine: EngineOption = "typst",
     lang: LangOption = None,
+    roster: Annotated[
+        Path | None, typer.Option("--roster", metavar="FILE", help="The class, for its names.", show_default=False)
+    ] = None,
+    gradebook: Annotated[
+        Path | None,
+        typer.Option("--gradebook", metavar="FILE", help="A platform's table to fill in.", show_default=False),
+    ] = None,
+    column: Annotated[
+        str, typer.Option("--column", metavar="NAME", help="The gradebook's assignment.", show_default=False)
+    ] = "",
 ) -> None:
     """Mark filled answer sheets from each student's own values; write feedback, grades.csv and the class page."""
     from reportgen.batch import assess
@@ -127,9 +150,14 @@ def grade(
 
     with ending(lang):
         rules = Policy() if policy is None else read_policy(policy, lang)
-        graded = assess.grade(submissions, assignments, rules, lang)
+        graded = assess.grade(submissions, assignments, rules, lang, roster)
+        problems = list(graded.problems)
         for path in assess.put(graded, rules, out, engine, lang):
             print(path, flush=True)
+        if gradebook is not None:
+            filled, unknown = assess.put_gradebook(graded, gradebook, column, rules, out, lang)
+            print(filled, flush=True)
+            problems += unknown
         print(*assess.summary(graded, lang), sep="\n")
-        print(*graded.problems, sep="\n", end="\n" * bool(graded.problems), file=sys.stderr)
-        raise typer.Exit(AT_FAULT if graded.problems else 0)
+        print(*problems, sep="\n", end="\n" * bool(problems), file=sys.stderr)
+        raise typer.Exit(AT_FAULT if problems else 0)

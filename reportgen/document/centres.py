@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from reportgen.document.figures import A3_ACROSS, A3_UPRIGHT, ROOM, Drawn, drawing_scale, figure, fits, in_text, looks
+from reportgen.document.figures import A3_ACROSS, A3_UPRIGHT, Drawn, drawing_scale, figure, fits, looks, on_paper
 from reportgen.document.groups import PlaneLink
 from reportgen.document.report import Report, function
 from reportgen.figures.positions import Centre, PlaneMotion, centre_plan
@@ -32,41 +34,33 @@ def _place(report: Report, link: PlaneLink, k: int) -> complex:
     return complex(report.ledger[f"{PREFIX}{link.link}"].at(k)) * drawing_scale(report)
 
 
-def _sheets(report: Report, k: int) -> list[list[PlaneLink]]:
-    """The links whose centres stand on one sheet together with the mechanism; at least one sheet."""
-    points = [complex(point.p[k - 1]) * drawing_scale(report) for point in report.analysis.motion.points.values()]
-    result: list[list[PlaneLink]] = [[]]
-    for link in report.plane_links:
-        if centre_state(report, link, k) != "found":
-            continue
-        for links in result:
-            spots = np.array([*points, *(_place(report, one, k) for one in (*links, link))])
-            size = float(np.ptp(spots.real)) + ROOM, float(np.ptp(spots.imag)) + ROOM
-            if not links or any(fits(*size, paper) for paper in (A3_ACROSS, A3_UPRIGHT)):
-                links.append(link)
-                break
-        else:
-            result.append([link])
-    return result
-
-
 @figure("centres")
 def centres(report: Report, k: int) -> Drawn:
-    """The mechanism at a position, true to μ_l: normals that meet in the centres, velocities and their angles."""
+    """The mechanism at a position, true to μ_l: normals that meet in the centres, velocities and their angles.
+
+    Centres stand together on a sheet as far as one holds them.
+    """
     linkage, scale, motion = report.machine.linkage, drawing_scale(report), report.analysis.motion
     angles = [_motion(report, link, k) for link in report.plane_links]
 
-    def scene(links: list[PlaneLink], first: bool) -> Scene:
+    def scene(links: Sequence[PlaneLink], first: bool) -> Scene:
         marks = [Centre(centre_symbol(one.link), _place(report, one, k), (one.base, one.point)) for one in links]
         own = angles if first else ()
         return centre_plan(linkage, motion, k - 1, scale, marks, looks(report, scale), own)
 
-    scenes = tuple(scene(links, index == 0) for index, links in enumerate(_sheets(report, k)))
-    if all(map(in_text, scenes)):
-        return Drawn(scenes)
-    papers = (A3_ACROSS, A3_UPRIGHT)
-    held = (one for one in papers if all(fits(scene.width, scene.height, one) for scene in scenes))
-    return Drawn(scenes, next(held, A3_UPRIGHT))
+    sheets: list[list[PlaneLink]] = [[]]
+    for link in (link for link in report.plane_links if centre_state(report, link, k) == "found"):
+        for index, links in enumerate(sheets):
+            if not links or _has_a_sheet(scene([*links, link], index == 0)):
+                links.append(link)
+                break
+        else:
+            sheets.append([link])
+    return on_paper(*(scene(links, index == 0) for index, links in enumerate(sheets)))
+
+
+def _has_a_sheet(scene: Scene) -> bool:
+    return any(fits(scene.width, scene.height, paper) for paper in (A3_ACROSS, A3_UPRIGHT))
 
 
 def _motion(report: Report, link: PlaneLink, k: int) -> PlaneMotion:

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import cmath
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from reportgen.analysis import FULL_TURN
+from reportgen.document.comments import sliders
+from reportgen.document.equations import heading_words
 from reportgen.document.figures import MM, Drawn, figure
-from reportgen.document.groups import GroupView
 from reportgen.document.report import SAME, Report, lower_digits
 from reportgen.figures import charts
 from reportgen.figures.scene import Content, Scene
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.kinematics.sides import scheme
-from reportgen.mechanism.structure import DRIVER, GROUND
+from reportgen.mechanism.structure import DRIVER, GROUND, Crank
 from reportgen.notation.expressions import Chain, Symbol
 from reportgen.notation.vocabulary import KINDS
 
@@ -47,10 +52,9 @@ def _driver_axis(report: Report, angle: str = "cycle_angle") -> Chain:
 
 @figure("motion")
 def motion(report: Report) -> Drawn:
-    """Velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
+    """Displacement, velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
     moved = report.dense_cycle.motion
-    # Along its guide a slider's course counts away from the crank.
-    along = {group.Q: np.exp(1j * float(report.analysis.motion.links[group.j].angle[0])) for group in _sliding(report)}
+    along = report.slider_senses
     spins = scheme(report.machine.linkage).spins
     turning = [link for link, other in spins.items() if link == other > DRIVER]
 
@@ -61,33 +65,47 @@ def motion(report: Report) -> Drawn:
     def of_links(base: str, quantity: str) -> list[tuple[Symbol, np.ndarray]]:
         return [(Symbol(base, str(link)), getattr(moved.links[link], quantity)) for link in turning]
 
+    one_way = headings(report, along.values())
+    way = one_way[0] if len(one_way) == 1 else ""
+    rotation = report.sense(1)
     drawings = (
-        (of_points("v"), axis(Symbol("v"), "velocity")),
-        (of_points("a"), axis(Symbol("a"), "acceleration")),
-        (of_links("ω", "omega"), axis(Symbol("ω"), "angular velocity")),
-        (of_links("ε", "epsilon"), axis(Symbol("ε"), "angular acceleration")),
+        (_displacements(report), axis(Symbol("s"), "segment")),
+        (of_points("v"), _positive(report, axis(Symbol("v"), "velocity"), way)),
+        (of_points("a"), _positive(report, axis(Symbol("a"), "acceleration"), way)),
+        (of_links("ω", "omega"), _positive(report, axis(Symbol("ω"), "angular velocity"), rotation)),
+        (of_links("ε", "epsilon"), _positive(report, axis(Symbol("ε"), "angular acceleration"), rotation)),
     )
     shown = [(curves, title) for curves, title in drawings if curves]
     return Drawn(tuple(_over_a_turn(report, curves, title, half=len(shown) > 1) for curves, title in shown))
 
 
-@figure("displacement")
-def displacement(report: Report) -> Drawn:
-    """The coordinates of what slides on the ground, along its guide, over one turn."""
-    slides = report.dense_cycle.motion.slides
-    curves = [(Symbol("x", group.Q), MM * slides[GROUND, group.j].s) for group in _sliding(report)]
-    return Drawn((_over_a_turn(report, curves, axis(Symbol("x"), "segment")),))
+def headings(report: Report, ways: Iterable[complex]) -> list[str]:
+    """The ways in words, each once."""
+    return list(dict.fromkeys(heading_words(report, math.degrees(cmath.phase(way))) for way in ways))
 
 
-def _sliding(report: Report) -> tuple[GroupView, ...]:
-    """Groups whose last link slides along a fixed guide."""
-    on_ground = {slider for carrier, slider in report.analysis.motion.slides if carrier == GROUND}
-    return tuple(group for group in report.groups if group.kind in ("RRP", "RPP") and group.j in on_ground)
+def _positive(report: Report, title: Chain, sense: str) -> Chain:
+    """The title of an axis with the sense in which its quantity is positive; plain where curves differ in it."""
+    told = str(report.words["figure"]["positive"]).format(title=title.note, sense=sense)
+    return replace(title, note=told) if sense else title
+
+
+def _displacements(report: Report) -> list[tuple[Symbol, np.ndarray]]:
+    """How far (mm) each slider is from its dead centre, the one at the far end of its guide if it has no first."""
+    courses = {course.link: course for course in report.machine.sliders}
+    moved, found = report.dense_cycle.motion, []
+    for slider in sliders(report):
+        place = moved.slides[GROUND, slider.link].s
+        course = courses.get(slider.link)
+        way = place.max() - place if course is None else course.fraction(moved) * course.stroke
+        found.append((Symbol("s", str(slider.link)), MM * way))
+    return found
 
 
 def _marks(report: Report) -> tuple[int, ...]:
-    """Which samples of the dense cycle are the numbered positions."""
-    places = np.searchsorted(report.dense_cycle.cycle_angle, report.machine.cycle_angles)
+    """Which samples of the dense cycle are the positions that are shown."""
+    shown = report.machine.cycle_angles[[k - 1 for k in report.all_positions]]
+    places = np.searchsorted(report.dense_cycle.cycle_angle, shown)
     return tuple(map(int, places))
 
 
@@ -103,7 +121,7 @@ def _over_a_turn(
     """Curves over one turn of the driver, the numbered positions marked."""
     count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME))
     slides = bool(report.machine.span)
-    x, marks = _across(report)[:count], _marks(report)[: report.count]
+    x, marks = _across(report)[:count], _marks(report)[: len(report.positions)]
     series = [charts.Series(shown, x, values[:count], marks) for shown, values in curves]
     return charts.chart(series, _driver_axis(report, "angle"), title, turn=not slides, half=half)
 
@@ -117,28 +135,46 @@ def torque(report: Report) -> Drawn:
     ledger, slides = report.ledger, bool(report.machine.span)
     curve = charts.Series(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
     levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),)
-    title = _axis_of(report, "M.eq")
+    driver = report.machine.linkage.driver
+    sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
+    title = _positive(report, _axis_of(report, "M.eq"), sense)
     return Drawn((charts.chart((curve,), _driver_axis(report), title, levels=levels, turn=not slides),))
 
 
 @figure("polar")
 def polar(report: Report) -> Drawn:
-    """The load of each crank pin in axes that turn with the crank, its radius upwards."""
-    fine = report.dense_cycle
+    """The load of each crank pin in axes that turn with the crank, its radius upwards.
+
+    Where several links hang on one pin, each of their reactions has its diagram, and their resultant.
+    """
+    fine, names = report.dense_cycle, report.words["figure"]
     numbers = tuple(map(str, report.all_positions))
     assert report.driver_polygon is not None
-    pins = [edge for edge in report.driver_polygon.edges if edge.is_reaction and not edge.unknown]
-    size = charts.POLAR_SIZE if len(pins) == 1 else charts.POLAR_HALF
-    scenes = []
-    for edge in pins:
+    loads: dict[str, dict[str, np.ndarray]] = {}
+    for edge in report.driver_polygon.edges:
+        if edge.unknown or not edge.is_reaction:
+            continue
         pin = next(group.P for group in report.groups if edge.name == f"R{group.i}{DRIVER}")
         radius = fine.motion.points[pin].p - fine.motion.points[report.driver.centre].p
         load = fine.forces.reactions[edge.name].force * np.conj(radius / np.abs(radius)) * 1j
-        series = charts.Series(report.force_vector(edge.name), load.real, load.imag, _marks(report), numbers)
-        scenes.append(
-            charts.polar(series, "N", title=f"{report.words['figure']['pin']} {lower_digits(pin)}", size=size)
-        )
-    return Drawn(tuple(scenes))
+        loads.setdefault(pin, {})[lower_digits(edge.name)] = load
+    diagrams: list[Callable[..., Scene]] = []
+    for name, parts in loads.items():
+        shown = dict(parts)
+        if len(parts) > 1:
+            shown[" + ".join(parts)] = np.sum(list(parts.values()), axis=0)
+        along = names["along_crank"].format(arm=lower_digits(f"{report.driver.centre}{name}"))
+        for forces, load in shown.items():
+            series = charts.Series("", load.real, load.imag, _marks(report), numbers)
+            title = f"{names['pin']} {lower_digits(name)}: {forces}"
+            diagrams.append(partial(charts.polar, series, names["across_crank"], along, title=title))
+    if len(diagrams) == 1:
+        return Drawn((diagrams[0](),))
+    for size in charts.POLAR_PAIRS:
+        scenes = tuple(draw(size=size) for draw in diagrams)
+        if all(scene.width <= charts.HALF_WIDTH for scene in scenes):
+            return Drawn(scenes)
+    return Drawn(tuple(draw(size=charts.POLAR_BELOW) for draw in diagrams))
 
 
 # --- the flywheel

@@ -8,9 +8,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from reportgen.document.groups import Contact, GroupView
 from reportgen.document.report import FUNCTIONS, Report, function, listed, lower_digits
-from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Reference, Text, Value
+from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Text, Value
 from reportgen.ledger.forces.polygon import Edge, Polygon
 from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.structure import mobility
@@ -66,17 +68,7 @@ def known(report: Report, id: str) -> bool:
 
 
 FUNCTIONS["zero"] = Report.is_zero
-
-
-@function
-def negative(report: Report, id: str, position: int | None = None) -> bool:
-    return bool(report.ledger.number(id, position).value < 0)
-
-
-@function
-def direction(report: Report, id: str, position: int | None = None) -> str:
-    """The sense of a rotation in words; a dash where there is none."""
-    return report.sense(report.ledger.number(id, position).value)
+FUNCTIONS["first_turn"] = Report.first_turn
 
 
 @function
@@ -145,12 +137,6 @@ def stroke_name(report: Report, link: int, position: int) -> str:
 
 
 @function
-def plate_refs(report: Report, prefix: str) -> Inlines:
-    """References to a figure of every group, in the order of the force analysis."""
-    return listed(Reference(f"{prefix}{group.name}") for group in reversed(report.groups))
-
-
-@function
 def force_list(report: Report, group: GroupView, position: int) -> Inlines:
     """The known edges of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, …"""
     assert group.polygon is not None
@@ -176,20 +162,31 @@ def assumed(report: Report, group: GroupView, position: int) -> Inlines:
 @function
 def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
     """Where the reactions of some joints point, in words and by their angles; those that are nothing left out."""
-    words = report.words["headings"]
     shown: list[Inline] = []
     for digits in joints:
         if not report.is_zero(f"R.{digits}", position):
             vector, angle = report.force_vector(f"R{digits}"), report.ledger.number(f"dir.R{digits}", position)
-            way = Text(f" {words[_eighth(angle.shown)]} (")
+            way = Text(f" {heading_words(report, angle.shown)} (")
             shown += [*((Text("; "),) if shown else ()), InlineMath(vector), way, Value(angle), Text(")")]
     return tuple(shown)
 
 
-def _eighth(degrees: float) -> int:
-    """The axis or the quadrant that an angle lies in: 0 along +x, 1 between +x and +y, 2 along +y, …."""
-    quadrant, within = divmod(degrees % 360.0, 90.0)
-    return int(2 * quadrant) + (within > 0)
+@function
+def slider_ways(report: Report) -> Inlines:
+    """In which direction the velocity and the acceleration of each slider are positive, with its angle from +x."""
+    shown: list[Inline] = []
+    for pin, way in report.slider_senses.items():
+        degrees = round(float(np.degrees(np.angle(way))), 2) % 360.0
+        symbols = InlineMath(Symbol("v", pin)), Text(", "), InlineMath(Symbol("a", pin))
+        place = Text(f" {heading_words(report, degrees)} ("), Value(Number(degrees, unit="°")), Text(")")
+        shown += [*((Text("; "),) if shown else ()), *symbols, *place]
+    return tuple(shown)
+
+
+def heading_words(report: Report, degrees: float) -> str:
+    """The axis or the quadrant that an angle from +x lies in, in words: to the right, to the right and up, …."""
+    quadrant, within = divmod(round(degrees, 2) % 360.0, 90.0)
+    return str(report.words["headings"][int(2 * quadrant) + (within > 0)])
 
 
 @function
@@ -236,13 +233,6 @@ def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
         reason = next((str(why) for pattern, why in patterns if re.fullmatch(str(pattern), id)), "")
         return Chain((chain.parts[0], result), reason)
     return chain
-
-
-@function
-def centre_lines(report: Report, rod: int, what: str) -> list[str]:
-    """Closed formulas of a rod's mass centre by components."""
-    names = [place.name for group in report.groups for place in group.points_i if group.i == rod]
-    return report.known(id for name in names for id in (f"f.x.{name}.{what}", f"f.y.{name}.{what}", f"f.{what}.{name}"))
 
 
 @function
@@ -331,7 +321,8 @@ def _relative(report: Report, side: Side) -> tuple[Term, ...]:
         return (sought,)
     twice = 2 * ledger.symbol(side.omega) * ledger.symbol(side.velocity)
     across = words["across_slot" if side.carrier is None else "across_guide"]
-    return _term(report, "a", side.pair, "k", across, words["turned"], twice), sought
+    turned = words["turned"].format(link=lower_digits(str(side.turning)))
+    return _term(report, "a", side.pair, "k", across, Chain((ledger.symbol(side.velocity),), turned), twice), sought
 
 
 def _base(report: Report, side: Side, what: str) -> Term:

@@ -36,6 +36,10 @@ from reportgen.notation.expressions import Chain, Number, Symbol
 
 MM = 1e3
 A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)
+LARGER = tuple(
+    size for short, long in ((420.0, 594.0), (594.0, 841.0), (841.0, 1189.0)) for size in ((long, short), (short, long))
+)
+"""Sheets A2, A1, A0, lying and standing."""
 TEXT_BLOCK = (160.0, 225.0)
 """What of an A4 page a figure may fill with its caption."""
 WHITE = (40.0, 64.0)
@@ -44,10 +48,11 @@ HALF = 0.5
 CLOSE = 5.5
 """What of their margins (mm) scenes of one figure give up to stand side by side."""
 SCHEME_BOX = (120.0, 130.0)
+SMALL_SCHEME = 79.0
+"""Height with its labels at most of a scheme that stands among tables, mm."""
+REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
 SHOWN_AT = 1
 """The position (from 0) at which schemes are drawn: the first one away from the start."""
-ROOM = 24.0
-"""What margins, labels and the scale take of a drawing's page (mm), across and upwards."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +82,7 @@ def insert_figure(report: Report, name: str, *arguments: Any, words: str = "") -
     """A registered figure: `figure(name, …)`, or `figure(name, key, caption, …)` with words of its own;
     `words` names other ones of `words.yaml`.
 
-    A figure on plates is a block for each of them, and the key names the first.  Raises `KeyError` for a
+    A figure on plates is a block for each of them; the first has key and caption.  Raises `KeyError` for a
     name that nobody draws.
     """
     key, draw = FIGURES[name]
@@ -95,16 +100,9 @@ def insert_figure(report: Report, name: str, *arguments: Any, words: str = "") -
         inlines = (*inlines, Text("; "), InlineMath(drawn.note))
     if drawn.paper is None:
         return (Figure(drawn.scenes, inlines, key),)
-    count = len(drawn.scenes)
-    return tuple(
-        Plate(
-            scene,
-            drawn.paper,
-            inlines if count == 1 else (*inlines, Text(f" ({index}/{count})")),
-            key if index == 1 else f"{key}.{index}",
-        )
-        for index, scene in enumerate(drawn.scenes, start=1)
-    )
+    first, *others = drawn.scenes
+    further = (Plate(scene, drawn.paper, continues=True) for scene in others)
+    return Plate(first, drawn.paper, inlines, key), *further
 
 
 FUNCTIONS["figure"] = insert_figure
@@ -120,14 +118,13 @@ def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
     return width <= paper[0] - WHITE[0] and height <= paper[1] - WHITE[1]
 
 
-def on_paper(scene: Scene) -> Drawn:
-    """A scene in the text if it fits there in true size, else on a page large enough for it."""
-    if in_text(scene):
-        return Drawn((scene,))
-    for paper in (A3_ACROSS, A3_UPRIGHT):
-        if fits(scene.width, scene.height, paper):
-            return Drawn((scene,), paper)
-    return Drawn((scene,), (max(scene.width + WHITE[0], 297.0), max(scene.height + WHITE[1], 210.0)))
+def on_paper(*scenes: Scene) -> Drawn:
+    """Scenes in the text if they fit there in true size, else each on a page large enough for all of them."""
+    if all(map(in_text, scenes)):
+        return Drawn(scenes)
+    width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
+    papers = (paper for paper in (A3_ACROSS, A3_UPRIGHT, *LARGER) if fits(width, height, paper))
+    return Drawn(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
 
 
 def beside_one_another(*scenes: Scene) -> Drawn:
@@ -146,7 +143,7 @@ def drawing_scale(report: Report) -> float:
 def scale_note(report: Report, id: str, factor: float = 1.0, k: int | None = None) -> Chain:
     """A scale as printed below a figure; a figure drawn smaller by `factor` has a scale that much larger."""
     number = report.ledger.number(id, k)
-    return Chain((report.ledger.symbol(id), short(replace(number, value=number.value / factor))))
+    return Chain((report.ledger.symbol(id), short(replace(number, value=number.shown / factor))))
 
 
 def looks(report: Report, scale: float, factor: float = 1.0) -> Looks:
@@ -166,16 +163,31 @@ def short(number: Number) -> Number:
     return replace(number, value=float(f"{number.value:.6g}"), decimals=None)
 
 
+@figure("line-styles")
+def line_styles(report: Report) -> Drawn:
+    """The legend of all lines of the report."""
+    return Drawn((scheme_figure.line_styles(report.words["line_styles"]),))
+
+
 # --- the machine at one position and over a turn
 
 
 @figure("scheme")
 def scheme(report: Report) -> Drawn:
-    factor = _reduction(report)
+    return Drawn((_scheme(report, _reduction(report)),))
+
+
+@figure("scheme.small")
+def small_scheme(report: Report) -> Drawn:
+    """The scheme, small enough to stand on one page with the results."""
+    drawn = (_scheme(report, factor) for factor in REDUCTIONS if factor <= _reduction(report))
+    return Drawn((next(one for one in drawn if one.height <= SMALL_SCHEME),))
+
+
+def _scheme(report: Report, factor: float) -> Scene:
     scale = drawing_scale(report) * factor
     look = looks(report, scale, factor)
-    motion = report.analysis.motion
-    return Drawn((scheme_figure.scheme(report.machine.linkage, motion, SHOWN_AT, scale, look),))
+    return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, SHOWN_AT, scale, look)
 
 
 @figure("groups")
@@ -194,7 +206,7 @@ def _reduction(report: Report) -> float:
     points = [point.p[SHOWN_AT] for point in report.analysis.motion.points.values()]
     size = np.array(points)[np.isfinite(points)] * drawing_scale(report)
     needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
-    return 1.0 / float(next(step for step in (1, 2, 2.5, 4, 5, 10, 20, 25, 40, 50, 100, 1000) if step >= needed))
+    return next(factor for factor in REDUCTIONS if 1 / factor >= needed)
 
 
 @figure("positions")
@@ -208,10 +220,10 @@ def _positions(report: Report, beside: Draft | None) -> Scene:
     shows = PositionPlan(
         _numbered(report),
         machine.paths if beside is None else (),
-        (report.assignment.worked_positions[0] - 1) % machine.count,
+        report.positions.index(report.worked[0]),
         labels=tuple(map(str, report.positions)),
     )
-    one_turn = _motion(machine, machine.cycle_angles[: machine.count])
+    one_turn = _motion(machine, machine.cycle_angles[[k - 1 for k in report.positions]])
     return _position_plan(report, one_turn, shows, beside)
 
 
@@ -255,8 +267,11 @@ def indicator(report: Report) -> Drawn:
     first = machine.pistons[0]
     unit, scale = 1e4, drawing_scale(report)
     top, bottom = first.top * scale, first.bottom * scale
-    highest = max(float(np.max(gas.pressure)) for gas in gases.values())
-    highest = max(highest, _highest(first.indicator)) / unit
+    read = [float(pressure) for gas in gases.values() for pressure in gas.pressure]
+    read += [float(pressure) for row in first.indicator.rows for pressure in row]
+    lowest, highest = min(read) / unit, max(read) / unit
+    # What lies below zero stands between diagram and cylinder, where there is half the room.
+    highest = max(highest, -2 * lowest)
     side = _free_side(machine)
     start, end, mu = indicator_figure.beside(top, bottom, side, 75.0, highest)
     note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
@@ -267,13 +282,13 @@ def indicator(report: Report) -> Drawn:
     ]
     readings = [
         indicator_figure.Reading(
-            Symbol(str(machine.position(k + 1)), "" if len(machine.pistons) == 1 else f"({gas.piston.link})"),
-            float(gas.fraction[k]),
-            float(gas.pressure[k]) / unit,
-            top + (bottom - top) * float(gas.fraction[k]) if _in_line(first, gas.piston) else None,
+            Symbol(str(k), "" if len(machine.pistons) == 1 else f"({gas.piston.link})"),
+            float(gas.fraction[k - 1]),
+            float(gas.pressure[k - 1]) / unit,
+            top + (bottom - top) * float(gas.fraction[k - 1]) if _in_line(first, gas.piston) else None,
         )
         for gas in gases.values()
-        for k in range(machine.positions)
+        for k in report.all_positions
     ]
     return on_paper(_positions(report, indicator_figure.indicator(frame, branches, readings)))
 
@@ -289,11 +304,6 @@ def _free_side(machine: Machine) -> complex:
 def _in_line(first: Piston, other: Piston) -> bool:
     """Whether a piston moves on the line of the first one, where its positions are projected from."""
     return abs(((other.top - first.top) / first.inward).imag) + abs((other.inward / first.inward).imag) < SAME
-
-
-def _highest(table: Any) -> float:
-    rows = table.rows if isinstance(table, StrokeIndicator) else (table.pressures,)
-    return max(max(row) for row in rows)
 
 
 def _branches(

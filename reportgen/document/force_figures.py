@@ -111,7 +111,8 @@ class _Bodies:
 
     def inner(self, group: GroupView, link: int) -> Force:
         """The reaction in the inner joint on one link of the group: as moments assume it, else as the plan gives it."""
-        at, on_i = self.at(group.Q), link == group.i
+        # Of an RPP the inner joint is the slide of the block, which stands at its pin.
+        at, on_i = self.at(group.P if group.kind == "RPP" else group.Q), link == group.i
         if group.by_slot in self.report.ledger:
             sense = drawn_sense(self.report, f"R{group.across}.s", self.k) * (-1 if on_i else 1)
         else:
@@ -148,25 +149,29 @@ def bodies(report: Report, k: int, group: GroupView) -> Drawn:
     ]
     title = report.words["figure"]["group"].format(i=group.i, j=group.j)
     scenes = [both.scene(forces, turning=both.couples(), title=title)]
-    for link, pin in _moments(group):
+    for link, pin in _moments(report, group, k):
         one = _Bodies(report, k, (link,))
         forces = [*one.loads(), *one.found_before(group.polygon), *one.outer(group, link), one.inner(group, link)]
         arms, title = one.arms(group.arms(pin, link), pin), f"{report.words['figure']['link']} {link}"
-        extra = _percussion(report, link, k)
+        extra = _percussion(report, link, k) + _foot(report, group, link, k)
         scenes.append(one.scene(forces, arms=arms, turning=one.couples(), extra=extra, title=title))
     return beside_one_another(*scenes)
 
 
-def _moments(group: GroupView) -> tuple[tuple[int, str], ...]:
+def _moments(report: Report, group: GroupView, k: int) -> tuple[tuple[int, str], ...]:
     """The links of a group that the force analysis takes moments of, with the pin it takes them about."""
-    match group.kind:
-        case "RRR":
-            return (group.i, group.Q), (group.j, group.Q)
-        case "RPR":
-            return ((group.j, group.T),)
-        case "RRP":
-            return ((group.i, group.Q),)
-    return ()
+    solved: dict[str, tuple[tuple[int, str], ...]] = {
+        "RRR": ((group.i, group.Q), (group.j, group.Q)),
+        "RPR": ((group.j, group.T),),
+        "RRP": ((group.i, group.Q),),
+    }
+    # A slide's reaction is placed by moments about its pin, whose arms are measured too.
+    placed = [
+        (slide.link, str(slide.pin))
+        for slide in group.contacts
+        if not all(report.is_zero(arm, k) for arm in group.arms(slide.pin, slide.link))
+    ]
+    return tuple(dict.fromkeys((*solved.get(group.kind, ()), *placed)))
 
 
 @figure("crank")
@@ -234,6 +239,18 @@ def _percussion(report: Report, link: int, k: int) -> Draft:
     )
     labels = label(known, Symbol("K", number), gap=1.2), label(meeting, Symbol("Q", number), gap=1.2)
     return Draft(marks, labels)
+
+
+def _foot(report: Report, group: GroupView, link: int, k: int) -> Draft:
+    """On a slotted link beside its pin T the foot H of T on the slot's line, from which the block is measured."""
+    if not (group.offset and link == group.j):
+        return Draft()
+    scale, ledger = drawing_scale(report), report.ledger
+    pivot, block = (complex(report.analysis.motion.points[name].p[k - 1]) * scale for name in (group.T, group.Q))
+    along = complex(ledger[f"slot.{link}"].at(k))
+    at = block + ((pivot - block) / along).real * along
+    marks = (Line(pivot, at, CONSTRUCTION), Line(at, block, CONSTRUCTION), Circle(at, 0.6, VISIBLE, PAPER))
+    return Draft(marks, (label(at, Symbol("H", str(link)), gap=1.2),))
 
 
 # --- Zhukovsky's lever

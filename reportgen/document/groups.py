@@ -36,10 +36,12 @@ def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
 class DriverView:
     """The driver as templates name it: its centre O1 and pin A, its `arm` O1A, further points on it.
 
-    A sliding driver has neither centre nor arm.  `velocity_lines` and `acceleration_lines` are those of its
-    points; `drawn`, `velocity`, `velocity_segment` and `acceleration_segment` the ids of the arm's drawn
-    length, of the pin's velocity and of the segments that stand for the pin's velocity and acceleration;
-    `round_velocity` and `round_acceleration` say that the scale of a plan was chosen from the series.
+    Of its `kind`, "crank" or "slide", a slide has neither centre nor arm; `rate` is the symbol of what is constant.
+    `velocity_lines` and `acceleration_lines` are those of its
+    points, `scale_lines` what the velocity plan of a sliding driver begins with; `drawn`, `velocity`,
+    `velocity_segment` and `acceleration_segment` the ids of the arm's drawn length, of the pin's velocity and of
+    the segments that stand for the pin's velocity and acceleration; `round_velocity` and `round_acceleration` say
+    that the scale of a plan was chosen from the series.
     """
 
     def __init__(self, linkage: Linkage, ledger: Ledger) -> None:
@@ -49,12 +51,15 @@ class DriverView:
         self.others = points_on(linkage, DRIVER)
         self.names = (self.pin, *(place.name for place in self.others))
         self.arm = f"{self.centre}{self.pin}" if self.centre else ""
+        self.kind = "crank" if self.centre else "slide"
+        self.rate = ledger.symbol("omega.1" if self.centre else f"v.{self.pin}")
         self.drawn, self.velocity = f"drawn.{self.arm}", f"v.{self.pin}"
         self.velocity_segment, self.acceleration_segment = (f"seg.{what}.p{image(self.pin)}" for what in "va")
         self.round_velocity, self.round_acceleration = (ledger[f"mu.{what}"].definition is None for what in "va")
         self.velocity_lines, self.acceleration_lines = (
             [id for name in self.names if (id := f"{what}.{name}") in ledger] for what in "va"
         )
+        self.scale_lines = [self.velocity, "mu.v", self.velocity_segment]
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +76,10 @@ class CarriedPoint:
     relative: str
     still: bool
     swings: bool
+
+    @property
+    def base(self) -> str:
+        return self.origin
 
     @property
     def omega(self) -> str:
@@ -130,11 +139,33 @@ class GroupView:
         self.points = (*self.points_i, *self.points_j)
         self.polygon = next((one for one in polygons if one.name == self.name), None)
         self.fixed, self.on_driver = frozenset(plan.linkage.ground), frozenset(driver.names)
+        self.by_crank = driver.kind == "crank"
 
     def __str__(self) -> str:
         return self.name
 
     # --- plans of velocity and acceleration
+
+    @property
+    def form(self) -> str:
+        """Its kind as the words for its plans tell them apart: the guide of an RRP may be fixed or "RRP-moving"."""
+        return "RRP-moving" if self.kind == "RRP" and not self.two.still else self.kind
+
+    @property
+    def unknowns(self) -> tuple[str | Side, str | Side]:
+        """The velocities whose magnitudes the vector equation leaves unknown: points, relative velocities, sides."""
+        first, second = (self.M if side.still else side.relative for side in self.sides)
+        if self.kind == "RPR":
+            return self.one, second
+        if self.kind != "RRP":
+            return first, second
+        along = self.Q if self.two.still or self.one.still else self.two.relative
+        return along, self.two.relative if self.one.still else self.relative
+
+    @property
+    def normal_by_segments(self) -> bool:
+        """Whether the plans' scales, those of a crank, let the normal acceleration of an RRP be drawn from segments."""
+        return self.by_crank and not self.one.still
 
     @property
     def moving(self) -> tuple[Side, ...]:
@@ -322,12 +353,17 @@ class GroupView:
     @property
     def assumed(self) -> list[str]:
         """What moments give, each drawn in an assumed sense, so that it has a sign."""
-        return self.ledger.known((f"R.{self.outer}.t", f"R.{self.guide}.t", self.by_slot))
+        return [*self.tangential, *self.ledger.known([self.by_slot])]
 
-    def components(self, k: int) -> int:
-        """How many components are found by moments; none where all of them are zero."""
-        found = [id for id in self.assumed if id != self.by_slot]
-        return len(found) * any(self.ledger.number(id, k).value != 0 for id in found)
+    @property
+    def tangential(self) -> list[str]:
+        """The components across links that moments give."""
+        return self.ledger.known((f"R.{self.outer}.t", f"R.{self.guide}.t"))
+
+    def components(self, k: int) -> list[str]:
+        """The components that are found by moments; none where all of them are zero."""
+        found = self.tangential
+        return found if any(self.ledger.number(id, k).value != 0 for id in found) else []
 
     @property
     def last_known(self) -> str:
@@ -376,3 +412,20 @@ class PlaneLink:
         self.distances, self.angles, self.projections = (
             [f"ic.{what}.{self.link}.{name}" for name in (self.base, self.point)] for what in ("seg", "angle", "along")
         )
+
+    def __str__(self) -> str:
+        return str(self.link)
+
+
+def displaced_inertia(linkage: Linkage, groups: Iterable[GroupView], ledger: Ledger) -> tuple[BodyView, ...]:
+    """Links whose inertia is a force and a couple, which one force off the mass centre replaces."""
+    # A block turns about no base of a plan: the pin it sits on is its first joint.
+    starts = {group.i: group.P for group in groups}
+    starts |= {side.link: PointName(side.base) for group in groups for side in group.sides if side.turns}
+    found = []
+    for body in linkage.inertias:
+        ids = ledger.known((f"e.Pqt{body.link}", f"l.{body.centre}K{body.link}"))
+        if len(ids) == 2:
+            start = starts[body.link]
+            found.append(BodyView(body.link, PointName(body.centre), start, ids, start in linkage.ground))
+    return tuple(found)

@@ -79,6 +79,7 @@ class _Count:
     """What a reference to a key prints."""
     titles: dict[str, tree.Inlines] = field(default_factory=dict)
     """Of sections without a number, by key."""
+    last_figure: str = ""
     equations: list[str] = field(default_factory=list)
     faults: list[str] = field(default_factory=list)
 
@@ -91,9 +92,12 @@ class _Count:
                 value = self.next("equation")
                 self.name(key, f"({value})")
                 return replace(block, number=value)
+            case tree.Plate(continues=True):
+                return replace(block, number=self.last_figure)
             case tree.Table() | tree.Figure() | tree.Plate() if block.key or block.caption:
                 value = self.next("table" if isinstance(block, tree.Table) else "figure")
                 self.name(block.key, value)
+                self.last_figure = self.last_figure if isinstance(block, tree.Table) else value
                 return replace(block, number=value)
             case tree.List(items):
                 return replace(block, items=tuple(tuple(map(self.block, item)) for item in items))

@@ -8,7 +8,19 @@ from typing import Any
 from reportgen.case import Case
 
 # Importing a module registers its figures, tables and functions.
-from reportgen.document import centres, curves, equations, figures, force_figures, plans, result_tables  # noqa: F401
+from reportgen.document import (  # noqa: F401
+    centres,
+    chapters,
+    curves,
+    equations,
+    figures,
+    force_figures,
+    overview,
+    phrases,
+    plans,
+    result_tables,
+    steps,
+)
 from reportgen.document.numbering import number
 from reportgen.document.report import Report
 from reportgen.document.tree import Block, Contents, Cover, Document, PageBreak, Words

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from reportgen.document.figures import A3_ACROSS, HALF, MM, TEXT_BLOCK, Drawn, figure, on_paper, scale_note
+from reportgen.document.figures import A3_ACROSS, MM, TEXT_BLOCK, Drawn, figure, on_paper, scale_note
 from reportgen.document.groups import GroupView
 from reportgen.document.report import Report
 from reportgen.figures.draft import sheets
@@ -26,9 +26,11 @@ from reportgen.notation.expressions import Chain, Symbol
 SHEET = (385.0, 232.0)
 """What of an A3 page (landscape) plans may fill."""
 SHARES = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1)
-"""How much smaller the force plans of all positions may be drawn than the worked ones: scales stay in their series."""
-LARGEST = (78.0, 105.0)
-"""The largest of these plans (mm): two stand side by side, two rows on a page."""
+"""How much smaller the plans of all positions may be drawn than the worked ones: scales stay in their series."""
+LARGEST = (78.0, 75.0)
+"""The largest of these plans (mm): two stand side by side, three rows on a page."""
+PANEL = (78.0, 66.0)
+"""The panel of a construction's step at most (mm)."""
 CLOSE_MARGIN = 2.0
 """White around each of many plans (mm)."""
 
@@ -110,32 +112,31 @@ def _steps(group: GroupView, what: What) -> tuple[int, int, int]:
 def _stages(
     report: Report, drawing: Plan, scale: str, titles: Titles = lettered, begin: int = 0, k: int | None = None
 ) -> Drawn:
-    """The stages of a plan at half its size, with twice its scale."""
+    """The stages of a plan at half its size or, for large plans, less, with the scale that makes."""
     number = report.ledger.number(scale, k)
-    doubled = replace(number, value=float(f"{number.shown / HALF:.9g}"), decimals=None)
-    return Drawn(stages(drawing, HALF, titles, begin), note=Chain((report.ledger.symbol(scale), doubled)))
+    for share in SHARES[1:]:
+        scenes = stages(drawing, share, titles, begin)
+        if all(scene.width <= PANEL[0] and scene.height <= PANEL[1] for scene in scenes):
+            break
+    smaller = replace(number, value=float(f"{number.shown / share:.9g}"), decimals=None)
+    return Drawn(scenes, note=Chain((report.ledger.symbol(scale), smaller)))
 
 
 def _plates(
-    report: Report,
-    drawing: Callable[[Report, int], Plan],
-    positions: Sequence[int],
-    scale: str,
-    shares: Sequence[float] = (1.0,),
-    at: int | None = None,
+    report: Report, drawing: Callable[[Report, int], Plan], positions: Sequence[int], scale: str, at: int | None = None
 ) -> Drawn:
-    """Plans of one scale, that of the position `at`, in rows, at the largest of the `shares` at which each has room.
+    """Plans of one scale, that of the position `at`, in rows, at the largest of the shares at which each has room.
 
     If none fits the text block, they stand on A3 sheets.  Insets are for worked plans.
     """
     word = report.words["table"]["position"]
     plans = {k: replace(drawing(report, k), scale=None, lines=()) for k in positions}
-    for share in shares:
+    for share in SHARES:
         scenes = tuple(
             plan(shown.scaled(share), title=f"{word} {report.machine.position(k)}", enlarged=False, margin=CLOSE_MARGIN)
             for k, shown in plans.items()
         )
-        room = LARGEST if share > shares[-1] else TEXT_BLOCK
+        room = LARGEST if share > SHARES[-1] else TEXT_BLOCK
         if all(scene.width <= room[0] and scene.height <= room[1] for scene in scenes):
             return Drawn(scenes, note=scale_note(report, scale, share, at))
     return Drawn(sheets(scenes, *SHEET, scale_note(report, scale, share, at), trim=0.0), A3_ACROSS)
@@ -238,7 +239,7 @@ def force_plates(report: Report, group: GroupView) -> Drawn:
     def drawing(report: Report, k: int) -> Plan:
         return force_plan(report, polygon, k).scaled(scales[k] / scales[common])
 
-    return _plates(report, drawing, report.plates, group.scale, SHARES, common)
+    return _plates(report, drawing, report.plates, group.scale, common)
 
 
 def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:

@@ -16,27 +16,24 @@ import numpy as np
 from reportgen.analysis import FULL_TURN, Analysis, analyse
 from reportgen.assignment import Assignment
 from reportgen.case import Case
-from reportgen.catalogue.given_loads import ByOrdinates
-from reportgen.catalogue.loads import Piston
+from reportgen.catalogue.loads import Applied, Piston, Torque
 from reportgen.catalogue.machine import Machine, Position
-from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink
-from reportgen.document.prose import PointName, Prose
-from reportgen.document.tree import Block, InlineMath, Inlines, Paragraph, Text
+from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
+from reportgen.document.prose import Prose
+from reportgen.document.tree import Inlines, Text
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics.centres import links_in_plane_motion
 from reportgen.ledger.kinematics.sides import scheme
-from reportgen.mechanism.structure import Mobility, mobility
+from reportgen.mechanism.structure import GROUND, Mobility, mobility
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Number, Symbol, walk
+from reportgen.notation.expressions import Symbol
 
 PLATES_UP_TO = 24
-"""Above this many positions, plates are drawn for worked positions only."""
+"""Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""
 DENSE = 361
 """Samples of a turn from which curves are drawn."""
-UNIFORM = Number(12.0)
-"""What m l² of a uniform rod is divided by."""
 SAME = 1e-9
 """Cycle angles nearer than this are one."""
 
@@ -48,6 +45,16 @@ def function(called: Function) -> Function:
     """Let templates call a function of a report by its name."""
     FUNCTIONS[called.__name__] = called
     return called
+
+
+Member = TypeVar("Member", bound=Callable[["Report"], Any])
+MEMBERS: dict[str, Callable[[Report], Any]] = {}
+
+
+def member(of: Member) -> Member:
+    """Let templates name what a function makes of a report, as they name its properties."""
+    MEMBERS[of.__name__] = of
+    return of
 
 
 @dataclass(frozen=True)
@@ -112,6 +119,7 @@ class Report:
         own = [name for name, member in vars(Report).items() if isinstance(member, kinds) and name[0] != "_"]
         return {
             **{name: getattr(self, name) for name in own if name != "dense_cycle"},
+            **{name: of(self) for name, of in MEMBERS.items()},
             **{name: partial(called, self) for name, called in FUNCTIONS.items()},
         }
 
@@ -151,12 +159,6 @@ class Report:
             month_name=months[day.month - 1] if months else day.month,
         )
 
-    @property
-    def signature(self) -> tuple[Block, ...]:
-        """Place, date and name under the foreword; without a name the label stands over a line to sign."""
-        student = f"{self.words['cover']['student']}: {self.assignment.report.student.name or '…' * 20}"
-        return tuple(Paragraph((Text(line),), "right") for line in (self.place_and_date, student))
-
     # --- positions
 
     @property
@@ -174,12 +176,21 @@ class Report:
         return self.assignment.positions.count
 
     @property
+    def thinned(self) -> int:
+        """Tables and drawings show one position in so many, and the worked ones; 0 where they show all."""
+        step = -(-self.even_count // PLATES_UP_TO)
+        return step if step > 1 else 0
+
+    @property
     def positions(self) -> tuple[Position, ...]:
-        return self.machine.numbered(range(1, self.machine.count + 1))
+        """The positions of one turn that are shown."""
+        return tuple(k for k in self.all_positions if k <= self.machine.count)
 
     @property
     def all_positions(self) -> tuple[Position, ...]:
-        return self.machine.numbered(range(1, self.machine.positions + 1))
+        """The positions of the cycle that are shown."""
+        evenly = range(1, self.machine.positions + 1, self.thinned or 1)
+        return self.machine.numbered(sorted({*evenly, *self.worked, *self.worked_forces}))
 
     @property
     def worked(self) -> tuple[Position, ...]:
@@ -203,12 +214,21 @@ class Report:
             return tuple(range(1, self.assignment.cycle_positions + 1))
         return self.assignment.worked_positions
 
+    def first_turn(self, k: Position) -> Position | None:
+        """The position of the first turn that one of a later turn repeats in its motion; None in the first turn."""
+        return self.machine.position((k - 1) % self.count + 1) if k > self.count else None
+
     # --- the machine
 
     @property
     def own(self) -> Mapping[str, Any]:
         """What only the words of this kind of machine name."""
         return self.machine.facts
+
+    @cached_property
+    def sheet(self) -> Mapping[str, list[str]]:
+        """What the machine's sheet sets out together, by name: `lines(sheet.velocity, k)`."""
+        return {name: self.known(ids) for name, ids in self.ledger.lines.items()}
 
     @property
     def given_names(self) -> Mapping[str, str]:
@@ -227,13 +247,26 @@ class Report:
         return mobility(self.machine.linkage)
 
     @property
+    def lengths(self) -> list[str]:
+        """The true lengths that have a drawn one, in the machine's own order if it has one."""
+        if "lengths" in self.sheet:
+            return self.sheet["lengths"]
+        single = [id for id, family in self.ledger.families.items() if len(family.values) == 1]
+        return [id for id in single if id[:2] == "l." and f"drawn.{id[2:]}" in single]
+
+    @property
     def pistons(self) -> tuple[Piston, ...]:
         return self.machine.pistons
 
     @property
-    def starts_at_dead_centre(self) -> bool:
-        """Whether the first position is a dead centre of the first slider."""
-        return bool(self.machine.sliders) and self.machine.sliders[0].phase == 0
+    def turn_sense(self) -> str:
+        """The key of the words for the sense of the driver's rotation."""
+        return "anticlockwise" if self.machine.turn > 0 else "clockwise"
+
+    @property
+    def loads(self) -> tuple[Applied | Torque, ...]:
+        """The forces and torques applied to the machine."""
+        return (*self.machine.applied, *self.machine.torques)
 
     @property
     def speed_in_rpm(self) -> bool:
@@ -242,13 +275,26 @@ class Report:
 
     @property
     def has_flywheel(self) -> bool:
-        """Whether the assignment asks for a flywheel."""
-        return "unevenness" in self.ledger
+        """Whether the assignment asks for a flywheel, and anything acts that it could even out."""
+        return "unevenness" in self.ledger and self.has_forces
 
     @property
-    def has_ordinates(self) -> bool:
-        """Whether the indicator diagram is given by measured heights."""
-        return isinstance(self.assignment.indicator, ByOrdinates)
+    def has_gas(self) -> bool:
+        """Whether the pressure in any cylinder is other than that of the air outside."""
+        return any(piston.name not in self.machine.idle for piston in self.pistons)
+
+    @property
+    def all_zero(self) -> bool:
+        """Whether masses or loads are given, but are all zero."""
+        given = (id for id in self.ledger.families if id[:1] == "G" or id[:2] == "m.")
+        return not self.has_forces and (bool(self.machine.idle) or any(given))
+
+    @property
+    def loads_crank(self) -> bool:
+        """Whether any group hands a force on to the crank, at whatever position."""
+        edges = self.driver_polygon.edges if self.driver_polygon else ()
+        reactions = (self.ledger[f"R.{edge.name[1:]}"] for edge in edges if edge.is_reaction and not edge.unknown)
+        return any(one.at(k) != 0 for one in reactions for k in range(1, self.cycle_count + 1))
 
     @property
     def synthesised(self) -> bool:
@@ -284,12 +330,6 @@ class Report:
         """The ids of what has a formula."""
         return frozenset(id for id, family in self.ledger.families.items() if family.definition is not None)
 
-    @property
-    def not_recomputing(self) -> Inlines:
-        """Symbols of the quantities whose lines cannot be recomputed to the last digit."""
-        found = dict.fromkeys(map(self.ledger.symbol, self.ledger.cancellations))
-        return listed(InlineMath(symbol) for symbol in found)
-
     # --- motion
 
     def known(self, ids: Iterable[str]) -> list[str]:
@@ -303,6 +343,18 @@ class Report:
         turns = links_in_plane_motion(scheme(self.machine.linkage))
         return tuple(PlaneLink(turn, owner[turn.link]) for turn in turns)
 
+    @property
+    def sliding(self) -> tuple[GroupView, ...]:
+        """Groups whose last link slides along a fixed guide."""
+        on_ground = {slider for carrier, slider in self.analysis.motion.slides if carrier == GROUND}
+        return tuple(group for group in self.groups if group.kind in ("RRP", "RPP") and group.j in on_ground)
+
+    @property
+    def slider_senses(self) -> Mapping[str, complex]:
+        """The unit vectors along which the motion of sliders on the ground counts as positive, by their pins."""
+        angles = {group.Q: float(self.analysis.motion.links[group.j].angle[0]) for group in self.sliding}
+        return {pin: self.machine.positive.get(pin, complex(np.exp(1j * angle))) for pin, angle in angles.items()}
+
     # --- forces
 
     @property
@@ -315,34 +367,13 @@ class Report:
         return self.known(f"{what}.{link}" for what in "mJ" for link in self.bodies)
 
     @property
-    def without_mass(self) -> list[str]:
-        """The links whose mass is not given."""
-        links = sorted({1, *(link for group in self.groups for link in (group.i, group.j))})
-        return [str(link) for link in links if f"m.{link}" not in self.mass_lines]
-
-    @property
-    def uniform_rods(self) -> list[str]:
-        """The links whose moment of inertia is that of a uniform rod, J = m l²/12, for want of a given one."""
-        moments = {link: self.ledger[id].definition for link in self.bodies if (id := f"J.{link}") in self.ledger}
-        return [link for link, formula in moments.items() if formula is not None and UNIFORM in walk(formula)]
-
-    @property
     def inertia_lines(self) -> list[str]:
         return self.known(f"{what}{link}" for what in ("Pqt", "M.Pqt") for link in self.bodies)
 
     @cached_property
     def couples(self) -> tuple[BodyView, ...]:
         """Links whose inertia is a force and a couple, replaced by one force off the mass centre."""
-        ground, found = self.machine.linkage.ground, []
-        # A block turns about no base of a plan: the pin it sits on is its first joint.
-        starts = {group.i: group.P for group in self.groups}
-        starts |= {side.link: PointName(side.base) for group in self.groups for side in group.sides if side.turns}
-        for body in self.machine.linkage.inertias:
-            ids = self.known((f"e.Pqt{body.link}", f"l.{body.centre}K{body.link}"))
-            if len(ids) == 2:
-                start = starts[body.link]
-                found.append(BodyView(body.link, PointName(body.centre), start, ids, start in ground))
-        return tuple(found)
+        return displaced_inertia(self.machine.linkage, self.groups, self.ledger)
 
     @property
     def displaced_reactions(self) -> bool:
@@ -377,34 +408,15 @@ class Report:
         return self.arms_about(self.driver.centre)
 
     @property
-    def crank_lines(self) -> list[str]:
-        return [*self.crank_arms, "M.eq"]
-
-    @property
     def crank_pins(self) -> list[str]:
         """The crank's pin, and further points of the crank that a group hangs on."""
         hung = {pin for group in self.groups for pin in (group.P, group.T)}
         return [self.driver.pin, *(place.name for place in self.driver.others if place.name in hung)]
 
     @property
-    def lever_couples(self) -> list[str]:
-        """What torques, which have no arm, contribute to the balance by virtual work."""
-        return self.known(f"M.{torque.name}.p" for torque in self.machine.torques)
-
-    @property
-    def inertia_parts(self) -> list[str]:
-        """The shares of the links in the reduced moment of inertia, and their sum."""
-        return self.known([*(f"J.r.{link}" for link in self.machine.linkage.links), "J.r"])
-
-    @property
     def has_reduced_inertia(self) -> bool:
         """Whether moving links have mass, which the flywheel's calculation reduces to the crank."""
         return "J.r" in self.ledger
-
-    @property
-    def speed_limits(self) -> list[str]:
-        uneven = ["unevenness"] if "unevenness" in self.computed else []
-        return [*uneven, "omega.max", "omega.min"]
 
     # --- quantities and points by name
 

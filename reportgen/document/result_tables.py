@@ -31,13 +31,14 @@ NARROWEST = 16.0
 
 @table("positions")
 def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    """x and y of every moving point at every position of one turn, in mm; several tables where they are many."""
-    linkage, motion, count = report.machine.linkage, report.analysis.motion, report.count
+    """x and y of every moving point at the positions of one turn, in mm; several tables where they are many."""
+    linkage, motion = report.machine.linkage, report.analysis.motion
+    at = [k - 1 for k in report.positions]
     # The point of a lever under a block's pin lies where the pin is.
     under = {dyad.middle for dyad in linkage.dyads if dyad.kind == "RPR"}
     names = [name for name in motion.points if name not in {*linkage.ground, *under}]
     courses = [
-        (Symbol(axis, name), part[:count])
+        (Symbol(axis, name), part[at])
         for name in names
         for axis, part in (("x", motion.points[name].p.real), ("y", motion.points[name].p.imag))
     ]
@@ -196,6 +197,12 @@ def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tabl
     across = [(piston, *row) for piston, row in zip(pistons, of_pistons, strict=True)]
     widths = (30.0, *(min(width, 30.0),) * len(starts))
     return list_table(report, key, caption, (positions, *stretches), across, widths)
+
+
+@columns("gas", cycle=True)
+def gas(report: Report) -> list[str]:
+    """The way of each piston, the pressure on it and its force."""
+    return report.known(id for piston in report.pistons for id in (f"s.{piston.link}", f"p.{piston.link}", piston.name))
 
 
 @columns("inertia", cycle=True)

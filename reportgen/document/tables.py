@@ -28,7 +28,7 @@ from reportgen.document.tree import (
     Value,
 )
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Symbol, refs
+from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Symbol, refs, size
 
 MM = 1e3
 WIDEST_COLUMN = 26.0
@@ -140,6 +140,12 @@ def bare(report: Report, id: str, position: int | None, size: bool = False) -> I
     return (Value(Number(number.value, number.decimals, "")),)
 
 
+def head_symbol(report: Report, id: str) -> Expression:
+    """The symbol over a column: |v| over magnitudes, read from plans, of what has a direction of its own."""
+    symbol = report.ledger.symbol(id)
+    return size(symbol) if id.startswith(("v.", "a.")) else symbol
+
+
 @function
 def tables(
     report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]
@@ -154,7 +160,7 @@ def tables(
     for id in shown:
         unit = report.ledger[id].how.unit
         unit = report.ledger.units.get(unit, unit)
-        columns.append([report.ledger.symbol(id), unit, *(bare(report, id, k) for k in at)])
+        columns.append([head_symbol(report, id), unit, *(bare(report, id, k) for k in at)])
     titles = [report.words["table"]["position"], "", *map(str, at)]
     found = side_by_side(report, key, caption, Column(FIRST_COLUMN), titles, columns, MOST_COLUMNS - 1, heads=2)
     if not zeros or shown == list(ids):
@@ -281,6 +287,15 @@ def working_force(report: Report, key: str, caption: str, head: Sequence[str]) -
     return _law_table(report, law, key, caption, head, Symbol("P"))
 
 
+@table("gas.law")
+def gas_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
+    """The gauge pressure (N/cm²) on a piston as given: by stroke, or against the cycle angle."""
+    gas = next(load for load in report.machine.applied if load.name == name)
+    assert isinstance(gas.law, TableLaw)
+    caption = caption.format(link=gas.link)
+    return _law_table(report, gas.law, key, caption, report.words["strokes"], Symbol("p"), 1e4)
+
+
 @table("law")
 def load_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
     """The load `name` as given: a row for each of the strokes of the head, or against the driver's turn or way."""
@@ -370,12 +385,11 @@ def joints(report: Report) -> Iterator[Sequence[object]]:
 
 
 @table("lengths")
-def lengths(report: Report, key: str, caption: str, head: Sequence[str], arms: Sequence[str]) -> tuple[Table, ...]:
+def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
     """Real and drawn lengths, one column a length; many lengths in several tables below one another."""
     columns = [
         (lower_digits(arm), *(bare(report, f"{prefix}.{arm}", None) for prefix in ("l", "drawn")))
-        for arm in arms
-        if f"l.{arm}" in report.ledger
+        for arm in (id.removeprefix("l.") for id in report.lengths)
     ]
     return side_by_side(report, key, caption, Column(46.0, "left"), head, columns, MOST_LENGTHS, widest=22.0)
 

@@ -73,7 +73,7 @@ Inlines = tuple[Inline, ...]
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A heading; level 1 is a part of the report and starts a page, 4 is a run-in heading.
+    """A heading; level 1 is a part of the report, 4 is a run-in heading.
 
     `numbered=False` is for foreword, conclusion and the like: listed in the contents, not counted.
     """
@@ -133,7 +133,10 @@ class Cell:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A ruled table; `head` rows repeat where it continues on the next page.  A cell spans columns only."""
+    """A ruled table; where it continues on the next page, its number and its `head` rows repeat.
+
+    A cell spans columns only.
+    """
 
     columns: tuple[Column, ...]
     head: tuple[tuple[Cell, ...], ...]
@@ -145,7 +148,10 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """One scene, or several side by side in rows as they fit, under one caption, in true size."""
+    """One scene, or several side by side in rows as they fit, with one caption, in true size.
+
+    Where the page has no room for it, the text runs on to the end of the page before it.
+    """
 
     scenes: tuple[Scene, ...]
     caption: Inlines = ()
@@ -155,13 +161,17 @@ class Figure:
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """A figure on a page of its own paper size (mm), for what the A4 text block cannot hold in true size."""
+    """A figure on a page of its own paper size (mm), for what the A4 text block cannot hold in true size.
+
+    With `continues` it is a further page of the figure before it, whose number it shares.
+    """
 
     scene: Scene
     paper: tuple[float, float]
     caption: Inlines = ()
     key: str = ""
     number: str = ""
+    continues: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,6 +216,8 @@ class Words:
     table: str
     contents: str
     page: str
+    continued: str
+    """Stands behind the number of a table or figure that goes on from the page before."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -251,6 +263,8 @@ def lines_of(block: tree.Block, document: tree.Document) -> Iterator[str]:
             yield from _caption(block, words, language)
             for cells in (*head, *rows):
                 yield _row(cells, language)
+        case tree.Plate(continues=True):
+            yield f"{words.figure} {block.number} ({words.continued})"
         case tree.Figure() | tree.Plate():
             yield from _caption(block, words, language)
         case tree.Cover(institution, title_lines, subtitle, fields, place_and_date):

@@ -29,8 +29,10 @@ HALF_WIDTH, HALF_HEIGHT = 78.0, 46.0
 CHART_MARGIN = 1.5
 AXIS_NAME = 8.0
 """What the turned name of an axis takes beside its figures, mm."""
-POLAR_SIZE, POLAR_HALF = 110.0, 58.0
-"""Of a polar diagram at most, either way, by itself and with another one beside it, mm."""
+POLAR_SIZE = 110.0
+"""Of a polar diagram by itself at most, either way, mm."""
+POLAR_PAIRS, POLAR_BELOW = (58.0, 54.0, 50.0), 84.0
+"""Of one that stands beside another if it is narrow enough then, and of one that stands above another, mm."""
 PENS = (
     Stroke(0.4, style.BLUE),
     Stroke(0.4, style.RED, style.DASHED),
@@ -54,6 +56,8 @@ COLUMN_HEIGHT = 55.0
 """Of a histogram, mm."""
 OUTLINE = Stroke(0.3, style.BLUE)
 TICKS = 6
+BETWEEN = 1.0
+"""White between the figures of an axis at least, mm."""
 
 Vertices = NDArray[np.float64]
 
@@ -123,13 +127,15 @@ def chart(
     return finish(Draft(tuple(items), tuple(requests)), margin=CHART_MARGIN)
 
 
-def polar(series: Series, unit: str, *, title: str = "", size: float = POLAR_SIZE) -> Scene:
-    """The hodograph of a vector (x, y) about the pole with equal scales, its marks named; `unit` is the axes'.
+def polar(
+    series: Series, x_label: Content, y_label: Content = "", *, title: str = "", size: float = POLAR_SIZE
+) -> Scene:
+    """The hodograph of a vector (x, y) about the pole with equal scales, its marks and the axes named.
 
     Its longer side inside the axes is `size` mm.
     """
     x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
-    step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / 6, (1, 2, 5))
+    step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / TICKS, (1, 2, 5))
     (x0, x1), (y0, y1) = _rounded(x, step), _rounded(y, step)
     per = size / max(x1 - x0, y1 - y0)
     window = _Window((x0, x1), (y0, y1), (x1 - x0) * per, (y1 - y0) * per)
@@ -139,7 +145,7 @@ def polar(series: Series, unit: str, *, title: str = "", size: float = POLAR_SIZ
     items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
     requests = _marked(series, vertices, PENS[0], items)
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
-    items += _titles(window, unit, "", items)
+    items += _titles(window, x_label, y_label, items)
     return finish(Draft(tuple(items), tuple(requests)), title=title, margin=2.0)
 
 
@@ -234,10 +240,12 @@ def _steps(low: float, high: float, step: float) -> list[float]:
 def _frame(window: _Window, x_ticks: Sequence[float], y_ticks: Sequence[float], unit: str) -> list[Item]:
     """The frame with its grid and the figures at it; the line of y = 0 stands out."""
     items: list[Item] = []
+    figured = _with_room(window, x_ticks, unit)
     for tick in x_ticks:
         foot = window.at(tick, window.y[0])
         items.append(Line(foot, window.at(tick, window.y[1]), GRID))
-        items.append(Label(foot - 3.0j, _figure(tick, x_ticks, unit), "center", style.SMALL))
+        if tick in figured:
+            items.append(Label(foot - 3.0j, _figure(tick, x_ticks, unit), "center", style.SMALL))
     for tick in y_ticks:
         left = window.at(window.x[0], tick)
         zero = abs(tick) < 1e-12 * max(map(abs, window.y))
@@ -245,6 +253,15 @@ def _frame(window: _Window, x_ticks: Sequence[float], y_ticks: Sequence[float], 
         items.append(Label(left - 1.5, _figure(tick, y_ticks, ""), "right", style.SMALL))
     items.append(_box(window.at(window.x[0], window.y[0]), window.at(window.x[1], window.y[1]), EDGE))
     return items
+
+
+def _with_room(window: _Window, ticks: Sequence[float], unit: str) -> list[float]:
+    """The ticks that get a figure: all, or every second or fifth one from 0, as the figures have room side by side."""
+    step = (ticks[-1] - ticks[0]) / (len(ticks) - 1)
+    apart = step / (window.x[1] - window.x[0]) * window.width
+    widest = max(box(_figure(tick, ticks, unit), style.SMALL).width for tick in ticks)
+    stride = next((every for every in (1, 2, 5) if every * apart >= widest + BETWEEN), 10)
+    return [tick for tick in ticks if round(tick / step) % stride == 0]
 
 
 def _box(low: complex, high: complex, pen: Stroke, fill: str | None = None) -> Polyline:

@@ -14,7 +14,7 @@ from typing import Literal
 
 from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish
-from reportgen.figures.geometry import clusters, polar, unit
+from reportgen.figures.geometry import clusters, on_one_line, polar, unit
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.plan import CROWDED, Plan, point_names
 from reportgen.figures.scene import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene
@@ -152,19 +152,26 @@ def draw_forces(
 ) -> Draft:
     """Arrows with their labels and the arms to their lines; forces without direction are left out.
 
-    A force that would lie along one of the `bars` from its end is drawn as a push from outside instead.
+    A force that would lie along one of the `bars` from its end is drawn as a push from outside instead, one that
+    would lie on another force beside it, a thin line from its point.
     """
     shown = [force for force in forces if force.direction != 0]
     items: list[Item] = []
     requests: list[Request] = []
     shafts: dict[str, tuple[complex, complex]] = {}
+    drawn: list[tuple[complex, complex]] = []
     for force, tip in zip(shown, _tips(shown), strict=True):
         start, end = force.at, tip
         if _lies_along(force, bars):
             start, end = force.at - (tip - force.at), force.at
+        by = _aside((start, end), drawn)
         shafts[force.id] = start, end
-        items.append(Arrow(start, end, style.ACTIVE if force.kind == "load" else style.REACTION, style.HEAD, force.id))
-        requests.append(_name(start, end, force))
+        drawn.append((start + by, end + by))
+        if by:
+            items.append(Line(force.at, force.at + by, style.LEADER))
+        pen = style.ACTIVE if force.kind == "load" else style.REACTION
+        items.append(Arrow(start + by, end + by, pen, style.HEAD, force.id))
+        requests.append(_name(start + by, end + by, force, force.at + by))
     feet = {arm.force: foot(arm.about, *shafts[arm.force]) for arm in arms if arm.force in shafts}
     long = [arm for arm in arms if arm.force in feet and abs(feet[arm.force] - arm.about) >= LEAST_ARM]
     for arm in long:
@@ -225,11 +232,22 @@ def _lies_along(force: Force, bars: Sequence[tuple[complex, complex]]) -> bool:
     )
 
 
-def _name(start: complex, end: complex, force: Force) -> Request:
+def _aside(shaft: tuple[complex, complex], drawn: Sequence[tuple[complex, complex]]) -> complex:
+    """By how much (mm) an arrow stands beside its line, so that it lies on none that is drawn."""
+    step = -1j * unit(shaft[1] - shaft[0]) * style.BESIDE
+    shifts = (step * number for number in range(len(drawn) + 1))
+    return next(
+        by
+        for by in shifts
+        if not any(on_one_line((shaft[0] + by, shaft[1] + by), one, style.ON_LINE, style.HEAD) for one in drawn)
+    )
+
+
+def _name(start: complex, end: complex, force: Force, at: complex) -> Request:
     """The name at the head, or at the tail of an arrow that pushes."""
     u = unit(end - start)
     along, across = cmath.phase(u), cmath.phase(u) + math.pi / 2
-    if end == force.at:
+    if end == at:
         sides = (along + math.pi, across, across + math.pi)
         return label((start, start + u * 3, start + u * 6), force.label, prefer=sides)
     sides = (along, across, across + math.pi)

@@ -141,6 +141,17 @@ def clusters(parts: Iterable[Part], reach: float, at: Callable[[Part], complex])
     return [[part for part, g in zip(parts, group, strict=True) if g == key] for key in sorted(set(group))]
 
 
+def on_one_line(one: tuple[complex, complex], other: tuple[complex, complex], apart: float, least: float) -> bool:
+    """Whether two segments lie within `apart` mm of the longer one's line and cover more than `least` mm of it."""
+    one, other = sorted((one, other), key=lambda ends: -abs(ends[1] - ends[0]))
+    u = unit(one[1] - one[0])
+    ends = [(end - one[0]) * u.conjugate() for end in other]
+    if max(abs(end.imag) for end in ends) > apart:
+        return False
+    low, high = sorted(end.real for end in ends)
+    return min(high, abs(one[1] - one[0])) - max(low, 0.0) > least
+
+
 def unit(vector: complex) -> complex:
     """The direction of a vector; 1 for a vector of no length."""
     size = abs(vector)

@@ -15,7 +15,7 @@ from typing import Literal
 
 from reportgen.figures import style
 from reportgen.figures.draft import MARGIN, Draft, finish, settle
-from reportgen.figures.geometry import bounds, clipped, clusters, corners_of, unit
+from reportgen.figures.geometry import bounds, clipped, clusters, corners_of, on_one_line, unit
 from reportgen.figures.labels import Request, label
 from reportgen.figures.scene import Arrow, Circle, Content, Item, Label, Line, Polyline, Scene, Stroke
 from reportgen.notation.numbers import SERIES
@@ -25,12 +25,8 @@ Titles = Callable[[range, int], str]
 """What stands below a panel, of the stages that it draws and its own number from 0."""
 PENS: dict[Style, Stroke] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
 
-NOTHING = 1e-9
-"""A vector below this share of the longest one counts as zero and is not drawn."""
 SAME = 0.05
 """Points nearer than this (mm) look like one point and share a label joined by ≡."""
-ON_LINE = 0.4
-"""A vector whose ends lie no farther than this (mm) from another's line is drawn on that line."""
 CROWDED = 1.2
 """Points nearer than this share a label joined by commas; an inset tells them apart."""
 BEYOND = 6.0
@@ -38,14 +34,12 @@ BEYOND = 6.0
 
 TINY = 3.0
 """Vectors drawn shorter than this (mm) get an enlarged inset."""
-INVISIBLE = 0.001
-"""What is drawn shorter than this (mm) is a point on any paper and gets no inset."""
+INVISIBLE = 0.01
+"""What is shorter than this (mm), the last digit of a measured length, is a point on any paper and not drawn."""
 TARGET = 20.0
 """The longest vector of an inset is enlarged to at most this (mm)."""
 SPACE = 8.0
 """White between the figure and what stands beside it: its insets, a small mechanism; mm."""
-APART_SIDE = 1.6
-"""Arrows on one line are drawn so far apart (mm), the later one beside its line."""
 CLOSE = 2.0
 """The white margin of a plan that fills its width, mm."""
 LABELS = 5.0
@@ -110,18 +104,13 @@ class Plan:
     pole: bool = True
 
     @property
-    def size(self) -> float:
-        """The longest vector, mm."""
-        return max((vector.length for vector in self.vectors), default=0.0)
-
-    @property
     def last_stage(self) -> int:
         numbers = [v.stage for v in self.vectors] + [p.stage for p in self.points]
         return max(numbers + [k.stage for k in self.lines], default=0)
 
     def drawn(self) -> tuple[PlanVector, ...]:
-        """The vectors that are not zero."""
-        return tuple(v for v in self.vectors if v.length > NOTHING * self.size)
+        """The vectors that can be seen."""
+        return tuple(v for v in self.vectors if v.length > INVISIBLE)
 
     def scaled(self, factor: complex) -> Plan:
         """The plan enlarged or reduced; a complex factor also turns it."""
@@ -221,9 +210,8 @@ def merged(drawing: Plan) -> Plan:
 
 def kept_stages(drawing: Plan) -> list[int]:
     """The stages that draw an arrow or a line that was not there before, in order."""
-    least = NOTHING * drawing.size
     arrows = [(v.stage, v.start, v.end) for v in drawing.drawn()]
-    lines = [(k.stage, k.start, k.end) for k in drawing.lines if abs(k.end - k.start) > least]
+    lines = [(k.stage, k.start, k.end) for k in drawing.lines if abs(k.end - k.start) > INVISIBLE]
 
     def repeats(stage: int, start: complex, end: complex) -> bool:
         return any(s < stage and abs(start - p) + abs(end - q) < SAME for s, p, q in arrows)
@@ -260,27 +248,20 @@ def set_apart(vectors: Sequence[PlanVector]) -> list[complex]:
     shifts: list[complex] = []
     for n, vector in enumerate(vectors):
         way = vector.end - vector.start
-        on = {round(abs(shifts[m]) / APART_SIDE) for m in range(n) if _on_one_line(vector, vectors[m])}
+        on = {round(abs(shifts[m]) / style.BESIDE) for m in range(n) if _on_one_line(vector, vectors[m])}
         free = next(step for step in range(n + 1) if step not in on)
-        shifts.append(-1j * unit(way) * APART_SIDE * free)
+        shifts.append(-1j * unit(way) * style.BESIDE * free)
     return shifts
 
 
 def _on_one_line(one: PlanVector, other: PlanVector) -> bool:
     """Whether two vectors, long enough to see, cover a part of one line that is longer than an arrow's head."""
-    if min(one.length, other.length) < TINY or _same(one, other):
+    if min(one.length, other.length) < TINY:
         return False
-    u = unit(one.end - one.start)
-    ends = [(end - one.start) * u.conjugate() for end in (other.start, other.end)]
-    if max(abs(end.imag) for end in ends) > ON_LINE:
+    # Two vectors with one start and one end are one arrow with two names.
+    if abs(one.start - other.start) + abs(one.end - other.end) < SAME:
         return False
-    low, high = sorted(end.real for end in ends)
-    return min(high, one.length) - max(low, 0.0) > style.HEAD
-
-
-def _same(one: PlanVector, other: PlanVector) -> bool:
-    """Whether two vectors are one arrow with two names."""
-    return abs(one.start - other.start) + abs(one.end - other.end) < SAME
+    return on_one_line((one.start, one.end), (other.start, other.end), style.ON_LINE, style.HEAD)
 
 
 def _marks(drawing: Plan) -> list[Item]:
@@ -337,7 +318,7 @@ def insets(drawing: Plan) -> tuple[list[Draft], Draft]:
 
     Each prints its ratio (e.g. 10:1) and shows what passes through its frame of the plan's other vectors.
     """
-    groups = _groups([vector for vector in drawing.drawn() if INVISIBLE < vector.length < TINY])
+    groups = _groups([vector for vector in drawing.drawn() if vector.length < TINY])
     return [_inset(group, drawing) for group in groups], Draft(tuple(map(_mark, groups)))
 
 

@@ -1,4 +1,5 @@
-"""Any linkage at one position as plain geometry in mm, its scheme, and its driver and Assur groups taken apart."""
+"""Any linkage at one position as plain geometry in mm, its scheme, its driver and Assur groups taken apart,
+and the legend of the lines in which all of it is drawn."""
 
 from __future__ import annotations
 
@@ -14,7 +15,7 @@ from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish, settle
 from reportgen.figures.geometry import Complexes, Floats, clusters, polar
 from reportgen.figures.labels import Request, joined, label
-from reportgen.figures.scene import Arc, Circle, Content, Item, Line, Scene, Stroke
+from reportgen.figures.scene import Arc, Arrow, Circle, Content, Item, Label, Line, Scene, Stroke
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
 from reportgen.notation import vocabulary
@@ -211,7 +212,7 @@ def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Draft:
     for slide in bones.slides:
         size = looks.block(slide.link)
         if slide.on in shown and (slide.on != GROUND or slide.link in shown):
-            rails += _rail(slide, size, _bars(bones, shown))
+            rails += _rail(slide, size, _bars(bones, shown, looks))
         if slide.link in shown:
             # Where a group is drawn alone, a short piece of its axis stands for the guide.
             if slide.on not in shown:
@@ -274,18 +275,24 @@ def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Draft:
     return Draft((arrow,), (omega,))
 
 
-def _bars(bones: Skeleton, shown: Sequence[int]) -> list[tuple[complex, complex]]:
-    """The straight lines between the joints of the links."""
+def _bars(bones: Skeleton, shown: Sequence[int], looks: Looks) -> list[tuple[complex, complex]]:
+    """The straight lines between the joints of the links, and the guides that they carry."""
     joints = [[bones.points[name] for name in bones.bars.get(link, ())] for link in shown]
-    return [bar for ends in joints for bar in combinations(ends, 2)]
+    bars = [bar for ends in joints for bar in combinations(ends, 2)]
+    return bars + [_carried(slide, looks.block(slide.link)) for slide in bones.slides if slide.on in shown and slide.on]
+
+
+def _carried(slide: Slide, size: tuple[float, float]) -> tuple[complex, complex]:
+    """The ends of the line that stands for a guide on a moving link."""
+    on = polar(slide.angle) * (size[0] / 2 + 3.0)
+    return slide.low - on, slide.high + on
 
 
 def _rail(slide: Slide, size: tuple[float, float], bars: Sequence[tuple[complex, complex]]) -> tuple[Item, ...]:
     """The guide of a block along its way; if the way has no length, along a short piece of its axis."""
     along = polar(slide.angle)
     if slide.on != GROUND:
-        on = along * (size[0] / 2 + 3.0)
-        return (Line(slide.low - on, slide.high + on, style.HEAVY),)
+        return (Line(*_carried(slide, size), style.HEAVY),)
     if abs(slide.high - slide.low) > 1e-6:
         return style.guide(slide.low, slide.high, size, bars)
     return style.guide(slide.at - 0.5 * along, slide.at + 0.5 * along, size)
@@ -348,3 +355,39 @@ def _names(
         label(bones.points[group[0]], *joined(map(vocabulary.point, group), " ≡ "), gap=radius + 0.5, size=size)
         for group in clusters(dict.fromkeys(names), 0.3, bones.points.__getitem__)
     ]
+
+
+# --- the legend of lines ---------------------------------------------------------------------------
+
+LINES: tuple[tuple[str, Stroke], ...] = (
+    ("link", style.HEAVY),
+    ("other", style.THIN),
+    ("axis", style.AXIS),
+    ("construction", style.CONSTRUCTION),
+    ("path", style.PATH),
+    ("normal", style.NORMAL),
+)
+"""Lines of the mechanism and of constructions, by the names of their words."""
+ARROWS: tuple[tuple[str, Stroke], ...] = (
+    ("known", style.KNOWN),
+    ("relative", style.RELATIVE),
+    ("found", style.FOUND),
+    ("load", style.ACTIVE),
+    ("reaction", style.REACTION),
+    ("new", style.NEW),
+)
+"""Vectors of plans, forces on links, and what a step of a construction adds."""
+SAMPLE, COLUMN, ROW, GAP = 18.0, 76.0, 6.5, 2.5
+"""Length of a sample, from one column to the next, from one row to the next, between a sample and its words; mm."""
+
+
+def line_styles(words: Mapping[str, str]) -> Scene:
+    """Two columns of samples, lines and arrows; `words` has the text of each by its name."""
+    items: list[Item] = []
+    for column, pens in enumerate((LINES, ARROWS)):
+        for row, (name, pen) in enumerate(pens):
+            start = complex(column * COLUMN, -row * ROW)
+            end = start + SAMPLE
+            items.append(Arrow(start, end, pen, style.HEAD) if pens is ARROWS else Line(start, end, pen))
+            items.append(Label(end + GAP, words[name], "left", style.LABEL))
+    return finish(Draft(tuple(items)), margin=2.0)

@@ -45,9 +45,12 @@ NEW = Stroke(0.5, BLUE)
 OLD = Stroke(0.2, GRAY)
 DIMENSION = Stroke(0.13)
 
+ON_LINE, BESIDE = 0.4, 1.6
+"""Arrows within the first distance (mm) of one line lie on each other: the later one is drawn beside by the second."""
+
 HEAD, DIMENSION_HEAD = 2.6, 1.6
-LABEL, SMALL = 9.0, 8.0
-"""Font sizes in points, the second where labels are dense."""
+LABEL, SMALL = 9.0, 8.6
+"""Font sizes in points, the second where labels are dense; its indices, 0.7 of it, have six points still."""
 
 # --- signs ----------------------------------------------------------------------------------------
 

@@ -116,7 +116,8 @@ def feedback_document(marking: Marking, title: str, show_answers: bool = True) -
         Paragraph((tree.Strong(score),)),
         *(paragraph(words["warnings"][warning]) for warning in marking.warnings),
         *_section(feedback["firsts"], _firsts(marking, words, show_answers)),
-        *_section(feedback["followed"], _followed(marking, words)),
+        *_section(feedback["followed"], _listed_cells(marking, words, _followed(marking), feedback["followed_lead"])),
+        *_section(feedback["elsewhere"], _listed_cells(marking, words, marking.elsewhere, feedback["elsewhere_lead"])),
         *_section(feedback["unread"], _listed(marking.submission.problems.values())),
         *_section(feedback["noted"], _listed(marking.submission.notes)),
         _by_part(marking, words),
@@ -152,6 +153,7 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
     label = key.label(cell.position)
     return (
         InlineMath(row.symbol),
+        *((Text(f" ({row.what})"),) if row.what else ()),
         *(sentence(feedback["at"], label=label) if label else ()),
         *sentence(feedback["yours"], value=_given_value(row, cell.given)),
         *(sentence(feedback["expected"], value=expected) if show_answers else ()),
@@ -160,19 +162,23 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
     )
 
 
-def _followed(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
-    """The values that differ from the key but earned their points, quantity by quantity."""
+def _followed(marking: Marking) -> list[Marked]:
+    """The values that differ from the key but earned their points."""
+    return [cell for cell in marking.cells if cell.verdict is Verdict.follows]
+
+
+def _listed_cells(marking: Marking, words: Mapping[str, Any], chosen: Sequence[Marked], lead: str) -> Iterator[Block]:
+    """A paragraph that names some values, quantity by quantity, behind a lead."""
     key = marking.key
-    followed = [cell for cell in marking.cells if cell.verdict is Verdict.follows]
-    if not followed:
+    if not chosen:
         return
     line: list[Any] = []
-    for id, of_row in groupby(followed, lambda cell: cell.id):
+    for id, of_row in groupby(chosen, lambda cell: cell.id):
         symbol = InlineMath(key.row(id).symbol)
         labels = ", ".join(key.label(cell.position) for cell in of_row if cell.position)
         line += [Text("; ")] if line else []
         line += sentence(words["feedback"]["with_labels"], symbol=symbol, labels=labels) if labels else (symbol,)
-    yield Paragraph((Text(f"{words['feedback']['followed_lead']} "), *line, Text(".")))
+    yield Paragraph((Text(f"{lead} "), *line, Text(".")))
 
 
 def _listed(problems: Iterable[Problem]) -> Iterator[Block]:
@@ -241,7 +247,7 @@ def _comment(cell: Marked, key: Key, words: Mapping[str, Any], message: str, sho
     """The comment on a cell that is not right; `message` says why it could not be read."""
     notes = words["verdict_notes"]
     if cell.verdict is Verdict.right:
-        return ""
+        return str(words["feedback"]["elsewhere_note"]) if cell.elsewhere else ""
     if cell.verdict is Verdict.unreadable:
         return str(notes["unreadable"]).format(message=message)
     lines = [str(notes["first" if cell.first else cell.verdict])]

@@ -9,11 +9,12 @@ from typing import Any
 
 from reportgen.answers.key import Key, symbol_text
 from reportgen.answers.paper import DASH, cells, heading, paper, paragraph
-from reportgen.document.tree import Block, Column, Document, Figure, Table, Text
+from reportgen.answers.wording import capitalised
+from reportgen.document.tree import TEXT_WIDTH, Block, Column, Document, Figure, InlineMath, Table, Text
 from reportgen.figures.charts import bars, histogram
 from reportgen.figures.scene import Content
 from reportgen.grading.feedback import points_text
-from reportgen.grading.marks import Marked, Marking, points_of
+from reportgen.grading.marks import Marked, Marking, Scale, Verdict, points_of
 from reportgen.notation.numbers import Language, write
 from reportgen.notation.vocabulary import Chapter
 from reportgen.words import load_words, search_path
@@ -24,43 +25,58 @@ CLASSES = 10
 """Columns of the histogram."""
 MOST_BARS = 24
 """Quantities with a bar of their own; there are fewer mistakes with names."""
-WIDTHS = (34.0, 58.0, 28.0, 14.0, 14.0, 12.0)
+WIDTHS = (32.0, 50.0, 24.0, 14.0, 14.0, 12.0, 14.0)
 """Widths (mm) of the columns of marks."""
+SYMBOL, PART, SHARE = 22.0, 40.0, 18.0
+"""Widths (mm) of the columns of questions; what they are has the rest."""
 
 
 def grade_rows(
-    markings: Sequence[Marking], language: Language, missing: Sequence[Key] = ()
+    markings: Sequence[Marking], language: Language, missing: Sequence[Key] = (), scale: Scale | None = None
 ) -> tuple[tuple[Value, ...], ...]:
-    """Head and rows of `grades.csv`: who, points, points by part, the first error and its name, warnings, flags.
+    """Head and rows of `grades.csv`: who, points, the mark, points by part, all first errors, warnings, flags, remarks.
 
     `missing` are keys of those who handed nothing in; their points stay empty.
     """
+    marks = scale or Scale()
     words = load_words(search_path(language))
     names = words["grades"]
     judged = {marking.key.row(cell.id).part for marking in markings for cell in marking.cells}
     parts = [part for part in Chapter if part in judged]
     head = (
-        *(names[name] for name in ("id", "name", "class", "points", "out_of")),
+        *(names[name] for name in ("id", "name", "class", "points", "out_of", "percent", "mark")),
         *(str(words["parts"][part]) for part in parts),
-        *(names[name] for name in ("first", "mistake", "warnings", "flags")),
+        *(names[name] for name in ("firsts", "warnings", "flags", "elsewhere")),
     )
+    people = {key.id: person(key) for key in (*(marking.key for marking in markings), *missing)}
     rows: list[tuple[Value, ...]] = [head]
-    for marking in markings:
-        first = next(iter(marking.first_errors), None)
-        rows.append(
-            (
-                *_who(marking.key),
-                round(marking.points, 2),
-                round(marking.out_of, 2),
-                *(_points_of(marking, part) for part in parts),
-                _cell_text(marking.key, first) if first else "",
-                words["mistake_names"][first.mistake or "none"] if first else "",
-                ", ".join(words["warning_names"][warning] for warning in marking.warnings),
-                _flags(marking),
-            )
+    rows += [
+        (
+            *_who(marking.key),
+            round(marking.points, 2),
+            round(marking.out_of, 2),
+            round(100 * marking.share, 1),
+            marks.mark(marking.share),
+            *(_points_of(marking, part) for part in parts),
+            "; ".join(_error_text(marking.key, cell, words) for cell in marking.first_errors),
+            ", ".join(words["warning_names"][warning] for warning in marking.warnings),
+            _flags(marking, words, people),
+            ", ".join(_cell_text(marking.key, cell) for cell in marking.elsewhere),
         )
-    rows += [(*_who(key), None, None, *(None for _ in parts), "", "", "", "") for key in missing]
+        for marking in markings
+    ]
+    rows += [(*_who(key), *(None,) * 4, *(None for _ in parts), "", "", "", "") for key in missing]
     return tuple(rows)
+
+
+def person(key: Key) -> str:
+    """An assignment and whose it is: K225520103001 Nguyễn Văn An."""
+    return " ".join(filter(None, (key.id, key.student.get("name", ""))))
+
+
+def _error_text(key: Key, cell: Marked, words: Mapping[str, Any]) -> str:
+    """A first error and its name: v_BA (3): scale forgotten."""
+    return f"{_cell_text(key, cell)}: {words['mistake_names'][cell.mistake or 'none']}"
 
 
 def _who(key: Key) -> tuple[str, str, str]:
@@ -79,18 +95,28 @@ def _cell_text(key: Key, cell: Marked) -> str:
     return f"{symbol} ({key.label(cell.position)})" if cell.position else symbol
 
 
-def _flags(marking: Marking) -> str:
-    """The assignments whose keys some values equal, with their number, the most frequent first."""
-    counts = Counter(name for cell in marking.cells for name in cell.classmates)
-    found = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
-    return ", ".join(f"{name} ({count})" for name, count in found)
+SHOWN = 4
+"""Places that are listed of a flag."""
+
+
+def _flags(marking: Marking, words: Mapping[str, Any], people: Mapping[str, str]) -> str:
+    """Every flag in full: its kind, whose values, where, the chance of an honest sheet, cells it cost."""
+    texts: list[str] = []
+    for flag in marking.flags:
+        cells = [cell for cell in marking.cells if (cell.id, cell.position) in {*flag.places[:SHOWN]}]
+        where = ", ".join(_cell_text(marking.key, cell) for cell in cells) + (", …" if len(flag.places) > SHOWN else "")
+        of = f" = {people.get(flag.other, flag.other)}" if flag.other else ""
+        chance = f", p < {max(flag.chance, 1e-9):.0e}" if flag.other else ""
+        taken = f", {words['warning_names']['taken']}: {len(flag.taken)}" if flag.taken else ""
+        texts.append(f"{words['warning_names'][flag.kind]}{of} ({len(flag.places)}: {where}{chance}{taken})")
+    return "; ".join(texts)
 
 
 # --- the class on a page --------------------------------------------------------------------------
 
 
 def class_document(
-    markings: Sequence[Marking], title: str, language: Language, missing: Sequence[Key] = ()
+    markings: Sequence[Marking], title: str, language: Language, missing: Sequence[Key] = (), scale: Scale | None = None
 ) -> Document:
     """The page of a class; `title` names the assignment, `missing` are keys of those who handed nothing in."""
     words = load_words(search_path(language))
@@ -98,10 +124,10 @@ def class_document(
     blocks: list[Block] = [
         heading(page["title"]),
         *_summary(markings, page, language, missing),
-        _marks(markings, words, language, missing),
+        _marks(markings, words, language, missing, scale or Scale()),
     ]
     if markings:
-        blocks += [_spread(markings, page), *_errors(markings, words)]
+        blocks += [_spread(markings, page), *_shares(markings, words, language), *_errors(markings, words)]
     return paper(language, words, f"{page['title']} – {title}", blocks)
 
 
@@ -118,20 +144,23 @@ def _summary(
         yield paragraph(page["missing"].format(count=len(missing)))
 
 
-def _marks(markings: Sequence[Marking], words: Mapping[str, Any], language: Language, missing: Sequence[Key]) -> Table:
+def _marks(
+    markings: Sequence[Marking], words: Mapping[str, Any], language: Language, missing: Sequence[Key], scale: Scale
+) -> Table:
     """A row for each student, in the order given."""
     names, page = words["grades"], words["class_page"]
-    heads = (*(names[name] for name in ("id", "name", "class", "points", "out_of")), page["share"])
+    heads = (*(names[name] for name in ("id", "name", "class", "points", "out_of")), page["share"], names["mark"])
     rows = [
         (
             *_who(marking.key),
             points_text(marking.points, language),
             points_text(marking.out_of, language),
             write(100 * marking.share, 0, language),
+            points_text(scale.mark(marking.share), language),
         )
         for marking in markings
     ]
-    rows += [(*_who(key), DASH, DASH, DASH) for key in missing]
+    rows += [(*_who(key), *(DASH,) * 4) for key in missing]
     columns = tuple(Column(width, "left" if n < 2 else "center") for n, width in enumerate(WIDTHS))
     return Table(columns, (cells(heads),), tuple(map(cells, rows)), (Text(page["list"]),))
 
@@ -142,6 +171,58 @@ def _spread(markings: Sequence[Marking], page: Mapping[str, Any]) -> Figure:
     edges = [100 * n / CLASSES for n in range(CLASSES + 1)]
     scene = histogram([counts[n] for n in range(CLASSES)], edges, page["x_share"], page["students"])
     return Figure((scene,), (Text(page["histogram"]),))
+
+
+def _shares(markings: Sequence[Marking], words: Mapping[str, Any], language: Language) -> Iterator[Block]:
+    """Which share of the class was right, a section and a question a row, the hardest first.
+
+    A value that follows from the student's own counts as right, an empty cell as wrong; what is not marked does
+    not count.  Questions that all had right are only counted.
+    """
+    page, names = words["class_page"], words["answer_sheet"]
+    asked = [(marking.key.row(cell.id), cell) for marking in markings for cell in marking.cells if cell.worth]
+    sections = _right([(row.part, cell) for row, cell in asked])
+    parts = [(str(words["parts"][part]), _percent(share, language)) for part, share in sections]
+    widths = (Column(PART + 3 * SHARE, "left"), Column(SHARE))
+    yield Table(
+        widths,
+        (cells((words["feedback"]["part"], page["right"])),),
+        tuple(map(cells, parts)),
+        (Text(page["by_section"]),),
+    )
+    rows = {row.id: row for row, _ in asked}
+    questions = [(rows[id], share) for id, share in _right([(row.id, cell) for row, cell in asked])]
+    hard = [(row, share) for row, share in questions if share < 1]
+    if hard:
+        what = TEXT_WIDTH - SYMBOL - PART - SHARE
+        heads = (words["table"]["symbol"], names["what"], words["feedback"]["part"], page["right"])
+        lines = (
+            cells(
+                (
+                    (InlineMath(row.symbol),),
+                    capitalised(row.what),
+                    str(words["parts"][row.part]),
+                    _percent(share, language),
+                )
+            )
+            for row, share in hard
+        )
+        columns = (Column(SYMBOL), Column(what, "left"), Column(PART, "left"), Column(SHARE))
+        yield Table(columns, (cells(heads),), tuple(lines), (Text(page["by_question"]),))
+    if easy := len(questions) - len(hard):
+        yield paragraph(page["all_right"].format(count=easy))
+
+
+def _right(judged: Sequence[tuple[str, Marked]]) -> list[tuple[str, float]]:
+    """Each name's share of cells that are right or follow, the least first, else in the order given."""
+    counts: dict[str, list[bool]] = {}
+    for name, cell in judged:
+        counts.setdefault(name, []).append(cell.verdict in (Verdict.right, Verdict.follows))
+    return sorted(((name, fmean(right)) for name, right in counts.items()), key=lambda item: item[1])
+
+
+def _percent(share: float, language: Language) -> str:
+    return write(100 * share, 0, language)
 
 
 def _errors(markings: Sequence[Marking], words: Mapping[str, Any]) -> Iterator[Block]:

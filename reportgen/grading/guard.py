@@ -1,147 +1,284 @@
-"""Against sheets that are not the student's own work: what follows from stock values earns nothing.
+"""Sheets that are not the student's own work: what speaks for it is told, and little is taken.
 
-Marking that follows a student's own values through would reward any consistent set of numbers.  So
-nothing is earned by a sheet that holds one number throughout, by a row of one number where the key
-varies, by what follows from a classmate's values, from another variant's, or from one that is out of
-all proportion.
+Five things are looked for: one number throughout, rows or columns that do not vary, other data than the
+assignment's, and values of a classmate.  Each is a `Flag` with its places and its reason.  Marks are taken only for
+what is beyond doubt, and only if the policy says so: what follows from a wrong value is otherwise the student's.
+
+Copying shows in values that are the student's alone: too far from the key and from what the own values give to come
+from rounding.  An honest one meets a classmate's figures now and then; how many do so by chance is a binomial tail,
+multiplied by the classmates and chapters that were compared, and only what is rarer than `CHANCE` is told.
 """
 
 from __future__ import annotations
 
+import math
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
-from reportgen.answers.key import Key, is_direction
-from reportgen.grading.marks import Cells, Marked, Place, Verdict
+from reportgen.answers.key import Key, Role, Row
+from reportgen.grading.marks import Cells, Flag, Marked, Place, Submission, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM
-from reportgen.grading.working import Guide
+from reportgen.grading.working import Guide, last_half_unit
+from reportgen.notation import vocabulary
 
 SAME = 0.8
-"""The share of a sheet's values that one number fills in a stock answer."""
+"""The share of a sheet's, a column's or a chapter's values that are not its own."""
 
 FEWEST = 4
 """Fewer values may agree by chance."""
 
+FEWEST_ROWS = 8
+"""Rows that show whether two columns are one."""
+
 APART = 3.0
-"""Two keys differ where they lie this many tolerances apart."""
+"""Two values differ for certain where they lie this many tolerances apart."""
 
-OUT_OF_PROPORTION = 20.0
-"""A first wrong value without a name that is this many times too large or too small was made up."""
+OTHER_DATA = 3
+"""So many given data taken wrongly make other data; one or two are misread."""
 
-MISREAD = 2
-"""So many given data taken wrongly, all else following from them, make another variant."""
+NAMED = 2
+"""So many of them at least are known by the datum that explains them."""
 
-CONSISTENT = 0.9
-"""The share of the values not right that follow, where a sheet is another's."""
+INVENTED = 5
+"""So many wrong values that are worked out from given data alone, of whatever kind, are other data too."""
 
+CHANCE = 3e-4
+"""The chance that an honest sheet is told to hold a classmate's values; the suite tests it to 1 in 1000."""
 
-def guard(guide: Guide, cells: Cells, classmates: Sequence[Key]) -> tuple[dict[Place, Marked], tuple[str, ...]]:
-    """The cells without what stock answers would earn, and the warnings: ids in `words.yaml`."""
-    warnings: list[str] = []
-    result = dict(cells)
-    filled = [place for place, cell in cells.items() if cell.given is not None]
-    commonest = Counter(cells[place].given for place in filled).most_common(1)
-    if len(filled) >= FEWEST and commonest and commonest[0][1] >= SAME * len(filled):
-        return _without_points(result, filled), ("stock",)
-    constant = _constant_rows(cells)
-    if constant:
-        warnings.append("constant")
-        result = _without_points(result, [place for place in filled if place[0] in constant])
-    equal, copied = _copied_from(guide, result, classmates)
-    result |= {place: replace(result[place], classmates=tuple(names)) for place, names in equal.items()}
-    if copied:
-        return _without_points(result, filled), (*warnings, "classmate")
-    causes = {place for place in filled if place[0] in constant} | equal.keys()
-    misread = {cell.where for cell in result.values() if cell.mistake == WRONG_DATUM}
-    if len(misread) >= MISREAD and _follows_throughout(result):
-        return _without_points(result, filled), (*warnings, "other-variant")
-    wild = {place for place, cell in result.items() if cell.first and not cell.mistake and _is_wild(guide, cell)}
-    if wild:
-        warnings.append("proportion")
-    causes |= wild
-    follows = [place for place in filled if result[place].verdict is Verdict.follows]
-    spoiled = [place for place in follows if place in causes or guide.stands_on(place, causes)]
-    return _without_points(result, spoiled), tuple(warnings)
+NEAR, FAR = 0.3, 0.02
+"""The chance that a value meets a classmate's in all figures: one right but for the drawing; one wrong.
+
+A length of 0.1 mm read to ± 0.3 mm meets another reading of it in one case of four.  A wrong value may have any of
+some hundred numbers of three figures near by.
+"""
+
+LAST = 1.5
+"""So many units of the last figure may come from rounding."""
 
 
-def _without_points(cells: dict[Place, Marked], places: Sequence[Place]) -> dict[Place, Marked]:
-    """The cells with no points at `places`; a wrong value stays wrong."""
-    earned = (Verdict.right, Verdict.follows)
-    spoiled = {
-        place: replace(cells[place], verdict=Verdict.implausible, points=0.0)
-        for place in places
-        if cells[place].verdict in earned
-    }
-    return cells | spoiled
+@dataclass(frozen=True)
+class Classmate:
+    """Another student's assignment, and the sheet that was handed in for it."""
+
+    key: Key
+    submission: Submission | None = None
 
 
-def _constant_rows(cells: Cells) -> set[str]:
+def guard(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> tuple[dict[Place, Marked], tuple[Flag, ...]]:
+    """The cells without what the policy takes, and everything that was found."""
+    result, flags = dict(cells), []
+    for search in (_one_number, _other_data, _same_columns, _constant_rows):
+        flags += list(search(guide, cells))
+    flags += _copied(guide, cells, classmates)
+    policy = guide.policy
+    for number, flag in enumerate(flags):
+        places = flag.spoiled if policy.takes(flag.kind, guide.key.id) else ()
+        taken = [place for place in places if result[place].points]
+        if taken:
+            flags[number] = replace(flag, taken=tuple(taken))
+            result |= {place: replace(result[place], verdict=Verdict.implausible, points=0.0) for place in taken}
+        for place in flag.places:
+            if flag.other:
+                names = (*result[place].classmates, flag.other)
+                result[place] = replace(result[place], classmates=tuple(dict.fromkeys(names)))
+    return result, tuple(flags)
+
+
+def _filled(cells: Cells) -> list[Place]:
+    return [place for place, cell in cells.items() if cell.given is not None]
+
+
+# --- the sheet alone ------------------------------------------------------------------------------
+
+
+def _one_number(guide: Guide, cells: Cells) -> Iterator[Flag]:
+    """Nearly all cells hold one number, which most of them should not."""
+    filled = _filled(cells)
+    number, _ = Counter(cells[place].given for place in filled).most_common(1)[0] if filled else (None, 0)
+    same = tuple(place for place in filled if cells[place].given == number)
+    wrong = [place for place in same if cells[place].verdict is not Verdict.right]
+    if len(same) >= SAME * len(filled) and len(wrong) >= max(FEWEST, len(same) / 2):
+        yield Flag("stock", same, tuple(filled))
+
+
+def _constant_rows(guide: Guide, cells: Cells) -> Iterator[Flag]:
     """Rows of one number throughout where the key varies by more than its bands."""
-    rows: dict[str, list[Marked]] = {}
-    for cell in cells.values():
-        if cell.given is not None:
-            rows.setdefault(cell.id, []).append(cell)
-    return {
-        id
-        for id, row in rows.items()
-        if len(row) >= FEWEST
-        and len({cell.given for cell in row}) == 1
-        and np.ptp([cell.expected for cell in row]) > APART * max(cell.band for cell in row)
-    }
+    rows: dict[str, list[Place]] = {}
+    for place in _filled(cells):
+        rows.setdefault(place[0], []).append(place)
+    for places in rows.values():
+        row = [cells[place] for place in places]
+        varies = np.ptp([cell.expected for cell in row]) > APART * max(cell.band for cell in row)
+        if len(row) >= FEWEST and len({cell.given for cell in row}) == 1 and varies:
+            yield Flag("constant", tuple(places))
 
 
-def _theirs(guide: Guide, cell: Marked, key: Key) -> float | None:
-    """A classmate's value of a cell, where the two keys differ by three tolerances."""
-    row = key.find(cell.id)
-    if cell.given is None or row is None or key.id == guide.key.id or cell.position > len(row.values):
-        return None
-    # A mistake that has a name is the student's own; it may meet many a number by chance.
-    if cell.mistake and cell.mistake != WRONG_DATUM:
-        return None
-    theirs = float(row.values[row.at(cell.position)])
-    return theirs if abs(theirs - cell.expected) >= APART * cell.band else None
+def _same_columns(guide: Guide, cells: Cells) -> Iterator[Flag]:
+    """A position whose values are those of another one, figure for figure, where the key tells them apart."""
+    positions = sorted({position for _, position in _filled(cells) if position})
+    copies: set[int] = set()
+    for one, other in combinations(positions, 2):
+        telling = [id for id, position in cells if position == one and _differ(cells, (id, one), (id, other))]
+        same = [id for id in telling if cells[id, one].given == cells[id, other].given]
+        if len(telling) < FEWEST_ROWS or len(same) < SAME * len(telling) or {one, other} <= copies:
+            continue
+        right = {k: sum(cells[id, k].verdict is Verdict.right for id in same) for k in (one, other)}
+        copy = one if one in copies or (other not in copies and right[one] < right[other]) else other
+        copies.add(copy)
+        # What is right in spite of it stays.
+        spoiled = tuple(place for place in cells if place[1] == copy and cells[place].verdict is Verdict.follows)
+        yield Flag("columns", tuple((id, copy) for id in same), spoiled, other="", count=len(telling))
 
 
-def _copied_from(guide: Guide, cells: Cells, classmates: Sequence[Key]) -> tuple[dict[Place, list[str]], bool]:
-    """The classmates whose key each value equals, and whether one of them is the source of the sheet.
-
-    Left out are classmates whose key only a few values equal, which may happen by chance.
-    """
-    equal: dict[Place, list[str]] = {}
-    source = False
-    for key in classmates:
-        telling = {place: theirs for place, cell in cells.items() if (theirs := _theirs(guide, cell, key)) is not None}
-        met = [
-            place
-            for place, theirs in telling.items()
-            if (cell := cells[place]).verdict is not Verdict.right and cell.equals(theirs, cell.band)
-        ]
-        for place in met if len(met) >= FEWEST else ():
-            equal.setdefault(place, []).append(key.id)
-        source = source or len(met) >= max(FEWEST, SAME * len(telling))
-    return equal, source
-
-
-def _follows_throughout(cells: Cells) -> bool:
-    """Whether all but the values with a misread datum follow, as they do in a sheet made for other data."""
-    off = [cell for cell in cells.values() if cell.given is not None and cell.verdict is not Verdict.right]
-    other = [cell for cell in off if cell.mistake != WRONG_DATUM]
-    following = sum(cell.verdict is Verdict.follows for cell in other)
-    return following >= CONSISTENT * len(other)
-
-
-def _is_wild(guide: Guide, cell: Marked) -> bool:
-    """Whether a value is out of all proportion to what it should be, and to the quantity's size."""
-    if cell.given is None or is_direction(cell.id):
+def _differ(cells: Cells, one: Place, other: Place) -> bool:
+    """Whether both hold a value, and the key's lie apart."""
+    if other not in cells or cells[one].given is None or cells[other].given is None:
         return False
-    size = guide.size(cell.id) / guide.ledger[cell.id].how.scale
-    largest, least = max(abs(cell.own), size), abs(cell.own)
-    zero = cell.given == 0 and least > APART * cell.band
-    return (
-        zero
-        or abs(cell.given) > OUT_OF_PROPORTION * largest
-        or (abs(cell.given) * OUT_OF_PROPORTION < least and least > APART * cell.band)
-    )
+    band = max(cells[one].band, cells[other].band)
+    return abs(cells[one].expected - cells[other].expected) >= APART * band
+
+
+def _other_data(guide: Guide, cells: Cells) -> Iterator[Flag]:
+    """Values that belong to other data than the assignment's: what follows from them is work on another one."""
+    first = [place for place, cell in cells.items() if cell.first and cell.position == 0]
+    named = [place for place in first if cells[place].mistake == WRONG_DATUM]
+    # What is worked out from given data alone, wrongly and nobody knows how, may be of other data too.
+    alone = [place for place in first if not any(id in guide.rows for id in guide.before[place[0]])]
+    unnamed = [place for place in alone if not cells[place].mistake]
+    misread = {cells[place].where for place in named}
+    if len(misread) + len(unnamed) >= (OTHER_DATA if len(misread) >= NAMED else INVENTED):
+        causes = {*named, *unnamed}
+        follows = (place for place, cell in cells.items() if cell.verdict is Verdict.follows)
+        spoiled = (one for one in follows if guide.stands_on(one, causes) or misread & {*guide.before[one[0]]})
+        yield Flag("other-data", tuple(causes), tuple(spoiled))
+
+
+# --- classmates -----------------------------------------------------------------------------------
+
+
+def _copied(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> list[Flag]:
+    """Runs of values that a classmate's sheet or key has, chapter by chapter and over the sheet."""
+    own = {place: cell for place, cell in cells.items() if cell.given is not None and _is_personal(guide, cell)}
+    others = [one for one in classmates if one.key.id != guide.key.id and not _is_source(guide, cells, one)]
+    chapters = {place: guide.rows[place[0]].part for place in own}
+    compared = 2 * len(others) * (1 + len(set(chapters.values())))
+    flags: list[Flag] = []
+    for classmate in others:
+        meets = {place: _meets(guide, cell, classmate) for place, cell in own.items()}
+        parts = [[place for place in own if chapters[place] is part] for part in dict.fromkeys(chapters.values())]
+        found: dict[Place, None] = {}
+        chance = 1.0
+        wrong = [[place for place in part if not _is_near(own[place])] for part in (*parts, list(own))]
+        for part in (*parts, list(own), *wrong):
+            telling = [place for place in part if meets[place] is not None]
+            met = [place for place in telling if meets[place]]
+            by_chance = compared * _tail([NEAR if _is_near(own[place]) else FAR for place in telling], len(met))
+            if len(met) >= max(FEWEST, SAME * len(telling)) and by_chance < CHANCE:
+                found |= dict.fromkeys(met)
+                chance = min(chance, by_chance)
+        if found:
+            flags.append(Flag("classmate", tuple(found), other=classmate.key.id, chance=chance))
+    # Of several with the same values the nearest is named; a whole sheet is one whose values are nearly all met.
+    flags.sort(key=lambda flag: -len(flag.places))
+    by_id = {one.key.id: one for one in others}
+    filled = tuple(_filled(cells))
+    return [
+        replace(flag, kind="classmate-sheet", spoiled=filled) if _is_whole(guide, cells, by_id[flag.other]) else flag
+        for flag in flags
+    ]
+
+
+def _is_whole(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
+    """Whether a sheet has nearly all values of a classmate's that would be wrong on it."""
+    telling = [
+        cell
+        for place, cell in cells.items()
+        if cell.given is not None
+        and (theirs := _theirs(classmate, place)) is not None
+        and _apart(guide, cell, theirs, cell.expected) > cell.band
+    ]
+    met = sum(_equal(cell, _theirs(classmate, (cell.id, cell.position))) for cell in telling)
+    return len(telling) > FEWEST_ROWS and met >= SAME * len(telling)
+
+
+def _is_source(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
+    """Whether it is the other sheet that has this one's values: those that are right here and wrong there.
+
+    What depends on a scale says nothing: the classmate may have chosen another one than the key.
+    """
+    taken = 0
+    for place, cell in cells.items():
+        row = _row(classmate, cell)
+        if row is not None and cell.verdict is Verdict.right and not _is_drawn(row):
+            off = _apart(guide, cell, float(row.values[row.at(cell.position)]), cell.expected)
+            taken += off >= APART * cell.band and _equal(cell, _theirs(classmate, place))
+    return taken >= FEWEST_ROWS
+
+
+def _is_drawn(row: Row) -> bool:
+    """Whether it is a scale or a length on paper."""
+    return row.role is Role.scale or bool(vocabulary.plan(row.id))
+
+
+def _row(classmate: Classmate, cell: Marked) -> Row | None:
+    """The row of a classmate's key for a cell, if it has a value there."""
+    row = classmate.key.find(cell.id)
+    return row if row is not None and row.has(cell.position) and cell.position <= len(row.values) else None
+
+
+def _apart(guide: Guide, cell: Marked, one: float, other: float) -> float:
+    """How far two values of a cell lie apart, in printed units."""
+    unit = guide.ledger[cell.id].how.scale
+    return float(guide.distance(cell.id, one * unit, other * unit)) / unit
+
+
+def _theirs(classmate: Classmate, place: Place) -> float | None:
+    answer = classmate.submission.values.get(place) if classmate.submission else None
+    return None if answer is None else answer.value
+
+
+def _equal(cell: Marked, value: float | None) -> bool:
+    return value is not None and cell.given is not None and math.isclose(cell.given, value, rel_tol=1e-9)
+
+
+def _is_personal(guide: Guide, cell: Marked) -> bool:
+    """Whether a value is neither the key's nor what the student's own give, as far as it is written down.
+
+    One that was worked out rightly from a wrong one says nothing: so would anybody's with the same mistake.
+    """
+    assert cell.given is not None
+    if cell.verdict is Verdict.follows or (cell.mistake and cell.mistake != WRONG_DATUM) or cell.given == 0:
+        return False
+    last = 2 * last_half_unit(cell.given)
+    return all(_apart(guide, cell, cell.given, value) > LAST * last for value in (cell.expected, cell.own))
+
+
+def _is_near(cell: Marked) -> bool:
+    return cell.verdict is Verdict.right
+
+
+def _meets(guide: Guide, cell: Marked, classmate: Classmate) -> bool | None:
+    """Whether a value is the classmate's; None where that says nothing."""
+    row, theirs = _row(classmate, cell), _theirs(classmate, (cell.id, cell.position))
+    if row is None:
+        return None
+    assert cell.given is not None
+    value = float(row.values[row.at(cell.position)])
+    if _is_near(cell):
+        # Two readings of one drawing.
+        return None if theirs is None else _equal(cell, theirs)
+    if _apart(guide, cell, value, cell.expected) < APART * cell.band:
+        return None
+    return _equal(cell, theirs) or _apart(guide, cell, cell.given, value) <= last_half_unit(cell.given) * (1 + 1e-9)
+
+
+def _tail(chances: Sequence[float], met: int) -> float:
+    """The chance that so many or more of independent events happen."""
+    counts = np.array([1.0])
+    for one in chances:
+        counts = np.convolve(counts, (1 - one, one))
+    return float(counts[met:].sum())

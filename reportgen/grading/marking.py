@@ -9,26 +9,37 @@ it in is told where it first leaves the assignment, without marks or answers.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from reportgen.answers.key import Key, Row, half_unit, symbol_text, words_of
+from reportgen.answers.asking import Ask
+from reportgen.answers.key import Row, half_unit, symbol_text, words_of
 from reportgen.catalogue import load
-from reportgen.grading.guard import guard
-from reportgen.grading.marks import Cells, Marked, Marking, Place, Policy, Submission, Verdict
+from reportgen.grading.guard import Classmate, guard
+from reportgen.grading.marks import Cells, Flag, Marked, Marking, Place, Policy, Submission, Verdict
 from reportgen.grading.mistakes import Mistake
-from reportgen.grading.naming import SEARCHES
+from reportgen.grading.naming import misread_data, mistakes_of_working, slips_of_writing
+from reportgen.grading.plans import mistakes_of_plans
+from reportgen.grading.remarks import not_from_own
 from reportgen.grading.submission import read_submission
 from reportgen.grading.working import Guide, Values, Working, lay_out, open_guide
 from reportgen.ledger.core import Ledger
 from reportgen.notation.numbers import Language
 
+SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
+    slips_of_writing,
+    mistakes_of_plans,
+    mistakes_of_working,
+    misread_data,
+)
+"""What looks for names, one after the other."""
 
-def mark(guide: Guide, submission: Submission, classmates: Sequence[Key] = ()) -> Marking:
-    """The verdicts on a submission; `classmates` are the keys that none of its values should come from."""
+
+def mark(guide: Guide, submission: Submission, classmates: Sequence[Classmate] = ()) -> Marking:
+    """The verdicts on a submission; `classmates` are those that none of its values should come from."""
     working = lay_out(guide, submission)
     possible = [working.own_values(blank_from_key=True), working.own_values(blank_from_key=False)]
     cells = {
@@ -43,22 +54,24 @@ def mark(guide: Guide, submission: Submission, classmates: Sequence[Key] = ()) -
         for place, mistake in found.items():
             cells[place] = replace(cells[place], mistake=mistake.name, where=mistake.where)
         cells |= _charged_once(working, cells, found)
-    warnings: tuple[str, ...] = ()
+    cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
+    flags: tuple[Flag, ...] = ()
     if guide.policy.guard:
-        cells, warnings = guard(guide, cells, classmates)
+        cells, flags = guard(guide, cells, classmates)
     order = {row.id: index for index, row in enumerate(guide.key.rows)}
     in_order = sorted(cells.values(), key=lambda cell: order[cell.id])
-    return Marking(guide.key, submission, tuple(in_order), warnings)
+    return Marking(guide.key, submission, tuple(in_order), flags)
 
 
 def _judged(working: Working, submission: Submission, row: Row, position: int, possible: Sequence[Values]) -> Marked:
     """The verdict on one cell; `possible` are values that follow from the student's own."""
     guide, place = working.guide, (row.id, position)
     family, index = guide.ledger[row.id], row.at(position)
-    unit, worth = family.how.scale, guide.policy.worth(row.id)
-    band = float(np.broadcast_to(guide.bands[row.id], family.values.shape)[index])
+    unit, worth = float(working.unit(row.id)[index]), guide.policy.worth(row.id)
+    band = float(np.broadcast_to(working.bands[row.id], family.values.shape)[index])
     key = float(family.at(position).real)
     following = [_own(guide.ledger, values, row.id, index) for values in possible]
+    following += working.also(row, position)
     value = float(working.values[row.id][index]) if row.id in working.values else float("nan")
     verdict, points, own = Verdict.wrong, 0.0, following[0]
     if place in submission.problems:
@@ -110,7 +123,9 @@ def _charged_once(working: Working, cells: Cells, found: Mapping[Place, Mistake]
     guide, policy = working.guide, working.guide.policy
     order = {row.id: index for index, row in enumerate(guide.judged)}
     changed: dict[Place, Marked] = {}
-    unseen = {(one.name, one.where): one for one in found.values() if not working.shows(one.where)}
+    unseen = {
+        (one.name, one.where): one for one in found.values() if not any(map(working.shows, one.changes or [one.where]))
+    }
     for (name, where), mistake in unseen.items():
         own_values = working.own_values(changes=mistake.changes)
         single = len(guide.ledger[where].values) == 1
@@ -122,8 +137,9 @@ def _charged_once(working: Working, cells: Cells, found: Mapping[Place, Mistake]
         for place, cell in cells.items():
             if cell.verdict is not Verdict.wrong or place in charged.values() or place in changed:
                 continue
-            family, index = guide.ledger[cell.id], guide.rows[cell.id].at(cell.position)
-            own, unit = _own(guide.ledger, own_values, cell.id, index), family.how.scale
+            index = guide.rows[cell.id].at(cell.position)
+            unit = float(working.unit(cell.id)[index])
+            own = _own(guide.ledger, own_values, cell.id, index)
             if _follows(guide, cell.id, float(working.values[cell.id][index]), own, cell.band * unit):
                 points = policy.worth(cell.id) * policy.follows
                 changed[place] = replace(
@@ -144,7 +160,10 @@ def compare(
     Raises `AssignmentError` if the assignment or the sheet cannot be read.
     """
     guide = open_guide(load(file, language), Policy(guard=False))
-    marking = mark(guide, read_submission(sheet, guide.key, guide.key.language))
+    submission = read_submission(sheet, guide.key, guide.key.language)
+    # What the sheet has no row for is not missing.
+    guide = replace(guide, key=Ask(()).of(guide.key, submission.rows))
+    marking = mark(guide, submission)
     # A blank value does not disagree, nor does one that follows from a right one.
     agrees = not (marking.submission.problems or any(cell.verdict is Verdict.wrong for cell in marking.cells))
     return tuple(_lines(guide, marking, hint, agrees)), agrees

@@ -21,6 +21,9 @@ from reportgen.notation.sheet import Family
 WRONG_DATUM = "wrong-datum"
 """The name of a given datum taken wrongly."""
 
+NO_CORIOLIS = "no-coriolis"
+"""The name of a Coriolis acceleration left out."""
+
 OF_POSITION = frozenset({"counted-backwards", "shifted-forward", "shifted-back"})
 """Mistakes about where a position lies: one value alone may meet another position's by chance."""
 
@@ -70,7 +73,7 @@ def general_mistakes(guide: Guide) -> Iterator[Mistake]:
             yield Mistake(name, read[0], {id: _replaced_by(ledger[id].values[taken]) for id in read})
     for id, family in ledger.families.items():
         if family.kind == "acceleration" and family.symbol.sup == "k":
-            yield Mistake("no-coriolis", id, {id: _times(0)})
+            yield Mistake(NO_CORIOLIS, id, {id: _times(0)})
 
 
 def _changes_of(guide: Guide, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
@@ -87,7 +90,7 @@ def _changes_of(guide: Guide, family: Family, scales: Values) -> Iterator[tuple[
         return
     if family.is_signed_rotation:
         yield "direction-reversed", lambda value, _: -value
-    elif not family.arm and family.kind != "segment":
+    elif not family.arm and family.kind != "segment" and (family.definition is not None or not family.exact):
         yield "sign-reversed", lambda value, _: -value
     for places in DECIMAL_PLACES:
         yield "thousands-mark", _times(10.0**places)
@@ -130,6 +133,8 @@ def _with_a_wrong_input(
         yield "diameter-for-radius", instead(lambda values: 2 * values[id])
     elif given.kind == "speed of rotation":
         yield "rpm-for-radians", as_printed
+        # 2πn without the 60.
+        yield "minute-for-second", _times(60.0)
     elif id == "omega.1" and "n" in ledger:
         yield "rpm-for-radians", instead(lambda values: values["n"])
     elif given.kind == "weight" and family.kind == "mass":

@@ -1,20 +1,21 @@
 """The first wrong values by name: slips of writing, mistakes of working, given data taken wrongly.
 
-Each search looks at the first wrong values that have no name yet, in the order of `SEARCHES`.
+Each search looks at the first wrong values that have no name yet; `marking.SEARCHES` is their order.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 
-from reportgen.answers.key import Role, is_direction
+from reportgen.answers.key import Role, half_unit, is_direction
 from reportgen.grading.marks import Cells, Marked, Place, Verdict
-from reportgen.grading.mistakes import OF_POSITION, WRONG_DATUM, Mistake, general_mistakes, mistakes_in
-from reportgen.grading.working import Change, Guide, Values, Working
+from reportgen.grading.mistakes import NO_CORIOLIS, OF_POSITION, WRONG_DATUM, Mistake, general_mistakes, mistakes_in
+from reportgen.grading.working import Change, Guide, Values, Working, last_half_unit
 from reportgen.ledger.core import follow
 
 FEW_FIGURES = 2
@@ -36,6 +37,9 @@ CONVENTIONS: tuple[tuple[str, float, float], ...] = (
 
 NEAT = 2
 """Significant figures of a datum that somebody would have given; a half of the last one where the right one has it."""
+
+OWN_FIGURES = 0.1
+"""A value within the tolerance of nothing shows a mistake that gives it to this share of itself."""
 
 APART = 3.0
 """A right value that would be this many tolerances off with another datum shows that the datum was right."""
@@ -60,12 +64,18 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
         *(
             ("other-scale", place)
             for place, cell in first.items()
-            if guide.rows[place[0]].role is Role.scale and cell.equals(cell.expected, cell.band)
+            if guide.rows[place[0]].role is Role.scale and _is_other_scale(guide, cell)
         ),
         *_by_another_convention(first, cells),
     )
     # Nothing else comes from a slip of writing unseen, so it changes no other quantity.
     return {place: Mistake(name, place[0], {}) for name, place in found}
+
+
+def _is_other_scale(guide: Guide, cell: Marked) -> bool:
+    """Whether a scale is the task's, or chosen freely, but not that of the drawing."""
+    usual = float(guide.key.row(cell.id).values[0])
+    return cell.equals(usual, cell.band) or guide.ledger[cell.id].kind == "force scale"
 
 
 def _has_too_few_figures(cell: Marked) -> bool:
@@ -127,11 +137,13 @@ def mistakes_of_working(working: Working, cells: Cells) -> dict[Place, Mistake]:
     for (id, position), cell in cells.items():
         if cell.first and not cell.mistake:
             by_row.setdefault(id, []).append(position)
-    return {
+    found = {
         (id, position): mistake
         for id, positions in by_row.items()
         for position, mistake in _explained(working, cells, id, positions)
     }
+    told = Counter(mistake.name for mistake in found.values())
+    return {place: one for place, one in found.items() if one.name not in OF_POSITION or told[one.name] > 1}
 
 
 def _explained(working: Working, cells: Cells, id: str, positions: Sequence[int]) -> Iterator[tuple[int, Mistake]]:
@@ -143,19 +155,22 @@ def _explained(working: Working, cells: Cells, id: str, positions: Sequence[int]
     row = guide.rows[id]
     index = [row.at(position) for position in positions]
     given = working.values[id][index]
-    unit = guide.ledger[id].how.scale
+    unit = working.unit(id)[index]
     band = np.array([cells[id, position].band for position in positions]) * unit
     own, expected = np.array([[cells[id, k].own, cells[id, k].expected] for k in positions]).T * unit
     # A student goes on from the rounded value written down, or from the one left in the calculator.
     gone_on_from = (working, working.unrounded({one for one in cells if cells[one].verdict is Verdict.right}))
-    foreseen = np.concatenate([_foreseen(one, id, candidates)[:, index] for one in gone_on_from])
+    values = np.concatenate([foreseen(one, [id], candidates)[id][:, index] for one in gone_on_from])
     candidates = [*candidates, *candidates]
     with np.errstate(all="ignore"):
         # What a mistake makes larger, it makes less certain in the same measure.
-        wider = np.maximum(1.0, np.abs(foreseen) / np.maximum(np.abs(own), band))
-        off = guide.distance(id, given, foreseen) / (band * wider)
-        shows = np.min([guide.distance(id, one, foreseen) for one in (own, expected)], axis=0) > band
-    met = (off <= 1) & shows
+        wider = np.maximum(1.0, np.abs(values) / np.maximum(np.abs(own), band))
+        apart = guide.distance(id, given, values)
+        off = apart / (band * wider)
+        shows = np.min([guide.distance(id, one, values) for one in (own, expected)], axis=0) > band
+    # What is nearly nothing is so by many a mistake: it shows one only if it is met in its own figures.
+    left_out = np.array([[mistake.name == NO_CORIOLIS] for mistake in candidates])
+    met = (off <= 1) & shows & (left_out | (np.abs(given) > band) | (apart <= OWN_FIGURES * np.abs(values)))
     count = met.sum(axis=1)
     needs_more = [len(row.positions) > 1 and mistake.name in OF_POSITION for mistake in candidates]
     for column, position in enumerate(positions):
@@ -181,15 +196,15 @@ def _candidates(working: Working, id: str) -> Iterator[Mistake]:
     yield from (mistake for mistake in general_mistakes(guide) if concerned & mistake.changes.keys())
 
 
-def _foreseen(working: Working, id: str, mistakes: Sequence[Mistake]) -> np.ndarray:
-    """What a quantity comes to with each mistake, from the student's own earlier values [mistakes, positions]."""
+def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) -> dict[str, np.ndarray]:
+    """What quantities come to with each mistake, from the student's own earlier values [mistakes, positions]."""
     guide = working.guide
     ledger = guide.ledger
     made: dict[str, list[tuple[int, Change]]] = {}
     for number, mistake in enumerate(mistakes):
         for changed, change in mistake.changes.items():
             made.setdefault(changed, []).append((number, change))
-    judged = {id, ledger.size_of(id)}
+    judged = {*ids, *map(ledger.size_of, ids)}
 
     def with_mistakes(name: str) -> Change:
         def change(computed: np.ndarray, values: Values) -> np.ndarray:
@@ -204,10 +219,10 @@ def _foreseen(working: Working, id: str, mistakes: Sequence[Mistake]) -> np.ndar
 
         return change
 
-    wanted = {*guide.before[id], id}
+    wanted = {*ids}.union(*(guide.before[id] for id in ids))
     names = {name for name in (*working.entered_ids, *made) if name in wanted}
     values = follow(ledger, {name: with_mistakes(name) for name in names}, only=wanted)
-    return np.broadcast_to(values[id], (len(mistakes), len(ledger[id].values))).real
+    return {id: np.broadcast_to(values[id], (len(mistakes), len(ledger[id].values))).real for id in ids}
 
 
 class _RowOf(Mapping[str, np.ndarray]):
@@ -257,9 +272,11 @@ def misread_data(working: Working, cells: Cells) -> dict[Place, Mistake]:
             continue
         datum = next((one for one in known if _explains(working, cell, one)), None)
         if datum is None:
-            possible = (one for one in _possible_data(working, cell) if _explains(working, cell, one))
+            possible = [one for one in _possible_data(working, cell) if _explains(working, cell, one)]
             datum = next((one for one in possible if not _is_contradicted(working.guide, cells, one)), None)
             known += [datum] if datum else []
+            # Elsewhere the datum was right, so it must be a slip in copying it: one figure, met in all figures.
+            datum = datum or next((one for one in possible if _is_slip(working, cell, one)), None)
         if datum is not None:
             found[place] = datum.mistake
     return found
@@ -288,10 +305,20 @@ def _explains(working: Working, cell: Marked, datum: _Datum) -> bool:
     guide = working.guide
     if datum.id not in guide.before[cell.id]:
         return False
-    band = cell.band * guide.ledger[cell.id].how.scale
-    foreseen = float(_at(guide, cell, datum.id, np.array([datum.value]))[0])
+    band = cell.band * float(working.unit(cell.id)[_index(guide, cell)])
+    with_it = float(_at(guide, cell, datum.id, np.array([datum.value]))[0])
     key = float(guide.ledger[cell.id].values[_index(guide, cell)].real)
-    return abs(foreseen - _given(working, cell)) <= band < abs(foreseen - key)
+    return abs(with_it - _given(working, cell)) <= band < abs(with_it - key)
+
+
+def _is_slip(working: Working, cell: Marked, datum: _Datum) -> bool:
+    """Whether a datum differs from the given one in its last figure by one, and gives the value as it is written."""
+    right = float(working.guide.ledger[datum.id].values[0])
+    last = 2 * float(half_unit(np.array([right]), NEAT)[0])
+    with_it = float(_at(working.guide, cell, datum.id, np.array([datum.value]))[0])
+    assert cell.given is not None, "a wrong value is given"
+    written = last_half_unit(cell.given) * float(working.unit(cell.id)[_index(working.guide, cell)])
+    return abs(abs(datum.value - right) - last) < last / 10 and abs(with_it - _given(working, cell)) <= written
 
 
 def _is_contradicted(guide: Guide, cells: Cells, datum: _Datum) -> bool:
@@ -344,15 +371,8 @@ def _neat(guide: Guide, id: str, value: float) -> float:
 
 
 def _rounded(value: float, like: float) -> float:
-    """A number to `NEAT` figures, to halves of the last one if `like` has more figures than these."""
-    parts = 1 if np.isclose(like, float(f"{like:.{NEAT - 1}e}"), rtol=1e-9) else 2
+    """A number to `NEAT` figures, to halves of the last one if `like` has more figures than these or begins with 1."""
+    begins_with_1 = f"{like:.0e}".startswith("1")
+    parts = 1 if np.isclose(like, float(f"{like:.{NEAT - 1}e}"), rtol=1e-9) and not begins_with_1 else 2
     step = 10.0 ** (np.floor(np.log10(value)) - NEAT + 1) / parts
     return float(round(value / step) * step)
-
-
-SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
-    slips_of_writing,
-    mistakes_of_working,
-    misread_data,
-)
-"""What looks for names, one after the other."""

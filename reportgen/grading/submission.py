@@ -33,15 +33,17 @@ HEAD_WITHIN = 60
 _UNREADABLE = {"date": "cell-date", "error": "cell-error", "boolean": "cell-boolean"}
 
 
-def read_submission(path: Path, key_of: Callable[[str], Key] | Key, language: Language | None = None) -> Submission:
-    """The answer sheet of a file, read by the key of its assignment.
+def read_submission(
+    path: Path, key_of: Callable[[str], Key] | Key, language: Language | None = None, data: bytes | None = None
+) -> Submission:
+    """The answer sheet of a file, or of the `data` of one inside an archive, read by the key of its assignment.
 
     The assignment is the one that its page of information names, or its title, or else the file's stem.
     `key_of` finds a key by the name that the sheet gives, which may be any text, and raises `KeyError` if
     there is none.  Raises `AssignmentError`, worded in `language`, if the file cannot be read, is no
     answer sheet or belongs to another assignment or machine.
     """
-    pages = read(path, language)
+    pages = read(path, language, data)
     found = _sheet(pages)
     if found is None:
         raise as_error([Fault("sheet-no-head", Mark(str(path)))], language)
@@ -62,7 +64,9 @@ def read_submission(path: Path, key_of: Callable[[str], Key] | Key, language: La
         raise as_error([Fault("sheet-of-another", kind[1], about)], language)
     reading = _Reading(key, language)
     reading.sheet(*found)
-    return Submission(key.id, str(path), reading.values, reading.problems, tuple(reading.notes))
+    return Submission(
+        key.id, str(path), reading.values, reading.problems, tuple(reading.notes), frozenset(reading.rows)
+    )
 
 
 # --- finding the sheet ----------------------------------------------------------------------------
@@ -121,6 +125,7 @@ class _Reading:
     values: dict[Place, Answer] = field(default_factory=dict)
     problems: dict[Place, Problem] = field(default_factory=dict)
     notes: list[Problem] = field(default_factory=list)
+    rows: set[str] = field(default_factory=set)
 
     def sheet(self, page: Page, head: int) -> None:
         """Read all rows below the head."""
@@ -163,6 +168,7 @@ class _Reading:
             id = cells[at].text.strip() if at < len(cells) else ""
             answers = [(columns[n], cell) for n, cell in enumerate(cells) if n in columns and not _is_empty(cell)]
             if id in asked:
+                self.rows.add(id)
                 yield from (((id, k), cell) for k, cell in answers if k in asked[id].positions)
             elif answers and id not in known:
                 mark = cells[at].mark if id else answers[0][1].mark

@@ -9,13 +9,23 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.analysis import Analysis
-from reportgen.answers.key import Key, Role, Row, computed_bands, drawn_bands, is_chosen_length, is_direction, make_key
+from reportgen.answers.key import (
+    Key,
+    Role,
+    Row,
+    computed_bands,
+    drawn_bands,
+    half_unit,
+    is_chosen_length,
+    is_direction,
+    make_key,
+)
 from reportgen.assignment import Assignment
 from reportgen.case import Case
 from reportgen.grading.marks import Place, Policy, Submission
 from reportgen.ledger.core import Ledger, carried, follow, standing_on
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Ref
+from reportgen.notation.expressions import Product, Ref
 
 Values = Mapping[str, np.ndarray]
 """Values (SI) by id, [N] or [1]."""
@@ -28,6 +38,12 @@ ALMOST = 1e-12
 
 LARGEST_SCALE = 1e6
 """A student's own scale that differs more than this from the report's is no scale."""
+
+MANY = 3
+"""So many forces over their lengths show the scale that a plan was drawn at."""
+
+LEAST_FIGURES = 3
+"""Figures that a number has been written with, though noughts at its end do not show them."""
 
 CONFIRMED = 0.02
 """Two scales nearer than this are one: a millimetre in the length of a drawn crank."""
@@ -46,12 +62,20 @@ class Guide:
     def bands(self) -> dict[str, np.ndarray]:
         """The tolerances (SI) [N] of every row of the key.
 
-        They are the widest of drawing, rounding and a share of the quantity's maximum over the turn.
+        They are the widest of drawing, rounding and a share of the quantity's maximum within a quarter turn.
         """
-        policy, ledger = self.policy, self.ledger
-        drawn, computed = drawn_bands(ledger, policy.paper), computed_bands(ledger, policy.digits)
+        return self.bands_at({})
+
+    @cached_property
+    def _computed(self) -> dict[str, np.ndarray]:
+        return computed_bands(self.ledger, self.policy.digits)
+
+    def bands_at(self, scales: Values) -> dict[str, np.ndarray]:
+        """The tolerances where plans are drawn at multiples of the report's scales."""
+        policy = self.policy
+        drawn, computed = drawn_bands(self.ledger, policy.paper, scales), self._computed
         return {
-            row.id: np.maximum(np.maximum(drawn[row.id], computed[row.id]), policy.share * self.size(row.id))
+            row.id: np.maximum(np.maximum(drawn[row.id], computed[row.id]), policy.share * self._size_near(row.id))
             * (1 + ALMOST)
             for row in self.key.rows
         }
@@ -63,11 +87,28 @@ class Guide:
         values = np.abs(self.ledger[id].values)
         return float(values[np.isfinite(values)].max(initial=0.0))
 
+    def _size_near(self, id: str) -> np.ndarray:
+        """The largest value of a quantity within a quarter turn of each position (SI) [N]; of an angle, a full turn.
+
+        So the pressure of combustion makes no room in the intake stroke.
+        """
+        values = np.nan_to_num(np.abs(self.ledger[id].values))
+        if is_direction(id) or len(values) == 1:
+            return np.full(len(values), self.size(id))
+        reach = min(-(-self.count // 4), len(values) // 2)
+        near: np.ndarray = np.max([np.roll(values, shift) for shift in range(-reach, reach + 1)], axis=0)
+        return near
+
     def distance(self, id: str, one: np.ndarray | float, other: np.ndarray | float) -> np.ndarray:
-        """How far values (SI) lie apart: directions around the circle, arms by their sizes."""
-        if self.ledger[id].arm:
+        """How far values (SI) lie apart: directions around the circle; what has no sense of its own by size."""
+        if self.is_unsigned(id):
             one, other = np.abs(one), np.abs(other)
         return np.asarray(vocabulary.distance(id, np.asarray(one), np.asarray(other)))
+
+    def is_unsigned(self, id: str) -> bool:
+        """Whether the sign of a quantity is not judged: an arm's, or one of which the sheet leaves the sense open."""
+        row = self.key.find(id)
+        return self.ledger[id].arm or (row is not None and row.open_sense)
 
     @cached_property
     def rows(self) -> dict[str, Row]:
@@ -86,6 +127,52 @@ class Guide:
         """Every quantity that a judged one stands on, nearest first."""
         vectors = carried(self.ledger)
         return {row.id: standing_on(self.ledger, row.id, vectors) for row in self.judged}
+
+    @cached_property
+    def alike(self) -> dict[str, tuple[str, ...]]:
+        """Of each judged row those before it that have its values at all positions."""
+        found: dict[str, tuple[str, ...]] = {}
+        for number, row in enumerate(self.judged):
+            one = self.ledger[row.id]
+            before = (
+                other
+                for other in self.judged[:number]
+                if other.kind == row.kind and len(other.values) == len(row.values)
+            )
+            found[row.id] = tuple(
+                other.id
+                for other in before
+                if np.allclose(one.values, self.ledger[other.id].values, rtol=1e-9, atol=0, equal_nan=True)
+            )
+        return found
+
+    @cached_property
+    def makers(self) -> dict[str, tuple[str, str]]:
+        """Of each scale of a plan the size and the length that it was made from: v_A and pa of μ_v."""
+        found: dict[str, tuple[str, str]] = {}
+        for row in self.judged:
+            scale = vocabulary.plan(row.id)
+            if row.single and scale in self.ledger and scale not in found and _makes_scale(self, row.id, scale):
+                value = self.ledger[scale].values[0] * self.ledger[row.id].values[0]
+                sizes = (one.id for one in self.judged if one.single and one.kind in ("velocity", "acceleration"))
+                size = next((id for id in sizes if np.isclose(self.ledger[id].values[0], value, rtol=1e-9)), "")
+                if size:
+                    found[scale] = size, row.id
+        return found
+
+    @cached_property
+    def sizes(self) -> dict[str, set[str]]:
+        """The quantities that each length of a plan stands for: μ times it, and the size of the vector laid as it."""
+        found: dict[str, set[str]] = {id: set() for id in self.ledger.families if vocabulary.plan(id)}
+        for id, family in self.ledger.families.items():
+            if isinstance(family.definition, Product) and len(family.definition.factors) == 2:
+                used = [one.id for one in family.definition.factors if isinstance(one, Ref)]
+                for length in used:
+                    if vocabulary.plan(length) in used:
+                        found[length].add(id)
+            if id in found and family.of in self.ledger:
+                found[id].add(self.ledger[family.of].of)
+        return found
 
     def stands_on(self, place: Place, places: Container[Place]) -> bool:
         """Whether a value on the sheet stands on one at any of `places`."""
@@ -123,12 +210,34 @@ class Working:
     """The values of a sheet in SI, [N] or [1], NaN where none is given, by id of the row.
 
     Lengths on paper are turned to the report's scales: the same vector, drawn at another μ.  `scales`
-    are those of the plans as they were drawn, by id, in SI.
+    are those of the plans as they were drawn, by id, in SI, `shown` where the sheet leaves no doubt of them; `bands`
+    are the tolerances of such drawings.
     """
 
     guide: Guide
+    submission: Submission
     values: Values
     scales: Values
+    shown: Values
+
+    @cached_property
+    def factors(self) -> dict[str, np.ndarray]:
+        """The scales as multiples of the report's, [N] or [1]."""
+        return {id: scale / self.guide.ledger[id].values for id, scale in self.scales.items()}
+
+    @cached_property
+    def bands(self) -> Mapping[str, np.ndarray]:
+        """The tolerances (SI) [N] of every row, at the student's own scales."""
+        # Nobody gets wider tolerances by a scale that nothing was drawn at.
+        factors = {id: np.where(self.shown[id], one, np.minimum(one, 1.0)) for id, one in self.factors.items()}
+        other = {id: factor for id, factor in factors.items() if (np.abs(factor - 1) > CONFIRMED).any()}
+        return self.guide.bands_at(other) if other else self.guide.bands
+
+    def unit(self, id: str) -> np.ndarray:
+        """What one printed unit of a quantity stands for in `values` [N]: lengths as drawn at the student's scale."""
+        family = self.guide.ledger[id]
+        unit = family.how.scale * self.factors.get(vocabulary.plan(id), 1.0) / self.factors.get(id, 1.0)
+        return np.broadcast_to(unit, family.values.shape)
 
     def own_values(
         self, blank_from_key: bool = False, changes: Mapping[str, Change] | None = None
@@ -138,7 +247,17 @@ class Working:
         A blank one on the way is replaced by the key's, or else follows like the rest.  `changes` are
         made to quantities that the sheet does not show.
         """
-        ledger, unseen = self.guide.ledger, changes or {}
+        return self._followed(blank_from_key, changes or {})[0]
+
+    @cached_property
+    def world(self) -> dict[str, np.ndarray]:
+        """All values as the student has them: entered, or following from these; the key's where a cell is blank."""
+        return self._followed(True, {})[1]
+
+    def _followed(
+        self, blank_from_key: bool, unseen: Mapping[str, Change]
+    ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+        ledger = self.guide.ledger
         result: dict[str, np.ndarray] = {}
 
         def entered(id: str) -> Change:
@@ -150,8 +269,38 @@ class Working:
 
             return change
 
-        follow(ledger, {**unseen, **{id: entered(id) for id in self.entered_ids}})
-        return result
+        values = follow(ledger, {**unseen, **{id: entered(id) for id in self.entered_ids}})
+        return result, values
+
+    def also(self, row: Row, position: int) -> list[float]:
+        """What a quantity may be taken to be as well: another like it, or what another way of drawing gives.
+
+        Whoever takes a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was.  On the lever M = F h′ μ_l
+        where pa is the drawn crank, though the report has μ_v/ω₁ for a plan at another scale.
+        """
+        ledger, index = self.guide.ledger, row.at(position)
+        found = [float(self.values[other][index].real) for other in self.guide.alike[row.id] if other in self.values]
+        if row.role is Role.scale and row.id in self.guide.makers:
+            size, length = self.guide.makers[row.id]
+            if size in self.values and self.values.get(length, np.zeros(1))[0]:
+                found.append(float(self.values[size][0] / self.values[length][0]))
+        found += self._by_length_scale(row, index)
+        return [one for one in found if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)]
+
+    def _by_length_scale(self, row: Row, index: int) -> list[float]:
+        """The moment of a load on the lever by its drawn arm and μ_l as it is written down."""
+        load, arm = vocabulary.vector_of(row.id), f"h.{row.id.removeprefix('M.')}"
+        if vocabulary.row(row.id).name != "lever moment" or not {arm, "mu.l"} <= self.values.keys():
+            return []
+        drawn = self.world[arm] / self.factors.get("mu.v", np.ones(1))
+        return [float((self.world[load] * drawn)[index].real) * self._stated("mu.l")] if load in self.world else []
+
+    def _stated(self, scale: str) -> float:
+        """A scale (SI) as it is written down, right or not."""
+        return float(self.values[scale][0] * self.factors.get(scale, np.ones(1))[0])
+
+    def _is_right(self, row: Row, known: float, value: float) -> bool:
+        return bool(np.isclose(known, value, rtol=1e-9))
 
     def unrounded(self, right: Container[Place]) -> Working:
         """The same with the key's value at every place where the student's is right."""
@@ -175,16 +324,22 @@ class Working:
         return tuple(dict.fromkeys([*judged, *map(self.guide.ledger.size_of, judged), *self.values]))
 
     def entered_values(self, id: str, computed: np.ndarray, blank: np.ndarray) -> np.ndarray:
-        """The student's values of a quantity, `blank` where there are none; an arm has the sign that is computed."""
+        """The student's values of a quantity, `blank` where there are none; the computed sign where none is judged."""
         given = self.values.get(id)
         if given is None:
             signed = self.values.get(self.guide.ledger.signed.get(id, ""))
             if signed is None:
                 return blank
             given = np.abs(signed)
-        elif self.guide.ledger[id].arm:
+        elif self.guide.is_unsigned(id):
             given = np.abs(given) * np.where(computed < 0, -1.0, 1.0)
         return np.where(np.isnan(given), blank, given)
+
+
+def last_half_unit(value: float) -> float:
+    """Half a unit of the last figure of a number as it was written, with three figures at least."""
+    written = f"{abs(value):.11e}".partition("e")[0].replace(".", "").rstrip("0")
+    return float(half_unit(np.array([value]), max(LEAST_FIGURES, len(written)))[0])
 
 
 def lay_out(guide: Guide, submission: Submission) -> Working:
@@ -198,25 +353,29 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
     values = {id: column for id, column in values.items() if not np.isnan(column).all()}
     asked = [row.id for row in guide.key.asked if row.role is Role.scale and row.kind != "segment"]
     scales: dict[str, np.ndarray] = {}
+    shown: dict[str, np.ndarray] = {}
     for scale in asked:
         usual = guide.ledger[scale].values
         plan = [id for id in values if vocabulary.plan(id) == scale]
         first = next((id for id in plan if _makes_scale(guide, id, scale)), None)
         stated = values.get(scale, np.full(len(usual), np.nan))
-        factor = np.ones(len(usual))
+        factor, shown[scale] = np.ones(len(usual)), np.zeros(len(usual), dtype=bool)
         for place in range(len(usual)):
+            # A scale for all positions is judged by all lengths, a position's own by those of its plan.
+            own = slice(None) if len(usual) == 1 else slice(place, place + 1)
             tried = [float(one) for one in (stated[place] / usual[place], 1.0)]
+            if (in_use := _in_use(guide, values, scale, own)) is not None:
+                tried.insert(0, float(in_use / usual[place]))
             if first is not None:
                 with np.errstate(divide="ignore"):
                     tried.insert(0, float(guide.ledger[first].values[0] / values[first][0]))
-            # A scale for all positions is judged by all lengths, a position's own by those of its plan.
-            own = slice(None) if len(usual) == 1 else place
-            factor[place] = _drawn_at(guide, values, [id for id in plan if id != first], tried, own)
+            plan_of_place = [id for id in plan if id != first]
+            factor[place], shown[scale][place] = _drawn_at(guide, values, plan_of_place, tried, own)
         scales[scale] = factor * usual
         values |= {id: values[id] * factor for id in plan}
         if scale in values:
             values[scale] = stated / factor
-    return Working(guide, values, scales)
+    return Working(guide, submission, values, scales, shown)
 
 
 def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:
@@ -232,6 +391,25 @@ def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:
     return column
 
 
+def _in_use(guide: Guide, values: Values, scale: str, place: slice) -> float | None:
+    """The scale (SI) that a plan was drawn at by what was read from it: most sizes over their lengths, if these agree.
+
+    Only a scale that is chosen freely shows so; `place` is the part of the columns that is drawn at it.
+    """
+    if guide.ledger[scale].definition is not None or scale == "mu.l":
+        return None
+    found: list[np.ndarray] = []
+    for length in (id for id in values if vocabulary.plan(id) == scale):
+        for size in guide.sizes[length] & values.keys():
+            with np.errstate(all="ignore"):
+                found.append(np.abs(values[size] / values[length])[place])
+    ratios = np.concatenate(found) if found else np.zeros(0)
+    ratios = ratios[np.isfinite(ratios) & (ratios > 0)]
+    middle = float(np.median(ratios)) if ratios.size else 0.0
+    agree = np.abs(ratios / middle - 1) < CONFIRMED if middle else np.zeros(0)
+    return middle if agree.sum() >= MANY and agree.mean() > 1 / 2 else None
+
+
 def _makes_scale(guide: Guide, id: str, scale: str) -> bool:
     """Whether a length on paper is the one that a scale was made from: the drawn crank, pa."""
     ledger = guide.ledger
@@ -242,11 +420,12 @@ def _makes_scale(guide: Guide, id: str, scale: str) -> bool:
 
 
 def _drawn_at(
-    guide: Guide, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice | int = slice(None)
-) -> float:
+    guide: Guide, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice
+) -> tuple[float, bool]:
     """The scale of a plan over the report's: of those `tried` the first that another confirms, else the best.
 
-    Only the lengths of the plan at a `place` of their columns count, if one is named.
+    Only the lengths of the plan at a `place` of their columns count.  The second is whether the scale is shown: by
+    another, or by half of the lengths.
     """
 
     def right(factor: float) -> int:
@@ -259,5 +438,6 @@ def _drawn_at(
     possible = [one for one in tried if np.isfinite(one) and 1 / LARGEST_SCALE < one < LARGEST_SCALE]
     first, *others = possible
     if any(abs(first / other - 1) < CONFIRMED for other in others):
-        return first
-    return max(possible, key=right)
+        return first, True
+    best = max(possible, key=right)
+    return best, 2 * right(best) >= sum(int(np.isfinite(values[id][place]).sum()) for id in plan)

@@ -5,9 +5,9 @@ position.  Definitions are expressions over other families, so the ledger evalua
 (`Ledger.evaluate`), tells what depends on what (`refs`), and prints its own worked lines (`Ledger.chain`).
 
 A plan's point and the length measured to it are two families; a definition further on uses the one or
-the other.  Whoever measured (or computed) another length goes on from a vector of that length, in the
-drawing's direction: `carried` pairs each vector with the sizes that stand for it, and `follow`
-stretches the vector whenever one of them is not what the drawing gave.
+the other.  Whoever measured another length goes on from a vector of that length, and whoever computed
+another one lays that off: `carried` pairs each size with its vector, and `follow` makes the vector as long.
+What is worked out from a measured length with a scale moves nothing on paper.
 """
 
 from __future__ import annotations
@@ -73,6 +73,8 @@ class Ledger:
     polygons: tuple[Polygon, ...] = ()
     """The force plans: one for each group, the driver's last; none without loads."""
     flywheel: Flywheel | None = None
+    lines: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """The ids of what the report sets out together, by the names that the machine's sheet gives."""
 
     @cached_property
     def signed(self) -> Mapping[str, str]:
@@ -251,35 +253,21 @@ def _sign_before(term: Expression) -> Expression:
 
 
 def carried(ledger: Ledger) -> dict[str, str]:
-    """Ids of vectors by the ids of the sizes that are read from them: seg.v.pb and v.B → plan.v.b, Pqt2 → F.Pqt2."""
+    """Ids of vectors by the ids of their sizes: seg.v.pb → plan.v.b, seg.v.as2 → laid.v.as2, Pqt2 → F.Pqt2."""
     vectors: dict[str, str] = {}
     for id, family in ledger.families.items():
-        match _measured(family.definition):
-            case Ref(vector):
+        match family.definition:
+            case Call("abs", (Ref(vector),)):
                 vectors[id] = vector
-            case Product(factors):
-                read = [vectors[ref.id] for ref in factors if isinstance(ref, Ref) and ref.id in vectors]
-                scales = [ref for ref in factors if isinstance(ref, Ref) and ledger[ref.id].kind.endswith("scale")]
-                if len(factors) == 2 and len(read) == len(scales) == 1:
-                    vectors[id] = read[0]
         # A vector that is computed from its size follows it by itself.
-        size = family.of if family.is_plane else ""
+        size = family.of if family.hidden else ""
         if size in ledger and family.definition is not None and size not in refs(family.definition):
             vectors[size] = id
     return vectors
 
 
-def _measured(definition: Expression | None) -> Expression | None:
-    """What the length |…| is measured of; any other definition as it is."""
-    while isinstance(definition, Call) and definition.name == "abs":
-        definition = definition.arguments[0]
-        if isinstance(definition, Ref):
-            return definition
-    return None if isinstance(definition, Ref) else definition
-
-
 def follow(ledger: Ledger, changes: Mapping[str, Any], *, only: Container[str] | None = None) -> dict[str, np.ndarray]:
-    """As `Ledger.evaluate`, with each vector as long as the sizes say that were read from it."""
+    """As `Ledger.evaluate`, with each vector as long as the size says that was measured of it or laid off."""
     vectors = {size: one for size, one in carried(ledger).items() if only is None or size in only}
     sizes: dict[str, list[str]] = {}
     for size, vector in vectors.items():
@@ -287,9 +275,7 @@ def follow(ledger: Ledger, changes: Mapping[str, Any], *, only: Container[str] |
 
     def stretch(size: str, values: dict[str, np.ndarray]) -> None:
         vector = vectors[size]
-        one, other = np.abs(ledger[size].values), np.abs(ledger[vector].values)
-        wanted = np.abs(values[size]) * other / one
-        factor = wanted / np.abs(values[vector])
+        factor = np.abs(values[size]) / np.abs(values[vector])
         values[vector] = values[vector] * np.where(np.isfinite(factor), factor, 1.0)
 
     def entered(id: str, values: dict[str, np.ndarray]) -> None:

@@ -1,18 +1,8 @@
-"""Analysis → Ledger: enters everything in the order in which a report derives it, then chooses decimals.
-
-Decimals are chosen so that every printed line recomputes: a reader's calculator, fed with the printed numbers
-x̂₁, x̂₂, … of a line y = f(x₁, x₂, …), comes to the printed ŷ within one unit of its last digit, at every
-position.  To first order f(x̂) − ŷ = Σ ∂f/∂xᵢ (x̂ᵢ − xᵢ) − (ŷ − y).  Inputs get one more decimal, the largest
-contribution first, as far as their kind allows; where that is not enough the result gets one fewer.
-"""
+"""Analysis → Ledger: enters everything in the order in which a report derives it, then chooses decimals."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from decimal import Decimal
-from functools import cache
 
 import numpy as np
 
@@ -20,183 +10,19 @@ from reportgen import flywheel
 from reportgen.analysis import Analysis
 from reportgen.catalogue.loads import TableLaw
 from reportgen.ledger.core import Ledger
+from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.forces import enter_forces
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics import centres, enter_kinematics
-from reportgen.mechanism.structure import Linkage
+from reportgen.mechanism.structure import Crank, Linkage
 from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import PI, Expression, Symbol, call, refs, total
+from reportgen.notation.expressions import PI, Expression, Symbol, call, circle_line, total
 from reportgen.notation.expressions import size as size_of
-from reportgen.notation.sheet import ZERO, Family, Sheet, is_short
+from reportgen.notation.sheet import ZERO, Sheet, is_short
 from reportgen.notation.vocabulary import Chapter
 
-LEAST_DIGITS = 3
-"""A family's largest value keeps at least these; a line that needs fewer is a listed cancellation."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Line:
-    id: str
-    inputs: tuple[str, ...]
-    slopes: np.ndarray
-    """∂f/∂xᵢ in printed units, [inputs, positions]."""
-
-
-def _largest(family: Family) -> float:
-    finite = np.abs(family.values[np.isfinite(family.values)]) / family.how.scale
-    return float(finite.max()) if finite.size else 0.0
-
-
-def _digits_to_decimals(family: Family, digits: int, at_least: float = 0.0) -> int:
-    """Decimals that show the largest value, or one of size `at_least`, with so many figures."""
-    largest = max(_largest(family), at_least)
-    if largest == 0:
-        return max(digits - 1, 0) if family.how.decimals is None else family.how.decimals
-    return digits - 1 - math.floor(math.log10(largest) + 1e-12)
-
-
-def _wanted(family: Family) -> int:
-    """The decimals aimed at: those of its kind, counted from what it stands beside (its scale)."""
-    if family.how.decimals is not None:
-        return family.how.decimals
-    return _digits_to_decimals(family, family.how.digits, family.scale / family.how.scale)
-
-
-def _is_short(family: Family) -> bool:
-    """Whether one value serves all positions and has few enough digits to be printed as it is (0.171 m)."""
-    if len(family.values) > 1 or family.definition is None:
-        return False
-    return is_short(float(family.values[0].real) / family.how.scale)
-
-
-def _shown_decimals(family: Family) -> int:
-    value = float(family.values[0].real) / family.how.scale
-    return -int(Decimal(f"{value:.12g}").normalize().as_tuple().exponent)
-
-
-def _slopes(family: Family, inputs: tuple[str, ...], families: Mapping[str, Family]) -> np.ndarray:
-    """∂f/∂xᵢ by central differences, both sides in printed units."""
-    assert family.definition is not None
-    values = {id: families[id].values for id in inputs}
-    rows = []
-    for id in inputs:
-        source = families[id]
-        step = 1e-6 * max(_largest(source) * source.how.scale, 1e-30)
-        with np.errstate(all="ignore"):
-            up = evaluate(family.definition, values | {id: source.values + step})
-            down = evaluate(family.definition, values | {id: source.values - step})
-        slope = (np.asarray(up) - down) / (2 * step) * source.how.scale / family.how.scale
-        slope = np.nan_to_num(slope, posinf=0.0, neginf=0.0)
-        rows.append(np.broadcast_to(slope, np.broadcast_shapes(slope.shape, (1,))))
-    width = max((row.size for row in rows), default=1)
-    return np.array([np.broadcast_to(row, (width,)) for row in rows])
-
-
-def choose_decimals(
-    families: Mapping[str, Family],
-    same: tuple[tuple[str, str], ...] = (),
-    fixed: Mapping[str, int | None] | None = None,
-) -> tuple[dict[str, int | None], tuple[str, ...]]:
-    """Decimals for every family (None: exact) and the ids of lines that cannot be made to recompute.
-
-    Pairs of the `same` number, reached in two ways, are printed with the decimals of the coarser.  Decimals `fixed`
-    before stay as they are, and the lines of those families are not judged again.
-    """
-    fixed = fixed or {}
-    decimals: dict[str, int | None] = {}
-    ceiling: dict[str, int] = {}
-    floor: dict[str, int] = {}
-    for id, family in families.items():
-        if id in fixed:
-            decimals[id], ceiling[id] = fixed[id], fixed[id] or 0
-            continue
-        if family.exact or family.is_plane or family.hidden or _is_short(family):
-            decimals[id] = None
-            continue
-        most, wanted = _digits_to_decimals(family, family.how.most), _wanted(family)
-        if family.how.finest is not None:
-            most = min(most, family.how.finest)
-        floor[id], ceiling[id] = min(_digits_to_decimals(family, LEAST_DIGITS), wanted), most
-        # A whole number is shown whole, as far as its kind has figures.
-        decimals[id] = min(max(wanted, 0), most)
-
-    lines = [
-        _Line(id, inputs, _slopes(family, inputs, families))
-        for id, family in families.items()
-        if id not in fixed
-        and family.definition is not None
-        and not (family.constructed or family.is_plane or family.hidden)
-        for inputs in (refs(family.definition),)
-        if inputs and not any(families[name].is_plane for name in inputs)
-    ]
-
-    def shown(id: str) -> int:
-        """Decimals as printed; a result printed as it is (0.171 m) is read to its own last digit."""
-        digits = decimals[id]
-        return _shown_decimals(families[id]) if digits is None else digits
-
-    @cache
-    def rounding(id: str, digits: int) -> np.ndarray:
-        """x̂ − x at every position, in printed units."""
-        values = np.nan_to_num(families[id].values.real / families[id].how.scale)
-        return np.asarray(np.round(values, digits) - values)
-
-    def shares(line: _Line) -> list[tuple[str, np.ndarray]]:
-        """What the rounding of each input that is not exact does to the line, ∂f/∂xᵢ (x̂ᵢ − xᵢ)."""
-        known = ((id, slope, decimals[id]) for id, slope in zip(line.inputs, line.slopes, strict=True))
-        return [(id, slope * rounding(id, digits)) for id, slope, digits in known if digits is not None]
-
-    def over(line: _Line) -> np.ndarray:
-        """How far a line is off at each position, in units of its last digit."""
-        off = sum((share for _, share in shares(line)), -rounding(line.id, shown(line.id)))
-        return np.asarray(np.abs(off) * 10.0 ** shown(line.id))
-
-    def holds(line: _Line) -> bool:
-        return bool(over(line).max() <= 1 + 1e-6)
-
-    cancellations: dict[str, None] = {}
-    settled = False
-    while not settled:
-        settled = True
-        for line in reversed(lines):
-            while not (line.id in cancellations or holds(line)):
-                worst = int(over(line).argmax())
-                raisable = [
-                    (abs(share[worst % share.size]), id)
-                    for id, share in shares(line)
-                    if (decimals[id] or 0) < ceiling[id]
-                ]
-                settled = False
-                if raisable and max(raisable)[0] > 0:
-                    chosen = max(raisable)[1]
-                    decimals[chosen] = (decimals[chosen] or 0) + 1
-                elif (own := decimals[line.id]) is not None and own > floor[line.id]:
-                    decimals[line.id] = ceiling[line.id] = own - 1
-                else:
-                    cancellations[line.id] = None
-    # Decimals that were raised in vain, before the result gave way, are given back.
-    uses: dict[str, list[_Line]] = {}
-    for line in lines:
-        for id in line.inputs:
-            uses.setdefault(id, []).append(line)
-    own_lines = {line.id: line for line in lines}
-    for id in reversed([id for id in families if id not in fixed]):
-        concerned = [*uses.get(id, []), *([own_lines[id]] if id in own_lines else [])]
-        concerned = [line for line in concerned if line.id not in cancellations]
-        aim = max(_wanted(families[id]), 0)
-        while (digits := decimals[id]) is not None and digits > aim:
-            decimals[id] = digits - 1
-            if not all(map(holds, concerned)):
-                decimals[id] = digits
-                break
-    for pair in same:
-        known = [digits for id in pair if (digits := decimals.get(id)) is not None]
-        for id in pair:
-            if decimals.get(id) is not None:
-                decimals[id] = min(known)
-    return decimals, tuple(cancellations)
-
-
+SAME = (("M.eq", "M.vw", "M.least", "M.greatest"), ("M.mean", "M.energy"))
+"""Quantities that are one: both torques and the extremes of their curve, the mean by the curve and by the work."""
 TERMS = 4
 """More terms than these are no longer one line of a page."""
 
@@ -230,11 +56,9 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, wor
             if machine.unevenness is not None:
                 regulated = flywheel.flywheel(machine, machine.unevenness)
                 _flywheel(q, machine.linkage, regulated, machine.cycle_angles)
-    # The checks by instant centres take the other numbers as they are printed.
-    main = {id: family for id, family in q.families.items() if not id.startswith(centres.PREFIX)}
-    settled, listed = choose_decimals(main, (("M.eq", "M.vw"),) if "M.eq" in q else ())
-    decimals, more = choose_decimals(q.families, fixed=settled)
-    return Ledger(q.families, decimals, machine.positions, listed + more, units or {}, polygons, regulated)
+    checks = {id for id in q.families if id.startswith(centres.PREFIX)}
+    decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
+    return Ledger(q.families, decimals, machine.positions, cancellations, units or {}, polygons, regulated, q.lines)
 
 
 def _masses(q: Sheet, analysis: Analysis) -> None:
@@ -249,11 +73,33 @@ def _masses(q: Sheet, analysis: Analysis) -> None:
 
 def _gas(q: Sheet, analysis: Analysis) -> None:
     """s/H and pressure read from the diagram, gas force P = p F."""
+    machine = analysis.machine
     for name, state in analysis.gas.items():
+        if name in analysis.machine.idle:
+            continue
         link, stroke = state.piston.link, state.piston.stroke
-        q.give(f"s.{link}", state.fraction * stroke, exact=False, scale=stroke)
+        _way(q, machine.linkage, link, state.fraction * stroke, stroke)
         p = q.give(f"p.{link}", state.pressure, exact=False)
         q.define(name, p * q["F"])
+
+
+def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
+    """A slider's way from its dead centre, measured on the drawing; there crank and rod lie in one line."""
+    driver, id = linkage.driver, f"s.{link}"
+    dyad = next((one for one in linkage.dyads if one.kind == "RRP" and one.links[1] == link), None)
+    if dyad is not None and isinstance(driver, Crank) and f"l.{driver.centre}{dyad.start}" in q:
+        on_paper = q.find(f"laid.{driver.centre}{dyad.start}") or q[f"drawn.{driver.centre}{dyad.start}"]
+        crank, rod = q["drawing"] * on_paper, q["drawing"] * q[f"laid.{dyad.start}{dyad.middle}"]
+        for reach in (rod + crank, rod - crank):
+            line = q[f"guide.{link}.at"], q[f"guide.{link}"], float(dyad.sign)
+            stop = circle_line(q[f"p.{driver.centre}"], reach, *line)
+            way = abs((q[f"p.{dyad.middle}"] - stop) * (q["mu.l"] / q["drawing"]))
+            found = evaluate(way, {name: family.values for name, family in q.families.items()})
+            if np.allclose(found, values, rtol=0, atol=ZERO * stroke):
+                q.define(id, way, scale=stroke)
+                return
+    drawn = q.give(f"way.{link}", values / q.si("mu.l"), Symbol("s"), "ratio", exact=False, hidden=True)
+    q.define(id, abs(q["mu.l"] * drawn), scale=stroke)
 
 
 def _applied(q: Sheet, analysis: Analysis) -> None:
@@ -265,7 +111,7 @@ def _applied(q: Sheet, analysis: Analysis) -> None:
             if isinstance(force.law, TableLaw):
                 course = force.law.course
                 way = course.fraction(analysis.motion) * course.stroke
-                q.give(f"s.{link}", way, exact=False, scale=course.stroke)
+                _way(q, analysis.machine.linkage, link, way, course.stroke)
             q.give(force.name, size, exact=is_short(size))
     for torque in analysis.machine.torques:
         size = loads[torque.name].couple
@@ -275,7 +121,10 @@ def _applied(q: Sheet, analysis: Analysis) -> None:
 def _cycle(q: Sheet, analysis: Analysis) -> None:
     """Mean, extremes, power and energy of the cycle."""
     summary, machine = analysis.summary, analysis.machine
-    size = float(np.nanmax(np.abs(analysis.torque)))
+    size, possible = float(np.nanmax(np.abs(analysis.torque))), flywheel.possible(analysis, analysis.loads)
+    if size < ZERO * possible:
+        # All of it is rounding, as where a guide takes the whole load.
+        size = possible
     # A sliding driver is balanced by a force, and its way takes the place of the angle.
     letter, kind = ("P", "force") if machine.span else ("M", "torque")
     rate = q[f"v.{machine.linkage.driver.pin}"] if machine.span else q["omega.1"]

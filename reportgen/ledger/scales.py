@@ -1,4 +1,7 @@
-"""Round scales of plans: worked ones fill their space, the largest of all positions still has a sheet of paper."""
+"""Round scales of plans: worked ones fill their space, the largest of all positions still has a sheet of paper.
+
+Sizes are widths and heights of plans in the unit of what they show, boxes are metres of paper.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +15,8 @@ TEXT_BOX = (0.145, 0.190)
 """What a plan may fill on a page of text (m), its labels apart."""
 SHEET_BOXES = (0.360, 0.210), (0.235, 0.335)
 """What a plan may fill on an A3 sheet (m), lying or standing."""
+LEAST_MOTION, LEAST_FORCES = 0.060, 0.100
+"""A worked plan of velocities or accelerations, and one of forces, is drawn at least so wide or high (m)."""
 NOTHING = 1e-6
 """A plan below this share of the largest one is that of an unloaded position."""
 PER_MM = 1e3

@@ -14,7 +14,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 from reportgen.notation.numbers import printed
 
@@ -208,7 +208,7 @@ def as_expression(value: Operand) -> Expression:
 
 def _node(value: Any) -> Expression:
     """A node, which the type checker knows as the base of all."""
-    return value  # type: ignore[no-any-return]
+    return cast(Expression, value)
 
 
 def _terms(node: Any) -> tuple[Expression, ...]:
@@ -234,12 +234,22 @@ def sqrt(of: Operand) -> Root:
     return Root(as_expression(of))
 
 
-sin = partial(call, "sin")
-cos = partial(call, "cos")
-tan = partial(call, "tan")
-asin = partial(call, "arcsin")
-acos = partial(call, "arccos")
-atan = partial(call, "arctan")
+OfOne = Callable[[Operand], Call]
+OfTwo = Callable[[Operand, Operand], Call]
+
+sin: OfOne = partial(call, "sin")
+cos: OfOne = partial(call, "cos")
+tan: OfOne = partial(call, "tan")
+asin: OfOne = partial(call, "arcsin")
+acos: OfOne = partial(call, "arccos")
+atan: OfOne = partial(call, "arctan")
+
+
+def signed(sense: float, of: Expression) -> Expression:
+    """An expression as it stands, or with the other sign where `sense` is negative."""
+    if sense > 0:
+        return of
+    return of.of if isinstance(of, Negative) else Negative(of)
 
 
 def size(of: Operand) -> Call:
@@ -269,22 +279,27 @@ def circle_circle(c1: Operand, r1: Operand, c2: Operand, r2: Operand, sign: floa
     return call("circle_circle", c1, r1, c2, r2, sign)
 
 
-turned = partial(call, "turned")
+turned: OfOne = partial(call, "turned")
 """A vector turned by 90° anticlockwise."""
-cross = partial(call, "cross")
+cross: OfTwo = partial(call, "cross")
 """The z-component of a × b."""
-dot = partial(call, "dot")
+dot: OfTwo = partial(call, "dot")
 """The scalar product."""
-cis = partial(call, "cis")
+cis: OfOne = partial(call, "cis")
 """The unit vector at an angle from +x."""
-arg = partial(call, "arg")
+arg: OfOne = partial(call, "arg")
 """A vector's direction from +x, in (−π, π]."""
-heading = partial(call, "heading")
+heading: OfOne = partial(call, "heading")
 """A vector's direction from +x, in [0, 2π)."""
-sign = partial(call, "sign")
+sign: OfOne = partial(call, "sign")
 """+1, 0 or −1."""
-quotient = partial(call, "quotient")
+quotient: OfTwo = partial(call, "quotient")
 """a / b, and 0 where b is 0: the arm of a force that is not there."""
+
+
+def unit(vector: Operand) -> Call:
+    """A vector's direction, a vector of length 1; 0 for one of no length."""
+    return quotient(vector, call("abs", vector))
 
 
 # --- passes ---------------------------------------------------------------------------------------

@@ -5,6 +5,9 @@ A machine opens the sheet with its given data; the ledger writes on it position 
 
     R = q.define("R", H / 2)
     L = q.define("L", R / λ)
+    q.set_out("synthesis", R, L)
+
+The last line says which worked lines the report sets out together, and what its words call them.
 """
 
 from __future__ import annotations
@@ -100,6 +103,8 @@ class Sheet:
     def __init__(self, positions: int = 1) -> None:
         self.positions = positions
         self.families: dict[str, Family] = {}
+        self.lines: dict[str, tuple[str, ...]] = {}
+        """The ids of what the report sets out together, by the name that its words have for it."""
         self.chapter = Chapter.geometry
         """Where a quantity belongs that the vocabulary gives no chapter."""
         self._values: dict[str, np.ndarray] = {}
@@ -107,7 +112,7 @@ class Sheet:
     def copy(self, positions: int = 0) -> Sheet:
         """What is entered so far, to be continued, over another number of positions if one is given."""
         other = Sheet(positions or self.positions)
-        other.families, other._values = dict(self.families), dict(self._values)
+        other.families, other._values, other.lines = dict(self.families), dict(self._values), dict(self.lines)
         other.chapter = self.chapter
         return other
 
@@ -115,6 +120,20 @@ class Sheet:
         """Enter what stands on another sheet; raises `ValueError` for a quantity that is on both."""
         for family in other.families.values():
             self.enter(family)
+        for name, ids in other.lines.items():
+            self.set_out(name, *ids)
+
+    def set_out(self, name: str, *quantities: Ref | str) -> None:
+        """The report sets these quantities out in this order, behind any that it has under this name already.
+
+        A quantity may be entered later; one that never is, is left out.
+        """
+        ids = (one if isinstance(one, str) else one.id for one in quantities)
+        self.lines[name] = (*self.lines.get(name, ()), *ids)
+
+    def worked(self, *quantities: Ref) -> tuple[Ref, ...]:
+        """Those of the quantities that have a formula, rather than being given."""
+        return tuple(one for one in quantities if self.families[one.id].definition is not None)
 
     @contextmanager
     def within(self, chapter: Chapter) -> Iterator[None]:

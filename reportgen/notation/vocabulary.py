@@ -4,7 +4,7 @@ This is the one place where the text of an id is read.  A quantity asks here for
 chapter, marking for the scale of a length on paper and for the distance of two values.
 
 A *kind* fixes the printed unit, what one such unit is in SI, and the preferred number of significant
-figures; `ledger.report` then raises or lowers decimals so that printed lines recompute.
+figures; `ledger.decimals` then raises or lowers decimals so that printed lines recompute.
 """
 
 from __future__ import annotations
@@ -158,6 +158,8 @@ class Row:
 
     Its groups `sub`, after the text `before`, and `sup` are printed below and above the `letter`.  `plan` is the id
     of the scale that lengths on paper are measured with.  Values that go `around` the circle are directions.
+    `name` is the family's key under `quantities` in `words.yaml`; the groups `link`, `axis` and `about` are words of
+    its phrase only.
     """
 
     ids: str
@@ -167,6 +169,7 @@ class Row:
     plan: str = ""
     before: str = ""
     around: bool = False
+    name: str = ""
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:
@@ -178,9 +181,9 @@ _PART = r"(\.(?P<sup>[ntkrs]))?"
 
 ROWS: tuple[Row, ...] = (
     # geometry
-    Row(rf"l\.{_NAME}(?<=K\d)", "l", "length", Chapter.loads),  # the centre of percussion K
-    Row(rf"l\.{_NAME}", "l", "length", Chapter.geometry),
-    Row(r"drawn\..+", "", "segment", Chapter.geometry, "mu.l"),
+    Row(rf"l\.{_NAME}(?<=K\d)", "l", "length", Chapter.loads, name="percussion"),  # the centre of percussion K
+    Row(rf"l\.{_NAME}", "l", "length", Chapter.geometry, name="length"),
+    Row(r"drawn\.(?P<sub>.+)", "", "segment", Chapter.geometry, "mu.l", name="drawn length"),
     Row(r"mu\.(?P<sub>l)", "μ", "length scale", Chapter.geometry),
     Row(r"R", "R", "length", Chapter.geometry),
     Row(r"L", "L", "length", Chapter.geometry),
@@ -194,60 +197,63 @@ ROWS: tuple[Row, ...] = (
     Row(r"s", "s", "ratio"),
     # masses
     Row(r"g", "g", "gravity"),
-    Row(r"G(?P<sub>\d+)", "G", "weight", Chapter.loads),
-    Row(rf"m\.{_NAME}", "m", "mass", Chapter.geometry),
-    Row(r"J\.(?P<sub>\d+)", "J", "moment of inertia", Chapter.geometry, before="S"),
-    Row(rf"J\.{_NAME}(\..+)?", "J", "moment of inertia", Chapter.geometry),
+    Row(r"G(?P<sub>\d+)", "G", "weight", Chapter.loads, name="weight"),
+    Row(rf"m\.{_NAME}", "m", "mass", Chapter.geometry, name="mass"),
+    Row(r"J\.(?P<sub>\d+)", "J", "moment of inertia", Chapter.geometry, before="S", name="inertia"),
+    Row(rf"J\.{_NAME}(\.(?P<link>.+))?", "J", "moment of inertia", Chapter.cycle, name="reduced inertia"),
     # rotation
     Row(r"n", "n", "speed of rotation"),
-    Row(rf"(turn\.)?omega\.{_NAME}", "ω", "angular velocity", Chapter.velocity),
-    Row(rf"(turn\.)?eps\.{_NAME}", "ε", "angular acceleration", Chapter.acceleration),
+    Row(r"omega\.of", "ω", "angular velocity", Chapter.cycle),
+    Row(rf"(turn\.)?omega\.{_NAME}", "ω", "angular velocity", Chapter.velocity, name="angular velocity"),
+    Row(rf"(turn\.)?eps\.{_NAME}", "ε", "angular acceleration", Chapter.acceleration, name="angular acceleration"),
     # plans of velocities and accelerations
     Row(r"mu\.(?P<sub>v)", "μ", "velocity scale", Chapter.velocity),
     Row(r"mu\.(?P<sub>a)", "μ", "acceleration scale", Chapter.acceleration),
-    Row(r"seg\.v\..+", "", "segment", Chapter.velocity, "mu.v"),
-    Row(r"seg\.a\..+", "", "segment", Chapter.acceleration, "mu.a"),
-    Row(rf"v\.{_NAME}", "v", "velocity", Chapter.velocity),
-    Row(rf"a\.{_NAME}{_PART}", "a", "acceleration", Chapter.acceleration),
-    Row(rf"dir\.v\.{_NAME}", "α", "angle", Chapter.velocity, before="v", around=True),
-    Row(rf"dir\.a\.{_NAME}", "α", "angle", Chapter.acceleration, before="a", around=True),
+    Row(r"seg\.v\..+", "", "segment", Chapter.velocity, "mu.v", name="segment"),
+    Row(r"seg\.a\..+", "", "segment", Chapter.acceleration, "mu.a", name="segment"),
+    Row(rf"v\.{_NAME}", "v", "velocity", Chapter.velocity, name="velocity"),
+    Row(rf"a\.{_NAME}{_PART}", "a", "acceleration", Chapter.acceleration, name="acceleration"),
+    Row(rf"dir\.v\.{_NAME}", "α", "angle", Chapter.velocity, before="v", around=True, name="direction"),
+    Row(rf"dir\.a\.{_NAME}", "α", "angle", Chapter.acceleration, before="a", around=True, name="direction"),
     # instant centres
-    Row(r"ic\.seg\..+", "", "segment", Chapter.velocity, "mu.l"),
-    Row(rf"ic\.omega\.{_NAME}", "ω", "angular velocity", Chapter.velocity),
-    Row(r"ic\.v\..+", "v", "velocity", Chapter.velocity),
-    Row(rf"ic\.angle\.\d+\.{_NAME}", "ψ", "angle", Chapter.velocity),
-    Row(rf"ic\.along\.\d+\.{_NAME}", "u", "velocity", Chapter.velocity),
+    Row(r"ic\.seg\.(?P<link>\d+)\.(?P<sub>.+)", "", "segment", Chapter.velocity, "mu.l", name="centre distance"),
+    Row(rf"ic\.omega\.{_NAME}", "ω", "angular velocity", Chapter.velocity, name="centre rotation"),
+    Row(r"ic\.v\..+", "v", "velocity", Chapter.velocity, name="centre velocity"),
+    Row(rf"ic\.angle\.(?P<link>\d+)\.{_NAME}", "ψ", "angle", Chapter.velocity, name="rod angle"),
+    Row(rf"ic\.along\.(?P<link>\d+)\.{_NAME}", "u", "velocity", Chapter.velocity, name="projection"),
     # closed formulas
-    Row(rf"(f\.)?phi\.{_NAME}", "φ", "angle"),
-    Row(rf"beta\.{_NAME}", "β", "angle"),
-    Row(rf"f\.v\.{_NAME}", "v", "velocity"),
-    Row(rf"f\.a\.{_NAME}{_PART}", "a", "acceleration"),
-    Row(rf"f\.omega\.{_NAME}", "ω", "angular velocity"),
-    Row(rf"f\.eps\.{_NAME}", "ε", "angular acceleration"),
-    Row(rf"f\.x\.{_NAME}", "x", "length"),
-    Row(rf"f\.y\.{_NAME}", "y", "length"),
-    Row(r"f\.[xy]\..+\.v", "v", "velocity"),
-    Row(r"f\.[xy]\..+\.a", "a", "acceleration"),
+    Row(rf"(f\.)?phi\.{_NAME}", "φ", "angle", name="angle"),
+    Row(rf"beta\.{_NAME}", "β", "angle", name="inclination"),
+    Row(rf"f\.v\.{_NAME}", "v", "velocity", name="formula velocity"),
+    Row(rf"f\.a\.{_NAME}{_PART}", "a", "acceleration", name="formula acceleration"),
+    Row(rf"f\.omega\.{_NAME}", "ω", "angular velocity", name="formula angular velocity"),
+    Row(rf"f\.eps\.{_NAME}", "ε", "angular acceleration", name="formula angular acceleration"),
+    Row(rf"f\.(?P<axis>x)\.{_NAME}", "x", "length", name="coordinate"),
+    Row(rf"f\.(?P<axis>y)\.{_NAME}", "y", "length", name="coordinate"),
+    Row(r"f\.(?P<axis>[xy])\.(?P<sub>.+)\.v", "v", "velocity", name="velocity component"),
+    Row(r"f\.(?P<axis>[xy])\.(?P<sub>.+)\.a", "a", "acceleration", name="acceleration component"),
     # loads
-    Row(r"s\.(?P<sub>\d+)", "s", "length", Chapter.loads),
-    Row(r"p\.(?P<sub>\d+)", "p", "pressure", Chapter.loads),
-    Row(r"Pqt(?P<sub>\d+)", "P", "force", Chapter.loads, before="qt"),
-    Row(r"M\.Pqt(?P<sub>\d+)", "M", "torque", Chapter.loads, before="qt"),
-    Row(r"e\.Pqt(?P<sub>\d+)", "e", "length", Chapter.loads, before="qt"),
-    Row(r"P(?P<sub>\d*)\w*", "P", "force", Chapter.loads),
-    Row(r"M(?P<sub>\d+)\w*", "M", "torque"),
+    Row(r"s\.(?P<sub>\d+)", "s", "length", Chapter.loads, name="displacement"),
+    Row(r"p\.(?P<sub>\d+)", "p", "pressure", Chapter.loads, name="pressure"),
+    Row(r"Pqt(?P<sub>\d+)", "P", "force", Chapter.loads, before="qt", name="inertia force"),
+    Row(r"M\.Pqt(?P<sub>\d+)", "M", "torque", Chapter.loads, before="qt", name="inertia couple"),
+    Row(r"e\.Pqt(?P<sub>\d+)", "e", "length", Chapter.loads, before="qt", name="inertia offset"),
+    Row(r"P(?P<sub>\d*)\w*", "P", "force", Chapter.loads, name="applied force"),
+    Row(r"M(?P<sub>\d+)\w*", "M", "torque", name="applied torque"),
     # the balance of the driver
-    Row(r"h\.(?P<sub>.+)\.p", "h", "segment", Chapter.torque, "mu.v"),
-    Row(r"M\.(?P<sub>.+)\.p", "M", "torque", Chapter.torque),
+    Row(r"h\.(?P<sub>.+)\.p", "h", "segment", Chapter.torque, "mu.v", name="lever arm"),
+    Row(r"M\.(?P<sub>.+)\.p", "M", "torque", Chapter.torque, name="lever moment"),
     Row(r"M\.(eq|vw)", "M", "torque", Chapter.torque),
     # reactions
-    Row(rf"R\.{_NAME}{_PART}", "R", "force", Chapter.forces),
-    Row(r"M\.(?P<sub>[\d,]+)", "M", "torque", Chapter.forces),
-    Row(r"x\.(?P<sub>\d[\d,]+)", "x", "length", Chapter.forces),
-    Row(r"h\.R?(?P<sub>[^.]+)\..+", "h", "segment", Chapter.forces, "mu.l"),
-    Row(r"mu\.R.+", "μ", "force scale", Chapter.forces),
-    Row(r"dir\.R(?P<sub>[^.]+)(\..+)?", "α", "angle", Chapter.forces, around=True),
-    Row(r"seg\.(?P<group>[^.]+)\..+", "", "segment", Chapter.forces, "mu.R{group}"),
+    Row(rf"R\.{_NAME}{_PART}", "R", "force", Chapter.forces, name="reaction"),
+    Row(r"M\.(?P<sub>[\d,]+)", "M", "torque", Chapter.forces, name="reaction couple"),
+    Row(r"x\.(?P<sub>\d[\d,]+)", "x", "length", Chapter.forces, name="application"),
+    Row(r"h\.R?(?P<sub>[^.]+)\.(?P<about>.+)", "h", "segment", Chapter.forces, "mu.l", name="arm"),
+    Row(r"mu\.R.+", "μ", "force scale", Chapter.forces, name="force scale"),
+    Row(r"dir\.R(?P<sub>[^.]+)(\..+)?", "α", "angle", Chapter.forces, around=True, name="direction"),
+    Row(r"seg\.(?P<group>[^.]+)\..+", "", "segment", Chapter.forces, "mu.R{group}", name="segment"),
+    # given data of a linkage
+    Row(r"frame\.(?P<axis>[xy])\.(?P<sub>.+)", name="coordinate"),
     # the cycle
     Row(rf"M\.{_NAME}(\..+)?", "M", "torque"),
     Row(r"W", "W", "work"),
@@ -282,10 +288,66 @@ def symbol(id: str) -> Symbol:
     return Symbol(found.letter, found.before + parts.get("sub", ""), _PRINTED.get(sup, sup))
 
 
+_POINT = re.compile(r"[A-Z]\d*")
+_OF_POINTS = frozenset({"velocity", "acceleration", "coordinate"})
+_BETWEEN_LINKS = frozenset({"reaction", "reaction couple", "application"})
+_VECTORS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
+    (re.compile(ids), vector)
+    for ids, vector in (
+        (r"dir\.([va]\..+)", r"\1"),
+        (r"seg\.a\.([ntkr])\.(.+)", r"a.\2.\1"),
+        (r"(?:dir\.|seg\.[^.]+\.|h\.)R([^.]+)(\.[ntkrs])?(?:\..+)?", r"R.\1\2"),
+        (r"seg\.\d[^.]*\.([^.]+)", r"\1"),
+        (r"h\.([^.]+)\..+", r"\1"),
+        (r"M\.([^.]+)\.p", r"\1"),
+    )
+)
+_ON_PLAN = re.compile(r"seg\.([va])\.([a-z]\d*)([a-z]\d*)")
+
+
+def vector_of(id: str) -> str:
+    """The id of the vector whose length, direction, arm or moment a quantity is; "" for any other quantity.
+
+    seg.v.pb → v.B, seg.v.ab → v.BA, seg.a.n.BA → a.BA.n, dir.R12.n → R.12.n, h.Pqt2.B → Pqt2.
+    """
+    if match := _ON_PLAN.fullmatch(id):
+        what, base, tip = match.groups()
+        return f"{what}.{tip.upper()}{'' if base == 'p' else base.upper()}"
+    found = ((pattern.fullmatch(id), vector) for pattern, vector in _VECTORS)
+    return next((match.expand(vector) for match, vector in found if match), "")
+
+
+def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
+    """The key of an id's phrase under `quantities` in `words.yaml`, and the words that are put into it.
+
+    `shown` is the quantity's symbol, whose points may say more than the id's (B₃B₂ for B3B).
+    """
+    found, parts = _found(id)
+    sub = parts.get("sub", "")
+    points = _POINT.findall(shown.sub) if found.kind in ("velocity", "acceleration") else _POINT.findall(sub)
+    links = sub.split(",") if "," in sub else list(sub) if found.name in _BETWEEN_LINKS else [sub]
+    words = {
+        "line": lowered(sub),
+        "link": parts.get("link") or links[0],
+        "other": links[-1],
+        "axis": parts.get("axis", ""),
+        "about": lowered(parts.get("about", "")),
+        "plan": shown.sub.removeprefix("R"),
+        **dict(zip(("point", "base"), map(lowered, points), strict=False)),
+    }
+    name = f"{found.name}.{parts['sup']}" if parts.get("sup") else found.name
+    return (f"{name}.relative" if name in _OF_POINTS and len(points) > 1 else name), words
+
+
 def plan(id: str) -> str:
     """The id of the scale that a length on paper is measured with; "" for anything else."""
     found, parts = _found(id)
     return found.plan.format(**parts)
+
+
+def is_laid(id: str) -> bool:
+    """Whether it is a length or vector as it is laid off on paper."""
+    return id.startswith("laid.")
 
 
 def distance(id: str, one: Value, other: Value) -> Value:

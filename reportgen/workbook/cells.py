@@ -18,6 +18,11 @@ LONGEST_CELL = 32_767
 
 _LIVE = re.compile(r"'*\s*[=+\-@\t\r\n＝＋－＠]")
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+_SEPARATORS = ",;|\t\r\n"
+"""All that any program parts cells or rows at."""
+_INSIDE = re.compile(r"""(?<![,;|'"\s])[,;|'"\s]++(?=[=+\-@＝＋－＠])""")
+"""Separators, quotation marks and blanks before a sign; each run of them is looked at once."""
+_NUMBER_CELL = re.compile(rf"{_NUMBER.pattern}(?:[{_SEPARATORS}]|$)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,11 +86,34 @@ def number_text(value: float) -> str:
 
 
 def guarded(text: str) -> str:
-    """The text with an apostrophe before it where a spreadsheet would take it for a formula; numbers stay."""
-    return f"'{text}" if _LIVE.match(text) and not _NUMBER.fullmatch(text) else text
+    """The text with an apostrophe before all that a spreadsheet would take for the formula of a cell; numbers stay.
+
+    Such a formula may also begin inside: programs of other countries part cells at semicolons, tabs or bars, and
+    know nothing of the quotation marks that keep a cell together.
+    """
+    inside = _INSIDE.sub(_with_apostrophe, text)
+    return f"'{inside}" if _LIVE.match(inside) and not _NUMBER.fullmatch(inside) else inside
 
 
 def unguarded(text: str) -> str:
     """The text that `guarded` was given."""
     rest = text[1:]
-    return rest if text.startswith("'") and guarded(rest) != rest else text
+    inside = rest if text.startswith("'") and _LIVE.match(rest) and not _NUMBER.fullmatch(rest) else text
+    return _INSIDE.sub(_without_apostrophe, inside)
+
+
+def _with_apostrophe(run: re.Match[str]) -> str:
+    """What stands before a sign that could begin a formula, with an apostrophe after its last separator."""
+    before, after = _at_last_separator(run[0])
+    number = not after and _NUMBER_CELL.match(run.string, run.end())
+    return run[0] if not before or number else f"{before}'{after}"
+
+
+def _without_apostrophe(run: re.Match[str]) -> str:
+    before, after = _at_last_separator(run[0])
+    return before + after.removeprefix("'") if before else after
+
+
+def _at_last_separator(run: str) -> tuple[str, str]:
+    cut = max(map(run.rfind, _SEPARATORS)) + 1
+    return run[:cut], run[cut:]

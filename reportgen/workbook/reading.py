@@ -96,6 +96,8 @@ def _judged(package: Package) -> tuple[bytes, list[int], bool]:
         raise package.refused("sheet-no-zip")
     tables = {one.kind: places[id] for id, one in relations.items() if one.kind in ("styles", "sharedStrings")}
     others = [CONTENT_TYPES, workbook, beside, *(place for place in tables.values() if place in package)]
+    for sheet in set(sheets):
+        package.without_empty_cells(sheet)
     measured = {place: measure(package, place) for place in (*others, *sheets)}
     copy = _copy(package, measured, tables.get("sharedStrings", ""))
     return copy, [measured[sheet][0] for sheet in sheets], any(measured[sheet][1] for sheet in sheets)
@@ -250,21 +252,25 @@ _LINE_END = re.compile(r"\r\n|\r|\n")
 _WIDE = (b"\xff\xfe", b"\xfe\xff")
 
 
-def read(path: Path, language: Language | None = None) -> tuple[Page, ...]:
-    """The pages of a CSV or XLSX file; raises `AssignmentError` with the fault that stops it, in `language`."""
+def read(path: Path, language: Language | None = None, data: bytes | None = None) -> tuple[Page, ...]:
+    """The pages of a CSV or XLSX file; raises `AssignmentError` with the fault that stops it, in `language`.
+
+    `data` is its content where it does not lie on disk; `path` then only names it.
+    """
     try:
-        return _read(path)
+        return _read(path, data)
     except RefusedError as refused:
         raise as_error([refused.fault], language) from None
 
 
-def _read(path: Path) -> tuple[Page, ...]:
+def _read(path: Path, data: bytes | None) -> tuple[Page, ...]:
     file = str(path)
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(LARGEST + 1)
-    except OSError as fault:
-        raise RefusedError("unreadable", Mark(file), reason=type(fault).__name__) from None
+    if data is None:
+        try:
+            with path.open("rb") as stream:
+                data = stream.read(LARGEST + 1)
+        except OSError as fault:
+            raise RefusedError("unreadable", Mark(file), reason=type(fault).__name__) from None
     if len(data) > LARGEST:
         raise RefusedError("too-large", Mark(file), largest=str(LARGEST // 1000))
     if not data.strip():

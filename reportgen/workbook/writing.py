@@ -39,6 +39,10 @@ FILLS = {
 LONGEST_NAME = 31
 UPRIGHT = 110.0
 """Characters of a line that is legible on A4 upright."""
+CHARACTER, MARGIN = 1.86, 1.33
+"""Width (mm) of a character of a column, and what a column has beside its characters."""
+PRINTED = {True: 174.0, False: 261.0}
+"""Width (mm) of what is printed on A4, upright and across, between a spreadsheet's usual margins."""
 _FORBIDDEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _ESCAPED = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 _NAME = re.compile(r"[\[\]:*?/\\\x00-\x1f]")
@@ -64,6 +68,7 @@ class Sheet:
 
     `widths` are those of the columns, in characters; `frozen` are the rows and columns that stay in view.
     A `protected` sheet can be changed in its unlocked cells only (without a password: it guards against slips).
+    `breaks` are the rows after which a new page is printed.
     """
 
     name: str
@@ -72,6 +77,7 @@ class Sheet:
     frozen: tuple[int, int] = (0, 0)
     protected: bool = False
     hidden: bool = False
+    breaks: Sequence[int] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,17 +147,28 @@ def _fill(page: Worksheet, sheet: Sheet) -> None:
     rows, columns = sheet.frozen
     if rows or columns:
         page.freeze_panes = f"{get_column_letter(columns + 1)}{rows + 1}"
-    _set_print(page, sum(sheet.widths), rows)
+    _set_print(page, sheet.widths, rows, sheet.breaks)
     page.protection.sheet = sheet.protected
     page.sheet_state = "hidden" if sheet.hidden else "visible"
 
 
-def _set_print(page: Worksheet, width: float, heads: int) -> None:
+def _set_print(page: Worksheet, widths: Sequence[float], heads: int, breaks: Sequence[int]) -> None:
     """A4, as wide as the sheet, upright where that is legible; the rows that stay in view head each page."""
+    from openpyxl.worksheet.pagebreak import Break
+
+    width = sum(widths)
     page.page_setup.paperSize = page.PAPERSIZE_A4
-    page.page_setup.orientation = "portrait" if width <= UPRIGHT else "landscape"
-    page.sheet_properties.pageSetUpPr.fitToPage = True
-    page.page_setup.fitToWidth, page.page_setup.fitToHeight = 1, 0
+    upright = width <= UPRIGHT
+    page.page_setup.orientation = "portrait" if upright else "landscape"
+    if breaks:
+        # Programs that fit a sheet to a page leave its page breaks out, so the scale is said.
+        needed = sum(CHARACTER * one + MARGIN for one in widths)
+        page.page_setup.scale = max(min(int(100 * PRINTED[upright] / needed), 100), 10)
+        for row in breaks:
+            page.row_breaks.append(Break(id=row))
+    else:
+        page.sheet_properties.pageSetUpPr.fitToPage = True
+        page.page_setup.fitToWidth, page.page_setup.fitToHeight = 1, 0
     if heads:
         page.print_title_rows = f"1:{heads}"
 

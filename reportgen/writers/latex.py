@@ -27,8 +27,10 @@ if TYPE_CHECKING:
 
 CONTENTS_LEVEL = 3
 """The deepest level of heading that the contents and the outline list."""
-OPENING, ROW = 30, 7
-"""Approximate heights in mm: of the words before a table with its caption, and of a row."""
+CAPTION = 15.0
+"""About what a figure's caption takes, with the white around it (mm)."""
+OPENING, TITLE, ROW = 20, 14, 5.5
+"""Approximate heights in mm: of the words before a table, of its caption, and of a row."""
 
 
 def write(document: tree.Document) -> str:
@@ -99,7 +101,11 @@ class _Writer:
         """A block that stays on one page with the block that follows it."""
         if isinstance(block, tree.List):
             return self.list(block, r"\keeplist")
-        needed = _command("needed", f"{_height(following)}mm") if isinstance(following, tree.Table) else ""
+        needed = ""
+        if isinstance(following, tree.Table):
+            needed = _command("tableroom", f"{_whole(following):g}mm") + _command(
+                "needed", f"{OPENING + _height(following):g}mm"
+            )
         return f"{needed}{self.block(block)}\\par\\nobreak"
 
     def block(self, block: tree.Block) -> str:
@@ -116,8 +122,8 @@ class _Writer:
                 return self.table(block)
             case tree.Figure():
                 return self.figure(block)
-            case tree.Plate(scene, (width, height)):
-                caption = self.caption(self.document.words.figure, block)
+            case tree.Plate(scene, (width, height), continues=continues):
+                caption = (self.again if continues else self.caption)(self.document.words.figure, block)
                 painted = paint_latex(scene, self.formulas)
                 return _command("plate", f"{width:g}mm", f"{height:g}mm", painted, caption)
             case tree.Cover():
@@ -175,7 +181,7 @@ class _Writer:
         return number + self.inlines(section.title)
 
     def contents(self, title: str) -> str:
-        lines = [_command("headingone", escape(title))]
+        lines = [r"\clearpage", _command("headline", escape(title))]
         lines += (
             _command("contentsentry", str(entry.section.level), entry.place, self.title(entry.section))
             for entry in self.entries.values()
@@ -234,13 +240,24 @@ class _Writer:
         label = f"{word} {block.number}".strip() + ("." if block.caption else "")
         return _command("captiontext", place, escape(label), self.inlines(block.caption))
 
+    def again(self, word: str, block: tree.Table | tree.Plate) -> str:
+        """The caption of what goes on from the page before."""
+        return _command("captiontext", "", escape(f"{word} {block.number} ({self.document.words.continued})"), "")
+
     def figure(self, figure: tree.Figure) -> str:
-        rows = "\n\\scenebreak\n".join(
-            _command("scenerow", rf"\hskip{layout.SCENE_GAP:g}mm ".join(map(self.scene, row)))
-            for row in layout.in_rows(figure.scenes)
+        """Its rows with the caption below; a figure that breaks between its rows has the caption first."""
+        scenes = layout.in_rows(figure.scenes)
+        breaks = layout.breaks(scenes)
+        rows = ("\n\\scenebreak\n" if breaks else "\n\\scenegap\n").join(
+            _command("scenerow", rf"\hskip{layout.SCENE_GAP:g}mm ".join(map(self.scene, row))) for row in scenes
         )
-        caption = _command("figurecaption", self.caption(self.document.words.figure, figure))
-        return "\n".join([r"\begin{scenes}", rows, caption, r"\end{scenes}"])
+        caption = self.caption(self.document.words.figure, figure)
+        if breaks:
+            first = rf"{{{layout.height(scenes[:1]) + CAPTION:g}mm}}"
+            return "\n".join(
+                [r"\begin{longscenes}" + first, _command("captionabove", caption), rows, r"\end{longscenes}"]
+            )
+        return "\n".join([r"\begin{scenes}", rows, _command("figurecaption", caption), r"\end{scenes}"])
 
     def scene(self, scene: Scene) -> str:
         painted = paint_latex(scene, self.formulas)
@@ -257,6 +274,10 @@ class _Writer:
             title = rf"\multicolumn{{{len(block.columns)}}}{{c}}{{\tablecaption{{{caption}}}}}\\*[0pt]"
             environment.append(NoEscape(title))
         environment.append(NoEscape(head + r"\endfirsthead"))
+        if block.number:
+            again = self.again(self.document.words.table, block)
+            title = rf"\multicolumn{{{len(block.columns)}}}{{c}}{{\tablecaption{{{again}}}}}\\*[0pt]"
+            head = f"{title}\n{head}"
         environment.append(NoEscape(head + r"\endhead"))
         environment.append(NoEscape(r"\bottomrule\endfoot"))
         unbroken = len(block.rows) <= layout.WHOLE_TABLE
@@ -267,7 +288,8 @@ class _Writer:
                 together = unbroken or not layout.TOGETHER - 1 <= index < len(block.rows) - layout.TOGETHER
                 end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if together else 0}}}"
             environment.append(NoEscape(self.row(row, block.columns) + end))
-        return f"{{\\tablesize\n{environment.dumps()}\n}}"
+        room = _command("tableroom", f"{_whole(block):g}mm") + _command("needed", f"{_height(block):g}mm")
+        return f"{room}\\begin{{belowfigures}}\\tablesize\n{environment.dumps()}\n\\end{{belowfigures}}"
 
     def head(self, block: tree.Table) -> str:
         # Every option is written out: a cell's text may begin with a bracket.
@@ -296,10 +318,15 @@ class _Writer:
         return " & ".join(printed)
 
 
-def _height(block: tree.Table) -> int:
-    """About how much paper (mm) a table needs with the lines before it, up to its first possible break."""
+def _height(block: tree.Table) -> float:
+    """About how much paper (mm) a table needs with its caption, up to its first possible break."""
     rows = len(block.rows) if len(block.rows) <= layout.WHOLE_TABLE else layout.TOGETHER
-    return OPENING + ROW * (len(block.head) + rows)
+    return TITLE + ROW * (len(block.head) + rows)
+
+
+def _whole(block: tree.Table) -> float:
+    """About how much paper (mm) a whole table needs with the lines before it."""
+    return OPENING + TITLE + ROW * (len(block.head) + len(block.rows))
 
 
 def _column(width: float, align: str) -> str:

@@ -6,9 +6,11 @@ mathematical fonts.  A character that none of them has is refused before TeX run
 
 from __future__ import annotations
 
+import json
 import re
 import unicodedata
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Literal
 
 from reportgen.errors import TypesetterError
@@ -19,156 +21,17 @@ from reportgen.writers.layout import NAMED, PRIMES, UNSPACED, Column, Formulas, 
 NARROW_TERMS = 5
 """A vector equation of at most so many terms fits any line."""
 
-SPECIAL = {
-    "\\": r"\textbackslash{}",
-    "{": r"\{",
-    "}": r"\}",
-    "$": r"\$",
-    "&": r"\&",
-    "#": r"\#",
-    "%": r"\%",
-    "_": r"\_",
-    "^": r"\textasciicircum{}",
-    "~": r"\textasciitilde{}",
-    "<": r"\textless{}",
-    ">": r"\textgreater{}",
-    "|": r"\textbar{}",
-    '"': r"\textquotedbl{}",
-    "'": r"\textquotesingle{}",
-    "`": r"\textasciigrave{}",
-}
+_CHARACTERS = json.loads(Path(__file__).with_name("characters.json").read_text(encoding="utf-8"))
+SPECIAL: dict[str, str] = _CHARACTERS["special"]
 """ASCII marks that TeX would take for commands or for other signs."""
 
 _LIGATURES = re.compile(r"([-,])(?=\1)")
 """Marks that fonts would join into one sign: -- ,,"""
 
-MATHEMATICAL = {
-    "α": r"\alpha",
-    "β": r"\beta",
-    "γ": r"\gamma",
-    "δ": r"\delta",
-    "ε": r"\varepsilon",
-    "ζ": r"\zeta",
-    "η": r"\eta",
-    "θ": r"\theta",
-    "ι": r"\iota",
-    "κ": r"\kappa",
-    "λ": r"\lambda",
-    "μ": r"\mu",
-    "ν": r"\nu",
-    "ξ": r"\xi",
-    "π": r"\pi",
-    "ρ": r"\rho",
-    "σ": r"\sigma",
-    "τ": r"\tau",
-    "υ": r"\upsilon",
-    "φ": r"\varphi",
-    "χ": r"\chi",
-    "ψ": r"\psi",
-    "ω": r"\omega",
-    "Γ": r"\Gamma",
-    "Δ": r"\Delta",
-    "Θ": r"\Theta",
-    "Λ": r"\Lambda",
-    "Ξ": r"\Xi",
-    "Π": r"\Pi",
-    "Σ": r"\Sigma",
-    "Υ": r"\Upsilon",
-    "Φ": r"\Phi",
-    "Ψ": r"\Psi",
-    "Ω": r"\Omega",
-    "ϕ": r"\phi",
-    "ϑ": r"\vartheta",
-    "ϵ": r"\epsilon",
-    "ς": r"\varsigma",
-    "∂": r"\partial",
-    "∇": r"\nabla",
-    "∞": r"\infty",
-    "∑": r"\sum",
-    "∏": r"\prod",
-    "∫": r"\int",
-    "≤": r"\le",
-    "≥": r"\ge",
-    "≠": r"\mathrel{\reportactual{2260}{\ne}}",
-    "≈": r"\approx",
-    "≡": r"\equiv",
-    "∼": r"\sim",
-    "∈": r"\in",
-    "∝": r"\propto",
-    "≪": r"\ll",
-    "≫": r"\gg",
-    "⊥": r"\perp",
-    "⟂": r"\perp",
-    "∥": r"\parallel",
-    "∠": r"\reportactual{2220}{\angle}",
-    "△": r"\triangle",
-    "∘": r"\circ",
-    "←": r"\leftarrow",
-    "→": r"\rightarrow",
-    "↑": r"\uparrow",
-    "↓": r"\downarrow",
-    "↔": r"\leftrightarrow",
-    "↗": r"\nearrow",
-    "↘": r"\searrow",
-    "↙": r"\swarrow",
-    "↖": r"\nwarrow",
-    "⇒": r"\Rightarrow",
-    "⇔": r"\Leftrightarrow",
-    "⋅": r"\cdot",
-    "′": r"{}^{\prime}",
-    "″": r"{}^{\prime\prime}",
-    "₀": "{}_0",
-    "₁": "{}_1",
-    "₂": "{}_2",
-    "₃": "{}_3",
-    "₄": "{}_4",
-    "₅": "{}_5",
-    "₆": "{}_6",
-    "₇": "{}_7",
-    "₈": "{}_8",
-    "₉": "{}_9",
-    "⁻": "{}^{-}",
-    "⁴": "{}^4",
-    "ⁿ": "{}^n",
-    "ȧ": r"\reportactual{0227}{\dot{a}}",
-    "Ȧ": r"\reportactual{0226}{\dot{A}}",
-    "ḃ": r"\reportactual{1E03}{\dot{b}}",
-    "Ḃ": r"\reportactual{1E02}{\dot{B}}",
-}
+MATHEMATICAL: dict[str, str] = _CHARACTERS["mathematical"]
 """Characters that the frame declares as this mathematics, in text and in formulas alike."""
 
-TEXTUAL = {
-    "°": r"\textdegree",
-    "·": r"\reportdot",
-    "×": r"\texttimes",
-    "÷": r"\textdiv",
-    "±": r"\textpm",
-    "¹": r"\textonesuperior",
-    "²": r"\texttwosuperior",
-    "³": r"\textthreesuperior",
-    "½": r"\textonehalf",
-    "¼": r"\textonequarter",
-    "¾": r"\textthreequarters",
-    "µ": r"\textmu",
-    "§": r"\textsection",
-    "¶": r"\textparagraph",
-    "©": r"\textcopyright",
-    "®": r"\textregistered",
-    "™": r"\texttrademark",
-    "€": r"\texteuro",
-    "£": r"\textsterling",
-    "¥": r"\textyen",
-    "₫": r"\textdong",
-    "•": r"\textbullet",
-    "‰": r"\UseTextSymbol{TS1}{\textperthousand}",
-    "№": r"\textnumero",
-    "…": r"\reportellipsis",
-    "\u00a0": "~",
-    "\u2009": r"\,",
-    "\u202f": r"\,",
-    "\u2011": "-",
-    "−": r"\textminus",
-}
+TEXTUAL: dict[str, str] = _CHARACTERS["textual"]
 """Characters that the frame declares as these text commands, in text and in formulas alike."""
 
 _VIETNAMESE = frozenset(
@@ -223,7 +86,7 @@ class LatexFormulas(Formulas):
 
     PLUS, MINUS, NEGATIVE = r"\binbreak+", r"\binbreak-", "-"
     TIMES, DOT, CROSS = r"\dotbreak\cdot", r"\cdot", r"\times"
-    FRACTION, RAISED, ROOT, ABSOLUTE = r"\frac{%s}{%s}", "^{%s}", r"\sqrt{%s}", r"\left|%s\right|"
+    FRACTION, RAISED, ROOT, ABSOLUTE = r"\frac{%s}{%s}", "^{%s}", r"\sqrt{%s}", r"\lvert %s\rvert "
 
     def text(self, text: str) -> str:
         return escape(text)

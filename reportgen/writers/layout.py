@@ -42,6 +42,10 @@ TOGETHER = 3
 UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
 """A unit with a slash inside a text."""
 
+TITLE = 5.0
+"""What the titles of a row of scenes take below it (mm)."""
+LONG_FIGURE = 150.0
+"""A figure of several rows that is higher than this (mm) may break between them; its caption then comes first."""
 Column = tuple[str, str, tuple[Expression | str | None, ...]]
 """Of a vector equation: the sign before a term, the term itself, what is known of it."""
 
@@ -263,6 +267,17 @@ def parted(block: List) -> tuple[List, ...]:
     """A list as two lists: the items before the last, if there are any, and the last item."""
     last = replace(block, items=block.items[-1:], start=block.start + len(block.items) - 1)
     return (replace(block, items=block.items[:-1]), last) if block.items[:-1] else (last,)
+
+
+def height(rows: Sequence[Sequence[Scene]]) -> float:
+    """Of a figure's rows with their titles and the white between them (mm)."""
+    titles = sum(TITLE for row in rows if any(scene.title for scene in row))
+    return sum(max(scene.height for scene in row) for row in rows) + titles + SCENE_GAP * (len(rows) - 1)
+
+
+def breaks(rows: Sequence[Sequence[Scene]]) -> bool:
+    """Whether a figure's rows may stand on more than one page."""
+    return len(rows) > 1 and height(rows) > LONG_FIGURE
 
 
 def in_rows(scenes: Sequence[Scene]) -> list[list[Scene]]:

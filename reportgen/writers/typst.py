@@ -8,7 +8,9 @@ between spaces, because identifiers of Typst may hold a hyphen.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 from reportgen.document import tree
@@ -23,6 +25,7 @@ from reportgen.words import templates
 from reportgen.writers import layout
 from reportgen.writers.drawing import paint_typst
 from reportgen.writers.layout import NAMED, PRIMES, UNSPACED, Formulas
+from reportgen.writers.scripts import needs_system_fonts, question
 
 
 def literal(text: str) -> str:
@@ -104,8 +107,9 @@ LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
 SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
 #show math.equation: set text(font:"New Computer Modern Math")"""
-FLOATING = 80.0
-"""A figure taller than this lets the text run on before it where the page is nearly full, mm."""
+UNSETTLED = "#let settled = (:)"
+HELD = 40
+"""A plate waits for the end of its page behind at most so many blocks."""
 
 
 def compile(source: str) -> bytes:
@@ -113,15 +117,55 @@ def compile(source: str) -> bytes:
 
     Raises `TypesetterError` with the message's first lines.
     """
+    return _compile(source)[0]
+
+
+def typeset(document: tree.Document) -> tuple[str, bytes]:
+    """The source of a document with its PDF.
+
+    Where figures stand depends on where those before them stand.  Should the typesetter come to no end with that,
+    what it found last is written into the source.  Raises `TypesetterError`.
+    """
+    source = write(document)
+    pdf, settles = _compile(source)
+    if not settles:
+        source = source.replace(UNSETTLED, f"#let settled = ({_settled(source)})", 1)
+        pdf, _ = _compile(source)
+    return source, pdf
+
+
+def _compile(source: str) -> tuple[bytes, bool]:
+    """The PDF of a source, and whether all places in it are final."""
     try:
         import typst
     except ImportError as error:
         raise TypesetterError("typst is not installed: pip install typst") from error
     try:
-        return bytes(typst.compile(source.encode(), ignore_system_fonts=True))
+        own = not needs_system_fonts(source, lacking)
+        pdf, warnings = typst.compile_with_warnings(source.encode(), ignore_system_fonts=own)
     except typst.TypstError as error:
         lines = str(getattr(error, "message", error)).splitlines()
         raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
+    return bytes(pdf), not any("did not converge" in warning.message for warning in warnings)
+
+
+def lacking(letters: str, system: bool) -> str:
+    """Those of the letters that none of the typesetter's own fonts, or the `system`'s either, has."""
+    import typst
+
+    if not letters:
+        return ""
+    asked = question(letters).encode()
+    answer = typst.query(asked, "<lacking>", field="value", one=True, ignore_system_fonts=not system)
+    return "".join(json.loads(answer))
+
+
+def _settled(source: str) -> str:
+    """The entries of a dictionary: where the typesetter has last put figures and plates."""
+    import typst
+
+    found = json.loads(typst.query(source.encode(), "<settled>", field="value", ignore_system_fonts=True))
+    return "".join(f"{literal(name)}: {str(choice).lower()}," for name, choice in found)
 
 
 def write(document: tree.Document) -> str:
@@ -175,12 +219,23 @@ class _Blocks:
         self.formulas = TypstFormulas(language)
         self.words = words
         self.room = room
+        self.figure = ""
+        """The key of the last figure, which may still wait for the next page."""
+        self.count = 0
+        """Of the figures and plates that may wait."""
 
     def write(self, blocks: Sequence[tree.Block]) -> str:
-        lines = []
+        lines: list[str] = []
         run_in = ""
+        held = _Held()
         for block, following in pairwise((*blocks, None)):
+            if held and held.ends_before(block):
+                held.release(lines)
             if block is None:
+                continue
+            if isinstance(block, tree.Plate):
+                held = _Held(self.name("plate"), [len(lines) + 1])
+                lines += [f"#let {held.name} = [{self.block(block)}]", ""]
                 continue
             if isinstance(block, tree.Section) and block.level > 3:
                 run_in = self.run_in(block)
@@ -197,6 +252,9 @@ class _Blocks:
             else:
                 lines.append(f"#K[{run_in}{self.block(block)}]")
             run_in = ""
+            if held and not isinstance(block, tree.Section) and not layout.leads(block, following, self.language):
+                held.places.append(len(lines))
+                lines.append("")
         return "\n\n".join(lines)
 
     def block(self, block: tree.Block) -> str:
@@ -215,12 +273,19 @@ class _Blocks:
             case tree.Figure(scenes, _, key):
                 rows = layout.in_rows(scenes)
                 drawings = ",".join(_array(map(self.scene, row)) for row in rows)
-                tall = len(rows) == 1 and max(scene.height for scene in rows[0]) > FLOATING
-                floating = str(tall and self.room == layout.TEXT_WIDTH).lower()
                 label = self.caption(self.words.figure, block)
-                return f"#place.flush()#F({literal(key)},{label},{floating},\n{drawings})"
-            case tree.Plate(scene, (width, height), _, key):
-                label = self.caption(self.words.figure, block)
+                if layout.breaks(rows) or self.room < layout.TEXT_WIDTH:
+                    return f"#place.flush()#F({literal(key)},{label},\n{drawings})"
+                before, self.figure = self.figure, key
+                height = layout.height(rows)
+                name = literal(self.name("figure"))
+                return f"#W({name},{literal(key)},{literal(before)},{height:.1f},{label},\n{drawings})"
+            case tree.Plate(scene, (width, height), _, key, continues=continues):
+                label = (
+                    f"{self.again(self.words.figure, block)},[]"
+                    if continues
+                    else self.caption(self.words.figure, block)
+                )
                 drawing = paint_typst(scene, self.formulas)
                 return f"#plate({width:g},{height:g},{scene.height:g},{label},\n{drawing})" + _label(key)
             case tree.Cover(institution, title, subtitle, fields, foot):
@@ -233,6 +298,11 @@ class _Blocks:
                 return f"#blank({literal(label)})"
             case tree.PageBreak():
                 return "#pagebreak(weak: true)"
+
+    def name(self, kind: str) -> str:
+        """A name of its own for a figure or plate that may wait."""
+        self.count += 1
+        return f"{kind}{self.count}"
 
     # --- inlines ----------------------------------------------------------------------------------
 
@@ -304,8 +374,8 @@ class _Blocks:
         """A displayed row: the parts between "=", each in the pieces between which it may break."""
         parts = row.parts if isinstance(row, Chain) else (row,)
         printed = [self.formulas.pieces(part) for part in parts]
-        # The first relation is where rows are aligned.
-        if layout.short_end(row) and len(printed) > 2:
+        # A lone symbol keeps its "= 0": there rows are aligned.
+        if layout.short_end(row) and (len(printed) > 2 or (len(printed) == 2 and len(printed[0]) > 1)):
             end = printed.pop()
             printed[-1][-1] += f" = {' '.join(end)}"
         printed[-1][-1] += self.formulas.note(row)
@@ -326,7 +396,8 @@ class _Blocks:
         head = _array(_array(self.cell(cell, "U") for cell in row) for row in table.head)
         rows = ",\n".join(_array(self.cell(cell, "X") for cell in row) for row in table.rows)
         whole = "0" if len(table.rows) <= layout.WHOLE_TABLE else str(layout.TOGETHER)
-        return f"#R({label},{columns},{aligns},{head},{whole},\n{rows})" + _label(table.key)
+        again = self.again(self.words.table, table) if table.number else "none"
+        return f"#R({label},{again},{columns},{aligns},{head},{whole},\n{rows})" + _label(table.key)
 
     def cell(self, cell: tree.Cell, spanned: str) -> str:
         body = self.content(cell.inlines)
@@ -338,6 +409,36 @@ class _Blocks:
     def caption(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         """The two arguments of a caption: its label, and what it says."""
         return f"{literal(f'{word} {block.number}'.strip())},{self.content(block.caption)}"
+
+    def again(self, word: str, block: tree.Table | tree.Plate) -> str:
+        """The label of what goes on from the page before."""
+        return literal(f"{word} {block.number} ({self.words.continued})")
+
+
+@dataclass
+class _Held:
+    """A plate that lets the text run on to the end of its page: its name, and where in the source it may stand."""
+
+    name: str = ""
+    places: list[int] = field(default_factory=list)
+
+    def __bool__(self) -> bool:
+        return bool(self.places)
+
+    def ends_before(self, block: tree.Block | None) -> bool:
+        """Whether the plate must stand before a block: figures keep their order, parts their own."""
+        match block:
+            case None | tree.Figure() | tree.Plate() | tree.PageBreak() | tree.Contents() | tree.Cover():
+                return True
+            case tree.Section(level=level):
+                return level == 1
+        return len(self.places) > HELD
+
+    def release(self, lines: list[str]) -> None:
+        """Fill the places; the typesetter finds out which is the last one on the page."""
+        for index, place in enumerate(self.places):
+            lines[place] = f"#hold({literal(self.name)},{index},{len(self.places) - 1},{self.name})"
+        self.places.clear()
 
 
 def _text(text: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -34,7 +35,7 @@ def test_json_has_unrounded_values_and_null_for_what_does_not_exist() -> None:
 
 def test_csv_has_a_row_for_each_value_as_printed() -> None:
     head, *rows = key_rows(small_key("en"))
-    by_place = {(row[0], row[4]): dict(zip(head, row, strict=True)) for row in rows}
+    by_place = {(row[0], row[5]): dict(zip(head, row, strict=True)) for row in rows}
     assert by_place["omega.1", ""]["Value"] == 31.42
     assert by_place["v.B", "3"]["Value"] == -1.2
     assert by_place["dir.v.B", "4"]["Value"] is None
@@ -55,7 +56,7 @@ def test_the_workbook_of_a_key_reads_as_a_perfect_sheet(language: Language, tmp_
     assert not submission.problems
     book = load_workbook(path)
     assert len(book.worksheets) == 5
-    assert book.worksheets[1]["D5"].value == 0.5
+    assert book.worksheets[1]["E5"].value == 0.5
 
 
 def test_a_band_that_is_nothing_beside_its_row_is_nothing() -> None:
@@ -82,3 +83,16 @@ def test_the_document_has_every_quantity_at_every_position_on_pages_that_hold_it
     for row in key.rows[:40]:
         if row.decimals is not None and row.values[0] > 0:
             assert f"{row.values[0]:.{row.decimals}f}" in text or row.decimals == 0
+
+
+def test_an_endless_angle_has_six_figures_and_a_typed_one_all_of_its_own(tmp_path: Path) -> None:
+    """Seven positions from 77.7° on: 360/7 = 51.428571…; the start itself has few digits and stays as it is."""
+    text = Path("assignments/engine-twin-05.yaml").read_text(encoding="utf-8").replace("s: 0.35", "s: 0.3512345678")
+    text = text.replace("count: 8, direction: anticlockwise", "count: 7, start: 77.7 deg")
+    text = re.sub("  firing: .*", "", text)
+    file = tmp_path / "a.yaml"
+    file.write_text(text, encoding="utf-8")
+    _, *rows = key_rows(make_key(open_case(file, "en")))
+    shown = {(row[0], row[5]): row[6] for row in rows}
+    assert [shown["phi.1", position] for position in "128"] == [77.7, 129.129, 437.7]
+    assert shown["s", ""] == 0.3512345678

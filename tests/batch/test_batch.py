@@ -145,7 +145,7 @@ def test_students_who_left_keep_their_folder(tmp_path: Path) -> None:
     (batch.given / "K2.yaml").unlink()
     done = batch.run()
     (note,) = done.notes
-    assert note.startswith("1 students of an earlier run are no longer on the roster")
+    assert note.startswith("one student of an earlier run is no longer on the roster")
     assert (batch.out / "K2" / "a.pdf").exists()
     assert "K2" not in done.manifest.read_text(encoding="utf-8")
 

@@ -21,8 +21,9 @@ from tests.batch.classes import Batch, tree, write_class
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def scheduler() -> Iterator[Any]:
+    """A cluster of its own for each test: killed workers come back late on a busy machine."""
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0") as running:
         yield running
@@ -108,3 +109,14 @@ def test_without_dask_the_remedy_is_told(tmp_path: Path) -> None:
     assert done.returncode == 3
     assert done.stderr == "reportgen: --cluster needs Dask: pip install 'reportgen[cluster]'\n"
     assert not (tmp_path / "out").exists()
+
+
+def test_a_cluster_without_workers_is_not_waited_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr("reportgen.batch.cluster.WORKERLESS", 1)
+    batch = Batch(tmp_path, {"K1": "seconds: 0"})
+    with (
+        distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=":0") as running,
+        pytest.raises(ClusterError, match="no worker"),
+    ):
+        batch.run(pool=cluster(running.scheduler_address, "en"))

@@ -171,7 +171,7 @@ TEXTS: list[tuple[str, bytes, list[str]]] = [
     ("broken UTF-8", "variant: ph\xe9".encode("latin-1"), ["1:12 encoding"]),
     ("control character", b"kind: a\nvariant: \x07\n", ["2:10 control-character"]),
     ("absurd size", b"# " + b"x" * 1_000_000, ["1:1 too-large"]),
-    ("endless keys", b"".join(b"k%d: 1\n" % n for n in range(80_000)), ["1:1 missing-key", "201:1 too-many"]),
+    ("endless keys", b"".join(b"k%d: 1\n" % n for n in range(40_000)), ["201:1 too-many"]),
     ("endless row", BASE.replace("[1, 1, 3.6]", str([1] * 2001)).encode(), ["18:12 too-many"]),
     ("endless nesting", b"a: " + b"[" * 5000, ["1:15 too-deep"]),
     ("endless mappings", b"{a: " * 5000, ["1:46 too-deep"]),

@@ -43,6 +43,7 @@ EDITS = [
         "{by: angle, link: 5, at: F, unit: N, angle: [0 deg, 360 deg], values: [0, 5]}",
         ["17:12 needs-a-crank"],
     ),
+    ("key unknown to a load by way", "unit: N", "unit: N, units: N", ["17:61 unknown-key"]),
     ("way of a crank", SLIDER, CRANK, ["6:33 no-such-point", "17:12 needs-a-slide"]),
     ("end of the table", "60 mm, 120 mm]", "60 mm, 100 mm]", ["17:80 table-end"]),
     ("order of the table", "60 mm, 120 mm]", "60 mm, 50 mm]", ["17:80 not-increasing"]),

@@ -29,7 +29,7 @@ from reportgen.notation.expressions import Symbol
 
 X = Symbol("x")
 SCENE = Scene(10, 10)
-WORDS = Words("Figure", "Table", "Contents", "page")
+WORDS = Words("Figure", "Table", "Contents", "page", "continued")
 
 
 def document(*blocks: Block) -> Document:

@@ -86,7 +86,7 @@ def test_a_block_with_mass_has_its_centre_of_percussion_from_its_pin(english: di
 
 def test_a_guide_reaction_off_the_pin_is_said_to_be_off_it(english: dict[str, str]) -> None:
     assert "on the side on which its moment about E opposes M_05" in english[SLOTTED]
-    assert "tend to turn the slider" in english[SLOTTED]
+    assert "have a moment about this pin" in english[SLOTTED]
 
 
 def test_what_slides_on_a_link_in_translation_does_not_turn(english: dict[str, str]) -> None:

@@ -85,6 +85,18 @@ def test_a_polar_diagram_has_equal_scales() -> None:
     assert np.ptp(curve.real) / np.ptp(curve.imag) == pytest.approx(8000 / 18000, rel=2e-3)  # 0.025 mm in 50
 
 
+def test_figures_without_room_side_by_side_are_left_out() -> None:
+    """At every step (10000) stands a grid line, a figure at every second one, 0 among them."""
+    load = Series("", [-22000.0, 8000.0], [-43000.0, 9000.0])
+    scene = polar(load, "N", size=58.0)
+    assert overlaps(scene) == []
+    figures = [item for item in scene.items if isinstance(item, Label) and isinstance(item.content, Number)]
+    across = [item.content.value for item in figures if item.anchor == "center"]
+    up = [item.content.value for item in figures if item.anchor == "right"]
+    assert across == [-20000.0, 0.0]
+    assert up == [-50000.0, -40000.0, -30000.0, -20000.0, -10000.0, 0.0, 10000.0]
+
+
 def test_matplotlib_waits_for_the_first_chart() -> None:
     code = "import sys, reportgen.figures.charts; sys.exit('matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -23,6 +23,7 @@ LABELS: tuple[Expression | str, ...] = (
     Symbol("n", "BA"),
     Number(-28.27, 2, "mm"),
     Chain((Symbol("μ", "v"), Number(0.2189, 4, "m/(s·mm)"))),
+    Chain((Symbol("p"),), "N/cm²"),
     Fraction(Symbol("a"), Symbol("b", "1")),
     "10:1",
     "Quá trình nạp",

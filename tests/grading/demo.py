@@ -16,7 +16,7 @@ import numpy as np
 
 from reportgen import api
 from reportgen.answers.key import Key
-from reportgen.answers.sheet import asked_positions
+from reportgen.answers.sheet import NAMES, asked_positions
 from reportgen.batch.variants import make_variants
 from reportgen.grading.marks import Answer, Place, Submission
 from reportgen.grading.mistakes import mistakes_in
@@ -110,7 +110,7 @@ def workbook(key: Key, sheet: Submission) -> bytes:
 
 def _columns(key: Key) -> dict[int, int]:
     """Columns of the sheet by number: of single values, then of the positions."""
-    return {3: 0, **{4 + index: position for index, position in enumerate(asked_positions(key))}}
+    return {NAMES - 1: 0, **{NAMES + index: position for index, position in enumerate(asked_positions(key))}}
 
 
 def write() -> None:

@@ -35,6 +35,7 @@ NAMES = {
     "stroke-for-radius",
     "ratio-inverted",
     "rpm-for-radians",
+    "minute-for-second",
     "weight-for-mass",
     "diameter-for-radius",
     "degrees-for-radians",

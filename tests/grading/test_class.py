@@ -9,6 +9,7 @@ from pathlib import Path
 import pymupdf
 import pytest
 
+from reportgen.answers.asking import EVERYTHING, Ask
 from reportgen.answers.key import make_key
 from reportgen.batch import assess
 from reportgen.batch.assess import Graded
@@ -22,6 +23,8 @@ from tests.grading import demo
 from tests.grading.keys import csv_rows
 
 POLICY = read_policy(demo.DEMO / "policy.yaml")
+WHOLE = Policy(ask=Ask(EVERYTHING))
+"""The sheets of the class were filled in from first to last row."""
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +36,7 @@ def assignments(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def graded(assignments: Path) -> Graded:
-    return assess.grade([demo.SHEETS], assignments, Policy())
+    return assess.grade([demo.SHEETS], assignments, WHOLE)
 
 
 def test_each_students_slip_is_told(graded: Graded) -> None:
@@ -60,7 +63,7 @@ def test_points_of_the_class(graded: Graded) -> None:
 def test_unreadable_cells_are_located(graded: Graded) -> None:
     marking = next(one for one in graded.markings if one.key.id == "K225520103040")
     marks = [str(problem.mark) for problem in marking.submission.problems.values()]
-    assert all(mark.split("!")[1][0] in "DE" and "K225520103040.xlsx:" in mark for mark in marks)
+    assert all(mark.split("!")[1][0] in "EF" and "K225520103040.xlsx:" in mark for mark in marks)
 
 
 def test_what_is_no_sheet_that_can_be_read_is_told(assignments: Path, tmp_path: Path) -> None:
@@ -80,6 +83,21 @@ def test_nobody_displaces_a_sheet_by_claiming_its_name(assignments: Path, tmp_pa
     assert [Path(marking.submission.file) for marking in result.markings] == [own]
     assert {Path(problem.mark.file).name for problem in result.problems} == {"A.csv", "Z.csv"}
     assert all("K225520103004.csv" in problem.message for problem in result.problems)
+
+
+@pytest.mark.parametrize("place", ["K225520103007.csv", "k225520103007.CSV", "K225520103007/answers.csv"])
+def test_a_sheet_named_after_a_classmate_is_told(assignments: Path, tmp_path: Path, place: str) -> None:
+    """It is marked as what it says inside, but not without a word; a name that is nobody's needs none."""
+    sheet = tmp_path / place
+    sheet.parent.mkdir(exist_ok=True)
+    sheet.write_bytes((demo.SHEETS / "K225520103004.csv").read_bytes())
+    result = assess.grade([tmp_path], assignments, Policy(), "en")
+    assert [marking.key.id for marking in result.markings] == ["K225520103004"]
+    assert [(problem.code, problem.mark.file) for problem in result.problems] == [("sheet-named-otherwise", str(sheet))]
+    for name in ("“K225520103007”", "“K225520103004”"):
+        assert name in result.problems[0].message
+    sheet.rename(tmp_path / "homework.csv")
+    assert assess.grade([tmp_path / "homework.csv"], assignments, Policy()).problems == ()
 
 
 def test_one_sheet_never_stops_the_others(assignments: Path, tmp_path: Path) -> None:
@@ -125,7 +143,7 @@ def test_files_of_a_student_hold_nothing_of_others(graded: Graded, tmp_path: Pat
 
 def test_marking_again_gives_the_same_bytes(graded: Graded, assignments: Path) -> None:
     once = dict(assess.files_of(graded, Policy(), "typst", None))
-    again = dict(assess.files_of(assess.grade([demo.SHEETS], assignments, Policy()), Policy(), "typst", None))
+    again = dict(assess.files_of(assess.grade([demo.SHEETS], assignments, WHOLE), Policy(), "typst", None))
     assert once == again
 
 
@@ -148,7 +166,7 @@ def test_comparing_names_the_first_divergence_without_marks_or_answers(assignmen
     lines, agrees = compare(assignments / "K225520103007.yaml", demo.SHEETS / "K225520103007.xlsx", language="en")
     assert not agrees
     assert "v_CB at position 2" in lines[0]
-    assert ".xlsx:Answers!E" in lines[0] or ".xlsx:Bài làm!E" in lines[0]
+    assert ".xlsx:Answers!F" in lines[0] or ".xlsx:Bài làm!F" in lines[0]
     guide = assess.open_guide(assess.api.load(assignments / "K225520103007.yaml"))
     right = guide.key.row("v.CB").values[1]
     hinted, _ = compare(

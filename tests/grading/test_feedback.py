@@ -10,12 +10,12 @@ from typing import Any, get_args
 import pytest
 from openpyxl import load_workbook
 
-from reportgen.document.tree import Figure, Table, text_of
+from reportgen.document.tree import Figure, Table, plain, text_of
 from reportgen.errors import CellMark, Problem
 from reportgen.figures.scene import Label
 from reportgen.grading.feedback import FIRST, STYLES, feedback_book, feedback_document, mistake_inlines, points_text
 from reportgen.grading.grades import class_document, grade_rows
-from reportgen.grading.marks import Answer, Marked, Marking, Submission, Verdict
+from reportgen.grading.marks import Answer, Flag, Marked, Marking, Submission, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM
 from reportgen.grading.naming import CONVENTIONS
 from reportgen.notation.numbers import Language
@@ -27,6 +27,10 @@ from tests.grading.students import NAMES
 
 FILE = "/somewhere/of/the/instructor/work.xlsx"
 LANGUAGES: tuple[Language, ...] = get_args(Language)
+OF_PLANS = {f"{kind}-{how}" for kind in ("force", "part") for how in ("left-out", "reversed")} | {
+    "load-forgotten",
+    "load-reversed",
+}
 SLIPS = {"too-few-figures", "rows-swapped", "wrong-column", "other-scale", *(name for name, _, _ in CONVENTIONS)}
 
 
@@ -56,7 +60,12 @@ def marking(language: Language = "en", student: str = "Nguyễn Văn A") -> Mark
     )
     values = {(one.id, one.position): Answer(one.given, "", at(1, 1)) for one in cells if one.given is not None}
     problems = {("v.B", 4): Problem("not-a-number", "“see page 3” is no number", at(11, 8))}
-    return Marking(key, Submission(key.id, FILE, values, problems), cells, ("classmate",))
+    return Marking(
+        key,
+        Submission(key.id, FILE, values, problems),
+        cells,
+        (Flag("classmate", (("v.B", 3),), other="classmate-99"),),
+    )
 
 
 def sheet(book: bytes, tmp_path: Path) -> dict[tuple[str, str], Any]:
@@ -115,7 +124,7 @@ def test_feedback_holds_nothing_of_others_nor_of_the_instructors_disk(language: 
     for text in (*values, text_of(feedback_document(found, "Crank")), str(feedback_document(found, "Crank"))):
         assert "classmate-99" not in text
         assert "somewhere" not in text
-    assert "classmate-99 (1)" in grade_rows([found], language)[1]
+    assert any("= classmate-99 (1: v_B (3)" in str(one) for one in grade_rows([found], language)[1])
 
 
 def test_the_page_tells_errors_by_name_what_followed_and_points_by_part() -> None:
@@ -131,7 +140,7 @@ def test_the_page_tells_errors_by_name_what_followed_and_points_by_part() -> Non
 
 def test_a_perfect_sheet_hears_of_no_error() -> None:
     whole = marking()
-    perfect = replace(whole, cells=tuple(one for one in whole.cells if one.verdict is Verdict.right), warnings=())
+    perfect = replace(whole, cells=tuple(one for one in whole.cells if one.verdict is Verdict.right), flags=())
     text = text_of(feedback_document(perfect, "Crank"))
     assert "No wrong value was found." in text
     assert "Result: 3 of 3 points." in text
@@ -146,7 +155,7 @@ def test_there_are_words_for_every_mistake_verdict_and_warning(language: Languag
         one = cell("v.B", 1, Verdict.wrong, 1.0, 2.0, first=True, mistake=name, where="omega.1")
         assert any("ω" in str(inline) for inline in mistake_inlines(one, key, words))
         assert words["mistake_names"][name]
-    assert set(words["mistakes"]) == {*NAMES, *SLIPS, WRONG_DATUM}
+    assert set(words["mistakes"]) == {*NAMES, *SLIPS, *OF_PLANS, WRONG_DATUM}
     assert set(words["mistake_names"]) == {*words["mistakes"], "none"}
     assert {*words["verdicts"]} == {*Verdict, "first"} == {*words["verdict_notes"]}
     assert {*words["warnings"]} == {*words["warning_names"]}
@@ -159,9 +168,9 @@ def test_grades_have_a_row_for_everyone_and_no_live_formula() -> None:
     assert named["points"] == 4
     assert named["out of"] == 10
     assert named["Velocities"] == 3
-    assert named["first error"] == "ω_1"
-    assert named["mistake"] == "rpm for rad/s"
-    assert named["warnings"] == "values of a classmate"
+    assert (named["per cent"], named["mark"]) == (40, 4)
+    assert named["first errors"] == "ω_1: rpm for rad/s; M_cb (2): not recognised"
+    assert named["warnings"] == "a run of values of another sheet"
     assert two[1] == "B"
     assert none[1] == "C"
     assert none[3] is None
@@ -171,9 +180,22 @@ def test_grades_have_a_row_for_everyone_and_no_live_formula() -> None:
 def test_the_class_page_has_marks_and_counts() -> None:
     found = [marking(student=f"Student {n}") for n in range(12)]
     tree = class_document(found, "crank", "en", [small_key(student="Absent")])
-    (table,) = [block for block in tree.blocks if isinstance(block, Table)]
+    table, sections, questions = (block for block in tree.blocks if isinstance(block, Table))
     assert len(table.rows) == 13
-    assert sum(column.width for column in table.columns) <= 160
+    for one in (table, sections, questions):
+        assert sum(column.width for column in one.columns) <= 160
+    # Of a question's cells those that are right or follow, of all; what all had right is only counted.
+    shares = [[plain(cell.inlines, "en") for cell in row] for row in (*sections.rows, *questions.rows)]
+    assert [(row[0], row[-1]) for row in shares] == [
+        ("Balance of the driving link", "0"),
+        ("Velocities", "38"),
+        ("Dimensions and drawn lengths", "100"),
+        ("ω_1", "0"),
+        ("M_cb", "0"),
+        ("α_vB", "33"),
+        ("v_B", "50"),
+    ]
+    assert "Questions that all had right: 1." in text_of(tree)
     figures = [block for block in tree.blocks if isinstance(block, Figure)]
     assert len(figures) == 3
     assert all(scene.width < 160 for figure in figures for scene in figure.scenes)

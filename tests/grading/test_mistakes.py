@@ -28,7 +28,7 @@ MACHINES = (
 
 WORKED = (2, 3, 5, 8)
 
-SAMPLE = 30
+SAMPLE = 12
 """Mistakes drawn for each variant beside one of each name; `python -m tests.bench.mistakes` takes all."""
 
 
@@ -118,6 +118,7 @@ def test_named_mistakes_are_found() -> None:
         ("engine-twin-05", "R", "stroke-for-radius"),
         ("engine-twin-05", "L", "ratio-inverted"),
         ("engine-twin-05", "omega.1", "rpm-for-radians"),
+        ("engine-twin-05", "omega.1", "minute-for-second"),
         ("engine-twin-05", "m.3", "weight-for-mass"),
         ("engine-twin-05", "Pqt3", "weight-for-mass"),
         ("engine-twin-05", "F", "diameter-for-radius"),

@@ -24,7 +24,7 @@ from reportgen.units import QuantityFault
 from reportgen.workbook import write_csv, write_xlsx
 from tests.grading.keys import csv_rows, small_key
 
-HEAD, FIRST = 3, 4
+HEAD, FIRST = 3, 5
 """The row of the sheet's head; the column of single values.  Rows and columns from 1."""
 
 
@@ -162,7 +162,7 @@ def filled(tmp_path: Path, key: Key, values: dict[tuple[str, int], object], name
     page = book.worksheets[0]
     rows = {str(page.cell(n, 1).value): n for n in range(HEAD + 1, page.max_row + 1)}
     for (id, position), value in values.items():
-        page.cell(rows[id], FIRST + position).value = value  # type: ignore[assignment]
+        page.cell(rows[id], FIRST + position, value)
     book.save(path)
     return path
 
@@ -239,7 +239,7 @@ def test_the_csv_of_the_sheet_is_read_whatever_the_separator(tmp_path: Path) -> 
     rows = csv_rows(small_key("en"))
     for row in rows:
         if row and row[0] == "v.B":
-            row[4:6] = ["4.71", "2.36"]
+            row[5:7] = ["4.71", "2.36"]
     path = tmp_path / "any.csv"
     path.write_bytes(write_csv(rows))
     for separator in (",", ";", "\t"):
@@ -270,7 +270,7 @@ def test_a_cell_that_holds_no_number_is_a_problem_of_its_own(tmp_path: Path) -> 
     }
     assert numbers(submission) == {("omega.1", 0): 31.4}
     problem = submission.problems["v.B", 1]
-    assert str(problem) == f"{path}:Bài làm!E11: error[not-a-number]: “see page 3” is no number"
+    assert str(problem) == f"{path}:Bài làm!F11: error[not-a-number]: “see page 3” is no number"
 
 
 def test_a_formulas_stored_result_is_taken_and_noted(tmp_path: Path) -> None:

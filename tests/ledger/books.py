@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.ledger.core import Ledger
+from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.forces import enter_forces
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics import enter_kinematics
-from reportgen.ledger.report import choose_decimals
 from reportgen.mechanism.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,7 +11,6 @@ from books import MACHINES, RATE, keep
 from recompute import excess, worst_lines
 
 from reportgen import api
-from reportgen.case import Case
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.report import write_ledger
 from reportgen.notation.expressions import Chain, Number
@@ -88,34 +86,3 @@ def test_changes_follow_through(name: str) -> None:
 def test_two_ways_print_one_torque(engine: Ledger) -> None:
     for position in range(1, engine.positions + 1):
         assert engine.number("M.eq", position).shown == engine.number("M.vw", position).shown
-
-
-FILES = sorted((Path(__file__).parents[2] / "assignments").glob("*.yaml"))
-RESULTS = {"velocity", "acceleration", "angular velocity", "angular acceleration", "force", "torque", "work", "power"}
-
-
-NOTHING = 1e-9
-"""Smaller values are rounding of what is nothing."""
-
-
-def figures(value: float, decimals: int) -> int:
-    """Significant figures of a value printed with so many decimals."""
-    return decimals + 1 + math.floor(math.log10(value) + 1e-12)
-
-
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_digits_are_those_that_a_person_would_write(path: Path) -> None:
-    """Segments to 0.01 mm; of what is computed from them at most five figures, and mostly four."""
-    ledger = Case(api.load(path)).ledger
-    computed = []
-    for id, family in ledger.families.items():
-        decimals = ledger.decimals[id]
-        largest = float(np.nanmax(np.abs(family.values) / family.how.scale))
-        if decimals is None or family.hidden or family.is_plane or largest < NOTHING:
-            continue
-        if family.kind == "segment":
-            assert decimals <= 2, id
-        if family.kind in RESULTS and id not in {"omega.1"} and family.definition is not None:
-            computed.append(figures(largest, decimals))
-    assert max(computed) <= 5
-    assert np.median(computed) in {3, 4}

@@ -138,9 +138,11 @@ def walk(blocks: tuple[Block, ...]) -> Iterator[Block]:
 
 
 def scenes(document: Document) -> Iterator[tuple[str, Scene]]:
-    """(figure's key, scene) of every drawing, in printed order."""
+    """(figure's key, scene) of every drawing, in printed order; plates that continue a figure have its key."""
+    key = ""
     for block in walk(document.blocks):
         if isinstance(block, Figure):
             yield from ((block.key, scene) for scene in block.scenes)
         elif isinstance(block, Plate):
-            yield block.key, block.scene
+            key = key if block.continues else block.key
+            yield key, block.scene

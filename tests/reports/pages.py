@@ -25,6 +25,8 @@ PROSE = (11.6, 12.4)
 """Font sizes of running text, headings of level 3 and formulas; all else is smaller or larger."""
 
 _DROPPED = re.compile("[\\s\N{WORD JOINER}\N{SOFT HYPHEN}\N{HYPHEN}-]+")
+CONTINUED = re.compile(r"(?:Table|Bảng)([\d.]+)\((?:continued|tiếptheo)\)")
+"""The label of a table that goes on, its spaces left out."""
 _SMALL = re.compile("[₀-₉]")
 
 
@@ -88,8 +90,8 @@ def body(page: Any) -> list[Glyph]:
 def without_repeated_head(page: Any, found: Sequence[Glyph], before: Sequence[Glyph]) -> Sequence[Glyph]:
     """The glyphs of a page's body without the head of a table that continues from the page before.
 
-    Such a page begins with a rule, the head lasts until the next rule of that width, and the page
-    before, whose glyphs are `before`, has it too.
+    Such a head begins with the table's number and the word that it continues; it lasts until the second rule below,
+    and the page before, whose glyphs are `before`, has it too, with other words above it.
     """
     rules = sorted(
         (
@@ -99,12 +101,24 @@ def without_repeated_head(page: Any, found: Sequence[Glyph], before: Sequence[Gl
         ),
         key=lambda rule: float(rule.y0),
     )
-    top = min((glyph.box[1] for glyph in found), default=0.0)
-    if is_plate(page) or not rules or rules[0].y1 > top:
+    label = continued(found)
+    if is_plate(page) or not label:
         return found
-    below = next((rule for rule in rules[1:] if rule.y0 > top and abs(rule.width - rules[0].width) < 1), rules[0])
-    head = [glyph for glyph in found if glyph.origin[1] <= below.y1]
-    return found[len(head) :] if text(head) in text(before) else found
+    base = label[0].origin[1]
+    first, *others = (rule for rule in rules if rule.y0 > base)
+    last = next(rule for rule in others if rule.y0 > first.y1 + 2 * MM and abs(rule.width - first.width) < 1)
+    head = [glyph for glyph in found if base + 1 < glyph.origin[1] <= last.y1]
+    assert text(head) in text(before), text(head)
+    return [glyph for glyph in found if glyph not in label and glyph not in head]
+
+
+def continued(found: Sequence[Glyph]) -> list[Glyph]:
+    """The line of a page that names the table it continues; none if it continues no table."""
+    lines: dict[int, list[Glyph]] = {}
+    for glyph in found:
+        if glyph.bold:
+            lines.setdefault(round(glyph.origin[1]), []).append(glyph)
+    return next((line for line in lines.values() if CONTINUED.fullmatch(text(line))), [])
 
 
 def text(of: Iterable[Glyph]) -> str:

@@ -38,19 +38,20 @@ class PrintedLine:
     page: int
 
     def misfit(self, rounded: frozenset[str]) -> float:
-        """How many times the allowed error the line is off; all numbers but those `rounded` are exact."""
+        """How many times the allowed error the line is off; the numbers put in are exact but those `rounded`."""
         found = [match.group() for match in re.finditer(NUMBER, self.substitution)]
         tree = ast.parse(_python(self.substitution), mode="eval").body
         result = RESULT.fullmatch(self.result)
         assert result is not None
         sign = -1 if result["sign"] else 1
-        printed = _printed(result["number"], rounded)
+        decimals = len(result["number"].partition(".")[2])
         # Angles come out of a calculation in radians.
         unit = math.radians(1) if result["unit"] == "°" else 1.0
         return misfit(
             lambda values: _value(tree, values),
             [_printed(text, rounded) for text in found],
-            Printed(sign * printed.value * unit, printed.half_unit * unit),
+            Printed(sign * float(result["number"]) * unit, 0.5 * 10.0**-decimals * unit),
+            loose=decimals == 0,
         )
 
 

@@ -1,14 +1,15 @@
 """Whether a printed line holds for a reader with a calculator.
 
-With x̂ᵢ the numbers as printed and uᵢ half a unit of their last digits (0 for exact ones), a line
-f(x̂) = ŷ passes if |f(x̂) − ŷ| ≤ u_y + Σ|∂f/∂xᵢ| uᵢ.
+With x̂ᵢ the numbers as printed, a line f(x̂) = ŷ passes if |f(x̂) − ŷ| is at most one unit of ŷ's last digit.  A whole
+number keeps its units, so it may be off by Σ|∂f/∂xᵢ| uᵢ as well, with uᵢ half a unit of the x̂ᵢ's last digits; and so
+may the few lines that the ledger lists, whose inputs have too few figures.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from reportgen.document.tree import (
@@ -26,11 +27,15 @@ from reportgen.document.tree import (
     Strong,
     Table,
     Value,
+    formula,
 )
 from reportgen.figures.scene import Label
+from reportgen.ledger.report import SAME
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol, Term, VectorEquation, rebuild, walk
+from reportgen.notation.numbers import write
 from tests.reports import built
+from tests.reports.built import Written
 
 ROUNDING = 1e-9
 """Relative error allowed for arithmetic in floating point itself."""
@@ -44,12 +49,14 @@ class Printed:
     half_unit: float
 
 
-def misfit(function: Callable[[Sequence[float]], float], inputs: Sequence[Printed], result: Printed) -> float:
-    """How many times the allowed error a line is off: up to 1 passes."""
+def misfit(
+    function: Callable[[Sequence[float]], float], inputs: Sequence[Printed], result: Printed, loose: bool
+) -> float:
+    """How many times the allowed error a line is off: up to 1 passes; `loose` counts the inputs' half-units as well."""
     values = [number.value for number in inputs]
-    allowed = result.half_unit + ROUNDING * abs(result.value)
+    allowed = 2 * result.half_unit + ROUNDING * abs(result.value)
     for index, number in enumerate(inputs):
-        if number.half_unit:
+        if loose and number.half_unit:
             # The half-unit itself as the step: what a reader's error does, curvature included.
             ends = [
                 function([*values[:index], number.value + step, *values[index + 1 :]])
@@ -69,6 +76,13 @@ def as_printed(number: Number) -> Printed:
     return Printed(number.shown * factor, number.half_unit * factor)
 
 
+def as_result(number: Number) -> Printed:
+    """A `Number` as the result of a line: one printed as it is (0.171 m) is read to its own last digit as well."""
+    if number.decimals is not None:
+        return as_printed(number)
+    return as_printed(replace(number, decimals=len(write(number.value, None, "en").partition(".")[2])))
+
+
 def steps(chain: Chain) -> Iterator[tuple[Expression, Number]]:
     """(numbers put in, result) of a chain; its symbolic parts and bare results are no steps."""
     for left, right in pairwise(chain.parts):
@@ -78,7 +92,7 @@ def steps(chain: Chain) -> Iterator[tuple[Expression, Number]]:
             yield left, right
 
 
-def step_misfit(left: Expression, result: Number) -> float:
+def step_misfit(left: Expression, result: Number, loose: bool = False) -> float:
     numbers = [node for node in walk(left) if isinstance(node, Number)]
 
     def function(values: Sequence[float]) -> float:
@@ -91,7 +105,22 @@ def step_misfit(left: Expression, result: Number) -> float:
 
         return float(evaluate(put_in(left)))
 
-    return misfit(function, [as_printed(number) for number in numbers], as_printed(result))
+    shown = as_result(result)
+    return misfit(function, [as_printed(number) for number in numbers], shown, loose or result.decimals == 0)
+
+
+def off(written: Written) -> list[str]:
+    """The lines of a report that a reader's calculator does not come to, each with how far it is off."""
+    ledger = written.case.ledger
+    # Results of the whole report are listed for other positions only than those at which their lines stand.
+    ids = set(ledger.cancellations).difference(*SAME)
+    listed = [ledger.chain(id, k) for id in ids for k in range(1, ledger.positions + 1)]
+    return [
+        f"{misfit:.2f}: {formula(chain, written.language)}"
+        for chain in chains(written.document)
+        for left, result in steps(chain)
+        if not (misfit := step_misfit(left, result, loose=replace(chain, note="") in listed)) <= 1
+    ]
 
 
 def expressions(document: Document) -> Iterator[Expression]:

@@ -8,10 +8,10 @@ from collections.abc import Iterator
 
 import pytest
 
-from reportgen.document.tree import InlineMath
-from reportgen.figures.scene import Arrow
+from reportgen.document.tree import Figure, InlineMath, Plate
+from reportgen.figures.scene import Arrow, Label
 from reportgen.mechanism.structure import DRIVER
-from reportgen.notation.expressions import Chain, Number
+from reportgen.notation.expressions import Chain, Number, Symbol
 from tests.reports import built, pages
 from tests.reports.built import Report, Written
 
@@ -20,23 +20,20 @@ pytest.importorskip("pymupdf")
 RULER = 0.1
 """Millimetres: what a ruler on paper can tell apart."""
 MM = 1e3
-VANISHING = 0.005
-"""Millimetres: shorter vectors may vanish in the thousandths that are written."""
+VANISHING = 0.01
+"""Millimetres: the last digit of a measured length; what is shorter is not drawn."""
 
 
 def drawn(written: Written) -> list[tuple[str, Arrow]]:
-    """(figure, arrow) of every arrow that can be seen, in printed order."""
+    """(figure, arrow) of every arrow, in printed order."""
     return [
-        (key, item)
-        for key, scene in built.scenes(written.document)
-        for item in scene.items
-        if isinstance(item, Arrow) and abs(item.end - item.start) > VANISHING
+        (key, item) for key, scene in built.scenes(written.document) for item in scene.items if isinstance(item, Arrow)
     ]
 
 
 def measured(report: Report) -> list[tuple[str, str, float]]:
     """(figure, name, mm on paper) of every arrow."""
-    lengths = [length for page in report.pages for length in pages.arrows(page) if length > VANISHING]
+    lengths = [length for page in report.pages for length in pages.arrows(page)]
     expected = drawn(report.written)
     assert len(lengths) == len(expected)
     return [(key, arrow.name, length) for (key, arrow), length in zip(expected, lengths, strict=True)]
@@ -65,9 +62,9 @@ def segment(name: str, plan: str) -> str:
 def segments(written: Written, key: str) -> dict[str, list[float]]:
     """Lengths (mm) at the positions of one plan's figure by the vector's name; none for other figures."""
     ledger = written.case.ledger
-    motion = re.fullmatch(r"fig\.([va])\.(?:stages\.\w+\.)?(\w+?)(?:\.\d+)?", key)
+    motion = re.fullmatch(r"fig\.([va])\.(?:stages\.\w+\.)?(\w+)", key)
     forces = re.fullmatch(
-        r"fig\.R\.(?:plates\.(\w+)(?:\.\d+)?|(?:stages\.)?(\w+)\.(\w+))", key.replace("fig.crank.", f"fig.R.{DRIVER}.")
+        r"fig\.R\.(?:plates\.(\w+)|(?:stages\.)?(\w+)\.(\w+))", key.replace("fig.crank.", f"fig.R.{DRIVER}.")
     )
     if motion:
         ids = {name: [segment(name, motion[1])] for name in names(written, key)}
@@ -84,19 +81,31 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
         return {}
     count = written.case.analysis.machine.count if motion else written.case.analysis.machine.positions
     positions = range(1, count + 1) if position == "plates" else [worked(written, position, count)]
-    scale = share(written, key, f"mu.{motion[1]}" if motion else f"mu.R{polygon.name}")
+    scale = f"mu.{motion[1]}" if motion else f"mu.R{polygon.name}"
+    printed = scale_of(written, key, ledger.symbol(scale))
+    share = {k: ledger.number(scale, k).value / printed for k in positions}
     return {
-        name: [abs(complex(ledger[id].at(k))) * MM * scale for id in of for k in positions] for name, of in ids.items()
+        name: [abs(complex(ledger[id].at(k))) * MM * share[k] for id in of for k in positions]
+        for name, of in ids.items()
     }
 
 
-def share(written: Written, key: str, scale: str) -> float:
-    """How much smaller than at the ledger's scale a figure is drawn, by the scale that its caption prints."""
-    captions = [block.caption for block in built.walk(written.document.blocks) if getattr(block, "key", "") == key]
-    match captions:
-        case [(*_, InlineMath(Chain((_, Number(value)))))]:
-            return written.case.ledger.number(scale).value / value
-    return 1.0
+def scale_of(written: Written, key: str, symbol: Symbol) -> float:
+    """The one scale μ that a figure prints, in its caption or on its sheets."""
+    scenes = [scene for figure, scene in built.scenes(written.document) if figure == key]
+    shown = [item.content for scene in scenes for item in scene.items if isinstance(item, Label)]
+    for block in built.walk(written.document.blocks):
+        if isinstance(block, (Figure, Plate)) and block.key == key:
+            shown += [inline.expression for inline in block.caption if isinstance(inline, InlineMath)]
+    found = {
+        part.shown
+        for one in shown
+        if isinstance(one, Chain) and one.parts[0] == symbol
+        for part in one.parts[1:]
+        if isinstance(part, Number)
+    }
+    (scale,) = found
+    return scale
 
 
 def worked(written: Written, label: str, count: int) -> int:
@@ -113,11 +122,10 @@ def names(written: Written, key: str) -> set[str]:
 
 
 def plans(report: Report) -> Iterator[tuple[str, str, list[float]]]:
-    """(figure, name, lengths on paper) of the vectors of every plan; plates of one plan count as one figure."""
+    """(figure, name, lengths on paper) of the vectors of every plan, of all its sheets."""
     found: dict[tuple[str, str], list[float]] = defaultdict(list)
     for key, name, length in measured(report):
-        whole = re.sub(r"(\.[va]\.plates|\.R\.plates\.\w+)\.\d+$", r"\1", key)
-        found[whole, name].append(length)
+        found[key, name].append(length)
     for (key, name), lengths in found.items():
         yield key, name, lengths
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.document.tree import formula, text_of
+from reportgen.document.tree import text_of
 from reportgen.notation.numbers import write
 from tests.reports import built, recompute
 from tests.reports.built import Report, Written
@@ -64,7 +64,9 @@ def test_one_corrupted_digit_is_caught(path: Path) -> None:
         digits = re.match(rf"-?{NUMBER}", line.result)
         assert digits is not None
         number = digits.group().lstrip("-")
-        for at in (at for at in range(digits.end()) if line.result[at].isdigit()):
+        # The last unit of a whole number is what the figures put in leave open.
+        end = digits.end() - number.isdecimal()
+        for at in (at for at in range(end) if line.result[at].isdigit()):
             wrong = replace(line, result=corrupted(line.result, at))
             # The corrupted number is as rounded as the true one.
             known = numbers | {corrupted(number, at - digits.end() + len(number))} if number in numbers else numbers
@@ -77,13 +79,8 @@ def test_one_corrupted_digit_is_caught(path: Path) -> None:
 
 
 def test_every_chain_of_the_tree_recomputes(written: Written) -> None:
-    steps = [
-        (recompute.step_misfit(left, result), formula(chain, written.language))
-        for chain in recompute.chains(written.document)
-        for left, result in recompute.steps(chain)
-    ]
-    assert len(steps) > 10
-    assert [step for step in steps if not step[0] <= 1] == []
+    assert sum(len(list(recompute.steps(chain))) for chain in recompute.chains(written.document)) > 10
+    assert recompute.off(written) == []
 
 
 def test_numbers_are_printed_as_they_should(written: Written) -> None:

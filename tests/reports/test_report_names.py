@@ -12,7 +12,7 @@ import pytest
 
 from reportgen import api
 from reportgen.assignment.common import Report, Student
-from reportgen.document.tree import Contents
+from reportgen.document.tree import Section
 from tests.reports import built, pages
 from tests.reports.built import Written
 
@@ -81,10 +81,11 @@ def test_names_reach_the_tree_as_typed(text: str) -> None:
 @pytest.mark.parametrize("engine", built.ENGINE_CASES)
 @pytest.mark.parametrize("text", HOSTILE)
 def test_names_are_printed_as_typed(engine: api.Engine, text: str) -> None:
-    """On the cover, in the running header and in the PDF's own data; what follows the contents is left out."""
+    """On the cover, in the running header and in the PDF's own data; what follows the task is left out."""
     whole = hostile(text)
     blocks = whole.document.blocks
-    front = blocks[: next(i for i, block in enumerate(blocks) if isinstance(block, Contents))]
+    _, second, *_ = (i for i, block in enumerate(blocks) if isinstance(block, Section) and block.level == 1)
+    front = blocks[:second]
     report = built.typeset(replace(whole, document=replace(whole.document, blocks=front)), engine)
     cover = pages.text(pages.glyphs(report.pages[0]))
     for name in (*FIELDS, *student_fields()):

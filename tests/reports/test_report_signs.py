@@ -11,7 +11,7 @@ from reportgen import api
 from reportgen.case import Case
 from reportgen.document import force_figures, outline, result_tables
 from reportgen.document.report import Report
-from reportgen.document.tree import Block, Equation, InlineMath, Paragraph
+from reportgen.document.tree import Block, Equation, InlineMath, Paragraph, plain
 from reportgen.figures.forces import COUPLE_RADIUS
 from reportgen.figures.scene import Arc, Arrow, Scene
 from reportgen.notation.evaluation import evaluate
@@ -104,6 +104,9 @@ def test_what_balances_the_driver_is_drawn_in_the_sense_assumed(report: Report) 
     for k in positions(report):
         drawing = force_figures.driver(report, k).scenes[0]
         assert off(report, drawing, k) == []
+        if report.machine.span:
+            # The balancing force of a slide acts on the lever too.
+            assert off(report, force_figures.lever(report, k).scenes[0], k) == []
         arcs = [item for item in drawing.items if isinstance(item, Arc) and item.radius == COUPLE_RADIUS]
         if report.driver.centre and not report.is_zero("M.eq", k) and not report.machine.torques:
             (arc,) = arcs
@@ -160,6 +163,15 @@ def test_no_segment_is_used_before_it_is_measured(blocks: list[Block]) -> None:
                 used = {node for node in walk(formula) if isinstance(node, Symbol) and node.over == "segment"}
                 assert used <= known, (shown, used - known)
             known.add(shown)
+
+
+def test_inertia_forces_are_named_only_where_links_have_mass(report: Report, blocks: list[Block]) -> None:
+    words = {"en": "inertia forces included", "vi": "kể cả lực quán tính"}[report.assignment.language]
+    assert any(words in said(block) for block in blocks) == bool(report.inertia_lines)
+
+
+def said(block: Block) -> str:
+    return plain(block.inlines, "en") if isinstance(block, Paragraph) else ""
 
 
 # --- equations in one piece

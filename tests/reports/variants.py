@@ -83,7 +83,7 @@ CHANGES: dict[str, Change] = {
     ),
     "omega": both(put("parameters.n", None), put("parameters.omega1", "230 rad/s")),
     "short rods": put("parameters.lambda", 0.95),
-    "long rods": put("parameters.lambda", 0.05),
+    "long rods": both(put("parameters.lambda", 0.05), put("drawing.crank", "40 mm")),
     "indicator by angle": indicator_by_angle,
     "absolute pressures": absolute_indicator,
 }

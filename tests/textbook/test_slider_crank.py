@@ -89,8 +89,8 @@ def test_closed_formulas_are_the_motion(offset: int, tmp_path: Path) -> None:
     for id, values in {
         "f.v.C": (slider.v / along).real,
         "f.a.C": (slider.a / along).real,
-        "f.omega.2": -rod.omega,  # positive in the sense of a clockwise crank
-        "f.eps.2": -rod.epsilon,
+        "f.omega.2": rod.omega,  # anticlockwise, though the crank turns clockwise
+        "f.eps.2": rod.epsilon,
         "f.v.S2": abs(analysis.motion.points["S2"].v),
         "f.a.S2": abs(analysis.motion.points["S2"].a),
     }.items():

@@ -69,15 +69,15 @@ def test_places_and_rates(where: str, pivot: complex, direction: str, tmp_path: 
 def test_the_printed_formulas_give_the_motion_with_its_signs(where: str, direction: str, tmp_path: Path) -> None:
     analysis = analysed(tmp_path, f"{LENGTHS}, {where}", f"count: 24, start: 20 deg, direction: {direction}")
     ledger, motion = write_ledger(analysis), analysis.motion
-    # The formulas' y-axis is x turned in the direction of rotation.
+    # The formulas' y-axis is x turned in the direction of rotation; rates are positive upwards and anticlockwise.
     turn = 1 if direction == "anticlockwise" else -1
     for id, values in {
         "f.y.C": turn * motion.points["C"].p.imag,
-        "f.v.C": turn * motion.points["C"].v.imag,
-        "f.a.C": turn * motion.points["C"].a.imag,
-        "f.omega.2": turn * motion.links[2].omega,
-        "f.omega.3": turn * motion.links[3].omega,
-        "f.eps.3": turn * motion.links[3].epsilon,
+        "f.v.C": motion.points["C"].v.imag,
+        "f.a.C": motion.points["C"].a.imag,
+        "f.omega.2": motion.links[2].omega,
+        "f.omega.3": motion.links[3].omega,
+        "f.eps.3": motion.links[3].epsilon,
     }.items():
         assert ledger[id].values == pytest.approx(values, rel=0, abs=1e-11 * np.abs(values).max()), id
     # As the docstring of the machine says, link 4 mirrors link 3.

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import csv
+import re
+import time
 import unicodedata
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from reportgen.workbook import read, write_csv
+from reportgen.workbook.cells import guarded, unguarded
 from tests.workbook.tables import CYNICAL, refusal, texts
 
 NAME = unicodedata.normalize("NFD", "Đỗ Hữu Trường")
@@ -89,6 +93,47 @@ def test_csv_comes_back_as_it_was_written(tmp_path_factory: pytest.TempPathFacto
 def test_csv_never_begins_a_formula(text: str) -> None:
     cell = write_csv([[text]]).decode("utf-8-sig").strip('"\r\n')
     assert cell[0] == "'"
+
+
+INSIDE = [
+    "a;=1+1",
+    'a";"=1+1',
+    'a;" =1',
+    "a;\t@x",
+    "a\t+x",
+    "a|-x",
+    "a\n=1",
+    "a,=1",
+    'a;"";=1',
+    "a;-5;=1",
+    "a; ＝1",
+    ";'\"=1",
+]
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t", "|"])
+@pytest.mark.parametrize("quotes", [True, False])
+@pytest.mark.parametrize("text", INSIDE)
+def test_csv_never_begins_a_formula_in_a_program_that_parts_elsewhere(text: str, quotes: bool, separator: str) -> None:
+    """Whatever a program parts cells at, and whether or not it minds quotation marks, no cell begins with a sign."""
+    content = write_csv([["x", text, text], [text]]).decode("utf-8-sig")
+    quoting = csv.QUOTE_MINIMAL if quotes else csv.QUOTE_NONE
+    for row in csv.reader(content.splitlines(), delimiter=separator, quoting=quoting):
+        for cell in row:
+            shown = cell.strip(' "\t')
+            assert re.fullmatch(r"-?[0-9.]*", shown) or shown[0] not in "=+-@＝", (cell, content)
+
+
+@given(st.lists(st.text(",;|\t\n'\" =-+5x", max_size=9), min_size=1, max_size=3))
+@settings(max_examples=500)
+def test_what_was_guarded_inside_comes_back(row: list[str]) -> None:
+    assert [unguarded(guarded(text)) for text in row] == row
+
+
+def test_a_long_run_of_blanks_is_looked_at_once() -> None:
+    start = time.process_time()
+    assert guarded("x" + "\n" * 30_000) == "x" + "\n" * 30_000
+    assert time.process_time() - start < 0.5
 
 
 def test_negative_numbers_stay_numbers_in_csv() -> None:

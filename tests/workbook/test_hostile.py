@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import re
+import time
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -182,3 +183,26 @@ def test_a_workbook_with_damaged_parts_is_read_or_refused(
             made.writestr(name, content)
     with contextlib.suppress(AssignmentError):
         assert all(isinstance(page, Page) for page in read(path))
+
+
+def test_a_million_empty_cells_with_a_border_cost_next_to_nothing(tmp_path: Path) -> None:
+    """A border drawn round ten thousand rows of a hundred columns, with two values among them."""
+    letters = [f"{first}{second}" for first in "ABCDE" for second in "ABCDEFGHIJKLMNOPQRST"]
+    rows = "".join(
+        f'<row r="{row}">' + "".join(f'<c r="{column}{row}" s="1"/>' for column in letters) + "</row>"
+        for row in range(2, 10_002)
+    )
+    first = '<row r="1"><c r="A1" t="inlineStr"><is><t>id</t></is></c><c r="B1" s="1"></c><c r="C1"><v>7</v></c></row>'
+    path = tmp_path / "a.xlsx"
+    path.write_bytes(package(first + rows))
+    start = time.process_time()
+    (page,) = read(path)
+    assert time.process_time() - start < 2
+    assert [[cell.value for cell in row] for row in page.rows] == [["id", None, 7.0]]
+
+
+def test_an_empty_cell_counts_where_the_next_does_not_name_its_place(tmp_path: Path) -> None:
+    path = tmp_path / "a.xlsx"
+    path.write_bytes(package('<row r="1"><c r="A1" s="1"/><c><v>7</v></c></row>'))
+    (page,) = read(path)
+    assert [[cell.value for cell in row] for row in page.rows] == [[None, 7.0]]

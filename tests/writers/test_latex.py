@@ -17,6 +17,7 @@ from reportgen.document.tree import (
     List,
     PageBreak,
     Paragraph,
+    Plate,
     Reference,
     Table,
     Text,
@@ -216,7 +217,14 @@ def test_plate_has_its_own_paper(compiled: pdflatex.Compiled) -> None:
     sizes = [(paper.width / MM, paper.height / MM) for paper in papers]
     # TeX rounds a page's size to 0.001 bp.
     assert [pytest.approx((420, 297), abs=0.01)] == [size for size in sizes if size[0] > 211]
-    assert sizes[-1] == pytest.approx((210, 297), abs=0.01)
+
+
+@needs_tex
+def test_after_a_plate_the_pages_are_of_the_usual_size() -> None:
+    (plate,) = (block for block in sample.blocks() if isinstance(block, Plate))
+    before, after = Paragraph(sample.text("Before.")), Paragraph(sample.text("After."))
+    sizes = [round(page.rect.width / MM) for page in by_latex(before, plate, PageBreak(), after)]
+    assert sizes == [210, 420, 210]
 
 
 @needs_tex

@@ -25,9 +25,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.ledger.forces.loads import FAINT, LoadOn, Origin, Statics, above, joint, lone_couple, moments, opposite
-from reportgen.ledger.forces.polygon import Edge, Path, Polygon, drawn_edges, force_plan, read
+from reportgen.ledger.forces.polygon import Edge, Path, Polygon, force_plan, read
 from reportgen.mechanism.structure import DRIVER, Crank, Dyad, DyadKind, Guide
-from reportgen.notation.expressions import Expression, Ref, Sum, Symbol, dot, meet, quotient, sign, total, turned
+from reportgen.notation.expressions import Expression, Ref, Sum, Symbol, dot, meet, quotient, sign, total, turned, unit
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import drawn_length
 
@@ -135,7 +135,7 @@ def _tangential(g: Group, link: int, digits: str, pin: str, middle: str, loads: 
     q, length = g.q, g.q[f"l.{pin}{middle}"]
     moment = moments(g.statics, loads, middle)
     size = q.define(f"R.{digits}.t", 0.0 if moment is None else moment / length, scale=g.statics.force)
-    assumed = q.construct(f"assumed.R{digits}.t", turned(q[f"rod.{link}"] / length))
+    assumed = q.construct(f"assumed.R{digits}.t", turned(unit(q[f"rod.{link}"])))
     q.construct(f"F.R{digits}.t", size * assumed, of=size.id)
 
 
@@ -145,7 +145,7 @@ def _reach(g: Group) -> Ref:
     if not g.dyad.lengths[1]:
         return q[f"l.{end}{middle}"]
     foot, μ_l = f"H{g.j}", q["mu.l"]
-    along = abs(dot(q[f"rod.{g.j}"], q[f"slot.{g.j}"])) / μ_l
+    along = abs(dot(q[f"rod.{g.j}"], q[f"slot.{g.j}"])) / q["drawing"]
     drawn = q.define(f"drawn.{foot}{middle}", along, drawn_length(foot, middle), scale=g.statics.span)
     return q.define(f"l.{foot}{middle}", μ_l * drawn)
 
@@ -179,15 +179,16 @@ def _close(
     if tangents[0]:
         path.lay(f"R{g.outer}.t", g.i)
     start = between if from_between else path.last
-    statics, name, at = g.statics, g.name, path.corners
-    if laid is not None:
-        meeting: Expression = at[between] + laid
-    else:
+    statics, name = g.statics, g.name
+
+    def closing(at: Mapping[str, Expression], μ: Expression) -> Expression:
+        if laid is not None:
+            return at[between] + laid / μ
         assert first is not None
         assert second is not None
-        meeting = meet(at[start], first, 0.0, second)
-    closing = g.q.construct(f"closing.{name}", meeting)
-    force_plan(statics, name, f"R({g.i},{g.j})", {**at, "n": closing})
+        return meet(at[start], first, 0.0, second)
+
+    force_plan(statics, name, f"R({g.i},{g.j})", path, closing)
 
     def take(digits: str, part: str, begin: str, end: str) -> None:
         dotted = f".{part}" if part else ""
@@ -200,7 +201,6 @@ def _close(
         take(g.end, "n", "n", path.first)
     take(g.end, "", "n", after)
     take(g.inner, "", "n", between)
-    drawn_edges(statics, name, path.edges)
 
     outer = Edge(f"R{g.outer}.n" if tangents[0] else f"R{g.outer}", path.last, "n", True, g.i)
     end = Edge(f"R{g.end}.n" if tangents[1] else f"R{g.end}", "n", path.first, True, g.j)
@@ -254,8 +254,7 @@ def _driving_crank(statics: Statics, centre: str, own: tuple[LoadOn, ...]) -> Po
     balance = 0.0 if total is None else -total
     statics.q.define("M.eq", balance, Symbol("M", "cb", "(1)"), scale=statics.torque)
     path = _laid(statics, own)
-    force_plan(statics, "1", "R(1)", path.corners)
-    drawn_edges(statics, "1", path.edges)
+    force_plan(statics, "1", "R(1)", path)
     read(statics, "1", "R01", Symbol("R", "01"), "R.01", path.last, path.first)
     return Polygon("1", (*path.edges, Edge("R01", path.last, path.first, True, DRIVER)))
 
@@ -264,9 +263,7 @@ def _driving_slide(statics: Statics, pin: str, own: tuple[LoadOn, ...]) -> Polyg
     """R01 across the guide and the balancing force P_cb along it close the polygon."""
     q, path = statics.q, _laid(statics, own)
     guide = q["guide.1"]
-    closing = q.construct("closing.1", meet(path.corners[path.last], turned(guide), 0.0, guide))
-    force_plan(statics, "1", "R(1)", {**path.corners, "n": closing})
-    drawn_edges(statics, "1", path.edges)
+    force_plan(statics, "1", "R(1)", path, lambda at, μ: meet(at[path.last], turned(guide), 0.0, guide))
     read(statics, "1", "R01", Symbol("R", "01"), "R.01", path.last, "n")
     read(statics, "1", "Rcb", Symbol("P", "cb"), "R.cb", "n", path.first)
     along = sign(dot(q["F.Rcb"], q.construct("assumed.Rcb", guide)))
@@ -312,11 +309,12 @@ def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
                 contribute(load.name, (power if statics.turn > 0 else -power) / rate)
             continue
         work: Expression = dot(statics.vector(load), statics.image("v", load.point))
+        drawn: Expression = quotient(work, load.size)
         if couple is not None and omega is not None:
-            work = work + couple * omega / q["mu.v"]
+            drawn = drawn + statics.beside(load, load.size) * omega / q["mu.v"]
         arm = q.define(
             f"h.{load.name}.p",
-            statics.turn * quotient(work, load.size),
+            statics.turn * drawn,
             Symbol("h", load.name, "′"),
             arm=True,
             of=load.name,

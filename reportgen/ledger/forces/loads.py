@@ -96,6 +96,11 @@ class Statics:
         """A load's couple, None if it has none."""
         return self.q.find(f"couple.{load.name}")
 
+    def beside(self, load: LoadOn, divisor: Expression) -> Expression:
+        """How far (m) a load is moved to its side for its couple, h = M/F, signed as the couple."""
+        laid, couple = self.q.find(f"beside.{load.name}"), self.couple(load)
+        return laid or (Number(0.0) if couple is None else quotient(couple, divisor))
+
 
 def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) -> tuple[LoadOn, ...]:
     """Enter vectors of weights, inertia forces and applied forces; ids `G2`, `m.2` and those of `applied` exist.
@@ -135,9 +140,10 @@ def _inertia(statics: Statics, body: Inertia) -> LoadOn:
     if f"turn.eps.{link}" in q and body.moment > 0:
         J = q[f"J.{link}"]
         couple = q.define(f"M.{name}", J * q[f"eps.{link}"], scale=body.moment * statics.sizes.rotation**2)
-        q.construct(f"couple.{name}", -(J * q[f"turn.eps.{link}"]))
+        turning = q.construct(f"couple.{name}", -(J * q[f"turn.eps.{link}"]), of=couple.id)
         if not nothing:
-            q.define(f"e.{name}", couple / force, scale=1e-3)
+            e = q.define(f"e.{name}", couple / force, scale=1e-3)
+            q.construct(f"beside.{name}", quotient(turning, force), of=e.id)
             _centre_of_percussion(statics, link, centre)
     return LoadOn(name, link, centre, force, Origin.inertia, name)
 
@@ -174,7 +180,7 @@ def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn,
 
 def opposite(q: Sheet, here: str, there: str, link: int, point: str) -> LoadOn:
     """Enter a reaction as that of the other link turned round: R42 = −R24."""
-    size = q.define(f"R.{here}", q[f"R.{there}"])
+    size = q.define(f"R.{here}", q[f"R.{there}"], scale=q.families[f"R.{there}"].scale)
     q.construct(f"F.R{here}", -q[f"F.R{there}"], of=size.id)
     return LoadOn(f"R{here}", link, point, size, Origin.reaction, here)
 
@@ -197,10 +203,11 @@ def above(size: Ref, floor: float) -> Expression:
 def arm(statics: Statics, load: LoadOn, centre: str) -> Ref:
     """The signed arm, measured on the drawing, of a load about a point: h = M/(F μ_l), its couple included."""
     q, couple = statics.q, statics.couple(load)
-    moment: Expression = cross(q[f"p.{load.point}"] - q[f"p.{centre}"], statics.vector(load))
+    moment = cross(q[f"p.{load.point}"] - q[f"p.{centre}"], statics.vector(load))
+    divisor = _divisor(statics, load)
+    drawn: Expression = quotient(moment, divisor) / q["drawing"]
     if couple is not None:
-        moment = moment + couple
-    drawn = quotient(moment, _divisor(statics, load)) / q["mu.l"]
+        drawn = drawn + statics.beside(load, divisor) / q["mu.l"]
     id, letters = f"h.{load.name}.{centre}", Symbol("h", load.letters)
     return q.define(id, drawn, letters, arm=True, of=load.name, about=centre, scale=statics.span)
 

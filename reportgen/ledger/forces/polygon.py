@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.ledger.forces.loads import Statics
-from reportgen.ledger.scales import extents, own_scales
+from reportgen.ledger.scales import LEAST_FORCES, extents, own_scales
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Expression, Number, Symbol, heading
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import segment
 
-LEAST_PLAN = 0.100
-"""A force plan is drawn at least so wide or high (m), if it fits its page so."""
 LETTERS = "efghijklmqrtuvwxyzabcd"
 """Vertices of a force plan in the order of drawing; n is where the unknown edges meet."""
 
@@ -78,30 +76,35 @@ class Path:
         self.last = letter
 
 
-def force_plan(statics: Statics, name: str, title: str, corners: Mapping[str, Expression]) -> None:
-    """Choose μ_R for each position so that its plan fills its space, and enter the vertices on paper."""
+Closing = Callable[[Mapping[str, Expression], Expression], Expression]
+"""Where the unknown edges meet, from the vertices of the known ones and the scale that they are drawn at."""
+
+
+def force_plan(statics: Statics, name: str, title: str, path: Path, closing: Closing | None = None) -> None:
+    """Choose μ_R for each position so that its plan fills its space; lay the known forces and close the plan at n.
+
+    Enters their drawn lengths and, on paper, the forces as they are laid (`laid.23.P3`) and the vertices.
+    """
     q = statics.q
+    corners = path.corners | ({} if closing is None else {"n": closing(path.corners, Number(1.0))})
     values = {id: family.values for id, family in q.families.items()}
     sizes = extents([np.asarray(evaluate(corner, values)) for corner in corners.values()], q.positions)
-    μ = q.give(f"mu.R{name}", own_scales(sizes, LEAST_PLAN), Symbol("μ", title))
-    for letter, corner in corners.items():
-        q.construct(f"plan.R{name}.{letter}", corner / μ)
+    μ = q.give(f"mu.R{name}", own_scales(sizes, LEAST_FORCES), Symbol("μ", title))
+    vertices: dict[str, Expression] = {path.first: q.construct(f"plan.R{name}.{path.first}", Number(0.0))}
+    for edge in path.edges:
+        laid = q.construct(f"laid.{name}.{edge.name}", q[f"F.{edge.name}"] / μ)
+        letters = segment(edge.start, edge.end)
+        q.define(f"seg.{name}.{edge.name}", abs(laid), letters, scale=LEAST_FORCES, of=f"F.{edge.name}")
+        vertices[edge.end] = q.construct(f"plan.R{name}.{edge.end}", vertices[edge.start] + laid)
+    if closing is not None:
+        q.construct(f"plan.R{name}.n", closing(vertices, μ))
 
 
 def read(statics: Statics, plan: str, name: str, symbol: Symbol, id: str, start: str, end: str) -> None:
     """A force read from a plan between two vertices: its segment, its size, its vector and its direction."""
     q, scale = statics.q, statics.force
     μ, along = q[f"mu.R{plan}"], q[f"plan.R{plan}.{end}"] - q[f"plan.R{plan}.{start}"]
-    drawn = q.define(f"seg.{plan}.{name}", abs(along), segment(start, end), scale=LEAST_PLAN, of=f"F.{name}")
+    drawn = q.define(f"seg.{plan}.{name}", abs(along), segment(start, end), scale=LEAST_FORCES, of=f"F.{name}")
     q.define(id, μ * drawn, symbol, scale=scale)
     vector = q.construct(f"F.{name}", μ * along, of=id)
     q.define(f"dir.{name}", heading(vector), Symbol("α", symbol.sub), scale=1.0, of=id)
-
-
-def drawn_edges(statics: Statics, plan: str, edges: Iterable[Edge]) -> None:
-    """The drawn lengths of a plan's known forces."""
-    q = statics.q
-    for edge in edges:
-        drawn = abs(q[f"F.{edge.name}"] / q[f"mu.R{plan}"])
-        letters = segment(edge.start, edge.end)
-        q.define(f"seg.{plan}.{edge.name}", drawn, letters, scale=LEAST_PLAN, of=f"F.{edge.name}")

@@ -49,7 +49,7 @@ def _enter_centre(k: Kinematics, turn: Side) -> None:
     reach = q.give(f"ic.reach.{link}", _reach(k, q.value(centre)), Symbol("reach"), "ratio", hidden=True)
 
     def distance(name: str, nearest: float) -> Expression:
-        within = call("within", abs(k.place(name) - centre) / μ_l, nearest, reach)
+        within = call("within", abs(k.place(name) - centre) / q["drawing"], nearest, reach)
         return q.define(f"ic.seg.{link}.{name}", within, segment(centre_symbol(link), point(name)), scale=k.span())
 
     PB, PC, v = distance(base, NEAREST), distance(end, 0.0), q[f"v.{base}"]

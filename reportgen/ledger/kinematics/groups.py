@@ -13,7 +13,6 @@ from reportgen.ledger.kinematics.sides import Side, image, sides, under
 from reportgen.mechanism.structure import Dyad, DyadKind, Guide, LinkPoint
 from reportgen.notation.expressions import (
     Expression,
-    Ref,
     Symbol,
     call,
     circle_circle,
@@ -24,6 +23,7 @@ from reportgen.notation.expressions import (
     sign,
     sqrt,
     turned,
+    unit,
 )
 from reportgen.notation.vocabulary import drawn_length, on_plan, segment
 
@@ -112,10 +112,11 @@ def _known_acceleration(k: Kinematics, side: Side) -> Expression:
     last = Symbol(part, side.pair)
     drawn = q.define(f"seg.a.{name}", known / q["mu.a"], segment(first, last), scale=k.paper("a"))
     if side.turns:
-        return k.vertex("a", name, start - drawn * (q[f"rod.{side.link}"] / q[f"l.{side.rod}"]))
-    # The relative velocity turned by 90° in the sense of ω.
-    across = turned(quotient(_along(k, side), relative / q["mu.v"]))
-    return k.vertex("a", name, start + drawn * sign(k.omega(side.turning)) * across)
+        laid: Expression = -(drawn * unit(q[f"rod.{side.link}"]))
+    else:
+        # The relative velocity turned by 90° in the sense of ω.
+        laid = drawn * sign(k.omega(side.turning)) * turned(unit(_along(k, side)))
+    return k.vertex("a", name, start + q.construct(f"laid.a.{name}", laid))
 
 
 def _unknown_acceleration(k: Kinematics, side: Side, start: Expression, same_letter: bool) -> None:
@@ -178,31 +179,32 @@ def _guide(end: str | Guide) -> Guide:
     return end
 
 
-def _rod(k: Kinematics, link: int, start: str, middle: str, length: Ref) -> None:
+def _rod(k: Kinematics, link: int, start: str, middle: str) -> None:
     """A rod of fixed length from an outer joint to the inner one; its unit axis, if it carries a guide."""
     rod = k.q.construct(f"rod.{link}", k.place(middle) - k.place(start))
-    k.drawn(start, middle)
     ends = (end for dyad in k.scheme.linkage.dyads for end in (dyad.start, dyad.end))
     carries = any(isinstance(end, Guide) and end.link == link for end in ends)
-    k.put(link, start, k.q.construct(f"axis.{link}", rod / length) if carries else None, middle)
+    k.put(link, start, k.q.construct(f"axis.{link}", unit(rod)) if carries else None, middle)
 
 
 def _rrr(k: Kinematics, dyad: Dyad) -> None:
     start, end, middle = _pin(dyad.start), _pin(dyad.end), dyad.middle
-    first = k.length(start, middle, dyad.lengths[0])
-    second = k.length(end, middle, dyad.lengths[1])
+    k.length(start, middle, dyad.lengths[0])
+    k.length(end, middle, dyad.lengths[1])
+    first, second = k.drawn(start, middle), k.drawn(end, middle)
     k.q.construct(f"p.{middle}", circle_circle(k.place(start), first, k.place(end), second, float(dyad.sign)))
-    _rod(k, dyad.links[0], start, middle, first)
-    _rod(k, dyad.links[1], end, middle, second)
+    _rod(k, dyad.links[0], start, middle)
+    _rod(k, dyad.links[1], end, middle)
 
 
 def _rrp(k: Kinematics, dyad: Dyad) -> None:
     start, middle = _pin(dyad.start), dyad.middle
     i, j = dyad.links
     at, along = k.guide(j, _guide(dyad.end))
-    length = k.length(start, middle, dyad.lengths[0])
+    k.length(start, middle, dyad.lengths[0])
+    length = k.drawn(start, middle)
     k.q.construct(f"p.{middle}", circle_line(k.place(start), length, at, along, float(dyad.sign)))
-    _rod(k, i, start, middle, length)
+    _rod(k, i, start, middle)
     k.put(j, middle, along)
 
 
@@ -213,7 +215,7 @@ def _rpr(k: Kinematics, dyad: Dyad) -> None:
     q, offset, mu = k.q, dyad.lengths[1], k.q["mu.l"]
     q.construct(f"p.{middle}", k.place(start))
     rod = q.construct(f"rod.{j}", k.place(start) - k.place(end))
-    drawn = q.define(f"drawn.{end}{middle}", abs(rod) / mu, drawn_length(end, middle), scale=k.span())
+    drawn = q.define(f"drawn.{end}{middle}", abs(rod) / q["drawing"], drawn_length(end, middle), scale=k.span())
     q.define(f"l.{end}{middle}", mu * drawn)
     along: Expression = float(dyad.sign) * abs(rod)
     if offset:
@@ -288,17 +290,16 @@ def places(k: Kinematics, link: int, turn: Side | None) -> None:
     """Enter the places of a link's points: on a rod by the ratio of lengths, else along the frame's axis."""
     q, placed = k.q, k.links[link]
     for point in _points(k, link):
-        length = k.length(placed.origin, point.name, abs(point.local))
+        k.length(placed.origin, point.name, abs(point.local))
         angle = k.constant(f"turn.{point.name}", cmath.exp(1j * cmath.phase(point.local)) if point.local else 1)
         if turn is not None and not turn.measured:
-            whole = q[f"l.{turn.rod}"]
-            reach: Expression = length / whole * angle * q[f"rod.{link}"]
             if _off_line(point):
-                k.length(turn.point, point.name, abs(point.local - q.si(whole)))
+                k.length(turn.point, point.name, abs(point.local - q.si(f"l.{turn.rod}")))
+            axis: Expression = unit(q[f"rod.{link}"])
         else:
-            reach = length * angle * k.axis(link)
-        q.construct(f"p.{point.name}", k.place(placed.origin) + reach)
-        k.drawn(placed.origin, point.name)
+            axis = k.axis(link)
+        length = k.drawn(placed.origin, point.name)
+        q.construct(f"p.{point.name}", k.place(placed.origin) + length * angle * axis)
 
 
 def images(k: Kinematics, what: What, link: int, turn: Side | None) -> None:
@@ -323,15 +324,16 @@ def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Side) -> N
     if turn.measured:
         id = f"similar.{point.name}"
         if id not in q:
-            q.construct(id, angle * k.axis(point.link) * q[f"l.{turn.rod}"] / q[f"rod.{point.link}"])
+            q.construct(id, angle * quotient(k.axis(point.link), unit(q[f"rod.{point.link}"])))
         angle = q[id]
-    k.vertex(what, new, k.image(what, base) + ratio * angle * along)
     whole = f"seg.{what}.{first}{last}"
     letters = k.letter(what, base), on_plan(tip, what == "a")
     if whole not in q:
         k.segment(whole, *letters, along, what)
     target = on_plan(point.name, what == "a")
-    q.define(f"seg.{what}.{first}{new}", ratio * q[whole], segment(letters[0], target))
+    part = q.define(f"seg.{what}.{first}{new}", ratio * q[whole], segment(letters[0], target))
+    laid = q.construct(f"laid.{what}.{first}{new}", ratio * angle * along, of=part.id)
+    k.vertex(what, new, k.image(what, base) + laid)
     if _off_line(point) and not turn.measured:
         other = q[f"l.{tip}{point.name}"] / q[f"l.{turn.rod}"]
         q.define(f"seg.{what}.{last}{new}", other * q[whole], segment(letters[1], target))

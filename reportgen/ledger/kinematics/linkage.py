@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from reportgen.ledger.kinematics.sides import Scheme, image
-from reportgen.ledger.scales import PER_MM, common_scale, extents
+from reportgen.ledger.scales import LEAST_MOTION, PER_MM, common_scale, extents
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Guide, Linkage, SlidingDriver
 from reportgen.notation.expressions import Expression, Number, Ref, Symbol, cis, heading, turned
 from reportgen.notation.numbers import nice_up
@@ -151,10 +151,11 @@ class Kinematics:
         id = f"l.{start}{end}"
         return self.q[id] if id in self.q else self.q.give(id, value, exact=is_short(value))
 
-    def drawn(self, start: str, end: str) -> None:
-        """A length as it is drawn."""
+    def drawn(self, start: str, end: str) -> Expression:
+        """Enter a length as it is drawn; gives the length (m) that the drawing then shows."""
         q, name = self.q, f"{start}{end}"
-        q.define(f"drawn.{name}", q[f"l.{name}"] / q["mu.l"], drawn_length(start, end))
+        drawn = q.define(f"drawn.{name}", q[f"l.{name}"] / q["mu.l"], drawn_length(start, end))
+        return q["drawing"] * q.construct(f"laid.{name}", q[f"l.{name}"] / q["mu.l"], of=drawn.id)
 
     # --- links
 
@@ -224,8 +225,6 @@ DRAWN = 0.05
 """Drawn length of the crank (m on paper) when the machine does not say."""
 LONGEST_DRAWN = 0.08
 """A sliding driver's mechanism is drawn with its longest length no longer than this (m on paper)."""
-LEAST_PLAN = 0.060
-"""A worked plan is drawn at least so wide or high (m)."""
 
 
 def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[str, float | None]) -> Kinematics:
@@ -238,12 +237,14 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[st
     drawn = q[f"drawn.{centre}{pin}"]
     exact = q.families[drawn.id].exact
     μ_l = q.define("mu.l", length / drawn)
+    # What one length on paper is: the drawn crank says it, whatever is written down for μ_l.
+    q.construct("drawing", length / drawn)
     q.construct(f"p.{pin}", k.place(centre) + length * cis(φ1))
     further = [place for place in scheme.linkage.points if place.link == DRIVER]
     for place in further:
-        other = k.length(centre, place.name, abs(place.local))
-        q.construct(f"p.{place.name}", k.place(centre) + other * cis(φ1 + cmath.phase(place.local)))
-        k.drawn(centre, place.name)
+        k.length(centre, place.name, abs(place.local))
+        reach = k.drawn(centre, place.name)
+        q.construct(f"p.{place.name}", k.place(centre) + reach * cis(φ1 + cmath.phase(place.local)))
 
     q.define(f"v.{pin}", ω1 * length)
     q.define(f"a.{pin}", ω1**2 * length)
@@ -282,6 +283,7 @@ def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: Ma
     k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
     if "mu.l" not in q:
         q.give("mu.l", nice_up(size / LONGEST_DRAWN / 1e3) * 1e3)
+    q.construct("drawing", q["mu.l"])
     along = k.constant("guide.1", cmath.exp(1j * driver.guide.angle))
     at = k.constant("guide.1.at", driver.guide.at)
     q.construct(f"p.{pin}", at + q["s.1"] * along)
@@ -302,6 +304,6 @@ def chosen_scale(trial: Kinematics, what: What, worked: Sequence[int]) -> float 
     sizes = extents([np.zeros(1), *map(q.value, trial.vertices[what])], q.positions) * μ
     shown = sizes[:, [k - 1 for k in worked]] if worked else sizes
     least = np.nanmin(shown.max(axis=0), initial=np.inf) / μ
-    if isinstance(trial.scheme.linkage.driver, Crank) and least >= LEAST_PLAN:
+    if isinstance(trial.scheme.linkage.driver, Crank) and least >= LEAST_MOTION:
         return None
-    return common_scale(sizes, worked, LEAST_PLAN)
+    return common_scale(sizes, worked, LEAST_MOTION)

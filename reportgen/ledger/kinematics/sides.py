@@ -64,6 +64,16 @@ class Side:
         return not self.along
 
     @property
+    def way(self) -> str:
+        """How the point moves relative to its base: it "turns", or slides along a "guide" or a "slot"."""
+        return "turns" if self.turns else "guide" if self.guided else "slot"
+
+    @property
+    def state(self) -> str:
+        """Whether the base is at rest: "still" or "moving"."""
+        return "still" if self.still else "moving"
+
+    @property
     def guided(self) -> bool:
         """Whether the base is the guide's own point, not a pin."""
         return self.carrier is not None

@@ -1,0 +1,281 @@
+"""Files spoilt at random, from a seed: what comes of them is a result or a located fault, and soon.
+
+`python -m tests.fuzz [CASES] [SEED]` tries any number of them; `tests/test_fuzz.py` a thousand.
+"""
+
+from __future__ import annotations
+
+import json
+import random
+import re
+import sys
+import tempfile
+import time
+import traceback
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from reportgen import api
+from reportgen.answers.key import Key, make_key
+from reportgen.answers.sheet import answer_book
+from reportgen.batch.draw import draw, judge_of
+from reportgen.batch.roster import read_roster
+from reportgen.batch.spec import read_spec
+from reportgen.case import Case, open_case
+from reportgen.errors import ReportgenError
+from reportgen.grading.marks import read_policy
+from reportgen.grading.submission import read_submission
+from reportgen.workbook import write_csv, write_xlsx
+
+ASSIGNMENTS = sorted(Path("assignments").glob("*.yaml"))
+DEMO = Path("assignments/class-demo")
+MOST_SECONDS = 2.0
+"""Of the processor's time for one file, so that other work on the machine does not count."""
+MOST_SECONDS_OF_A_CLASS = 10.0
+"""The same for a spec, of which a whole class is drawn and each variant tried."""
+AGREE = 1e-9
+"""Of the greatest torque: how far the two torques may be apart."""
+FULL = 16
+"""One right assignment in so many is worked out to the last printed number."""
+
+NUMBER = re.compile(r"(?<![\w.])[-+]?[0-9]+(?:\.[0-9]+)?(?![\w.])")
+EXTREMES = ("0", "-0", "1e-300", "1e300", "1e-9", "1e9", "-1", "0.5", "1", "1.0000001", "359.999999", "999999999", "٣")
+UNITS = ("mm", "m", "km", "deg", "rad", "rpm", "rad/s", "N", "kN", "kg", "N m", "kg m2", "m/s", "N/cm2", "MPa", "")
+HOSTILE = (
+    "\t",
+    "\0",
+    "&a ",
+    "*a",
+    "!!x ",
+    "{",
+    "[",
+    "]",
+    "'",
+    '"',
+    ": ",
+    "- ",
+    "#",
+    "\u202e",
+    "🙂",
+    "=1+1",
+    ",",
+    ";",
+    "\n",
+)
+SWITCHES = (
+    ("direction: anticlockwise", "direction: clockwise"),
+    ("branch: open", "branch: crossed"),
+    ("side: left", "side: right"),
+    ("end: far", "end: near"),
+    ("sense: opposing", "sense: clockwise"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of one file: its number, what kind of file it was, what it came to, the seconds, what is wrong."""
+
+    number: int
+    kind: str
+    came_to: str
+    seconds: float
+    wrong: str = ""
+
+
+# --- spoiling ---------------------------------------------------------------------------------------
+
+
+def spoilt(text: str, chance: random.Random) -> str:
+    """The text with one to three changes."""
+    for _ in range(chance.choice((1, 1, 1, 2, 3))):
+        text = chance.choice(CHANGES)(text, chance)
+    return text
+
+
+def _scaled(text: str, chance: random.Random) -> str:
+    """A number is somewhat larger or smaller: the one change that often leaves a file right."""
+    return _at_a_number(text, chance, lambda old: f"{float(old) * chance.choice((0.5, 0.9, 0.99, 1.01, 1.1, 2)):.10g}")
+
+
+def _extreme(text: str, chance: random.Random) -> str:
+    return _at_a_number(text, chance, lambda old: chance.choice(EXTREMES))
+
+
+def _at_a_number(text: str, chance: random.Random, new: Callable[[str], str]) -> str:
+    found = list(NUMBER.finditer(text))
+    if not found:
+        return text
+    one = chance.choice(found)
+    return text[: one.start()] + new(one[0]) + text[one.end() :]
+
+
+def _zeros(text: str, chance: random.Random) -> str:
+    """All numbers of a line are 0."""
+    return _at_a_line(text, chance, lambda line: [NUMBER.sub("0", line)])
+
+
+def _unit(text: str, chance: random.Random) -> str:
+    found = list(re.finditer(r"(?<=[0-9] )[A-Za-z][\w/ ]*", text))
+    if not found:
+        return text
+    one = chance.choice(found)
+    return text[: one.start()] + chance.choice(UNITS) + text[one.end() :]
+
+
+def _letter(text: str, chance: random.Random) -> str:
+    at = chance.randrange(len(text) + 1)
+    return text[:at] + chance.choice(HOSTILE) + text[at + chance.choice((0, 1)) :]
+
+
+def _at_a_line(text: str, chance: random.Random, new: Callable[[str], list[str]]) -> str:
+    lines = text.splitlines()
+    if not lines:
+        return text
+    at = chance.randrange(len(lines))
+    return "\n".join((*lines[:at], *new(lines[at]), *lines[at + 1 :], ""))
+
+
+def _line(text: str, chance: random.Random) -> str:
+    return _at_a_line(
+        text, chance, chance.choice((lambda line: [], lambda line: [line, line], lambda line: [line[1:]]))
+    )
+
+
+def _switch(text: str, chance: random.Random) -> str:
+    there = [pair for pair in SWITCHES if pair[0] in text]
+    return text.replace(*chance.choice(there), 1) if there else text
+
+
+def _positions(text: str, chance: random.Random) -> str:
+    count, start = chance.choice((4, 5, 7, 13, 24)), chance.uniform(-360, 360)
+    sense = chance.choice(("anticlockwise", "clockwise"))
+    section = f"positions: {{count: {count}, direction: {sense}, start: {start:.3f} deg}}"
+    return re.sub(r"^positions:.*$", section, text, count=1, flags=re.MULTILINE)
+
+
+CHANGES = (_scaled, _scaled, _scaled, _extreme, _extreme, _zeros, _unit, _letter, _line, _switch, _positions)
+
+
+# --- trying -----------------------------------------------------------------------------------------
+
+
+def _assignment(number: int, chance: random.Random, folder: Path) -> None:
+    file = folder / "a.yaml"
+    _put(file, spoilt(_text(chance.choice(ASSIGNMENTS)), chance))
+    case = Case(api.load(file))
+    torque, by_work = case.analysis.torque, case.analysis.torque_by_work
+    largest = float(np.abs(torque).max())
+    # Without a load that moves, both torques are rounding of what the joints hand on.
+    dust = 1e-12 * max((float(np.abs(load.force).max()) for load in case.analysis.loads), default=0.0)
+    assert np.abs(torque - by_work).max() <= AGREE * largest + dust, "the two torques differ"
+    json.dumps(api.solve(case.assignment), allow_nan=False)
+    if number % FULL == 0:
+        assert case.ledger.families
+
+
+def _roster(number: int, chance: random.Random, folder: Path) -> None:
+    file = folder / "roster.csv"
+    _put(file, spoilt(_text(DEMO / "roster.csv"), chance))
+    read_roster(file)
+
+
+def _spec(number: int, chance: random.Random, folder: Path) -> None:
+    file = folder / "spec.yaml"
+    _put(file, spoilt(_text(DEMO / "spec.yaml"), chance))
+    spec = read_spec(file)
+    draw(spec, read_roster(DEMO / "roster.csv"), judge_of(spec))
+
+
+def _policy(number: int, chance: random.Random, folder: Path) -> None:
+    file = folder / "policy.yaml"
+    _put(file, spoilt(_text(DEMO / "policy.yaml"), chance))
+    read_policy(file)
+
+
+def _sheet(number: int, chance: random.Random, folder: Path) -> None:
+    """A sheet as CSV, spoilt as a text, or as a workbook with some bytes changed."""
+    key, csv, xlsx = _key()
+    if number % 2:
+        file = folder / "sheet.csv"
+        _put(file, spoilt(csv, chance))
+    else:
+        file = folder / "sheet.xlsx"
+        content = bytearray(xlsx)
+        for _ in range(chance.choice((1, 3, 20))):
+            content[chance.randrange(len(content))] = chance.randrange(256)
+        file.write_bytes(content)
+    read_submission(file, key)
+
+
+@cache
+def _key() -> tuple[Key, str, bytes]:
+    """The key of a sample with its empty sheet as CSV and as a workbook."""
+    key = make_key(open_case(Path("assignments/slotted-lever-01.yaml"), "en"))
+    book = answer_book(key)
+    rows = [[getattr(entry, "value", entry) for entry in row] for row in book.sheets[0].rows]
+    return key, write_csv(rows).decode("utf-8-sig"), write_xlsx(book)
+
+
+@cache
+def _text(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
+
+
+def _put(file: Path, text: str) -> None:
+    file.write_bytes(text.encode("utf-8", "surrogatepass"))
+
+
+KINDS: dict[str, Callable[[int, random.Random, Path], None]] = {
+    "assignment": _assignment,
+    "roster": _roster,
+    "spec": _spec,
+    "policy": _policy,
+    "sheet": _sheet,
+}
+SHARES = (70, 10, 3, 7, 10)
+"""How many of a hundred files are of each kind."""
+
+
+def attempt(number: int, seed: int, folder: Path) -> Outcome:
+    """What becomes of the file of this number; it depends on number and seed alone."""
+    chance = random.Random(f"{seed}/{number}")
+    kind = chance.choices(list(KINDS), SHARES)[0]
+    came_to, wrong = "right", ""
+    start = time.process_time()
+    try:
+        KINDS[kind](number, chance, folder)
+    except ReportgenError as fault:
+        came_to = "fault"
+        if fault.exit_code != 1:
+            wrong = f"exit code {fault.exit_code}: {fault}"
+    except Exception:
+        came_to, wrong = "crash", traceback.format_exc(limit=-5)
+    seconds = time.process_time() - start
+    if seconds > (MOST_SECONDS_OF_A_CLASS if kind == "spec" else MOST_SECONDS) and not wrong:
+        wrong = f"took {seconds:.1f} s"
+    return Outcome(number, kind, came_to, seconds, wrong)
+
+
+def main(cases: int = 20_000, seed: int = 1) -> int:
+    """Tries so many and shows what is wrong with which; 0 if nothing is."""
+    counts: Counter[str] = Counter()
+    bad = 0
+    with tempfile.TemporaryDirectory() as name:
+        _key()
+        for number in range(cases):
+            outcome = attempt(number, seed, Path(name))
+            counts[f"{outcome.kind} {outcome.came_to}"] += 1
+            if outcome.wrong:
+                bad += 1
+                print(f"--- {outcome.kind} {number} of seed {seed}\n{outcome.wrong}", flush=True)
+    print(*(f"{kind}: {count}" for kind, count in sorted(counts.items())), sep="\n")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*map(int, sys.argv[1:])))

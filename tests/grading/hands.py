@@ -1,0 +1,117 @@
+"""Sheets of students who work by hand (`hand`): tasks of the repository's machines, and what is handed in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from reportgen.errors import Mark
+from reportgen.grading.marks import Answer, Submission
+from reportgen.grading.working import Guide
+from tests.grading import students
+from tests.grading.hand import Change, Hand, Rod, Task
+
+TWIN, SLIDER = "engine-twin-05", "slider-crank-01"
+
+
+def task(guide: Guide, position: int) -> Task:
+    """What the assignment gives, as the student reads it at one position: data, the crank's angle, the diagram."""
+    rows = {row.id: row for row in guide.key.rows}
+
+    def si(id: str) -> float:
+        family = guide.ledger[id]
+        return float(family.values[position - 1 if len(family.values) > 1 else 0].real)
+
+    given = {id: si(id) for id in ("H", "lambda", "D", "s", "g", "n", "G2", "G3") if id in guide.ledger}
+    angle = si("phi.1")
+    if "H" in given:
+        rods = (
+            Rod("A", "B", "S2", (2, 3), 0.0, pressure=si("p.3")),
+            Rod("C", "D", "S4", (4, 5), si("crank.angle"), pressure=si("p.5")),
+        )
+        return Task(given, rods, angle - np.pi / 2, 1j)
+    given |= {"R": si("l.AB"), "L": si("l.BC")}
+    assert rows["P3"].positions
+    return Task(given, (Rod("B", "C", "S2", (2, 3), 0.0, force=si("P3")),), angle, 1 + 0j, "AB")
+
+
+def handed_in(guide: Guide, worked: Mapping[int, Hand]) -> Submission:
+    """The sheet of a student who worked so at each position."""
+    values = {}
+    for row in guide.key.asked:
+        for position in row.positions:
+            hand = worked[position] if position else next(iter(worked.values()))
+            value = hand.written.get(row.id)
+            if value is not None and np.isfinite(value):
+                values[row.id, position] = Answer(value, str(value), Mark("sheet.csv"))
+    return Submission(guide.key.id, "sheet.csv", values, {})
+
+
+def work(guide: Guide, positions: Iterable[int], seed: int = 0, **how: Any) -> Submission:
+    """The sheet of a student who works every position alike, with other luck in drawing."""
+    hands = {k: Hand(task(guide, k), seed=100 * seed + k, **how) for k in positions}
+    return handed_in(guide, hands)
+
+
+# --- a class --------------------------------------------------------------------------------------
+
+PLACES = (2, 4, 7)
+"""Positions that the class works: asked for on every sheet."""
+
+BLUNT = (0.2e-3, 0.3e-3, 0.5e-3)
+"""How far beside a drawn point the members of a class read it (m)."""
+
+MISTAKES: dict[str, Change] = {
+    "omega.1": lambda value: 60 * value,
+    "R": lambda value: 2 * value,
+    "F": lambda value: 4 * value,
+    "m.2": lambda value: 9.81 * value,
+    "a.A": lambda value: 1.3 * value,
+    "v.BA": lambda value: value / 10,
+    "J.2": lambda value: 12 * value,
+    "Pqt3": lambda value: 1.15 * value,
+    "R.12.t": lambda value: -value,
+    "M.eq": lambda value: -value,
+    "p.3": lambda value: 1.5 * value,
+    "seg.v.pb": lambda value: value + 4e-3,
+    "seg.23.R12": lambda value: 0.8 * value,
+    "n": lambda value: value + 100,
+    "H": lambda value: value + 5e-3,
+    "G2": lambda value: value + 5,
+    "D": lambda value: value - 10e-3,
+    "s": lambda value: value + 0.05,
+}
+"""One mistake that a member of a class makes: in a value or in reading a datum."""
+
+
+def variants(count: int, rng: np.random.Generator) -> list[Guide]:
+    """The assignments of a class whose data are drawn from short lists, as a lecturer's table has them."""
+    found = []
+    for number in range(count):
+        drawn = {
+            "H": f"{rng.choice([85, 90, 95, 100, 105])} mm",
+            "n": f"{rng.choice([2000, 2100, 2200, 2300])} rpm",
+            "lambda": str(rng.choice(["1/3.5", "1/3.6", "1/3.8", "1/4"])),
+            "D": f"{rng.choice([92, 95, 98, 100])} mm",
+            "G2": f"{rng.choice([18, 20, 24])} N",
+            "G3": f"{rng.choice([20, 22, 25])} N",
+        }
+        guide = students.open_guide(students.assignment(TWIN, PLACES, **drawn))
+        found.append(replace(guide, key=replace(guide.key, id=f"SV{number:02}")))
+    return found
+
+
+def honest(guide: Guide, rng: np.random.Generator, mistake: str = "") -> Submission:
+    """The sheet of a member of a class who worked alone, with one mistake or none."""
+    how = {"blunt": float(rng.choice(BLUNT)), "figures": int(rng.choice([3, 4])), "seed": int(rng.integers(1 << 30))}
+    changes = {mistake: MISTAKES[mistake]} if mistake else {}
+    return work(guide, PLACES, changes=changes, by_lengths=bool(rng.integers(2)), **how)
+
+
+def with_cells(sheet: Submission, other: Submission, taken: Callable[[str, int], bool]) -> Submission:
+    """A sheet in which some cells are another's."""
+    cells = {place: answer for place, answer in other.values.items() if taken(*place) and place in sheet.values}
+    return replace(sheet, values={**sheet.values, **cells})

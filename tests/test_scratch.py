@@ -1,0 +1,90 @@
+"""Temporary files stand beside the results, for their owner alone, and go: those of a killed run at the next start."""
+
+from __future__ import annotations
+
+import errno
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from reportgen import api
+from reportgen.cli import app
+from reportgen.scratch import PREFIX, scratch, sweep
+
+SAMPLE = "assignments/slotted-lever-01.yaml"
+HOLD = """
+import sys, tempfile, time
+from pathlib import Path
+from reportgen.scratch import scratch
+with scratch(Path(sys.argv[1])) as folder:
+    Path(tempfile.mkdtemp(), "assignment.yaml").write_text("a student's")
+    print(folder, flush=True)
+    time.sleep(60)
+"""
+
+
+def test_they_are_the_owners_alone_and_go(tmp_path: Path) -> None:
+    out = tmp_path / "a" / "out"
+    before = tempfile.gettempdir()
+    with scratch(out) as folder:
+        assert folder.parent == out
+        assert folder.stat().st_mode & 0o777 == 0o700
+        assert Path(tempfile.mkdtemp()).parent == folder
+    assert tempfile.gettempdir() == before
+    # What was made for it alone goes with it.
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_a_killed_run_left_is_swept_and_what_another_uses_is_not(tmp_path: Path) -> None:
+    runs = [subprocess.Popen((sys.executable, "-c", HOLD, tmp_path), stdout=subprocess.PIPE, text=True) for _ in "12"]
+    folders = [Path((run.stdout.readline() if run.stdout else "").strip()) for run in runs]
+    try:
+        runs[0].send_signal(signal.SIGKILL)
+        runs[0].wait()
+        assert any(folders[0].rglob("assignment.yaml"))
+        sweep(tmp_path)
+        assert not folders[0].exists()
+        assert any(folders[1].rglob("assignment.yaml"))
+    finally:
+        for run in runs:
+            run.kill()
+            run.wait()
+            if run.stdout:
+                run.stdout.close()
+    with scratch(tmp_path):
+        assert not folders[1].exists()
+    assert list(tmp_path.glob(f"{PREFIX}*")) == []
+
+
+@pytest.mark.parametrize("command", ["build", "key"])
+def test_no_command_writes_to_the_temporary_directory_of_the_system(
+    tmp_path: Path, command: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of two engines the one that needs files: it is stopped when it is called, and tells where it stands."""
+    seen: list[str] = []
+
+    def typeset(tree: object, engine: str) -> tuple[str, bytes]:
+        seen.append(tempfile.gettempdir())
+        return "", b""
+
+    monkeypatch.setattr(api, "typeset", typeset)
+    out = tmp_path / "out"
+    assert CliRunner().invoke(app, [command, SAMPLE, "--out", str(out), "--engine", "latex"]).exit_code == 0
+    assert [Path(place).parent for place in seen] == [out]
+
+
+def test_a_full_disk_names_the_path_and_leaves_no_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(_: int, mode: str) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "fdopen", full)
+    with pytest.raises(api.OutputError) as told:
+        api.put(tmp_path / "id", {"report.pdf": b"x"})
+    assert str(told.value) == f"{tmp_path / 'id' / 'report.pdf'}: No space left on device"
+    assert list(tmp_path.iterdir()) == []
