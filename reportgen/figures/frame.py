@@ -10,7 +10,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from reportgen.figures.metrics import POINT, box
+from reportgen.figures.lettering import font_size
+from reportgen.figures.metrics import box
 from reportgen.figures.scene import Anchor, Item, Label, Line, Polyline, Scene, Stroke
 from reportgen.figures.sheet import Room
 
@@ -27,8 +28,6 @@ CENTRING = 5.0
 """How far a centring mark reaches into the frame, mm."""
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)
 """Heights of capital letters, mm; the last in narrow cells of a title block only."""
-CAPITAL = 0.683
-"""Height of capitals in font sizes."""
 PADDING = 0.6
 """White beside a text in its cell, mm."""
 LEADING = 1.6
@@ -58,11 +57,6 @@ class Margins:
 
     left: float = 20.0
     other: float = 10.0
-
-
-def font_size(height: float) -> float:
-    """The font size in points whose capitals are `height` mm high."""
-    return height / (CAPITAL * POINT)
 
 
 def room(size: str, margins: Margins, block: tuple[float, float]) -> Room:

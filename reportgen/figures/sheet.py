@@ -5,7 +5,7 @@ A sheet's origin is its lower left corner; lengths are millimetres of paper.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from reportgen.figures.scene import Scene
@@ -61,6 +61,10 @@ class Room:
         return self.high.real - self.low.real - (self.block.real + GAP if beside_block else 0.0)
 
 
+AHEAD = 8
+"""So many parts that have no place in a row are passed over."""
+
+
 class TooLargeError(ValueError):
     """A plate has no place on a sheet of the size asked for."""
 
@@ -69,77 +73,112 @@ class TooLargeError(ValueError):
         self.part = part
 
 
-def arranged(parts: Sequence[Part], room: Room) -> list[tuple[Part, ...]]:
-    """The parts in their order, in rows from the top, on one sheet after another.
+Column = list[Part]
+Row = list[Column]
 
-    The parts of a row stand on one base line and share the width; the rows share the height.  Raises
-    `TooLargeError` for a part that fits no sheet.
+
+def arranged(parts: Sequence[Part], room: Room, enough: float = 1.0) -> list[tuple[Part, ...]]:
+    """The parts in rows from the top, on one sheet after another, each filled to a share that is `enough`.
+
+    They keep their order, but where the next one has no place in a row, one of those behind it may have.  Where the
+    tallest of a row leaves room, parts stand below one another in a column.  Columns share the width of their row,
+    rows the height of the sheet.  Raises `TooLargeError` for a part that fits no sheet.
     """
     sheets: list[tuple[Part, ...]] = []
     rest = list(parts)
     while rest:
-        rows, count = _rows(rest, room)
+        count = next((n for n in range(1, len(rest)) if filled(rest[:n], room) >= enough), len(rest))
+        rows, left = _rows(rest[:count], room)
         if not rows:
             raise TooLargeError(rest[0])
         sheets.append(_spread(rows, room))
-        rest = rest[count:]
+        rest = [*left, *rest[count:]]
     return sheets
 
 
-def _rows(parts: Sequence[Part], room: Room) -> tuple[list[list[Part]], int]:
-    """The rows that one sheet takes of the parts, and how many parts they are."""
-    rows: list[list[Part]] = []
-    top, count = room.high.imag - GAP, 0
-    while count < len(parts):
-        row = _row(parts[count:], top, room)
+def _rows(parts: list[Part], room: Room) -> tuple[list[Row], list[Part]]:
+    """The rows that one sheet takes of the parts, and the parts that are left."""
+    rows: list[Row] = []
+    top = room.high.imag - GAP
+    while True:
+        row, left = _row(parts, top, room)
         if not row:
-            break
+            return rows, parts
         rows.append(row)
         top -= _height(row) + GAP
-        count += len(row)
-    return rows, count
+        parts = left
 
 
-def _row(parts: Sequence[Part], top: float, room: Room) -> list[Part]:
-    """The parts that stand side by side below `top`; none if the first has no place there."""
-    row: list[Part] = []
-    for part in parts:
-        longer = [*row, part]
-        bottom = top - _height(longer)
-        across = sum(one.scene.width + GAP for one in longer) + GAP
-        if bottom < room.low.imag + GAP or across > room.width(bottom):
-            break
-        row = longer
-    return row
+def _row(parts: list[Part], top: float, room: Room) -> tuple[Row, list[Part]]:
+    """The columns that stand side by side below `top`, none if the first part has no place there, and what is left."""
+    row: Row = []
+    left: list[Part] = []
+    for number, part in enumerate(parts):
+        longer = _longer(row, part, top, room)
+        if longer is not None:
+            row = longer
+            continue
+        left.append(part)
+        if not row or len(left) > AHEAD:
+            return row, [*left, *parts[number + 1 :]]
+    return row, left
 
 
-def _height(row: Sequence[Part]) -> float:
-    return max(part.scene.height for part in row)
+def _longer(row: Row, part: Part, top: float, room: Room) -> Row | None:
+    """A row with a further part: below its last column if that gets no taller than the row, else beside it."""
+    below: Row = [*row[:-1], [*row[-1], part]] if row else []
+    if row and _high(below[-1]) <= _height(row) and _fits(below, top, room):
+        return below
+    beside = [*row, [part]]
+    return beside if _fits(beside, top, room) else None
 
 
-def _spread(rows: Sequence[Sequence[Part]], room: Room) -> tuple[Part, ...]:
-    """The rows with what is left of the height between them, and each row's parts of the width."""
+def _fits(row: Row, top: float, room: Room) -> bool:
+    bottom = top - _height(row)
+    across = sum(_wide(column) + GAP for column in row) + GAP
+    return bottom >= room.low.imag + GAP and across <= room.width(bottom)
+
+
+def _high(column: Column) -> float:
+    return sum(part.scene.height for part in column) + GAP * (len(column) - 1)
+
+
+def _wide(column: Column) -> float:
+    return max(part.scene.width for part in column)
+
+
+def _height(row: Row) -> float:
+    return max(map(_high, row))
+
+
+def _spread(rows: Sequence[Row], room: Room) -> tuple[Part, ...]:
+    """The rows with what is left of the height between them, and each row's columns with what is left of the width."""
     top = room.high.imag - GAP
-    heights = [_height(row) for row in rows]
-    left = top - room.low.imag - GAP - sum(heights) - GAP * (len(rows) - 1)
+    left = top - room.low.imag - GAP - sum(map(_height, rows)) - GAP * (len(rows) - 1)
     # Moving a row down must not bring it beside the title block when it was laid out above it.
-    placed: list[Part] = []
-    between = GAP + left / len(rows)
-    for spread in (between, GAP):
+    for between in (GAP + left / len(rows), GAP):
         placed, at, fits = [], top, True
-        for row, height in zip(rows, heights, strict=True):
-            bottom = at - height
-            width = room.width(bottom)
-            free = width - sum(part.scene.width for part in row)
-            fits = fits and free >= GAP * (len(row) + 1) - 1e-9 and bottom >= room.low.imag + GAP - 1e-9
-            x = room.low.real + free / (len(row) + 1)
-            for part in row:
-                placed.append(replace(part, at=complex(x, bottom)))
-                x += part.scene.width + free / (len(row) + 1)
-            at = bottom - spread
+        for row in rows:
+            fits = fits and _fits(row, at, room)
+            placed += _across(row, at, room)
+            at -= _height(row) + between
         if fits:
             break
     return tuple(placed)
+
+
+def _across(row: Row, top: float, room: Room) -> Iterator[Part]:
+    """The parts of a row in their places: all columns begin at its top, each spread over its height."""
+    height = _height(row)
+    free = room.width(top - height) - sum(map(_wide, row))
+    x = room.low.real + free / (len(row) + 1)
+    for column in row:
+        between = GAP + (height - _high(column)) / len(column)
+        y = top
+        for part in column:
+            yield replace(part, at=complex(x + (_wide(column) - part.scene.width) / 2, y - part.scene.height))
+            y -= part.scene.height + between
+        x += _wide(column) + free / (len(row) + 1)
 
 
 def filled(parts: Sequence[Part], room: Room) -> float:

@@ -11,9 +11,11 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from reportgen.figures.lettering import CAPITAL
+from reportgen.figures.metrics import POINT
 from reportgen.figures.scene import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline, Stroke
 from reportgen.figures.sheet import Part, Sheet
-from reportgen.notation.expressions import Chain, Expression, Number, Symbol
+from reportgen.notation.expressions import Chain, Expression, Number, Power, Symbol
 from reportgen.notation.numbers import Language, write
 from reportgen.writers.drawing import arrow_head, clip_hatch
 from reportgen.writers.layout import UNSPACED, Formulas
@@ -40,8 +42,6 @@ AXIS_PARTS = 4
 """A pen of four dashes and gaps is that of an axis, one of two that of a hidden or construction line."""
 FONT = "Arial"
 """The text style's name, which some programs take for the font; it has all letters of Vietnamese."""
-CAPITAL = 0.683 * 25.4 / 72.27
-"""Height of capitals in mm for a point of font size, as in the PDF's font."""
 WIDTHS = (13, 18, 25, 35, 50, 70, 100)
 """Line weights that DXF knows, hundredths of a millimetre."""
 ATTACHMENT: dict[Anchor, int] = {
@@ -117,7 +117,7 @@ def _entities(model: Any, item: Item, part: Part, texts: MText) -> Iterator[Any]
         case Arrow(start, end, stroke, head):
             # The shaft goes on to the tip, so that a distance query finds the vector's own length.
             yield line(start, end, stroke)
-            yield from _heads(model, arrow_head(start, end, head)[1], stroke, part, at)
+            yield from _heads(model, arrow_head(start, end, head)[1], part, at)
         case Circle(centre, radius, outline, fill):
             if fill is not None and fill != WHITE:
                 yield _filled(model, [at(centre + radius * _unit(k)) for k in range(24)], part.layer)
@@ -129,21 +129,21 @@ def _entities(model: Any, item: Item, part: Part, texts: MText) -> Iterator[Any]
             tip = centre + radius * complex(math.cos(stop), math.sin(stop))
             tangent = complex(-math.sin(stop), math.cos(stop)) * math.copysign(1.0, stop - start)
             if head > 0:
-                yield from _heads(model, arrow_head(tip - 4 * head * tangent, tip, head)[1], stroke, part, at)
+                yield from _heads(model, arrow_head(tip - 4 * head * tangent, tip, head)[1], part, at)
         case Polyline(points, outline, closed, fill):
             if fill is not None and fill != WHITE and len(points) > 2:
                 yield _filled(model, list(map(at, points)), part.layer)
             if outline is not None and points:
                 corners = list(map(at, points))
                 yield model.add_lwpolyline(corners, close=closed, dxfattribs=_pen(part.layer, outline))
-        case Hatch(points, spacing, stroke):
-            for start, end in clip_hatch(points, spacing):
+        case Hatch(points, spacing, stroke, turn):
+            for start, end in clip_hatch(points, spacing, turn):
                 yield line(start, end, stroke)
         case Label(where, content, anchor, size, turn):
             attributes = {
                 "layer": "text",
                 "style": FONT,
-                "char_height": round(CAPITAL * size, 4),
+                "char_height": round(CAPITAL * POINT * size, 4),
                 "attachment_point": ATTACHMENT[anchor],
                 "insert": at(where),
                 "rotation": turn,
@@ -159,7 +159,7 @@ def _unit(k: int) -> complex:
     return complex(math.cos(angle), math.sin(angle))
 
 
-def _heads(model: Any, triangle: Sequence[complex] | None, stroke: Stroke, part: Part, at: Any) -> Iterator[Any]:
+def _heads(model: Any, triangle: Sequence[complex] | None, part: Part, at: Any) -> Iterator[Any]:
     if triangle is not None:
         tip, left, right = map(at, triangle)
         yield model.add_solid([tip, left, right], dxfattribs={"layer": part.layer})
@@ -198,8 +198,6 @@ class MText(Formulas):
         return escaped.replace("\n", "\\P").replace("^", "^ ")
 
     def math(self, node: Expression) -> str:
-        from reportgen.notation.expressions import Power
-
         if isinstance(node, Power):
             return self.tight(node.base, 5) + self.stacked("", self.math(node.exponent))
         return super().math(node)
@@ -210,8 +208,19 @@ class MText(Formulas):
 
     def symbol(self, node: Symbol) -> str:
         # A vector is told by a bar, which MTEXT draws over the letter.
-        base = self.text(node.base)
-        return (f"\\O{base}\\o" if node.over else base) + self.stacked(self.text(node.sub), self.text(node.sup))
+        base = self.lettered(node.base)
+        over = f"\\O{base}\\o" if node.over else base
+        # Digits within an index stand in its line: stacks do not nest.
+        return over + self.stacked(self.text(node.sub), self.text(node.sup))
+
+    def italic(self, text: str) -> str:
+        return self.text(text)
+
+    def upright(self, text: str) -> str:
+        return self.text(text)
+
+    def lowered(self, text: str) -> str:
+        return self.stacked(self.text(text), "")
 
     def number(self, node: Number) -> str:
         gap = "" if node.unit in UNSPACED else " "
