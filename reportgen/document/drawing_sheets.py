@@ -24,6 +24,8 @@ from reportgen.notation.numbers import nice_down, nice_up
 
 USUAL = 0.16
 """The largest side of a plan, as a share of the height that a sheet has for plates."""
+LEAST = 60.0
+"""Plans are usually not smaller than this (mm), whatever the sheet."""
 WHOLE_MACHINE = 2.2
 """How many times larger plates of the whole machine are."""
 SMALLER, LARGER = 0.55, 2.2
@@ -118,7 +120,8 @@ def layout(report: Report, series: Sequence[Series], space: Room) -> list[tuple[
     Raises `TooLargeError` for a plate that fits no sheet at any of them.
     """
     plates = _Plates(report, series)
-    boxes = _boxes(series, USUAL * (space.high.imag - space.low.imag) / PER_MM)
+    usual = max(USUAL * (space.high.imag - space.low.imag), LEAST)
+    boxes = _boxes(series, usual / PER_MM)
     scales = {key: nice_up(one.size / box / PER_MM, one.steps) * PER_MM for key, (one, box) in boxes.items()}
     best: tuple[float, list[tuple[Part, ...]]] | None = None
     parts = plates.drawn(scales)

@@ -47,6 +47,8 @@ Drawing = tuple[str, Scene]
 """Where it applies, in words, and what is drawn."""
 MOST_COLUMNS = 9
 """Columns of one table."""
+SEGMENT = 2
+"""Decimals of lengths on paper, mm."""
 CURVE = "curve"
 """In place of a scale's id: the axes of curves have scales of their own."""
 FINE = (1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.4, 8)
@@ -78,11 +80,17 @@ class Series:
         return self.scale, self.key
 
     def to_scale(self, report: Report, scale: float) -> Report:
-        """The report that the series is drawn from, at its scale on the sheet (SI); of curves 1/scale is the height."""
+        """The report that the series is drawn from, at its scale on the sheet (SI); of curves 1/scale is the height.
+
+        It draws for the enlargement that follows; numbers in tables are those of the sheet itself.
+        """
         if self.scale == CURVE:
             height = MM / scale / ENLARGED
             return replace(report, area=Area(2 * height, height, ENLARGED))
-        return replace(report, case=report.case.redrawn({self.scale: scale * ENLARGED})) if scale else report
+        if not scale:
+            return report
+        enlarged = 1.0 if self.layer == "tables" else ENLARGED
+        return replace(report, case=report.case.redrawn({self.scale: scale * enlarged}), area=Area(enlarged=ENLARGED))
 
     @property
     def is_whole_machine(self) -> bool:
@@ -151,7 +159,9 @@ def _positions(report: Report) -> Iterator[Drawing]:
 def _motion_plans(report: Report, what: What) -> Iterator[Drawing]:
     """The plans of one turn; a sheet shows no lines of construction."""
     for k in sorted({(k - 1) % report.count + 1 for k in report.plates}):
-        yield _place(report, k), _plain(motion_plan(report, what, k))
+        drawing = motion_plan(report, what, k)
+        if drawing.drawn():
+            yield _place(report, k), _plain(drawing)
 
 
 def _plain(drawing: Plan) -> Scene:
@@ -203,7 +213,9 @@ def _plans_of(report: Report, polygon: Polygon, group: str) -> Series:
 
     def drawings(report: Report) -> Iterator[Drawing]:
         for k in report.plates:
-            yield f"{_of(report, group)}, {_place(report, k)}", _plain(force_plan(report, polygon, k))
+            drawing = force_plan(report, polygon, k)
+            if drawing.drawn():
+                yield f"{_of(report, group)}, {_place(report, k)}", _plain(drawing)
 
     size = _on_plan(report, f"plan.R{polygon.name}.", scale)
     return Series("forces", "forces", "forces", drawings, scale, size=size)
@@ -276,6 +288,8 @@ def _unit(report: Report, id: str) -> str:
 def _bare(report: Report, id: str, k: int | None) -> Content:
     """A number without its unit, a dash for what does not exist."""
     number = report.ledger.number(id, k)
+    if report.ledger[id].kind == "segment" and number.value:
+        return Number(number.value, SEGMENT)
     if math.isnan(number.value) or (report.ledger[id].is_direction and report.is_zero(report.ledger[id].of, k)):
         return "–"
     return Number(number.value, number.decimals)

@@ -127,7 +127,7 @@ def fields_of(case: Case) -> dict[str, str]:
     date = given.date
     return {
         "machine": case.title,
-        "designation": " ".join(part for part in (student.id, case.assignment.variant) if part),
+        "designation": " ".join(part for part in (student.id or case.assignment.id, case.assignment.variant) if part),
         "organisation": ", ".join(part for part in (organisation, student.class_) if part),
         "student": student.name or "",
         "supervisor": given.supervisor or "",

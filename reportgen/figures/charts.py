@@ -81,8 +81,8 @@ class Area:
     They are round once the chart is `enlarged` so many times.
     """
 
-    width: float
-    height: float
+    width: float = WIDTH
+    height: float = HEIGHT
     enlarged: float = 1.0
 
     def per_mm(self, length: float, room: float) -> float:
@@ -141,7 +141,8 @@ def chart(
         if one.label and len(series) > 1:
             requests.append(label(_places(vertices), one.label))
     items += _titles(window, x_label, y_label, items)
-    notes = () if area is None else (_scale(x_label, window.x, window.width), _scale(y_label, window.y, window.height))
+    scales = _scale(x_label, window.x, window.width, turn), _scale(y_label, window.y, window.height)
+    notes = scales if area is not None else ()
     return finish(Draft(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN)
 
 
@@ -251,15 +252,16 @@ def _window(
     return _Window((x0, x1), (y_ticks[0], y_ticks[-1]), width, height), x_ticks, y_ticks
 
 
-def _scale(label: Content, ends: tuple[float, float], length: float) -> Content:
+def _scale(label: Content, ends: tuple[float, float], length: float, degrees: bool = False) -> Content:
     """The scale of an axis: μ_M = 2 N·m/mm, for the name of the axis "M (N·m; positive: …)"."""
-    if not isinstance(label, Chain) or not isinstance(label.parts[0], Symbol):
-        shown, unit = Symbol("μ"), str(label).rpartition(", ")[2]
-    else:
-        shown = Symbol("μ", label.parts[0].base)
-        unit = label.note.partition(";")[0].rpartition(", ")[2]
-    value = float(f"{(ends[1] - ends[0]) / length:.9g}")
-    return Chain((shown, Number(value, unit=f"{unit}/mm")))
+    named = label.parts[0] if isinstance(label, Chain) else None
+    shown = Symbol("μ", named.base) if isinstance(named, Symbol) else Symbol("μ")
+    text = label.note if isinstance(label, Chain) else str(label)
+    unit = "°" if degrees else text.partition(";")[0].rpartition(", ")[2]
+    above, stroke, below = unit.partition("/")
+    below = below.strip("()")
+    per_mm = f"{above}/({below}·mm)" if stroke else f"{unit}/mm"
+    return Chain((shown, Number(float(f"{(ends[1] - ends[0]) / length:.9g}"), unit=per_mm)))
 
 
 def _beside(x_ticks: Sequence[float], y_ticks: Sequence[float]) -> float:

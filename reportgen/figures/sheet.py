@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import accumulate
 
 from reportgen.figures.scene import Scene
 
@@ -55,10 +56,14 @@ class Room:
         size = self.high - self.low
         return size.real * size.imag - self.block.real * self.block.imag
 
-    def width(self, bottom: float) -> float:
-        """The width free for a row whose lower edge lies at a height."""
-        beside_block = bottom < self.low.imag + self.block.imag + GAP
-        return self.high.real - self.low.real - (self.block.real + GAP if beside_block else 0.0)
+    def has(self, low: complex, high: complex) -> bool:
+        """Whether the box between two corners lies inside, white around it included."""
+        white = complex(GAP, GAP) * 0.999
+        low, high = low - white, high + white
+        inside = self.low.real <= low.real and self.low.imag <= low.imag
+        inside = inside and high.real <= self.high.real and high.imag <= self.high.imag
+        corner = complex(self.high.real - self.block.real, self.low.imag + self.block.imag)
+        return inside and (high.real <= corner.real or low.imag >= corner.imag)
 
 
 AHEAD = 8
@@ -134,9 +139,27 @@ def _longer(row: Row, part: Part, top: float, room: Room) -> Row | None:
 
 
 def _fits(row: Row, top: float, room: Room) -> bool:
-    bottom = top - _height(row)
-    across = sum(_wide(column) + GAP for column in row) + GAP
-    return bottom >= room.low.imag + GAP and across <= room.width(bottom)
+    return _stands(row, _close(row, room), top, room)
+
+
+def _stands(row: Row, places: Sequence[float], top: float, room: Room) -> bool:
+    """Whether columns that begin at `top`, with their left edges at some places, keep off the frame and the block."""
+    return all(
+        room.has(complex(x, top - _high(column)), complex(x + _wide(column), top))
+        for x, column in zip(places, row, strict=True)
+    )
+
+
+def _close(row: Row, room: Room) -> list[float]:
+    """The left edges of columns that stand as close to the left as they may."""
+    return list(accumulate((_wide(column) + GAP for column in row[:-1]), initial=room.low.real + GAP))
+
+
+def _apart(row: Row, room: Room) -> list[float]:
+    """The left edges of columns that share the width."""
+    free = (room.high - room.low).real - sum(map(_wide, row))
+    white = free / (len(row) + 1)
+    return list(accumulate((_wide(column) + white for column in row[:-1]), initial=room.low.real + white))
 
 
 def _high(column: Column) -> float:
@@ -157,28 +180,25 @@ def _spread(rows: Sequence[Row], room: Room) -> tuple[Part, ...]:
     left = top - room.low.imag - GAP - sum(map(_height, rows)) - GAP * (len(rows) - 1)
     # Moving a row down must not bring it beside the title block when it was laid out above it.
     for between in (GAP + left / len(rows), GAP):
-        placed, at, fits = [], top, True
-        for row in rows:
-            fits = fits and _fits(row, at, room)
-            placed += _across(row, at, room)
-            at -= _height(row) + between
-        if fits:
+        at = [top - part for part in accumulate((_height(row) + between for row in rows[:-1]), initial=0.0)]
+        if all(_fits(row, y, room) for row, y in zip(rows, at, strict=True)):
             break
-    return tuple(placed)
+    return tuple(part for row, y in zip(rows, at, strict=True) for part in _across(row, y, room))
 
 
 def _across(row: Row, top: float, room: Room) -> Iterator[Part]:
-    """The parts of a row in their places: all columns begin at its top, each spread over its height."""
-    height = _height(row)
-    free = room.width(top - height) - sum(map(_wide, row))
-    x = room.low.real + free / (len(row) + 1)
-    for column in row:
-        between = GAP + (height - _high(column)) / len(column)
+    """The parts of a row in their places; parts below one another share the height of the row."""
+    height, places = _height(row), _apart(row, room)
+    if not _stands(row, places, top, room):
+        places = _close(row, room)
+    for x, column in zip(places, row, strict=True):
+        # Beside the block the lowest of a column stays where it has room.
+        low = complex(x, top - height)
+        free = height - _high(column) if room.has(low, complex(x + _wide(column), top)) else 0.0
         y = top
         for part in column:
             yield replace(part, at=complex(x + (_wide(column) - part.scene.width) / 2, y - part.scene.height))
-            y -= part.scene.height + between
-        x += _wide(column) + free / (len(row) + 1)
+            y -= part.scene.height + GAP + free / len(column)
 
 
 def filled(parts: Sequence[Part], room: Room) -> float:
