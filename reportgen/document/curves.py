@@ -138,7 +138,8 @@ def torque(report: Report) -> Drawn:
     driver = report.machine.linkage.driver
     sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
     title = _positive(report, _axis_of(report, "M.eq"), sense)
-    return Drawn((charts.chart((curve,), _driver_axis(report), title, levels=levels, turn=not slides, area=report.area),))
+    drawn = charts.chart((curve,), _driver_axis(report), title, levels=levels, turn=not slides, area=report.area)
+    return Drawn((drawn,))
 
 
 @figure("polar")

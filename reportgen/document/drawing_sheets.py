@@ -18,7 +18,7 @@ from reportgen.figures.frame import SIZES, frame, room
 from reportgen.figures.geometry import bounds
 from reportgen.figures.lettering import headed, lettered
 from reportgen.figures.scene import Label, Scene
-from reportgen.figures.sheet import Part, Room, Sheet, TooLargeError, arranged, filled
+from reportgen.figures.sheet import Part, Room, Row, Sheet, TooLargeError, filled, packed, spread
 from reportgen.ledger.scales import PER_MM
 from reportgen.notation.numbers import nice_down, nice_up
 
@@ -36,7 +36,11 @@ SHARES = (1.0, 0.75, 0.7, 0.65)
 """A sheet is filled to one of these shares, whichever leaves the last sheet full enough."""
 SPARE = 0.03
 """What estimates may be off."""
-ATTEMPTS = 4
+FULL = 0.3
+"""Less than this, in hundredths of a sheet and all sheets together, is no white too much."""
+BEGINNINGS = (1.0, 0.8, 1.25, 0.65, 1.5)
+"""With plates so many times as large as usual the search begins, as long as sheets are left too empty."""
+ATTEMPTS = 3
 """How often sheets are drawn and, where they came out emptier than estimated, estimated anew."""
 
 Key = tuple[str, str]
@@ -65,9 +69,10 @@ class _Plates:
     _drawn: dict[tuple[int, float], list[_Plate]] = field(default_factory=dict)
     _last: dict[int, float] = field(default_factory=dict)
 
-    def drawn(self, scales: Scales) -> list[Part]:
+    def draw(self, scales: Scales) -> list[Part]:
         """All plates at these scales, numbered."""
-        return list(self._parts([self._at(index, scales.get(one.scaled, 0.0)) for index, one in enumerate(self.series)]))
+        plates = [self._at(index, scales.get(one.scaled, 0.0)) for index, one in enumerate(self.series)]
+        return list(self._parts(plates))
 
     def estimated(self, scales: Scales) -> list[Part]:
         """All plates about as large as they will be, from those drawn last."""
@@ -121,33 +126,33 @@ def layout(report: Report, series: Sequence[Series], space: Room) -> list[tuple[
     """
     plates = _Plates(report, series)
     usual = max(USUAL * (space.high.imag - space.low.imag), LEAST)
-    boxes = _boxes(series, usual / PER_MM)
-    scales = {key: nice_up(one.size / box / PER_MM, one.steps) * PER_MM for key, (one, box) in boxes.items()}
-    best: tuple[float, list[tuple[Part, ...]]] | None = None
-    parts = plates.drawn(scales)
-    for _ in range(ATTEMPTS):
-        scales = _improved(plates, boxes, scales, space)
-        parts = plates.drawn(scales)
-        white, sheets = _fullest(parts, space, 0.0)
-        if sheets and (best is None or white < best[0]):
-            best = white, sheets
-        if white < 1.0:
-            break
-    if best is None:
+    best, sheets = math.inf, []
+    for share in BEGINNINGS:
+        boxes = _boxes(series, share * usual / PER_MM)
+        scales = {key: nice_up(one.size / box / PER_MM, one.steps) * PER_MM for key, (one, box) in boxes.items()}
+        plates.draw(scales)
+        for _ in range(ATTEMPTS):
+            scales = _improved(plates, boxes, scales, space)
+            white, found = _fullest(plates.draw(scales), space, 0.0)
+            if white < best:
+                best, sheets = white, found
+            if best < FULL:
+                return [spread(rows, space) for rows in sheets]
+    if not sheets:
         # Says which plate it is.
-        return arranged(parts, space)
-    return best[1]
+        packed(plates.draw(scales), space)
+    return [spread(rows, space) for rows in sheets]
 
 
-def _fullest(parts: Sequence[Part], space: Room, spare: float = SPARE) -> tuple[float, list[tuple[Part, ...]]]:
+def _fullest(parts: Sequence[Part], space: Room, spare: float = SPARE) -> tuple[float, list[list[Row]]]:
     """The parts on sheets, and how far these are from being full enough: in hundredths, a little for each sheet.
 
     A sheet that takes all it can may leave too little for the last one.
     """
-    found: list[tuple[float, list[tuple[Part, ...]]]] = []
+    found: list[tuple[float, list[list[Row]]]] = []
     for enough in SHARES:
         try:
-            sheets = arranged(parts, space, enough)
+            sheets = packed(parts, space, enough)
         except TooLargeError:
             return math.inf, []
         missing = sum(max(ENOUGH + spare - filled(one, space), 0.0) for one in sheets)
@@ -163,7 +168,7 @@ def _improved(
     """Scales, each the next finer or coarser one as long as that leaves less white."""
     least = _fullest(plates.estimated(scales), space)[0]
     improved = True
-    while improved and least >= 1.0:
+    while improved and least >= FULL:
         improved = False
         tried = [
             (_fullest(plates.estimated(other), space)[0], number, other)

@@ -47,6 +47,9 @@ Drawing = tuple[str, Scene]
 """Where it applies, in words, and what is drawn."""
 MOST_COLUMNS = 9
 """Columns of one table."""
+WIDEST = 180.0
+"""Width of one table on a sheet, mm."""
+NAMES: dict[What, str] = {"v": "velocity", "a": "acceleration"}
 SEGMENT = 2
 """Decimals of lengths on paper, mm."""
 CURVE = "curve"
@@ -108,24 +111,26 @@ def all_series(report: Report) -> list[Series]:
 
 def _kinematics(report: Report) -> Iterator[Series]:
     one = partial(Series, belongs="kinematics")
-    places = report.analysis.motion.points.values()
-    at_once = extents([point.p[SHOWN_AT : SHOWN_AT + 1] for point in places], 1)
-    moving = np.concatenate([point.p for point in places])
-    whole = max(np.ptp(moving.real), np.ptp(moving.imag))
-    yield one("scheme", layer="scheme", draw=_scheme, scale="mu.l", key="scheme", size=_largest(at_once))
-    yield one("positions", layer="positions", draw=_positions, scale="mu.l", size=float(whole))
-    for what, name in (("v", "velocity"), ("a", "acceleration")):
+    whole, at_once = _extent(report), _extent(report, slice(SHOWN_AT, SHOWN_AT + 1))
+    yield one("scheme", layer="scheme", draw=_scheme, scale="mu.l", key="scheme", size=at_once)
+    yield one("positions", layer="positions", draw=_positions, scale="mu.l", size=whole)
+    for what, name in NAMES.items():
         size = _on_plan(report, f"plan.{what}.", f"mu.{what}")
         yield one(name, layer=name, draw=partial(_motion_plans, what=what), scale=f"mu.{what}", size=size)
     for k in report.worked:
         if any(centre_state(report, link, k) == "found" for link in report.plane_links):
-            yield one("centres", layer="velocity", draw=partial(_centres, k=k), scale="mu.l", key="centres", size=float(whole))
-    yield one("motion", layer="curves", draw=_curves(motion), scale=CURVE, key="motion", size=1.0, steps=FINE)
+            draw = partial(_centres, k=k)
+            yield one("centres", layer="velocity", draw=draw, scale="mu.l", key="centres", size=whole)
+    yield _curve("motion", "kinematics", motion)
     yield one("dimensions", layer="tables", draw=_dimensions, scale="mu.l")
-    for what, segments, rates in (("v", velocity_segments, velocities), ("a", acceleration_segments, accelerations)):
-        name = {"v": "velocities", "a": "accelerations"}[what]
+    yield one("velocities", layer="tables", draw=_table(velocity_segments, velocities), scale="mu.v")
+    yield one("accelerations", layer="tables", draw=_table(acceleration_segments, accelerations), scale="mu.a")
 
-        yield one(name, layer="tables", draw=_table(segments, rates), scale=f"mu.{what}")
+
+def _extent(report: Report, at: slice = slice(None)) -> float:
+    """The largest side (m) of the box around all points of the mechanism at some positions together."""
+    points = [place for point in report.analysis.motion.points.values() for place in point.p[at]]
+    return _largest(extents(np.array(points)[:, None], 1))
 
 
 def _largest(sizes: np.ndarray) -> float:
@@ -177,13 +182,11 @@ def _centres(report: Report, k: int) -> Iterator[Drawing]:
 
 
 def _forces(report: Report) -> Iterator[Series]:
-    one = partial(Series, belongs="forces")
-    moving = np.concatenate([point.p for point in report.analysis.motion.points.values()])
-    whole = float(max(np.ptp(moving.real), np.ptp(moving.imag)))
+    one, whole = partial(Series, belongs="forces", layer="forces"), _extent(report)
     if report.has_gas:
         yield one("indicator", layer="indicator", draw=_indicator, scale="mu.l", key="indicator", size=2 * whole)
     for k in report.worked_forces:
-        yield one("bodies", layer="forces", draw=partial(_bodies, k=k), scale="mu.l", key="bodies", size=whole, steps=HALF)
+        yield one("bodies", draw=partial(_bodies, k=k), scale="mu.l", key="bodies", size=whole, steps=HALF)
     for group in reversed(report.groups):
         if group.polygon is not None:
             yield _plans_of(report, group.polygon, str(group))
@@ -191,18 +194,17 @@ def _forces(report: Report) -> Iterator[Series]:
         yield _plans_of(report, report.driver_polygon, "")
     for k in report.worked_forces:
         size = _on_plan(report, "plan.v.", "mu.v")
-        yield one("lever", layer="forces", draw=partial(_lever, k=k), scale="mu.v", key="lever", size=size)
-    yield one("torque", layer="curves", draw=_curves(torque), scale=CURVE, key="torque", size=1.0, steps=FINE)
-    if report.joined and report.driver.centre:
-        yield one("polar", layer="curves", draw=_curves(polar), scale=CURVE, key="polar", size=1.0, steps=FINE)
+        yield one("lever", draw=partial(_lever, k=k), scale="mu.v", key="lever", size=size)
+    yield _curve("torque", "forces", torque)
+    if report.loads_crank and report.driver.centre:
+        yield _curve("polar", "forces", polar)
     if report.flywheel is not None:
-        for name, curve in (
-            ("flywheel-torque", flywheel_torque),
-            ("flywheel-work", flywheel_work),
-            *((("wittenbauer", wittenbauer),) if report.has_reduced_inertia else ()),
-            *((("flywheel-speed", flywheel_speed),) if report.needs_flywheel else ()),
-        ):
-            yield one(name, layer="curves", draw=_curves(curve), scale=CURVE, key=name, size=1.0, steps=FINE)
+        yield _curve("flywheel-torque", "forces", flywheel_torque)
+        yield _curve("flywheel-work", "forces", flywheel_work)
+        if report.has_reduced_inertia:
+            yield _curve("wittenbauer", "forces", wittenbauer)
+        if report.needs_flywheel:
+            yield _curve("flywheel-speed", "forces", flywheel_speed)
     for name, ids in (("loads", (gas, applied, inertia)), ("reactions", (reactions,)), ("balance", (balance,))):
         yield one(name, layer="tables", draw=_table(*ids, cycle=True))
 
@@ -250,12 +252,14 @@ def applied(report: Report) -> list[str]:
 # --- curves and tables
 
 
-def _curves(draw: Callable[[Report], Drawn]) -> Callable[[Report], Iterator[Drawing]]:
+def _curve(name: str, belongs: Set, draw: Callable[[Report], Drawn]) -> Series:
+    """A figure with curves, whose height can be chosen."""
+
     def drawings(report: Report) -> Iterator[Drawing]:
         for scene in draw(report).scenes:
             yield scene.title, scene
 
-    return drawings
+    return Series(name, belongs, "curves", drawings, CURVE, name, 1.0, FINE)
 
 
 def _table(*listed: Callable[[Report], Sequence[str]], cycle: bool = False) -> Callable[[Report], Iterator[Drawing]]:
@@ -265,10 +269,18 @@ def _table(*listed: Callable[[Report], Sequence[str]], cycle: bool = False) -> C
         at = report.all_positions if cycle else report.positions
         found = dict.fromkeys(id for ids in listed for id in ids(report))
         shown = [id for id in found if not all(report.is_zero(id, k) for k in at)]
-        for start in range(0, len(shown), MOST_COLUMNS):
-            yield "", _quantities(report, shown[start : start + MOST_COLUMNS], at)
+        while shown:
+            counts = range(min(len(shown), MOST_COLUMNS), 1, -1)
+            count = next((n for n in counts if _is_narrow(report, shown[:n], at)), 1)
+            yield "", _quantities(report, shown[:count], at)
+            shown = shown[count:]
 
     return drawings
+
+
+def _is_narrow(report: Report, ids: Sequence[str], positions: Sequence[int]) -> bool:
+    """Whether a table of quantities stands beside the title block of any sheet."""
+    return ENLARGED * _quantities(report, ids, positions).width <= WIDEST
 
 
 def _quantities(report: Report, ids: Sequence[str], positions: Sequence[int]) -> Scene:

@@ -112,7 +112,7 @@ def moved(item: Item, by: complex) -> Item:
 
 
 def enlarged(item: Item, factor: float) -> Item:
-    """The item as a photographic enlargement about the origin shows it: pens, dashes, arrowheads and letters grow too."""
+    """The item as a photographic enlargement about the origin shows it: pens, arrowheads and letters grow too."""
 
     def pen(stroke: Stroke) -> Stroke:
         return replace(stroke, width=factor * stroke.width, dash=tuple(factor * part for part in stroke.dash))
@@ -125,9 +125,7 @@ def enlarged(item: Item, factor: float) -> Item:
         case Circle(centre, radius, outline):
             return replace(item, centre=centre * factor, radius=radius * factor, stroke=outline and pen(outline))
         case Arc(centre, radius, _, _, stroke, head):
-            return replace(
-                item, centre=centre * factor, radius=radius * factor, stroke=pen(stroke), head=head * factor
-            )
+            return replace(item, centre=centre * factor, radius=radius * factor, stroke=pen(stroke), head=head * factor)
         case Polyline(points, outline):
             return replace(item, points=tuple(p * factor for p in points), stroke=outline and pen(outline))
         case Hatch(points, spacing, stroke):

@@ -12,7 +12,7 @@ from dataclasses import replace
 from reportgen.figures import style
 from reportgen.figures.geometry import enlarged, moved
 from reportgen.figures.metrics import POINT, SCRIPT, box
-from reportgen.figures.scene import Arc, Arrow, Content, Hatch, Item, Label, Scene, Stroke
+from reportgen.figures.scene import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene, Stroke
 from reportgen.notation.expressions import Chain, Number, Symbol
 
 CAPITAL = 0.683
@@ -58,10 +58,10 @@ def _standard(item: Item) -> Item:
             return replace(item, content=_rescaled(content), size=LETTERS)
         case Arrow(_, _, stroke, head) | Arc(_, _, _, _, stroke, head):
             return replace(item, stroke=_pen(stroke), head=HEAD if head > 0 else 0.0)
-        case Hatch(_, _, stroke):
+        case Line(_, _, stroke) | Hatch(_, _, stroke):
             return replace(item, stroke=_pen(stroke))
-        case _:
-            return replace(item, stroke=item.stroke and _pen(item.stroke))
+        case Circle(_, _, outline) | Polyline(_, outline):
+            return replace(item, stroke=outline and _pen(outline))
 
 
 def _pen(stroke: Stroke) -> Stroke:

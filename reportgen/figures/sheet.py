@@ -5,8 +5,8 @@ A sheet's origin is its lower left corner; lengths are millimetres of paper.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import accumulate
 
 from reportgen.figures.scene import Scene
@@ -78,27 +78,112 @@ class TooLargeError(ValueError):
         self.part = part
 
 
-Column = list[Part]
-Row = list[Column]
+@dataclass(frozen=True, slots=True)
+class Column:
+    """Parts below one another."""
+
+    parts: tuple[Part, ...]
+    width: float
+    height: float
+
+    @classmethod
+    def of(cls, part: Part) -> Column:
+        return cls((part,), part.scene.width, part.scene.height)
+
+    def with_below(self, part: Part) -> Column:
+        width = max(self.width, part.scene.width)
+        return Column((*self.parts, part), width, self.height + GAP + part.scene.height)
 
 
-def arranged(parts: Sequence[Part], room: Room, enough: float = 1.0) -> list[tuple[Part, ...]]:
+@dataclass(slots=True)
+class Row:
+    """Columns side by side that begin at one height, `top`, as close to the left of the room as they may stand."""
+
+    room: Room
+    top: float
+    columns: list[Column] = field(default_factory=list)
+    height: float = 0.0
+    end: float = 0.0
+    """Where the last column begins, from the left of the room."""
+
+    def take(self, part: Part) -> bool:
+        """Whether a part found a place: below the last column if the row gets no taller so, else beside it."""
+        if self.columns:
+            last = self.columns[-1].with_below(part)
+            if last.height <= self.height and self._stands(last, self.end):
+                self.columns[-1] = last
+                return True
+        beside = Column.of(part)
+        at = self.end + self.columns[-1].width + GAP if self.columns else GAP
+        if not self._stands(beside, at):
+            return False
+        self.columns.append(beside)
+        self.height, self.end = max(self.height, beside.height), at
+        return True
+
+    def _stands(self, column: Column, left: float, top: float | None = None) -> bool:
+        x, high = self.room.low.real + left, self.top if top is None else top
+        return self.room.has(complex(x, high - column.height), complex(x + column.width, high))
+
+    def stands(self, lefts: Sequence[float], top: float) -> bool:
+        """Whether the columns may begin at another height, with their left edges at some places."""
+        return all(self._stands(column, left, top) for column, left in zip(self.columns, lefts, strict=True))
+
+    def close(self) -> list[float]:
+        """The left edges of columns that stand as close to the left as they may."""
+        return self._lefts(GAP)
+
+    def apart(self) -> list[float]:
+        """The left edges of columns that share the width."""
+        free = (self.room.high - self.room.low).real - sum(column.width for column in self.columns)
+        return self._lefts(free / (len(self.columns) + 1))
+
+    def _lefts(self, white: float) -> list[float]:
+        return list(accumulate((column.width + white for column in self.columns[:-1]), initial=white))
+
+    def placed(self, top: float) -> Iterator[Part]:
+        """The parts in their places; those of a column share the height of the row."""
+        lefts = self.apart()
+        if not self.stands(lefts, top):
+            lefts = self.close()
+        for left, column in zip(lefts, self.columns, strict=True):
+            x = self.room.low.real + left
+            # Beside the title block the lowest of a column stays where it has room.
+            whole = self.room.has(complex(x, top - self.height), complex(x + column.width, top))
+            free = self.height - column.height if whole else 0.0
+            y = top
+            for part in column.parts:
+                yield replace(part, at=complex(x + (column.width - part.scene.width) / 2, y - part.scene.height))
+                y -= part.scene.height + GAP + free / len(column.parts)
+
+
+def packed(parts: Sequence[Part], room: Room, enough: float = 1.0) -> list[list[Row]]:
     """The parts in rows from the top, on one sheet after another, each filled to a share that is `enough`.
 
     They keep their order, but where the next one has no place in a row, one of those behind it may have.  Where the
-    tallest of a row leaves room, parts stand below one another in a column.  Columns share the width of their row,
-    rows the height of the sheet.  Raises `TooLargeError` for a part that fits no sheet.
+    tallest of a row leaves room, parts stand below one another in a column.  Raises `TooLargeError` for a part that
+    fits no sheet.
     """
-    sheets: list[tuple[Part, ...]] = []
+    sheets: list[list[Row]] = []
     rest = list(parts)
     while rest:
-        count = next((n for n in range(1, len(rest)) if filled(rest[:n], room) >= enough), len(rest))
+        count = _first_filling(rest, room, enough)
         rows, left = _rows(rest[:count], room)
         if not rows:
             raise TooLargeError(rest[0])
-        sheets.append(_spread(rows, room))
+        sheets.append(rows)
         rest = [*left, *rest[count:]]
     return sheets
+
+
+def _first_filling(parts: Sequence[Part], room: Room, enough: float) -> int:
+    """How many of the parts fill a sheet to a share; all if they do not."""
+    area = 0.0
+    for number, part in enumerate(parts, start=1):
+        area += _area(part)
+        if area >= enough * room.area:
+            return number
+    return len(parts)
 
 
 def _rows(parts: list[Part], room: Room) -> tuple[list[Row], list[Part]]:
@@ -106,101 +191,41 @@ def _rows(parts: list[Part], room: Room) -> tuple[list[Row], list[Part]]:
     rows: list[Row] = []
     top = room.high.imag - GAP
     while True:
-        row, left = _row(parts, top, room)
-        if not row:
+        row, parts = _row(parts, Row(room, top))
+        if not row.columns:
             return rows, parts
         rows.append(row)
-        top -= _height(row) + GAP
-        parts = left
+        top -= row.height + GAP
 
 
-def _row(parts: list[Part], top: float, room: Room) -> tuple[Row, list[Part]]:
-    """The columns that stand side by side below `top`, none if the first part has no place there, and what is left."""
-    row: Row = []
+def _row(parts: list[Part], row: Row) -> tuple[Row, list[Part]]:
+    """A row filled with the parts, as long as the first has a place there, and what is left of them."""
     left: list[Part] = []
     for number, part in enumerate(parts):
-        longer = _longer(row, part, top, room)
-        if longer is not None:
-            row = longer
+        if row.take(part):
             continue
         left.append(part)
-        if not row or len(left) > AHEAD:
+        if not row.columns or len(left) > AHEAD:
             return row, [*left, *parts[number + 1 :]]
     return row, left
 
 
-def _longer(row: Row, part: Part, top: float, room: Room) -> Row | None:
-    """A row with a further part: below its last column if that gets no taller than the row, else beside it."""
-    below: Row = [*row[:-1], [*row[-1], part]] if row else []
-    if row and _high(below[-1]) <= _height(row) and _fits(below, top, room):
-        return below
-    beside = [*row, [part]]
-    return beside if _fits(beside, top, room) else None
-
-
-def _fits(row: Row, top: float, room: Room) -> bool:
-    return _stands(row, _close(row, room), top, room)
-
-
-def _stands(row: Row, places: Sequence[float], top: float, room: Room) -> bool:
-    """Whether columns that begin at `top`, with their left edges at some places, keep off the frame and the block."""
-    return all(
-        room.has(complex(x, top - _high(column)), complex(x + _wide(column), top))
-        for x, column in zip(places, row, strict=True)
-    )
-
-
-def _close(row: Row, room: Room) -> list[float]:
-    """The left edges of columns that stand as close to the left as they may."""
-    return list(accumulate((_wide(column) + GAP for column in row[:-1]), initial=room.low.real + GAP))
-
-
-def _apart(row: Row, room: Room) -> list[float]:
-    """The left edges of columns that share the width."""
-    free = (room.high - room.low).real - sum(map(_wide, row))
-    white = free / (len(row) + 1)
-    return list(accumulate((_wide(column) + white for column in row[:-1]), initial=room.low.real + white))
-
-
-def _high(column: Column) -> float:
-    return sum(part.scene.height for part in column) + GAP * (len(column) - 1)
-
-
-def _wide(column: Column) -> float:
-    return max(part.scene.width for part in column)
-
-
-def _height(row: Row) -> float:
-    return max(map(_high, row))
-
-
-def _spread(rows: Sequence[Row], room: Room) -> tuple[Part, ...]:
-    """The rows with what is left of the height between them, and each row's columns with what is left of the width."""
+def spread(rows: Sequence[Row], room: Room) -> tuple[Part, ...]:
+    """The parts of a sheet in their places: rows share the height, the columns of each the width."""
     top = room.high.imag - GAP
-    left = top - room.low.imag - GAP - sum(map(_height, rows)) - GAP * (len(rows) - 1)
+    left = top - room.low.imag - GAP - sum(row.height for row in rows) - GAP * (len(rows) - 1)
     # Moving a row down must not bring it beside the title block when it was laid out above it.
     for between in (GAP + left / len(rows), GAP):
-        at = [top - part for part in accumulate((_height(row) + between for row in rows[:-1]), initial=0.0)]
-        if all(_fits(row, y, room) for row, y in zip(rows, at, strict=True)):
+        at = [top - part for part in accumulate((row.height + between for row in rows[:-1]), initial=0.0)]
+        if all(row.stands(row.close(), y) for row, y in zip(rows, at, strict=True)):
             break
-    return tuple(part for row, y in zip(rows, at, strict=True) for part in _across(row, y, room))
+    return tuple(part for row, y in zip(rows, at, strict=True) for part in row.placed(y))
 
 
-def _across(row: Row, top: float, room: Room) -> Iterator[Part]:
-    """The parts of a row in their places; parts below one another share the height of the row."""
-    height, places = _height(row), _apart(row, room)
-    if not _stands(row, places, top, room):
-        places = _close(row, room)
-    for x, column in zip(places, row, strict=True):
-        # Beside the block the lowest of a column stays where it has room.
-        low = complex(x, top - height)
-        free = height - _high(column) if room.has(low, complex(x + _wide(column), top)) else 0.0
-        y = top
-        for part in column:
-            yield replace(part, at=complex(x + (_wide(column) - part.scene.width) / 2, y - part.scene.height))
-            y -= part.scene.height + GAP + free / len(column)
-
-
-def filled(parts: Sequence[Part], room: Room) -> float:
+def filled(rows: Iterable[Row], room: Room) -> float:
     """The share of a sheet's free area that plates with half the white around them take."""
-    return sum((part.scene.width + GAP) * (part.scene.height + GAP) for part in parts) / room.area
+    return sum(_area(part) for row in rows for column in row.columns for part in column.parts) / room.area
+
+
+def _area(part: Part) -> float:
+    return (part.scene.width + GAP) * (part.scene.height + GAP)
