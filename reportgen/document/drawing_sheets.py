@@ -8,12 +8,16 @@ drawn once, and the best estimates are drawn.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
-from reportgen.document.plates import Series
+from reportgen.case import Case
+from reportgen.document.outline import open_report
+from reportgen.document.plates import Series, all_series
 from reportgen.document.report import Report
-from reportgen.document.title_block import TitleBlock, fields_of
+from reportgen.document.title_block import DEFAULT, TitleBlock, blocks, fields_of, read_block
+from reportgen.errors import SheetError
 from reportgen.figures.frame import SIZES, frame, room
 from reportgen.figures.geometry import bounds
 from reportgen.figures.lettering import headed, lettered
@@ -21,7 +25,9 @@ from reportgen.figures.scene import Label, Scene
 from reportgen.figures.sheet import Part, Room, Row, Sheet, TooLargeError, filled, packed, spread
 from reportgen.ledger.scales import PER_MM
 from reportgen.notation.numbers import nice_down, nice_up
+from reportgen.words import word
 
+USUAL_SIZES = ("A1", "A0")
 USUAL = 0.16
 """The largest side of a plan, as a share of the height that a sheet has for plates."""
 LEAST = 60.0
@@ -191,8 +197,27 @@ def _neighbours(boxes: Mapping[Key, tuple[Series, float]], scales: dict[Key, flo
 # --- finished sheets ------------------------------------------------------------------------------
 
 
-def sheets_of(report: Report, series: Sequence[Series], size: str, block: TitleBlock) -> list[Sheet]:
-    """The finished sheets of a size.  Raises `TooLargeError` for a plate that fits none."""
+def drawing_sheets(case: Case, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[Sheet]:
+    """The finished drawing sheets of a case: of one `size`, else A1, or A0 where a plate needs it.
+
+    `sets` are some of `SETS`, all if none is named; the title `block` is a file, else that of the language.  Raises
+    `SheetError` for a plate that is larger than the size, `AssignmentError` for a faulty block.
+    """
+    report, language = open_report(case), case.assignment.language
+    series = [one for one in all_series(report) if not sets or one.belongs in sets]
+    frame_block = read_block(block or blocks(case.assignment.report.school or "")[DEFAULT[language]], language)
+    for chosen in (size,) if size else USUAL_SIZES:
+        try:
+            return _sheets_of(report, series, chosen, frame_block)
+        except TooLargeError as error:
+            scene, name = error.part.scene, error.part.name
+    raise SheetError(
+        word("plate_too_large", language, name=name, width=round(scene.width), height=round(scene.height), size=chosen)
+    )
+
+
+def _sheets_of(report: Report, series: Sequence[Series], size: str, block: TitleBlock) -> list[Sheet]:
+    """The sheets of a size; raises `TooLargeError` for a plate that fits none."""
     space = room(size, block.margins, block.size)
     found = layout(report, series, space)
     words, width, height = report.words["plates"], *SIZES[size]
@@ -208,7 +233,7 @@ def sheets_of(report: Report, series: Sequence[Series], size: str, block: TitleB
         }
         corner = complex(space.high.real - block.size[0], space.low.imag)
         own = (
-            Part("frame", "frame", frame(size, block.margins)),
+            Part("frame", "frame", frame(size, block.margins, block.note(fields))),
             Part("title block", "frame", block.scene(fields), corner),
         )
         result.append(Sheet(size, width, height, (*own, *parts)))

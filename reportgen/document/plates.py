@@ -149,8 +149,10 @@ def _on_plan(report: Report, prefix: str, scale: str) -> float:
     return _largest(sizes[:, at])
 
 
-def _place(report: Report, k: int) -> str:
-    return f"{report.words['table']['position']} {report.machine.position(k)}"
+def _place(report: Report, k: int, of: str = "") -> str:
+    """Position 2, or of a part: Group (2,3), position 2."""
+    word = report.words["table"]["position"]
+    return f"{of}, {word.lower()} {report.machine.position(k)}" if of else f"{word} {report.machine.position(k)}"
 
 
 def _scheme(report: Report) -> Iterator[Drawing]:
@@ -217,7 +219,7 @@ def _plans_of(report: Report, polygon: Polygon, group: str) -> Series:
         for k in report.plates:
             drawing = force_plan(report, polygon, k)
             if drawing.drawn():
-                yield f"{_of(report, group)}, {_place(report, k)}", _plain(drawing)
+                yield _place(report, k, _of(report, group)), _plain(drawing)
 
     size = _on_plan(report, f"plan.R{polygon.name}.", scale)
     return Series("forces", "forces", "forces", drawings, scale, size=size)
@@ -236,8 +238,8 @@ def _bodies(report: Report, k: int) -> Iterator[Drawing]:
     for group in reversed(report.groups):
         if group.polygon is not None:
             for scene in separated(report, k, group):
-                yield f"{scene.title}, {_place(report, k)}", scene
-    yield f"{_of(report, '')}, {_place(report, k)}", separated_driver(report, k)
+                yield _place(report, k, scene.title), scene
+    yield _place(report, k, _of(report, "")), separated_driver(report, k)
 
 
 def _lever(report: Report, k: int) -> Iterator[Drawing]:

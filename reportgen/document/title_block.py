@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Literal
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Flag, Interval, Line
-from reportgen.assignment.reading import read_model
+from reportgen.assignment.reading import placed, read_model
 from reportgen.case import Case
-from reportgen.errors import AssignmentError, Mark, Problem
+from reportgen.errors import Finding
 from reportgen.figures import frame
 from reportgen.figures.scene import Scene
 from reportgen.notation.numbers import Language
-from reportgen.words import templates, word
+from reportgen.source import read_source
+from reportgen.words import as_error, templates
 
 FOLDER = "blocks"
-DEFAULT: Mapping[Language, str] = {"vi": "tcvn", "en": "tcvn"}
+DEFAULT: Mapping[Language, str] = {"vi": "tcvn", "en": "iso"}
 """The block of a report's language."""
 FIELDS = frozenset(
     {
@@ -74,14 +76,17 @@ class TitleBlock:
     size: tuple[float, float]
     margins: frame.Margins
     cells: tuple[frame.Cell, ...]
+    below: str = ""
+    """What is printed below the frame: the format."""
 
     def scene(self, fields: Mapping[str, str]) -> Scene:
         """The block with its fields filled in; a field without a value stays blank."""
-        filled = tuple(
-            frame.Cell(c.x, c.y, c.width, c.height, _filled(c.text, fields), c.letters, c.align, c.heavy)
-            for c in self.cells
-        )
+        filled = tuple(replace(cell, text=_filled(cell.text, fields)) for cell in self.cells)
         return frame.title_block(filled, self.size)
+
+    def note(self, fields: Mapping[str, str]) -> str:
+        """What is printed below the frame."""
+        return _filled(self.below, fields)
 
 
 def _filled(text: str, fields: Mapping[str, str]) -> str:
@@ -99,24 +104,22 @@ def blocks(school: str = "") -> dict[str, Path]:
 def read_block(path: Path, language: Language | None = None) -> TitleBlock:
     """The title block of a file.  Raises `AssignmentError` with its faults, located."""
     content = read_model(path, _File, language)
-    cells = []
-    for number, cell in enumerate(content.cells, start=1):
-        for problem in _faults(cell, content, number, language):
-            raise AssignmentError([Problem("block-cell", problem, Mark(str(path)))])
-        cells.append(frame.Cell(*(getattr(cell, name) for name in frame.Cell.__slots__)))
+    findings = [finding for index, cell in enumerate(content.cells) for finding in _findings(cell, index, content)]
+    if findings:
+        raise as_error(placed(read_source(path), findings), language)
+    cells = tuple(frame.Cell(*(getattr(cell, name) for name in frame.Cell.__slots__)) for cell in content.cells)
     margins = frame.Margins(content.margins.left, content.margins.other)
-    return TitleBlock((content.width, content.height), margins, tuple(cells))
+    return TitleBlock((content.width, content.height), margins, cells, content.format)
 
 
-def _faults(cell: _Cell, block: _File, number: int, language: Language | None) -> list[str]:
+def _findings(cell: _Cell, index: int, block: _File) -> Iterator[Finding]:
     """What is wrong with a cell beside its single values: it leaves the block, or names an unknown field."""
-    found = []
+    where = ("cells", index)
     if cell.x + cell.width > block.width or cell.y + cell.height > block.height:
-        found.append(word("block_outside", language, number=number))
-    unknown = _filled(cell.text, dict.fromkeys(FIELDS, ""))
-    if "{" in unknown:
-        found.append(word("block_field", language, number=number, known=", ".join(sorted(FIELDS))))
-    return found
+        yield Finding("block-outside", where, {"width": f"{block.width:g}", "height": f"{block.height:g}"})
+    for name in re.findall(r"\{([^{}]*)\}?", cell.text):
+        if name not in FIELDS:
+            yield Finding("block-field", (*where, "text"), {"text": name, "known": ", ".join(sorted(FIELDS))})
 
 
 def fields_of(case: Case) -> dict[str, str]:

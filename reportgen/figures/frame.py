@@ -66,8 +66,8 @@ def room(size: str, margins: Margins, block: tuple[float, float]) -> Room:
     return Room(low, high, complex(*block))
 
 
-def frame(size: str, margins: Margins) -> Scene:
-    """The edge of the paper, the frame and its centring marks."""
+def frame(size: str, margins: Margins, note: str = "") -> Scene:
+    """The edge of the paper, the frame and its centring marks; the format as a `note` below it."""
     width, height = SIZES[size]
     low, high = complex(margins.left, margins.other), complex(width - margins.other, height - margins.other)
     middle = (low + high) / 2
@@ -81,6 +81,7 @@ def frame(size: str, margins: Margins) -> Scene:
         Polyline(_corners(0j, complex(width, height)), EDGE, closed=True),
         Polyline(_corners(low, high), HEAVY, closed=True),
         *(Line(start, end, HEAVY) for start, end in marks),
+        *([Label(complex(high.real, low.imag / 2), note, "right", font_size(HEIGHTS[-2]))] if note else []),
     )
     return Scene(width, height, items)
 

@@ -215,7 +215,7 @@ def spread(rows: Sequence[Row], room: Room) -> tuple[Part, ...]:
     top = room.high.imag - GAP
     left = top - room.low.imag - GAP - sum(row.height for row in rows) - GAP * (len(rows) - 1)
     # Moving a row down must not bring it beside the title block when it was laid out above it.
-    for between in (GAP + left / len(rows), GAP):
+    for between in (GAP + share * left / len(rows) for share in (1.0, 0.75, 0.5, 0.25, 0.0)):
         at = [top - part for part in accumulate((row.height + between for row in rows[:-1]), initial=0.0)]
         if all(row.stands(row.close(), y) for row, y in zip(rows, at, strict=True)):
             break

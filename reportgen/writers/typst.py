@@ -186,15 +186,12 @@ def write(document: tree.Document) -> str:
     return f"{_frame()}\n#show: report.with({opening})\n\n{body}\n"
 
 
-def write_sheets(sheets: Sequence[Sheet], title: str, author: str, language: Language) -> str:
-    """The Typst source of drawing sheets, each a page of its own size; it needs no other file."""
-    formulas = TypstFormulas(language)
-    lines = [f"#set document(title:{literal(title)},author:{literal(author)},date:none)", SHEET_LOOK]
-    for sheet in sheets:
-        items = tuple(moved(item, part.at) for part in sheet.parts for item in part.scene.items)
-        drawing = paint_typst(Scene(sheet.width, sheet.height, items), formulas)
-        lines.append(f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[#{drawing}]")
-    return f"{_frame()}\n" + "\n".join(lines) + "\n"
+def write_sheet(sheet: Sheet, title: str, language: Language) -> str:
+    """The Typst source of a drawing sheet, one page of its own size; it needs no other file."""
+    items = tuple(moved(item, part.at) for part in sheet.parts for item in part.scene.items)
+    drawing = paint_typst(Scene(sheet.width, sheet.height, items), TypstFormulas(language))
+    page = f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[#{drawing}]"
+    return "\n".join((_frame(), f"#set document(title:{literal(title)},date:none)", SHEET_LOOK, page, ""))
 
 
 def _frame() -> str:
