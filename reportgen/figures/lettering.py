@@ -25,7 +25,7 @@ WIDE, NARROW = 0.7, 0.35
 """Widths of lines, mm."""
 OUTLINE = 0.28
 """What a report draws with a pen of this width (mm) or a wider one is wide on a sheet."""
-HEAD = 4.0
+HEAD = 5.5
 """Length of every arrowhead, mm."""
 
 LINE_GAP = 2.5

@@ -75,7 +75,9 @@ def _text(text: str, em: float, italic: bool = False) -> Box:
 
 def _unknown(letter: str) -> tuple[int, int, int]:
     """A letter that the table lacks: one of an alphabet is as wide as a wide letter, any other as one em."""
-    return (650 if letter.isalpha() and letter < "\u2000" else 1000), 750, 200
+    if letter.isalpha() and letter < "\u2000":
+        return (700 if letter.isupper() else 600), 750, 200
+    return 1000, 750, 200
 
 
 def _joined(parts: list[Box], em: float, gap: float) -> Box:
