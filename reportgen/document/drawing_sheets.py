@@ -210,7 +210,8 @@ def drawing_sheets(case: Case, size: str = "", sets: Collection[str] = (), block
         try:
             return _sheets_of(report, series, chosen, frame_block)
         except TooLargeError as error:
-            scene, name = error.part.scene, error.part.name
+            scene, number = error.part.scene, error.part.name.partition(".")[0]
+            name = report.words["plates"][series[int(number) - 1].name]
     raise SheetError(
         word("plate_too_large", language, name=name, width=round(scene.width), height=round(scene.height), size=chosen)
     )
