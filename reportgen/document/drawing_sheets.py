@@ -198,7 +198,7 @@ def _neighbours(boxes: Mapping[Key, tuple[Series, float]], scales: dict[Key, flo
 
 
 def drawing_sheets(case: Case, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[Sheet]:
-    """The finished drawing sheets of a case: of one `size`, else A1, or A0 where a plate needs it.
+    """The finished drawing sheets of a case: of one `size`, else as the file says, else A1, or A0 if a plate needs it.
 
     `sets` are some of `SETS`, all if none is named; the title `block` is a file, else that of the language.  Raises
     `SheetError` for a plate that is larger than the size, `AssignmentError` for a faulty block.
@@ -206,6 +206,7 @@ def drawing_sheets(case: Case, size: str = "", sets: Collection[str] = (), block
     report, language = open_report(case), case.assignment.language
     series = [one for one in all_series(report) if not sets or one.belongs in sets]
     frame_block = read_block(block or blocks(case.assignment.report.school or "")[DEFAULT[language]], language)
+    size = size or case.assignment.report.sheets or ""
     for chosen in (size,) if size else USUAL_SIZES:
         try:
             return _sheets_of(report, series, chosen, frame_block)
