@@ -255,7 +255,10 @@ class Row:
 
 @dataclass(frozen=True)
 class Key:
-    """All rows of an assignment; `labels` [N] are what its positions are called, `students` fields of its student."""
+    """All rows of an assignment; `labels` [N] are what its positions are called, `students` fields of its student.
+
+    Of very many positions only those in `printed` stand in the document.
+    """
 
     id: str
     kind: str
@@ -264,6 +267,7 @@ class Key:
     student: Mapping[str, str]
     labels: tuple[str, ...]
     rows: tuple[Row, ...]
+    printed: tuple[int, ...] = ()
 
     def label(self, position: int) -> str:
         """What a position (from 1) is called; "" for 0, the one of single values."""
@@ -360,6 +364,7 @@ def make_key(case: Case) -> Key:
         {name: text for name, text in fields.items() if text},
         tuple(str(machine.position(k)) for k in range(1, machine.positions + 1)),
         tuple(rows),
+        report.all_positions if report.thinned else (),
     )
 
 

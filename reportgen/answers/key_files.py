@@ -166,6 +166,7 @@ def key_document(key: Key, title: str) -> Document:
         heading(words["key"]["title"]),
         *fields(((words["answer_sheet"]["kind"], title), *student_rows(key))),
         paragraph(words["key"]["note"]),
+        *([paragraph(words["key"]["thinned"].format(count=len(key.printed)))] if key.printed else []),
     ]
     for part, rows in groupby(key.rows, lambda row: row.part):
         blocks += _tables(key, words, str(words["parts"][part]), list(rows))
@@ -215,6 +216,7 @@ def _by_position(
     body = (
         cells((label, *(value for row in rows for value in _values(row, index, senses))))
         for index, label in enumerate(key.labels)
+        if not key.printed or index + 1 in key.printed
     )
     columns = tuple(map(Column, (tree.FIRST_COLUMN, *widths * len(rows))))
     return Table(columns, head, tuple(body), (Text(name),))

@@ -9,10 +9,11 @@ from pathlib import Path
 import pytest
 from openpyxl import load_workbook
 
+from reportgen import catalogue
 from reportgen.answers.key import make_key
 from reportgen.answers.key_files import band, key_book, key_data, key_document, key_rows
-from reportgen.case import open_case
-from reportgen.document.tree import Table, text_of
+from reportgen.case import Case, open_case
+from reportgen.document.tree import Table, Text, text_of
 from reportgen.grading.submission import read_submission
 from reportgen.notation.numbers import Language
 from reportgen.workbook import write_xlsx
@@ -83,6 +84,21 @@ def test_the_document_has_every_quantity_at_every_position_on_pages_that_hold_it
     for row in key.rows[:40]:
         if row.decimals is not None and row.values[0] > 0:
             assert f"{row.values[0]:.{row.decimals}f}" in text or row.decimals == 0
+
+
+def test_of_very_many_positions_the_document_has_some_with_all_that_are_asked_and_the_csv_every_one() -> None:
+    case = Case(catalogue.load(Path("assignments/slider-crank-01.yaml"), "en").with_positions(100))
+    key = make_key(case)
+    tree = key_document(key, case.title)
+    by_position = [block for block in tree.blocks if isinstance(block, Table) and len(block.head) == 2]
+    assert by_position
+    for table in by_position:
+        printed = ["".join(part.text for part in row[0].inlines if isinstance(part, Text)) for row in table.rows]
+        assert len(printed) <= 25
+        assert {key.label(k) for row in key.asked for k in row.positions if k} <= set(printed)
+    assert f"show {len(key.printed)} positions" in text_of(tree)
+    every = {row[5] for row in key_rows(key) if row[0] == "v.C"}
+    assert every == set(key.labels)
 
 
 def test_an_endless_angle_has_six_figures_and_a_typed_one_all_of_its_own(tmp_path: Path) -> None:
