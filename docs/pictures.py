@@ -1,4 +1,4 @@
-"""Draw the pictures of the README: a page of a report with a plan, and the scheme of each kind of machine.
+"""Draw the pictures of the README: a page of a report with a plan, a drawing sheet, the scheme of each kind of machine.
 
 `make pictures` runs this in the project's folder; the pictures go to `docs/`.
 """
@@ -19,7 +19,8 @@ SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 CAPTION = ". Velocity plan at"
 """A part of the text of the page that the README shows, the number of the figure before it."""
 
-PAGE_DPI, SCHEME_DPI = 100, 60
+LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"
+PAGE_DPI, SHEET_DPI, SCHEME_DPI = 100, 38, 60
 COLOURS = 96
 """Few enough that a picture is small, and enough that thin lines stay smooth."""
 
@@ -71,8 +72,10 @@ def save(page: pymupdf.Page, name: str, dpi: int, clip: pymupdf.Rect | None = No
 
 
 def main() -> None:
-    """Draw the page of the sample, then the scheme of each kind from its first assignment file."""
+    """Draw the page of the sample and a sheet, then the scheme of each kind from its first assignment file."""
     save(page_with(CAPTION, typeset(document(SAMPLE))), "page", PAGE_DPI)
+    sheets = api.sheet_files(LAID_OUT, language="en", size="A1", sets=("kinematics",), formats=("pdf",))
+    save(pymupdf.open(stream=sheets["sheet-1.pdf"])[0], "sheet", SHEET_DPI)
     for kind in catalogue.kinds():
         file = min(SAMPLE.parent.glob(f"{kind}-*.yaml"))
         page = typeset(scheme_alone(document(file)))[0]

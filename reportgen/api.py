@@ -7,8 +7,9 @@ What comes before the document is in a `Case`.
 from __future__ import annotations
 
 import os
+import re
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from reportgen.answers.asking import Ask
     from reportgen.answers.key import Key
     from reportgen.document.tree import Document
+    from reportgen.figures.sheet import Sheet
 
 Engine = Literal["typst", "latex"]
 SUFFIX = {"typst": ".typ", "latex": ".tex"}
@@ -99,6 +101,7 @@ Maker = Callable[..., Mapping[str, bytes]]
 It depends on its arguments alone, so that it can run anywhere.
 """
 
+_SHEET = re.compile(r"sheet-\d+\.(pdf|dxf)")
 KEY_FORMATS = ("pdf", "xlsx", "csv", "json")
 
 
@@ -146,8 +149,52 @@ def key_files(
     return {f"key.{name}": makers[name]() for name in formats}
 
 
-MAKERS: Mapping[str, Maker] = {"task": task_files, "report": report_files, "key": key_files}
+SHEET_FORMATS = ("pdf", "dxf")
+
+
+def sheet_files(
+    path: Path,
+    engine: Engine = "typst",
+    language: Language | None = None,
+    size: str = "",
+    sets: Collection[str] = (),
+    formats: Sequence[str] = SHEET_FORMATS,
+    block: Path | None = None,
+) -> Mapping[str, bytes]:
+    """The drawing sheets, `sheet-1.pdf`, `sheet-1.dxf`, …, whatever the engine of the report.
+
+    Without a `size` they are A1, or A0 where a plate needs it; without `sets` they show all; the title `block` is that
+    of the language unless a file of one is given.  Raises `SheetError` for a plate that has no place on the size.
+    """
+    from reportgen.document.drawing_sheets import drawing_sheets
+    from reportgen.writers import dxf, typst
+
+    case = open_case(path, language)
+    sheets = drawing_sheets(case, size, sets, block)
+    writers: Mapping[str, Callable[[Sheet], bytes]] = {
+        "pdf": lambda sheet: typst.compile(typst.write_sheet(sheet, case.title, case.assignment.language)),
+        "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
+    }
+    return {
+        f"sheet-{number}.{name}": writers[name](sheet)
+        for number, sheet in enumerate(sheets, start=1)
+        for name in formats
+    }
+
+
+def put_sheets(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
+    """Write drawing sheets into a folder; those of an earlier set that had more sheets go."""
+    written = put(folder, files)
+    for path in folder.glob("sheet-*.*"):
+        if _SHEET.fullmatch(path.name) and path not in written:
+            path.unlink(missing_ok=True)
+    return written
+
+
+MAKERS: Mapping[str, Maker] = {"task": task_files, "report": report_files, "key": key_files, "sheet": sheet_files}
 """The products by the names that `--make` takes."""
+USUAL = ("task", "report", "key")
+"""What a batch makes unless it is told."""
 ASKING = frozenset({"task", "key"})
 """Those that depend on what the answer sheet asks for."""
 

@@ -41,6 +41,12 @@ class Case:
         written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions)
         return written.in_language(self.words["symbols"])
 
+    def redrawn(self, scales: Mapping[str, float]) -> Case:
+        """The same case with drawings to other scales (SI, by id)."""
+        case = Case(self.assignment)
+        vars(case).update(vars(self), ledger=self.ledger.redrawn(scales))
+        return case
+
     @property
     def polygons(self) -> tuple[Polygon, ...]:
         """The force plans: one for each group, the driver's last; none without loads."""

@@ -120,6 +120,12 @@ class TemplateError(ReportgenError):
     exit_code = 1
 
 
+class SheetError(ReportgenError):
+    """A plate has no place on drawing sheets of the size asked for."""
+
+    exit_code = 1
+
+
 class TypesetterError(ReportgenError):
     """The typesetter is missing or failed; nothing the assignment can mend."""
 

@@ -52,7 +52,8 @@ class Student(Part):
 class Report(Part):
     """The report's language, cover and the positions written out in full (None: all).
 
-    `school` names a folder of templates whose words stand before the common ones.
+    `school` names a folder of templates whose words stand before the common ones, `sheets` the size of the drawing
+    sheets that are handed in with the report.
     """
 
     language: Language = "vi"
@@ -66,6 +67,7 @@ class Report(Part):
     place: Line | None = None
     date: Date | None = None
     worked_positions: Annotated[tuple[int, ...] | None, WorkedPositions()] = (2,)
+    sheets: Literal["A0", "A1", "A2", "A3"] | None = None
 
 
 class Positions(Part):

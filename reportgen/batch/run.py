@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal, TextIO
 
 from reportgen import api
 from reportgen.answers.asking import Ask
-from reportgen.api import ASKING, MAKERS, Engine, Maker
+from reportgen.api import ASKING, MAKERS, USUAL, Engine, Maker
 from reportgen.batch import manifest
 from reportgen.batch.manifest import Entry
 from reportgen.batch.pool import Job, Outcome, Pool, failed, local, making
@@ -53,7 +53,7 @@ class Order:
     spec: Path | None = None
     assignments: Path | None = None
     out: Path = Path("out")
-    products: tuple[str, ...] = tuple(MAKERS)
+    products: tuple[str, ...] = USUAL
     engine: Engine = "typst"
     language: Language | None = None
     jobs: int = 0

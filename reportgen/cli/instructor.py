@@ -57,7 +57,9 @@ def batch(
     assignments: Annotated[
         Path | None, typer.Option("--assignments", metavar="DIR", help="Assignment files by id.", show_default=False)
     ] = None,
-    make: Annotated[str, typer.Option("--make", help="What to make, parted by commas.")] = "task,report,key",
+    make: Annotated[
+        str, typer.Option("--make", help="Of task, report, key, sheet; parted by commas.")
+    ] = "task,report,key",
     jobs: Annotated[
         int | None, typer.Option("--jobs", metavar="N", min=1, help="Processes.", show_default="one a core")
     ] = None,
@@ -69,7 +71,7 @@ def batch(
     ] = None,
     policy: PolicyOption = None,
 ) -> None:
-    """Make task, report or key of everybody on ROSTER; go on where an earlier run was stopped."""
+    """Make task, report, key or drawing sheets of everybody on ROSTER; go on where an earlier run was stopped."""
     from reportgen.api import MAKERS
     from reportgen.batch.run import Order, run_batch
     from reportgen.grading.marks import read_policy

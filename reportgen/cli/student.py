@@ -5,11 +5,23 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
-from reportgen.cli.common import AT_FAULT, EngineOption, File, Files, LangOption, app, ending, for_each, say, write
+from reportgen.cli.common import (
+    AT_FAULT,
+    EngineOption,
+    File,
+    Files,
+    LangOption,
+    app,
+    ending,
+    for_each,
+    listed,
+    say,
+    write,
+)
 
 
 @app.command()
@@ -25,6 +37,50 @@ def build(
 
     def work(file: Path) -> None:
         print(api.build(file, out, engine, lang, keep_source), flush=True)
+
+    for_each(files, lang, work)
+
+
+@app.command()
+def sheet(
+    files: Files,
+    size: Annotated[
+        Literal["A0", "A1", "A2", "A3"] | None,
+        typer.Option("--size", help="Of the paper.", show_default="A1, or A0 where a plate needs it"),
+    ] = None,
+    sets: Annotated[
+        Literal["kinematics", "forces", "all"], typer.Option("--set", help="What the sheets show.")
+    ] = "all",
+    format: Annotated[str, typer.Option("--format", metavar="LIST", help="Of pdf, dxf; parted by commas.")] = "pdf,dxf",
+    block: Annotated[
+        str | None,
+        typer.Option(
+            "--block",
+            metavar="NAME|FILE",
+            help="Title block: tcvn, gost, gb, iso, or a file.",
+            show_default="that of the language",
+        ),
+    ] = None,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the sheets.")] = Path("out"),
+    lang: LangOption = None,
+) -> None:
+    """Lay the plans of each FILE out on drawing sheets, true to scale: DIR/<id>/sheet-1.pdf, sheet-1.dxf, …."""
+    from reportgen import api
+    from reportgen.scratch import scratch
+
+    formats = listed(format, api.SHEET_FORMATS, "--format", "no_format", lang)
+
+    def work(file: Path) -> None:
+        from reportgen.document.title_block import blocks
+
+        assignment = api.load(file, lang)
+        known = blocks(assignment.report.school or "")
+        path = None if block is None else known.get(block, Path(block))
+        if path is not None and not path.is_file():
+            raise typer.BadParameter(say("no_block", lang, name=block, known=", ".join(known)), param_hint="--block")
+        with api.reported(), scratch(out):
+            made = api.sheet_files(file, "typst", lang, size or "", () if sets == "all" else (sets,), formats, path)
+            print(*api.put_sheets(out / assignment.id, made), sep="\n", flush=True)
 
     for_each(files, lang, work)
 

@@ -20,6 +20,13 @@ def variant_words(report: Report) -> str:
 
 
 @member
+def attached(report: Report) -> str:
+    """A further sentence on the drawing sheets that are handed in with the report, if there are any."""
+    size = report.assignment.report.sheets
+    return f" {report.words['attached']}".format(size=size) if size else ""
+
+
+@member
 def signature(report: Report) -> tuple[Block, ...]:
     """Place, date and name under the foreword; without a name the label stands over a line to sign."""
     student = f"{report.words['cover']['student']}: {report.assignment.report.student.name or '…' * 20}"

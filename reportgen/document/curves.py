@@ -123,7 +123,7 @@ def _over_a_turn(
     slides = bool(report.machine.span)
     x, marks = _across(report)[:count], _marks(report)[: len(report.positions)]
     series = [charts.Series(shown, x, values[:count], marks) for shown, values in curves]
-    return charts.chart(series, _driver_axis(report, "angle"), title, turn=not slides, half=half)
+    return charts.chart(series, _driver_axis(report, "angle"), title, turn=not slides, half=half, area=report.area)
 
 
 # --- torque and forces over the cycle
@@ -138,7 +138,8 @@ def torque(report: Report) -> Drawn:
     driver = report.machine.linkage.driver
     sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
     title = _positive(report, _axis_of(report, "M.eq"), sense)
-    return Drawn((charts.chart((curve,), _driver_axis(report), title, levels=levels, turn=not slides),))
+    drawn = charts.chart((curve,), _driver_axis(report), title, levels=levels, turn=not slides, area=report.area)
+    return Drawn((drawn,))
 
 
 @figure("polar")
@@ -167,9 +168,9 @@ def polar(report: Report) -> Drawn:
         for forces, load in shown.items():
             series = charts.Series("", load.real, load.imag, _marks(report), numbers)
             title = f"{names['pin']} {lower_digits(name)}: {forces}"
-            diagrams.append(partial(charts.polar, series, names["across_crank"], along, title=title))
-    if len(diagrams) == 1:
-        return Drawn((diagrams[0](),))
+            diagrams.append(partial(charts.polar, series, names["across_crank"], along, title=title, area=report.area))
+    if len(diagrams) == 1 or report.area is not None:
+        return Drawn(tuple(draw() for draw in diagrams))
     for size in charts.POLAR_PAIRS:
         scenes = tuple(draw(size=size) for draw in diagrams)
         if all(scene.width <= charts.HALF_WIDTH for scene in scenes):
@@ -194,7 +195,7 @@ def _over_cycle(
 ) -> Scene:
     kept = np.union1d(np.arange(0, values.size, THINNED), values.size - 1)
     curve = charts.Series("", np.degrees(_wheel(report).angle[kept]), values[kept])
-    return charts.chart((curve,), _driver_axis(report), title, levels=levels, half=half)
+    return charts.chart((curve,), _driver_axis(report), title, levels=levels, half=half, area=report.area)
 
 
 @figure("flywheel-torque", "fig.Mr")
@@ -228,7 +229,7 @@ def wittenbauer(report: Report) -> Drawn:
     ]
     curve = charts.Series(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
     across, up = _axis_of(report, "J.r"), _axis_of(report, "A.excess")
-    return Drawn((charts.chart((curve, *lines), across, up, turn=False),))
+    return Drawn((charts.chart((curve, *lines), across, up, turn=False, area=report.area),))
 
 
 @figure("flywheel-speed", "fig.speed")

@@ -174,17 +174,17 @@ def line_styles(report: Report) -> Drawn:
 
 @figure("scheme")
 def scheme(report: Report) -> Drawn:
-    return Drawn((_scheme(report, _reduction(report)),))
+    return Drawn((scheme_scene(report, _reduction(report)),))
 
 
 @figure("scheme.small")
 def small_scheme(report: Report) -> Drawn:
     """The scheme, small enough to stand on one page with the results."""
-    drawn = (_scheme(report, factor) for factor in REDUCTIONS if factor <= _reduction(report))
+    drawn = (scheme_scene(report, factor) for factor in REDUCTIONS if factor <= _reduction(report))
     return Drawn((next(one for one in drawn if one.height <= SMALL_SCHEME),))
 
 
-def _scheme(report: Report, factor: float) -> Scene:
+def scheme_scene(report: Report, factor: float) -> Scene:
     scale = drawing_scale(report) * factor
     look = looks(report, scale, factor)
     return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, SHOWN_AT, scale, look)
@@ -211,10 +211,10 @@ def _reduction(report: Report) -> float:
 
 @figure("positions")
 def positions(report: Report) -> Drawn:
-    return on_paper(_positions(report, None))
+    return on_paper(positions_scene(report))
 
 
-def _positions(report: Report, beside: Draft | None) -> Scene:
+def positions_scene(report: Report, beside: Draft | None = None) -> Scene:
     """The numbered positions of one turn, alone with the paths of points or beside another drawing."""
     machine = report.machine
     shows = PositionPlan(
@@ -273,7 +273,8 @@ def indicator(report: Report) -> Drawn:
     # What lies below zero stands between diagram and cylinder, where there is half the room.
     highest = max(highest, -2 * lowest)
     side = _free_side(machine)
-    start, end, mu = indicator_figure.beside(top, bottom, side, 75.0, highest)
+    enlarged = report.area.enlarged if report.area else 1.0
+    start, end, mu = indicator_figure.beside(top, bottom, side, 75.0, highest, enlarged)
     note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
     frame = indicator_figure.Frame(start, end, side, mu, Chain((Symbol("p"),), "N/cm²"), note)
     branches = [
@@ -290,7 +291,7 @@ def indicator(report: Report) -> Drawn:
         for gas in gases.values()
         for k in report.all_positions
     ]
-    return on_paper(_positions(report, indicator_figure.indicator(frame, branches, readings)))
+    return on_paper(positions_scene(report, indicator_figure.indicator(frame, branches, readings)))
 
 
 def _free_side(machine: Machine) -> complex:

@@ -139,6 +139,11 @@ def drawn_sense(report: Report, name: str, k: int) -> complex:
 @figure("bodies")
 def bodies(report: Report, k: int, group: GroupView) -> Drawn:
     """The group with all its forces, at half size; then each link that moments are taken of, with the arms."""
+    return beside_one_another(*separated(report, k, group))
+
+
+def separated(report: Report, k: int, group: GroupView) -> list[Scene]:
+    """The scenes of a group's separated links."""
     assert group.polygon is not None
     both = _Bodies(report, k, (group.i, group.j), HALF)
     forces = [
@@ -155,7 +160,7 @@ def bodies(report: Report, k: int, group: GroupView) -> Drawn:
         arms, title = one.arms(group.arms(pin, link), pin), f"{report.words['figure']['link']} {link}"
         extra = _percussion(report, link, k) + _foot(report, group, link, k)
         scenes.append(one.scene(forces, arms=arms, turning=one.couples(), extra=extra, title=title))
-    return beside_one_another(*scenes)
+    return scenes
 
 
 def _moments(report: Report, group: GroupView, k: int) -> tuple[tuple[int, str], ...]:
@@ -178,6 +183,13 @@ def _moments(report: Report, group: GroupView, k: int) -> tuple[tuple[int, str],
 @figure("slide")
 def driver(report: Report, k: int) -> Drawn:
     """The driver with the reactions on it and what balances it, of a crank with arms about its centre; their plan."""
+    polygon = report.driver_polygon
+    assert polygon is not None
+    return beside_one_another(separated_driver(report, k), plan(force_plan(report, polygon, k)))
+
+
+def separated_driver(report: Report, k: int) -> Scene:
+    """The driver with all that acts on it."""
     polygon, centre, body = report.driver_polygon, report.driver.centre, _Bodies(report, k, (DRIVER,))
     assert polygon is not None
     pin = body.at(centre or report.driver.pin)
@@ -186,10 +198,8 @@ def driver(report: Report, k: int) -> Drawn:
     if centre:
         # Assumed anticlockwise, as its formula counts it.
         balance = Couple(report.balance_symbol(), pin, float(not report.is_zero("M.eq", k)))
-        drawing = body.scene(forces, arms=body.arms(report.crank_arms, centre), turning=(balance,))
-    else:
-        drawing = body.scene(forces)
-    return beside_one_another(drawing, plan(force_plan(report, polygon, k)))
+        return body.scene(forces, arms=body.arms(report.crank_arms, centre), turning=(balance,))
+    return body.scene(forces)
 
 
 # --- loads

@@ -21,6 +21,7 @@ from reportgen.catalogue.machine import Machine, Position
 from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
 from reportgen.document.prose import Prose
 from reportgen.document.tree import Inlines, Text
+from reportgen.figures.charts import Area
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.polygon import Polygon
@@ -59,9 +60,13 @@ def member(of: Member) -> Member:
 
 @dataclass(frozen=True)
 class Report:
-    """A case with its prose; every property is a name in its templates."""
+    """A case with its prose; every property is a name in its templates.
+
+    On a drawing sheet curves have an `area` and round scales.
+    """
 
     case: Case
+    area: Area | None = None
 
     # --- what it is made of
 

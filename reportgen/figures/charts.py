@@ -19,7 +19,7 @@ from reportgen.figures.geometry import clusters
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.metrics import box
 from reportgen.figures.scene import Circle, Content, Item, Label, Line, Polyline, Scene, Stroke
-from reportgen.notation.expressions import Number
+from reportgen.notation.expressions import Chain, Number, Symbol
 from reportgen.notation.numbers import nice_up
 
 WIDTH, HEIGHT = 128.0, 62.0
@@ -75,6 +75,22 @@ class Series:
 
 
 @dataclass(frozen=True, slots=True)
+class Area:
+    """The room inside the axes that a chart may fill (mm), at round scales which it then prints.
+
+    They are round once the chart is `enlarged` so many times.
+    """
+
+    width: float = WIDTH
+    height: float = HEIGHT
+    enlarged: float = 1.0
+
+    def per_mm(self, length: float, room: float) -> float:
+        """The round scale, of the enlarged chart, at which a length in the unit of its axis fits a room (mm)."""
+        return nice_up(length / (room * self.enlarged))
+
+
+@dataclass(frozen=True, slots=True)
 class _Window:
     """Data ranges and the paper they are drawn on: x0…x1 over `width` mm, y0…y1 over `height` mm."""
 
@@ -102,13 +118,14 @@ def chart(
     turn: bool = True,
     levels: Sequence[tuple[float, Content]] = (),
     half: bool = False,
+    area: Area | None = None,
 ) -> Scene:
     """Curves in one frame.  With `turn` x is an angle in degrees with ticks at multiples of 45, 90 or 180.
 
-    `levels` are horizontal lines with a name, e.g. a mean; with `half` two charts stand side by side.  Raises
-    `ValueError` if no value is finite.
+    `levels` are horizontal lines with a name, e.g. a mean; with `half` two charts stand side by side; with an `area`
+    both scales are round and printed.  Raises `ValueError` if no value is finite.
     """
-    window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn, half)
+    window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn, half, area)
     items = _frame(window, x_ticks, y_ticks, "°" if turn else "")
     requests: list[Request] = []
     for level, name in levels:
@@ -124,20 +141,30 @@ def chart(
         if one.label and len(series) > 1:
             requests.append(label(_places(vertices), one.label))
     items += _titles(window, x_label, y_label, items)
-    return finish(Draft(tuple(items), tuple(requests)), margin=CHART_MARGIN)
+    scales = _scale(x_label, window.x, window.width, turn), _scale(y_label, window.y, window.height)
+    notes = scales if area is not None else ()
+    return finish(Draft(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN)
 
 
 def polar(
-    series: Series, x_label: Content, y_label: Content = "", *, title: str = "", size: float = POLAR_SIZE
+    series: Series,
+    x_label: Content,
+    y_label: Content = "",
+    *,
+    title: str = "",
+    size: float = POLAR_SIZE,
+    area: Area | None = None,
 ) -> Scene:
     """The hodograph of a vector (x, y) about the pole with equal scales, its marks and the axes named.
 
-    Its longer side inside the axes is `size` mm.
+    Its longer side inside the axes is `size` mm; in an `area` its scale is round and printed.
     """
     x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
     step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / TICKS, (1, 2, 5))
     (x0, x1), (y0, y1) = _rounded(x, step), _rounded(y, step)
     per = size / max(x1 - x0, y1 - y0)
+    if area is not None:
+        per = 1 / area.per_mm(max((x1 - x0) / area.width, (y1 - y0) / area.height), 1.0) / area.enlarged
     window = _Window((x0, x1), (y0, y1), (x1 - x0) * per, (y1 - y0) * per)
     items = _frame(window, _steps(x0, x1, step), _steps(y0, y1, step), "")
     items += [Line(window.at(x0, 0), window.at(x1, 0), EDGE), Line(window.at(0, y0), window.at(0, y1), EDGE)]
@@ -146,7 +173,8 @@ def polar(
     requests = _marked(series, vertices, PENS[0], items)
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
     items += _titles(window, x_label, y_label, items)
-    return finish(Draft(tuple(items), tuple(requests)), title=title, margin=2.0)
+    notes = () if area is None else (_scale(x_label, window.x, window.width),)
+    return finish(Draft(tuple(items), tuple(requests)), notes=notes, title=title, margin=2.0)
 
 
 def bars(names: Sequence[Content], counts: Sequence[int], x_label: Content) -> Scene:
@@ -196,7 +224,7 @@ def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y
 
 
 def _window(
-    series: Sequence[Series], levels: Sequence[float], turn: bool, half: bool
+    series: Sequence[Series], levels: Sequence[float], turn: bool, half: bool, area: Area | None
 ) -> tuple[_Window, list[float], list[float]]:
     """Ranges and ticks: whole multiples of 45, 90 or 180 degrees across, matplotlib's choice upwards."""
     from matplotlib.ticker import MaxNLocator, MultipleLocator
@@ -215,8 +243,25 @@ def _window(
     else:
         x_ticks = [float(t) for t in MaxNLocator(5 if half else 9).tick_values(x0, x1)]
         x0, x1 = x_ticks[0], x_ticks[-1]
-    width, height = (HALF_WIDTH - _beside(x_ticks, y_ticks), HALF_HEIGHT) if half else (WIDTH, HEIGHT)
+    across, up = x1 - x0, y_ticks[-1] - y_ticks[0]
+    if area is not None:
+        scales = area.per_mm(across, area.width), area.per_mm(up, area.height)
+        width, height = across / scales[0] / area.enlarged, up / scales[1] / area.enlarged
+    else:
+        width, height = (HALF_WIDTH - _beside(x_ticks, y_ticks), HALF_HEIGHT) if half else (WIDTH, HEIGHT)
     return _Window((x0, x1), (y_ticks[0], y_ticks[-1]), width, height), x_ticks, y_ticks
+
+
+def _scale(label: Content, ends: tuple[float, float], length: float, degrees: bool = False) -> Content:
+    """The scale of an axis: μ_M = 2 N·m/mm, for the name of the axis "M (N·m; positive: …)"."""
+    named = label.parts[0] if isinstance(label, Chain) else None
+    shown = Symbol("μ", named.base) if isinstance(named, Symbol) else Symbol("μ")
+    text = label.note if isinstance(label, Chain) else str(label)
+    unit = "°" if degrees else text.partition(";")[0].rpartition(", ")[2]
+    above, stroke, below = unit.partition("/")
+    below = below.strip("()")
+    per_mm = f"{above}/({below}·mm)" if stroke else f"{unit}/mm"
+    return Chain((shown, Number(float(f"{(ends[1] - ends[0]) / length:.9g}"), unit=per_mm)))
 
 
 def _beside(x_ticks: Sequence[float], y_ticks: Sequence[float]) -> float:

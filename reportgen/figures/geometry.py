@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.figures.metrics import box
-from reportgen.figures.scene import Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline
+from reportgen.figures.scene import Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline, Stroke
 
 Complexes = NDArray[np.complex128]
 Floats = NDArray[np.float64]
@@ -109,6 +109,29 @@ def moved(item: Item, by: complex) -> Item:
             return replace(item, points=tuple(point + by for point in points))
         case Label(at):
             return replace(item, at=at + by)
+
+
+def enlarged(item: Item, factor: float) -> Item:
+    """The item as a photographic enlargement about the origin shows it: pens, arrowheads and letters grow too."""
+
+    def pen(stroke: Stroke) -> Stroke:
+        return replace(stroke, width=factor * stroke.width, dash=tuple(factor * part for part in stroke.dash))
+
+    match item:
+        case Line(start, end, stroke):
+            return Line(start * factor, end * factor, pen(stroke))
+        case Arrow(start, end, stroke, head):
+            return replace(item, start=start * factor, end=end * factor, stroke=pen(stroke), head=head * factor)
+        case Circle(centre, radius, outline):
+            return replace(item, centre=centre * factor, radius=radius * factor, stroke=outline and pen(outline))
+        case Arc(centre, radius, _, _, stroke, head):
+            return replace(item, centre=centre * factor, radius=radius * factor, stroke=pen(stroke), head=head * factor)
+        case Polyline(points, outline):
+            return replace(item, points=tuple(p * factor for p in points), stroke=outline and pen(outline))
+        case Hatch(points, spacing, stroke):
+            return replace(item, points=tuple(p * factor for p in points), spacing=spacing * factor, stroke=pen(stroke))
+        case Label(at, _, _, size):
+            return replace(item, at=at * factor, size=size * factor)
 
 
 def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[complex, complex] | None:

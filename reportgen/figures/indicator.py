@@ -75,11 +75,14 @@ class Frame:
 
 
 def beside(
-    top: complex, bottom: complex, side: complex, distance: float, highest: float
+    top: complex, bottom: complex, side: complex, distance: float, highest: float, enlarged: float = 1.0
 ) -> tuple[complex, complex, float]:
-    """The ends of the diagram's axis, `distance` mm beside the cylinder, and the μ_p that makes it fit."""
+    """The ends of the diagram's axis, `distance` mm beside the cylinder, and the μ_p that makes it fit.
+
+    μ_p is round once the drawing is `enlarged` so many times.
+    """
     away = unit(side) * distance
-    return top + away, bottom + away, nice_up(highest / WIDTH)
+    return top + away, bottom + away, nice_up(highest / WIDTH / enlarged) * enlarged
 
 
 def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Reading] = ()) -> Draft:

@@ -65,12 +65,19 @@ def box(content: Content, size: float = 9.0) -> Box:
 
 
 def _text(text: str, em: float, italic: bool = False) -> Box:
-    glyphs = [(italic and ITALIC.get(letter)) or ROMAN.get(letter, (1000, 750, 200)) for letter in text]
+    glyphs = [(italic and ITALIC.get(letter)) or ROMAN.get(letter) or _unknown(letter) for letter in text]
     if not glyphs:
         return Box(0.0, 0.0, 0.0)
     k = em / 1000
     advances, heights, depths = zip(*glyphs, strict=True)
     return Box(k * sum(advances), k * max(heights), k * max(depths))
+
+
+def _unknown(letter: str) -> tuple[int, int, int]:
+    """A letter that the table lacks: one of an alphabet is as wide as a wide letter, any other as one em."""
+    if letter.isalpha() and letter < "\u2000":
+        return (700 if letter.isupper() else 600), 750, 200
+    return 1000, 750, 200
 
 
 def _joined(parts: list[Box], em: float, gap: float) -> Box:

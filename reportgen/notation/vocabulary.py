@@ -345,6 +345,17 @@ def plan(id: str) -> str:
     return found.plan.format(**parts)
 
 
+_PLAN = re.compile(r"plan\.([^.]+)\..+")
+
+
+def scale_on_paper(id: str) -> str:
+    """The id of the scale of a length or a point on paper; "" for anything else."""
+    if is_laid(id):
+        return "mu.l"
+    point_of = _PLAN.fullmatch(id)
+    return f"mu.{point_of[1]}" if point_of else plan(id)
+
+
 def is_laid(id: str) -> bool:
     """Whether it is a length or vector as it is laid off on paper."""
     return id.startswith("laid.")

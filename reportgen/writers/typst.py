@@ -15,7 +15,9 @@ from itertools import pairwise
 
 from reportgen.document import tree
 from reportgen.errors import TypesetterError
+from reportgen.figures.geometry import moved
 from reportgen.figures.scene import Scene
+from reportgen.figures.sheet import Sheet
 from reportgen.notation.expressions import Chain, Expression, Number, Product, Sum, Symbol, VectorEquation, walk
 from reportgen.notation.numbers import Language
 from reportgen.notation.numbers import write as written
@@ -103,6 +105,8 @@ def _superscript(text: str) -> str:
 
 LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
+SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
+#show math.equation: set text(font:"New Computer Modern Math")"""
 UNSETTLED = "#let settled = (:)"
 HELD = 40
 """A plate waits for the end of its page behind at most so many blocks."""
@@ -180,6 +184,14 @@ def write(document: tree.Document) -> str:
     )
     body = _Blocks(document.language, document.words).write(document.blocks)
     return f"{_frame()}\n#show: report.with({opening})\n\n{body}\n"
+
+
+def write_sheet(sheet: Sheet, title: str, language: Language) -> str:
+    """The Typst source of a drawing sheet, one page of its own size; it needs no other file."""
+    items = tuple(moved(item, part.at) for part in sheet.parts for item in part.scene.items)
+    drawing = paint_typst(Scene(sheet.width, sheet.height, items), TypstFormulas(language))
+    page = f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[#{drawing}]"
+    return "\n".join((_frame(), f"#set document(title:{literal(title)},date:none)", SHEET_LOOK, page, ""))
 
 
 def _frame() -> str:

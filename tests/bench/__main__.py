@@ -64,6 +64,16 @@ class Bench:
         options = ("--out", str(self.folder / engine), "--engine", engine, "--keep-source")
         return run((sys.executable, "-c", BUILD, "build", str(self.file), *options), self.folder, self.installed())
 
+    def drawn(self) -> Cost:
+        """All drawing sheets of the usual size, in both formats."""
+        options = ("--out", str(self.folder / "sheets"), "--size", "A1")
+        return run((sys.executable, "-c", BUILD, "sheet", str(self.file), *options), self.folder, self.installed())
+
+    def solved(self) -> Cost:
+        """The results alone."""
+        options = ("--json", str(self.folder / "results.json"))
+        return run((sys.executable, "-c", BUILD, "solve", str(self.file), *options), self.folder, self.installed())
+
     def installed(self) -> dict[str, str]:
         """The checkout before whatever is installed, with its bytecode kept as that of an installed package is."""
         bytecode = {"PYTHONPYCACHEPREFIX": str(self.folder / "bytecode"), "PYTHONDONTWRITEBYTECODE": ""}
@@ -100,7 +110,7 @@ class Bench:
             self.build(engine)
         size = self.ask("-m", "tests.bench.size", str(self.file), str(self.report(self.engines[0])))
         tasks: dict[str, Callable[[], Cost]] = {engine: partial(self.build, engine) for engine in self.engines}
-        tasks["typst alone"] = self.typst_alone
+        tasks |= {"typst alone": self.typst_alone, "sheets": self.drawn, "solve": self.solved}
         passes = 0
         if "latex" in self.engines:
             passes = int(self.ask("-c", PASSES, str(self.source("latex"))))
@@ -113,6 +123,8 @@ class Bench:
             yield from _against_plain(costs, json.loads(size))
         else:
             yield Row("rows with LaTeX, plain script", "", "skipped", "pdflatex is not installed")
+        count = len(list((self.folder / "sheets" / self.file.stem).glob("*.dxf")))
+        yield _per_sheet(middle(costs["sheets"]), middle(costs["solve"]), count)
         yield _solving(json.loads(self.ask("-m", "tests.bench.solving", str(self.file), str(POSITIONS))))
         for name in (*self.engines, "typst alone"):
             yield Row(f"peak memory, {name}", "", f"{middle(costs[name]).memory:.0f} MB")
@@ -132,6 +144,12 @@ def _against_plain(costs: Mapping[str, Sequence[Cost]], size: Mapping[str, int])
     for engine, detail in zip(("typst", "latex"), details, strict=True):
         faster = ratio(costs["plain"], costs[engine])
         yield Row(f"plain script / build, {engine}", "≥ 5", f"{faster:.2f}", detail)
+
+
+def _per_sheet(sheets: Cost, solve: Cost, count: int) -> Row:
+    each = (sheets.seconds - solve.seconds) / count
+    detail = f"{count} sheets A1, PDF and DXF, {sheets.seconds:.2f} s; results alone {solve.seconds:.2f} s"
+    return Row("a drawing sheet beyond the analysis", "≤ 1 s", f"{each:.2f} s", detail)
 
 
 def _solving(taken: dict[str, float]) -> Row:

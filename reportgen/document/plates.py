@@ -1,0 +1,320 @@
+"""What drawing sheets show: series of plates, each of one name, drawn from the report's own figures.
+
+The plates of a series have one scale, which is chosen for the sheet.  A series is drawn from a report whose ledger is
+redrawn to that scale (`Case.redrawn`), so that lengths in its tables are those that a ruler finds on the sheet.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Literal
+
+import numpy as np
+
+from reportgen.document.centres import centre_state, centres
+from reportgen.document.curves import flywheel_speed, flywheel_torque, flywheel_work, motion, polar, torque, wittenbauer
+from reportgen.document.figures import MM, SHOWN_AT, Drawn, indicator, positions_scene, scheme_scene
+from reportgen.document.force_figures import lever, separated, separated_driver
+from reportgen.document.plans import force_plan, motion_plan
+from reportgen.document.report import Report
+from reportgen.document.result_tables import (
+    acceleration_segments,
+    accelerations,
+    balance,
+    gas,
+    inertia,
+    reactions,
+    velocities,
+    velocity_segments,
+)
+from reportgen.figures.charts import Area
+from reportgen.figures.draft import MARGIN
+from reportgen.figures.grid import grid
+from reportgen.figures.lettering import ENLARGED
+from reportgen.figures.plan import Plan, plan
+from reportgen.figures.scene import Content, Scene
+from reportgen.ledger.forces.polygon import Polygon
+from reportgen.ledger.kinematics.linkage import What
+from reportgen.ledger.scales import extents
+from reportgen.notation.expressions import Number
+
+Set = Literal["kinematics", "forces"]
+SETS: tuple[Set, ...] = ("kinematics", "forces")
+Drawing = tuple[str, Scene]
+"""Where it applies, in words, and what is drawn."""
+MOST_COLUMNS = 9
+"""Columns of one table."""
+WIDEST = 180.0
+"""Width of one table on a sheet, mm."""
+NAMES: dict[What, str] = {"v": "velocity", "a": "acceleration"}
+SEGMENT = 2
+"""Decimals of lengths on paper, mm."""
+CURVE = "curve"
+"""In place of a scale's id: the axes of curves have scales of their own."""
+FINE = (1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.4, 8)
+"""Steps in the height of curves, whose scales are made round afterwards."""
+WHOLE, HALF = (1, 2, 2.5, 4, 5), (1, 2, 2.5, 5)
+"""The series of round scales, and those that are round when a part is drawn at half the scale."""
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """Plates of one name, in a set and on a layer, and how to draw them.
+
+    `scale` is the id of their scale, "" if they have none; series of one `scale` and `key` share it.  `size` is the
+    largest width or height of what they show (SI), as it is without a scale.
+    """
+
+    name: str
+    belongs: Set
+    layer: str
+    draw: Callable[[Report], Iterator[Drawing]]
+    scale: str = ""
+    key: str = ""
+    size: float = 0.0
+    steps: Sequence[float] = WHOLE
+
+    @property
+    def scaled(self) -> tuple[str, str]:
+        """What tells its scale from others."""
+        return self.scale, self.key
+
+    def to_scale(self, report: Report, scale: float) -> Report:
+        """The report that the series is drawn from, at its scale on the sheet (SI); of curves 1/scale is the height.
+
+        It draws for the enlargement that follows; numbers in tables are those of the sheet itself.
+        """
+        if self.scale == CURVE:
+            height = MM / scale / ENLARGED
+            return replace(report, area=Area(2 * height, height, ENLARGED))
+        if not scale:
+            return report
+        enlarged = 1.0 if self.layer == "tables" else ENLARGED
+        return replace(report, case=report.case.redrawn({self.scale: scale * enlarged}), area=Area(enlarged=ENLARGED))
+
+    @property
+    def is_whole_machine(self) -> bool:
+        """Whether it shows all of the machine at all positions."""
+        return self.name in ("positions", "indicator")
+
+
+def all_series(report: Report) -> list[Series]:
+    """The series of a report's plates in the order of the work."""
+    return [*_kinematics(report), *(_forces(report) if report.has_forces else ())]
+
+
+# --- motion
+
+
+def _kinematics(report: Report) -> Iterator[Series]:
+    one = partial(Series, belongs="kinematics")
+    whole, at_once = _extent(report), _extent(report, slice(SHOWN_AT, SHOWN_AT + 1))
+    yield one("scheme", layer="scheme", draw=_scheme, scale="mu.l", key="scheme", size=at_once)
+    yield one("positions", layer="positions", draw=_positions, scale="mu.l", size=whole)
+    for what, name in NAMES.items():
+        size = _on_plan(report, f"plan.{what}.", f"mu.{what}")
+        yield one(name, layer=name, draw=partial(_motion_plans, what=what), scale=f"mu.{what}", size=size)
+    for k in report.worked:
+        if any(centre_state(report, link, k) == "found" for link in report.plane_links):
+            draw = partial(_centres, k=k)
+            yield one("centres", layer="velocity", draw=draw, scale="mu.l", key="centres", size=whole)
+    yield _curve("motion", "kinematics", motion)
+    yield one("dimensions", layer="tables", draw=_dimensions, scale="mu.l")
+    yield one("velocities", layer="tables", draw=_table(velocity_segments, velocities), scale="mu.v")
+    yield one("accelerations", layer="tables", draw=_table(acceleration_segments, accelerations), scale="mu.a")
+
+
+def _extent(report: Report, at: slice = slice(None)) -> float:
+    """The largest side (m) of the box around all points of the mechanism at some positions together."""
+    points = [place for point in report.analysis.motion.points.values() for place in point.p[at]]
+    return _largest(extents(np.array(points)[:, None], 1))
+
+
+def _largest(sizes: np.ndarray) -> float:
+    return float(np.nanmax(sizes, initial=0.0))
+
+
+def _on_plan(report: Report, prefix: str, scale: str) -> float:
+    """The largest side (SI) of the plans whose points have ids that begin so, at all positions that are drawn."""
+    families = [family for id, family in report.ledger.families.items() if id.startswith(prefix)]
+    if not families:
+        return 0.0
+    at = [k - 1 for k in report.plates]
+    count = report.cycle_count
+    points = [np.broadcast_to(family.values, (count,)) for family in families]
+    sizes = extents([*points, np.zeros(count)], count) * report.ledger[scale].values
+    return _largest(sizes[:, at])
+
+
+def _place(report: Report, k: int, of: str = "") -> str:
+    """Position 2, or of a part: Group (2,3), position 2."""
+    word = report.words["table"]["position"]
+    return f"{of}, {word.lower()} {report.machine.position(k)}" if of else f"{word} {report.machine.position(k)}"
+
+
+def _scheme(report: Report) -> Iterator[Drawing]:
+    yield "", scheme_scene(report, 1.0)
+
+
+def _positions(report: Report) -> Iterator[Drawing]:
+    yield "", positions_scene(report)
+
+
+def _motion_plans(report: Report, what: What) -> Iterator[Drawing]:
+    """The plans of one turn; a sheet shows no lines of construction."""
+    for k in sorted({(k - 1) % report.count + 1 for k in report.plates}):
+        drawing = motion_plan(report, what, k)
+        if drawing.drawn():
+            yield _place(report, k), _plain(drawing)
+
+
+def _plain(drawing: Plan) -> Scene:
+    return plan(drawing, enlarged=False, margin=MARGIN / 2)
+
+
+def _centres(report: Report, k: int) -> Iterator[Drawing]:
+    for scene in centres(report, k).scenes:
+        yield _place(report, k), scene
+
+
+# --- forces
+
+
+def _forces(report: Report) -> Iterator[Series]:
+    one, whole = partial(Series, belongs="forces", layer="forces"), _extent(report)
+    if report.has_gas:
+        yield one("indicator", layer="indicator", draw=_indicator, scale="mu.l", key="indicator", size=2 * whole)
+    for k in report.worked_forces:
+        yield one("bodies", draw=partial(_bodies, k=k), scale="mu.l", key="bodies", size=whole, steps=HALF)
+    for group in reversed(report.groups):
+        if group.polygon is not None:
+            yield _plans_of(report, group.polygon, str(group))
+    if report.driver_polygon is not None:
+        yield _plans_of(report, report.driver_polygon, "")
+    for k in report.worked_forces:
+        size = _on_plan(report, "plan.v.", "mu.v")
+        yield one("lever", draw=partial(_lever, k=k), scale="mu.v", key="lever", size=size)
+    yield _curve("torque", "forces", torque)
+    if report.loads_crank and report.driver.centre:
+        yield _curve("polar", "forces", polar)
+    if report.flywheel is not None:
+        yield _curve("flywheel-torque", "forces", flywheel_torque)
+        yield _curve("flywheel-work", "forces", flywheel_work)
+        if report.has_reduced_inertia:
+            yield _curve("wittenbauer", "forces", wittenbauer)
+        if report.needs_flywheel:
+            yield _curve("flywheel-speed", "forces", flywheel_speed)
+    for name, ids in (("loads", (gas, applied, inertia)), ("reactions", (reactions,)), ("balance", (balance,))):
+        yield one(name, layer="tables", draw=_table(*ids, cycle=True))
+
+
+def _plans_of(report: Report, polygon: Polygon, group: str) -> Series:
+    """The force plans of one group at all positions; the driver has no name."""
+    scale = f"mu.R{polygon.name}"
+
+    def drawings(report: Report) -> Iterator[Drawing]:
+        for k in report.plates:
+            drawing = force_plan(report, polygon, k)
+            if drawing.drawn():
+                yield _place(report, k, _of(report, group)), _plain(drawing)
+
+    size = _on_plan(report, f"plan.R{polygon.name}.", scale)
+    return Series("forces", "forces", "forces", drawings, scale, size=size)
+
+
+def _of(report: Report, group: str) -> str:
+    words = report.words["figure"]
+    return str(words["group"]).format(i=group[0], j=group[1]) if group else str(words["driver"])
+
+
+def _indicator(report: Report) -> Iterator[Drawing]:
+    yield "", indicator(report).scenes[0]
+
+
+def _bodies(report: Report, k: int) -> Iterator[Drawing]:
+    for group in reversed(report.groups):
+        if group.polygon is not None:
+            for scene in separated(report, k, group):
+                yield _place(report, k, scene.title), scene
+    yield _place(report, k, _of(report, "")), separated_driver(report, k)
+
+
+def _lever(report: Report, k: int) -> Iterator[Drawing]:
+    yield _place(report, k), lever(report, k).scenes[0]
+
+
+def applied(report: Report) -> list[str]:
+    """The loads other than of gas."""
+    return report.known(load.name for load in report.loads)
+
+
+# --- curves and tables
+
+
+def _curve(name: str, belongs: Set, draw: Callable[[Report], Drawn]) -> Series:
+    """A figure with curves, whose height can be chosen."""
+
+    def drawings(report: Report) -> Iterator[Drawing]:
+        for scene in draw(report).scenes:
+            yield scene.title, scene
+
+    return Series(name, belongs, "curves", drawings, CURVE, name, 1.0, FINE)
+
+
+def _table(*listed: Callable[[Report], Sequence[str]], cycle: bool = False) -> Callable[[Report], Iterator[Drawing]]:
+    """Quantities at the positions of one turn or of the cycle, as many tables as they need."""
+
+    def drawings(report: Report) -> Iterator[Drawing]:
+        at = report.all_positions if cycle else report.positions
+        found = dict.fromkeys(id for ids in listed for id in ids(report))
+        shown = [id for id in found if not all(report.is_zero(id, k) for k in at)]
+        while shown:
+            counts = range(min(len(shown), MOST_COLUMNS), 1, -1)
+            count = next((n for n in counts if _is_narrow(report, shown[:n], at)), 1)
+            yield "", _quantities(report, shown[:count], at)
+            shown = shown[count:]
+
+    return drawings
+
+
+def _is_narrow(report: Report, ids: Sequence[str], positions: Sequence[int]) -> bool:
+    """Whether a table of quantities stands beside the title block of any sheet."""
+    return ENLARGED * _quantities(report, ids, positions).width <= WIDEST
+
+
+def _quantities(report: Report, ids: Sequence[str], positions: Sequence[int]) -> Scene:
+    head = [
+        [report.words["table"]["position"], *(report.ledger.symbol(id) for id in ids)],
+        ["", *(_unit(report, id) for id in ids)],
+    ]
+    rows = [[str(report.machine.position(k)), *(_bare(report, id, k) for id in ids)] for k in positions]
+    return grid(head, rows)
+
+
+def _unit(report: Report, id: str) -> str:
+    unit = report.ledger[id].how.unit
+    return str(report.ledger.units.get(unit, unit))
+
+
+def _bare(report: Report, id: str, k: int | None) -> Content:
+    """A number without its unit, a dash for what does not exist."""
+    number = report.ledger.number(id, k)
+    if report.ledger[id].kind == "segment" and number.value:
+        return Number(number.value, SEGMENT)
+    if math.isnan(number.value) or (report.ledger[id].is_direction and report.is_zero(report.ledger[id].of, k)):
+        return "–"
+    return Number(number.value, number.decimals)
+
+
+def _dimensions(report: Report) -> Iterator[Drawing]:
+    """True lengths with those drawn at the scale of the position plan."""
+    ledger, words = report.ledger, report.words["plates"]
+    rows = [
+        [ledger.symbol(id), _bare(report, id, None), _unit(report, id), _bare(report, f"drawn.{id[2:]}", None)]
+        for id in report.lengths
+    ]
+    if rows:
+        yield "", grid([words["dimension-heads"]], rows)

@@ -1,0 +1,148 @@
+"""The command, the batch and the title blocks: what they write, and what they say of wrong input."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import get_args
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from reportgen import api
+from reportgen.cli import app
+from reportgen.document.title_block import DEFAULT, FIELDS, blocks, read_block
+from reportgen.errors import AssignmentError, SheetError
+from reportgen.figures.scene import Label
+from reportgen.notation.numbers import Language
+from tests.batch.classes import here, write_class
+from tests.sheets.laid import ROOT
+
+SMALL = ROOT / "assignments" / "four-bar-02.yaml"
+
+
+def run(*arguments: object) -> Result:
+    return CliRunner().invoke(app, ["sheet", *map(str, arguments)])
+
+
+def test_sheets_are_written_as_both_files_and_an_earlier_set_goes(tmp_path: Path) -> None:
+    folder = tmp_path / SMALL.stem
+    folder.mkdir()
+    for name in ("sheet-9.pdf", "sheet-9.dxf", "sheet-mine.pdf", "report.pdf"):
+        (folder / name).write_bytes(b"earlier")
+    done = run(SMALL, "--out", tmp_path)
+    assert (done.exit_code, done.stderr) == (0, "")
+    names = {path.name for path in folder.iterdir()}
+    assert {"sheet-1.pdf", "sheet-1.dxf", "sheet-mine.pdf", "report.pdf"} <= names
+    assert not {"sheet-9.pdf", "sheet-9.dxf"} & names
+    assert {str(folder / name) for name in names if name[6:7].isdigit()} == set(done.stdout.split())
+
+
+def test_a_set_and_a_format_alone(tmp_path: Path) -> None:
+    done = run(SMALL, "--out", tmp_path, "--set", "kinematics", "--format", "dxf", "--size", "A2", "--block", "gost")
+    assert (done.exit_code, done.stderr) == (0, "")
+    assert {path.suffix for path in (tmp_path / SMALL.stem).iterdir()} == {".dxf"}
+
+
+@pytest.mark.parametrize(
+    "wrong", [("--size", "A5"), ("--set", "all-of-it"), ("--format", "svg"), ("--block", "no-such-block")]
+)
+def test_unknown_choices_are_wrong_usage(tmp_path: Path, wrong: tuple[str, str]) -> None:
+    done = run(SMALL, "--out", tmp_path, *wrong)
+    assert done.exit_code == 2
+    assert not (tmp_path / SMALL.stem).exists()
+
+
+def test_a_plate_larger_than_the_paper_is_named() -> None:
+    with pytest.raises(SheetError, match="Đồ thị công"):
+        api.sheet_files(ROOT / "assignments" / "engine-v-02.yaml", size="A3", formats=())
+
+
+@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="an administrator may write anywhere")
+def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:
+    tmp_path.chmod(0o500)
+    done = run(SMALL, "--out", tmp_path / "below")
+    assert done.exit_code == 3
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_out_that_is_a_file_is_told(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("mine")
+    done = run(SMALL, "--out", tmp_path / "file")
+    assert done.exit_code == 3
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+# --- title blocks
+
+
+@pytest.mark.parametrize("name", ["tcvn", "gost", "gb", "iso"])
+def test_a_block_has_every_mandatory_cell(name: str) -> None:
+    block = read_block(blocks()[name])
+    # Letters that have room in any cell.
+    marks = dict(zip(sorted(FIELDS), "abcdefghijklmnop", strict=False))
+    shown = [str(item.content) for item in block.scene(marks).items if isinstance(item, Label)]
+    empty = [str(item.content) for item in block.scene({}).items if isinstance(item, Label)]
+    filled = " ".join(text for text in shown if text not in empty) + block.note(marks).replace(block.note({}), "")
+    for field in FIELDS - {"class"}:
+        assert marks[field] in filled, field
+
+
+@pytest.mark.parametrize(("name", "size"), [("tcvn", (185, 55)), ("gost", (185, 55)), ("gb", (180, 56))])
+def test_a_block_has_the_size_of_its_standard(name: str, size: tuple[float, float]) -> None:
+    assert read_block(blocks()[name]).size == size
+
+
+def test_each_language_has_a_block() -> None:
+    assert set(DEFAULT) == set(get_args(Language))
+    assert set(DEFAULT.values()) <= set(blocks())
+
+
+BLOCK = """\
+width: 100
+height: 20
+cells:
+  - {x: 0, y: 0, width: 60, height: 20, text: "{machine}", letters: 5}
+  - {x: 60, y: 0, width: 40, height: 20, text: "{sheet} of {sheets}"}
+"""
+
+
+def test_a_school_draws_a_block_of_its_own(tmp_path: Path) -> None:
+    (tmp_path / "ours.yaml").write_text(BLOCK)
+    done = run(SMALL, "--out", tmp_path, "--block", tmp_path / "ours.yaml", "--format", "dxf")
+    assert (done.exit_code, done.stderr) == (0, "")
+    assert " of " in (tmp_path / SMALL.stem / "sheet-1.dxf").read_text()
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right", "fault"),
+    [
+        ("width: 40", "width: 50", ":5:5: error[block-outside]"),
+        ("{machine}", "{mashine}", ":4:47: error[block-field]"),
+        ("letters: 5", "letters: 1", ":4:69: error[out-of-range]"),
+        ("width: 100", "wide: 100", ":1:1: error[unknown-key]"),
+    ],
+)
+def test_a_wrong_block_is_located(tmp_path: Path, wrong: str, right: str, fault: str) -> None:
+    file = tmp_path / "ours.yaml"
+    file.write_text(BLOCK.replace(wrong, right))
+    with pytest.raises(AssignmentError, match=r"^.*") as caught:
+        read_block(file, "en")
+    assert any(f"ours.yaml{fault}" in str(problem) for problem in caught.value.problems), caught.value
+
+
+# --- a class
+
+
+def test_a_batch_makes_sheets_of_a_class(tmp_path: Path) -> None:
+    from io import StringIO
+
+    from reportgen.batch.run import Order, run_batch
+
+    text = SMALL.read_text(encoding="utf-8")
+    roster, given = write_class(tmp_path, {"K1": text, "K2": text.replace("40 mm", "42 mm", 1)})
+    order = Order(roster, None, given, tmp_path / "out", ("sheet",), language="en")
+    done = run_batch(order, StringIO(), pool=here)
+    assert (done.made, done.exit_code) == (2, 0)
+    first, second = ((tmp_path / "out" / id / "sheet-1.dxf").read_bytes() for id in ("K1", "K2"))
+    assert first != second

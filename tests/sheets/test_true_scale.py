@@ -1,0 +1,148 @@
+"""A ruler on the print and a distance query in CAD give value/μ; both files draw the same."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Iterator
+from functools import cache
+from typing import Any
+
+import pytest
+
+from reportgen.figures.scene import Arrow
+from reportgen.figures.sheet import Sheet
+from reportgen.writers import dxf, typst
+from tests.sheets.laid import MACHINES, Laid, laid, plates
+
+ezdxf = pytest.importorskip("ezdxf")
+pymupdf = pytest.importorskip("pymupdf")
+pages = pytest.importorskip("tests.reports.pages")
+
+CAD = 1e-4
+"""Places in a DXF file are written to a millionth of a millimetre."""
+RULER = 0.02
+"""Millimetres: places in the PDF are written to a thousandth, its heads to the angle of the arrow."""
+
+
+@cache
+def in_cad(name: str, number: int) -> Any:
+    return ezdxf.read(io.StringIO(dxf.write_sheet(laid(name, "A1").sheets[number], "vi").decode()))
+
+
+def lengths(name: str) -> Iterator[tuple[str, str, float, list[float]]]:
+    """(plate, place, μ as printed, the lengths of its lines in CAD) of the plates of all sheets."""
+    for number in range(len(laid(name, "A1").sheets)):
+        for plate, group in in_cad(name, number).groups:
+            texts = [entity.text for entity in group if entity.dxftype() == "MTEXT"]
+            lines = [entity for entity in group if entity.dxftype() == "LINE"]
+            scale = next((found for text in texts if (found := re.search(r"^μ.*? = ([\d,]+) ", text))), None)
+            if scale:
+                found = [line.dxf.start.distance(line.dxf.end) for line in lines]
+                word = laid(name, "A1").case.words["table"]["position"]
+                place = next((text for text in texts if text.startswith(f"{word} ")), "")
+                yield plate, place, float(scale[1].replace(",", ".")), found
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_every_velocity_and_acceleration_measures_its_value_over_the_scale(name: str) -> None:
+    motion, measured = laid(name, "A1").case.analysis.motion, 0
+    heads = {"v": "velocity", "a": "acceleration"}
+    named = titles(laid(name, "A1"))
+    for plate, place, scale, found in lengths(name):
+        for what, title in heads.items():
+            if named[plate] != laid(name, "A1").case.words["plates"][title]:
+                continue
+            k = position(laid(name, "A1"), place)
+            for point, rates in motion.points.items():
+                length = abs(complex(getattr(rates, what)[k])) / scale
+                if length > 1.0 and point in drawn(laid(name, "A1"), plate):
+                    assert min(abs(one - length) for one in found) < CAD * max(length, 1.0), (plate, point)
+                    measured += 1
+    assert measured > 8
+
+
+def titles(of: Laid) -> dict[str, str]:
+    """The name of each plate, as its heading has it."""
+    found = {}
+    for sheet in of.sheets:
+        for part in plates(sheet):
+            heads = [str(getattr(item, "content", "")) for item in part.scene.items]
+            found[part.name] = next(head for head in heads if head.startswith(f"{part.name}. ")).split(". ", 1)[1]
+    return found
+
+
+def position(of: Laid, place: str) -> int:
+    """The index of a position by its label."""
+    label = place.rpartition(" ")[2]
+    machine = of.case.analysis.machine
+    return next(k for k in range(machine.positions) if str(machine.position(k + 1)) == label)
+
+
+def drawn(of: Laid, plate: str) -> set[str]:
+    """The names of the arrows of a plate: those of points, whose own velocities or accelerations they are."""
+    part = next(part for sheet in of.sheets for part in plates(sheet) if part.name == plate)
+    return {item.name for item in part.scene.items if isinstance(item, Arrow)}
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_all_arrows_are_as_long_on_paper_as_in_cad(name: str) -> None:
+    found = laid(name, "A1")
+    for number, sheet in enumerate(found.sheets):
+        with pymupdf.open(stream=typst.compile(typst.write_sheet(sheet, "", "vi")), filetype="pdf") as pdf:
+            assert pdf.page_count == 1
+            size = pdf[0].rect
+            assert abs(size.width / pages.MM - sheet.width) < 0.1
+            assert abs(size.height / pages.MM - sheet.height) < 0.1
+            on_paper = list(pages.arrows(pdf[0]))
+        expected = [abs(item.end - item.start) for item in arrows(sheet)]
+        assert len(on_paper) == len(expected)
+        assert all(abs(one - other) < RULER for one, other in zip(on_paper, expected, strict=True))
+        in_file = cad_arrows(in_cad(name, number))
+        assert len(in_file) == len(expected)
+        assert all(abs(one - other) < CAD for one, other in zip(in_file, expected, strict=True))
+
+
+def arrows(sheet: Sheet) -> Iterator[Arrow]:
+    for part in sheet.parts:
+        for item in part.scene.items:
+            if isinstance(item, Arrow) and abs(item.end - item.start) > 0:
+                yield item
+
+
+def cad_arrows(document: Any) -> list[float]:
+    """Lengths of the lines that end in an arrowhead, in the order of the file."""
+    found, before = [], None
+    for entity in document.modelspace():
+        if entity.dxftype() == "INSERT" and entity.dxf.name == "ARROWHEAD" and before.dxftype() == "LINE":
+            assert entity.dxf.insert.distance(before.dxf.end) < CAD
+            found.append(before.dxf.start.distance(before.dxf.end))
+        before = entity
+    return found
+
+
+@pytest.mark.parametrize("name", MACHINES[:4])
+def test_the_file_is_sound_and_shows_the_whole_sheet(name: str) -> None:
+    from ezdxf.addons.drawing import Frontend, RenderContext
+    from ezdxf.addons.drawing.recorder import Recorder
+
+    document, sheet = in_cad(name, 0), laid(name, "A1").sheets[0]
+    audit = document.audit()
+    assert (audit.errors, audit.fixes) == ([], [])
+    assert document.header["$INSUNITS"] == 4
+    assert {group for group, _ in document.groups} == {part.name for part in sheet.parts}
+    # Drawn again by the library's own renderer it has the size of the paper.
+    recorder = Recorder()
+    Frontend(RenderContext(document), recorder).draw_layout(document.modelspace())
+    box = recorder.player().bbox()
+    assert abs(box.size.x - sheet.width) < 0.01
+    assert abs(box.size.y - sheet.height) < 0.01
+    # The paper-space page shows all of model space, 1:1.
+    (window,) = document.layout("Layout1").query("VIEWPORT[id>1]")
+    assert window.dxf.view_height == window.dxf.height == sheet.height
+
+
+def test_the_same_sheet_gives_the_same_bytes() -> None:
+    sheet = laid("four-bar-01", "A1").sheets[0]
+    assert dxf.write_sheet(sheet, "vi") == dxf.write_sheet(sheet, "vi")
+    assert typst.compile(typst.write_sheet(sheet, "", "vi")) == typst.compile(typst.write_sheet(sheet, "", "vi"))
