@@ -118,11 +118,11 @@ def _number(series: int, plate: int, count: int) -> str:
 
 def _boxes(series: Sequence[Series], usual: float) -> dict[Key, tuple[Series, float]]:
     """For each scale the largest of its series, and the size (m) that is usual for it."""
-    found: dict[Key, tuple[Series, float]] = {}
+    largest: dict[Key, Series] = {}
     for one in series:
-        if one.scale and one.size > found.get(one.scaled, (one, 0.0))[0].size * (one.scaled in found):
-            found[one.scaled] = one, usual * (WHOLE_MACHINE if one.is_whole_machine else 1.0)
-    return found
+        if one.scale and one.size > (largest[one.scaled].size if one.scaled in largest else 0.0):
+            largest[one.scaled] = one
+    return {key: (one, usual * (WHOLE_MACHINE if one.is_whole_machine else 1.0)) for key, one in largest.items()}
 
 
 def layout(report: Report, series: Sequence[Series], space: Room) -> list[tuple[Part, ...]]:
@@ -132,22 +132,25 @@ def layout(report: Report, series: Sequence[Series], space: Room) -> list[tuple[
     """
     plates = _Plates(report, series)
     usual = max(USUAL * (space.high.imag - space.low.imag), LEAST)
-    best, sheets = math.inf, []
+    best: tuple[float, list[list[Row]]] = math.inf, []
     for share in BEGINNINGS:
         boxes = _boxes(series, share * usual / PER_MM)
         scales = {key: nice_up(one.size / box / PER_MM, one.steps) * PER_MM for key, (one, box) in boxes.items()}
         plates.draw(scales)
         for _ in range(ATTEMPTS):
             scales = _improved(plates, boxes, scales, space)
-            white, found = _fullest(plates.draw(scales), space, 0.0)
-            if white < best:
-                best, sheets = white, found
-            if best < FULL:
-                return [spread(rows, space) for rows in sheets]
-    if not sheets:
-        # Says which plate it is.
-        packed(plates.draw(scales), space)
+            best = min(best, _fullest(plates.draw(scales), space, 0.0), key=_white)
+            if _white(best) < FULL:
+                break
+        if _white(best) < FULL:
+            break
+    # Where no scale helped, this says which plate it is that has no place.
+    sheets = best[1] or packed(plates.draw(scales), space)
     return [spread(rows, space) for rows in sheets]
+
+
+def _white(found: tuple[float, list[list[Row]]]) -> float:
+    return found[0]
 
 
 def _fullest(parts: Sequence[Part], space: Room, spare: float = SPARE) -> tuple[float, list[list[Row]]]:
@@ -165,7 +168,7 @@ def _fullest(parts: Sequence[Part], space: Room, spare: float = SPARE) -> tuple[
         found.append((100 * missing + 0.01 * len(sheets), sheets))
         if missing == 0:
             break
-    return min(found, key=lambda one: one[0])
+    return min(found, key=_white)
 
 
 def _improved(
