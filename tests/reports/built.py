@@ -18,7 +18,7 @@ from reportgen.document import outline
 from reportgen.document.tree import Block, Document, Figure, List, Plate
 from reportgen.figures.scene import Scene
 from reportgen.notation.numbers import Language
-from tests.reports.pages import Glyph, body
+from tests.reports.pages import Glyph, Page
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted((ROOT / "assignments").glob("*.yaml"))
@@ -91,14 +91,18 @@ class Report:
         return self.written.language
 
     @cached_property
-    def pages(self) -> Any:
+    def opened(self) -> Any:
         """The open PDF."""
         return pytest.importorskip("pymupdf").open(stream=self.pdf, filetype="pdf")
 
     @cached_property
+    def pages(self) -> list[Page]:
+        return [Page(sheet) for sheet in self.opened]
+
+    @cached_property
     def bodies(self) -> list[list[Glyph]]:
         """The glyphs of each page without header and footer."""
-        return [body(page) for page in self.pages]
+        return [page.body for page in self.pages]
 
 
 def compose(assignment: Assignment) -> Written:
