@@ -15,7 +15,7 @@ reports: setup
 	$(BIN)/reportgen build $(wildcard assignments/*.yaml)
 
 test: $(VENV)/.developing
-	$(BIN)/python -m pytest -rs -n auto --dist loadfile
+	$(BIN)/python -m pytest -rs -n auto --dist loadgroup
 
 lint: $(VENV)/.developing
 	$(BIN)/ruff format --check .

@@ -29,10 +29,20 @@ needs_tex = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflate
 MARKS = {"typst": (), "latex": (needs_tex,)}
 
 
+@cache
+def assignment(path: Path) -> Assignment:
+    """A file of the repository in its own language."""
+    return api.load(path)
+
+
+def own_language(path: Path) -> Language:
+    return assignment(path).language
+
+
 def _first_of_each_kind(files: Iterable[Path]) -> list[Path]:
     kinds: dict[str, Path] = {}
     for path in files:
-        kinds.setdefault(api.load(path).kind, path)
+        kinds.setdefault(assignment(path).kind, path)
     return list(kinds.values())
 
 
@@ -46,10 +56,10 @@ ENGINE_CASES = [pytest.param(engine, marks=MARKS[engine], id=engine) for engine 
 WRITTEN = [
     pytest.param((path, language), id=f"{path.stem}-{language}")
     for path in FILES
-    for language in (LANGUAGES if path in TYPESET else (api.load(path).language,))
+    for language in (LANGUAGES if path in TYPESET else (own_language(path),))
 ]
 PRINTED = [
-    (path, language) for path in TYPESET for language in (LANGUAGES if path == SAMPLE else (api.load(path).language,))
+    (path, language) for path in TYPESET for language in (LANGUAGES if path == SAMPLE else (own_language(path),))
 ]
 """The sample is printed in both languages, other kinds in their file's own; trees are compared in both."""
 CASES = [
@@ -112,8 +122,15 @@ def compose(assignment: Assignment) -> Written:
 
 
 @cache
+def case(path: Path, language: Language) -> Case:
+    return Case(api.load(path, language))
+
+
+@cache
 def written(path: Path, language: Language) -> Written:
-    return compose(api.load(path, language))
+    """The tree of a file of the repository."""
+    opened = case(path, language)
+    return Written(opened, outline.compose(opened))
 
 
 def typeset(tree: Written, engine: api.Engine) -> Report:

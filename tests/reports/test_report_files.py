@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 from dataclasses import replace
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -109,12 +110,15 @@ def test_no_box_is_overfull(report: Report) -> None:
     assert report.overfull == ()
 
 
-@pytest.mark.parametrize("index", range(len(built.SIBLINGS)), ids=[path.stem for path in built.SIBLINGS])
-def test_further_files_of_a_kind_keep_their_pages_in_order(index: int) -> None:
+IN_TURN = cycle(built.ENGINES if shutil.which("pdflatex") else ("typst",))
+
+
+@pytest.mark.parametrize(
+    ("path", "engine"), list(zip(built.SIBLINGS, IN_TURN, strict=False)), ids=[path.stem for path in built.SIBLINGS]
+)
+def test_further_files_of_a_kind_keep_their_pages_in_order(path: Path, engine: api.Engine) -> None:
     """By the writers in turn, in the file's own language: margins, intersecting words, overfull boxes."""
-    path = built.SIBLINGS[index]
-    engine = built.ENGINES[index % 2] if shutil.which("pdflatex") else "typst"
-    report = built.report(path, engine, api.load(path).language)
+    report = built.report(path, engine, built.own_language(path))
     assert report.overfull == ()
     for page in report.pages[1:]:
         assert [*pages.outside(page, pages.BEARING), *pages.overlaps(page, pages.INK)] == []
@@ -164,7 +168,7 @@ def test_a_new_process_gives_the_same_bytes_and_a_source_that_compiles(
     kept = folder / f"report{api.SUFFIX[engine]}"
     assert set(folder.iterdir()) == {folder / "report.pdf", kept}
     pdf = (folder / "report.pdf").read_bytes()
-    report = built.report(path, engine, api.load(path).language)
+    report = built.report(path, engine, built.own_language(path))
     assert pdf == report.pdf
     alone = tmp_path / "alone"
     alone.mkdir()

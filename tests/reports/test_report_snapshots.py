@@ -17,6 +17,7 @@ from tests.reports import built
 
 FOLDER = built.ROOT / "tests" / "snapshots"
 SAMPLE = built.SAMPLE
+pytestmark = pytest.mark.xdist_group(SAMPLE.stem)
 SECTION = "1.3"
 """Synthesis: a section with words, worked lines and a table, and no drawing."""
 
