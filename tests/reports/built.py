@@ -123,7 +123,7 @@ def compose(assignment: Assignment) -> Written:
 
 @cache
 def case(path: Path, language: Language) -> Case:
-    return Case(api.load(path, language))
+    return Case(assignment(path) if language == own_language(path) else api.load(path, language))
 
 
 @cache
