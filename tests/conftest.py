@@ -12,6 +12,8 @@ import pytest
 
 from tests.reports import built
 
+STEMS = {name: path.stem for path in built.FILES for name in (path, path.stem)}
+
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--update-snapshots", action="store_true", help="Write tests/snapshots anew.")
@@ -30,7 +32,7 @@ def assignment_of(item: pytest.Item) -> str:
         item.callspec.params.values() if isinstance(item, pytest.Function) and hasattr(item, "callspec") else ()
     )
     values = (value for one in parameters for value in (one if isinstance(one, tuple) else (one,)))
-    return next((value.stem for value in values if isinstance(value, Path) and value in built.FILES), "")
+    return next((STEMS[value] for value in values if isinstance(value, Path | str) and value in STEMS), "")
 
 
 @pytest.fixture(params=built.CASES)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import pytest
 
@@ -17,6 +18,8 @@ from reportgen.case import Case
 from reportgen.document import outline
 from reportgen.document.tree import Block, Document, Figure, List, Plate
 from reportgen.figures.scene import Scene
+from reportgen.ledger.core import Ledger
+from reportgen.notation.expressions import Chain
 from reportgen.notation.numbers import Language
 from tests.reports.pages import Glyph, Page
 
@@ -76,6 +79,8 @@ class Written:
 
     case: Case
     document: Document
+    lines: frozenset[tuple[str, int | None]]
+    """The quantities that have a worked line, with its position."""
 
     @property
     def language(self) -> Language:
@@ -117,8 +122,20 @@ class Report:
 
 def compose(assignment: Assignment) -> Written:
     """The tree of an assignment with all it stands on."""
-    case = Case(assignment)
-    return Written(case, outline.compose(case))
+    return _composed(Case(assignment))
+
+
+def _composed(case: Case) -> Written:
+    lines: set[tuple[str, int | None]] = set()
+    chain = Ledger.chain
+
+    def watched(ledger: Ledger, id: str, position: int | None = None, note: str = "") -> Chain:
+        lines.add((id, None if position is None else int(position)))
+        return chain(ledger, id, position, note)
+
+    with mock.patch.object(Ledger, "chain", watched):
+        document = outline.compose(case)
+    return Written(case, document, frozenset(lines))
 
 
 @cache
@@ -129,8 +146,7 @@ def case(path: Path, language: Language) -> Case:
 @cache
 def written(path: Path, language: Language) -> Written:
     """The tree of a file of the repository."""
-    opened = case(path, language)
-    return Written(opened, outline.compose(opened))
+    return _composed(case(path, language))
 
 
 def typeset(tree: Written, engine: api.Engine) -> Report:
