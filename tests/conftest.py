@@ -1,38 +1,37 @@
 """What tests share: reports built once a run, and the option that renews snapshots.
 
-With several processes (`-n 2 --dist loadgroup`) all tests of one assignment file are run by one of them, so that
-its reports are made once; other tests go by their own file.
+With several processes (`-n 2`) all tests whose parameters name one assignment file are run by one of them, so that its
+reports are made once; the others go by their own file.
 """
 
 from __future__ import annotations
 
-from pathlib import Path
+import re
+from typing import Any
 
 import pytest
+from xdist.scheduler import LoadScopeScheduling
 
 from tests.reports import built
 
-STEMS = {name: path.stem for path in built.FILES for name in (path, path.stem)}
+STEM = re.compile("|".join(rf"\b{path.stem}\b" for path in built.FILES))
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--update-snapshots", action="store_true", help="Write tests/snapshots anew.")
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    for item in items:
-        if item.get_closest_marker("xdist_group") is None:
-            item.add_marker(pytest.mark.xdist_group(assignment_of(item) or item.nodeid.partition("::")[0]))
+class ByAssignment(LoadScopeScheduling):
+    """Tests that belong together are those of one assignment file."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        file, _, parameters = nodeid.partition("[")
+        named = STEM.search(parameters)
+        return named[0] if named else file.partition("::")[0]
 
 
-def assignment_of(item: pytest.Item) -> str:
-    """The assignment file of the repository that a test is run with, by its stem."""
-    parameters = (
-        item.callspec.params.values() if isinstance(item, pytest.Function) and hasattr(item, "callspec") else ()
-    )
-    values = (value for one in parameters for value in (one if isinstance(one, tuple) else (one,)))
-    return next((STEMS[value] for value in values if isinstance(value, Path | str) and value in STEMS), "")
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> ByAssignment:
+    return ByAssignment(config, log)
 
 
 @pytest.fixture(params=built.CASES)
