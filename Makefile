@@ -14,8 +14,9 @@ report: setup
 reports: setup
 	$(BIN)/reportgen build $(wildcard assignments/*.yaml)
 
+# What is compiled is kept whatever the environment says: each of the many processes that tests start would do it anew.
 test: $(VENV)/.developing
-	$(BIN)/python -m pytest -rs -n auto --dist loadfile
+	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -rs -n auto
 
 lint: $(VENV)/.developing
 	$(BIN)/ruff format --check .

@@ -1,14 +1,37 @@
-"""What tests share: reports built once a run, and the option that renews snapshots."""
+"""What tests share: reports built once a run, and the option that renews snapshots.
+
+With several processes (`-n 2`) all tests whose parameters name one assignment file are run by one of them, so that its
+reports are made once; the others go by their own file.
+"""
 
 from __future__ import annotations
 
+import re
+from typing import Any
+
 import pytest
+from xdist.scheduler import LoadScopeScheduling
 
 from tests.reports import built
+
+STEM = re.compile("|".join(rf"\b{path.stem}\b" for path in built.FILES))
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--update-snapshots", action="store_true", help="Write tests/snapshots anew.")
+
+
+class ByAssignment(LoadScopeScheduling):
+    """Tests that belong together are those of one assignment file."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        file, _, parameters = nodeid.partition("[")
+        named = STEM.search(parameters)
+        return named[0] if named else file.partition("::")[0]
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> ByAssignment:
+    return ByAssignment(config, log)
 
 
 @pytest.fixture(params=built.CASES)

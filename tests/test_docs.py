@@ -116,7 +116,6 @@ def run(lines: Sequence[str], place: Path) -> list[tuple[list[str], int]]:
             **os.environ,
             "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}",
             "PYTHONPATH": str(place),
-            "PYTHONDONTWRITEBYTECODE": "1",
             "COLUMNS": "100",
         },
         stdin=subprocess.DEVNULL,
@@ -132,8 +131,10 @@ def run(lines: Sequence[str], place: Path) -> list[tuple[list[str], int]]:
 
 
 def copy_of_repository(place: Path) -> Path:
+    """The package as it is compiled here, too: each command is a process that would compile it anew."""
     for name in ("reportgen", "templates", "assignments"):
-        shutil.copytree(ROOT / name, place / name, ignore=shutil.ignore_patterns("__pycache__"))
+        # What another process is about to write has a name that will be gone.
+        shutil.copytree(ROOT / name, place / name, ignore=shutil.ignore_patterns("*.pyc.*"))
     for name in ("Makefile", "pyproject.toml", "requirements-dev.lock"):
         shutil.copy(ROOT / name, place)
     (place / "out").mkdir()

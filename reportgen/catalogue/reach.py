@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.catalogue.loads import FULL_TURN, MotionAt, NotToAndFro, course, halved
+from reportgen.catalogue.loads import FULL_TURN, Flags, MotionAt, NotToAndFro, course, halved
 from reportgen.errors import Finding, Where
 from reportgen.mechanism.dyads import SINGULAR, Complexes, Floats, cross, unit
 from reportgen.mechanism.motion import Motion, solve_motion
@@ -217,7 +217,11 @@ def _gap(clear: Clear, places: Floats, inside: np.ndarray) -> tuple[float, float
 
 def _edge(clear: Clear, inside: float, outside: float) -> float:
     """The place between a reachable and an unreachable one at which the links just reach each other."""
-    reached, _ = halved(np.array([inside]), np.array([outside]), lambda place: clear(place) >= 0, HALVINGS)
+
+    def assembles(places: Floats) -> Flags:
+        return np.asarray(clear(places.ravel()).reshape(places.shape) >= 0)
+
+    reached, _ = halved(np.array([inside]), np.array([outside]), assembles, HALVINGS)
     return float(reached[0])
 
 

@@ -171,7 +171,7 @@ class OffsetSlider:
         """φ of the slider's greatest speeds, inward and outward: a_C = 0, once in each stroke."""
         low = np.array([self.stretched, self.folded])
         high = np.array([self.folded, self.stretched + FULL_TURN])
-        before = self.acceleration(low)
+        before = self.acceleration(low)[:, None]
         low, _ = halved(low, high, lambda phi: before * self.acceleration(phi) > 0, HALVINGS)
         return float(low[0]), float(low[1])
 

@@ -17,7 +17,16 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined, TemplateNotFound, TemplateSyntaxError, Undefined
+from jinja2 import (
+    BytecodeCache,
+    Environment,
+    FileSystemLoader,
+    StrictUndefined,
+    TemplateNotFound,
+    TemplateSyntaxError,
+    Undefined,
+)
+from jinja2.bccache import Bucket
 from jinja2.ext import Extension
 from jinja2.lexer import Token, TokenStream
 from jinja2.runtime import Context
@@ -80,11 +89,29 @@ def _inlines(words: str) -> Inlines:
     return markdown.inlines(_excerpt(words))
 
 
+class _Compiled(BytecodeCache):
+    """The compiled templates of this process, by file and content: the search paths of machines share most of them."""
+
+    def __init__(self) -> None:
+        self.codes: dict[str, bytes] = {}
+
+    def load_bytecode(self, bucket: Bucket) -> None:
+        if code := self.codes.get(bucket.key):
+            bucket.bytecode_from_string(code)
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        self.codes[bucket.key] = bucket.bytecode_to_string()
+
+
+_compiled = _Compiled()
+
+
 @lru_cache(maxsize=ENVIRONMENTS)
 def _environment(directories: tuple[Path, ...]) -> Environment:
     """The environment of some folders with its compiled templates; a template that was changed is read again."""
     result = Environment(
         loader=FileSystemLoader(directories),
+        bytecode_cache=_compiled,
         extensions=[_Provenance],
         undefined=StrictUndefined,
         finalize=_finalize,

@@ -23,7 +23,7 @@ from reportgen.answers.key import (
 from reportgen.assignment import Assignment
 from reportgen.case import Case
 from reportgen.grading.marks import Place, Policy, Submission
-from reportgen.ledger.core import Ledger, carried, follow, standing_on
+from reportgen.ledger.core import Ledger, follow, standing_on
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Product, Ref
 
@@ -125,8 +125,7 @@ class Guide:
     @cached_property
     def before(self) -> dict[str, tuple[str, ...]]:
         """Every quantity that a judged one stands on, nearest first."""
-        vectors = carried(self.ledger)
-        return {row.id: standing_on(self.ledger, row.id, vectors) for row in self.judged}
+        return {row.id: standing_on(self.ledger, row.id) for row in self.judged}
 
     @cached_property
     def alike(self) -> dict[str, tuple[str, ...]]:

@@ -81,6 +81,20 @@ class Ledger:
         """The signed angular velocities and accelerations by their sizes: omega.2 → turn.omega.2."""
         return {family.of: id for id, family in self.families.items() if family.is_signed_rotation}
 
+    @cached_property
+    def vectors(self) -> Mapping[str, str]:
+        """The vectors by their sizes: seg.v.pb → plan.v.b, seg.v.as2 → laid.v.as2, Pqt2 → F.Pqt2."""
+        found: dict[str, str] = {}
+        for id, family in self.families.items():
+            match family.definition:
+                case Call("abs", (Ref(vector),)):
+                    found[id] = vector
+            # A vector that is computed from its size follows it by itself.
+            size = family.of if family.hidden else ""
+            if size in self and family.definition is not None and size not in refs(family.definition):
+                found[size] = id
+        return found
+
     def size_of(self, id: str) -> str:
         """The id of a signed rotation's size; any other quantity is its own size."""
         family = self.families[id]
@@ -266,23 +280,9 @@ def _sign_before(term: Expression) -> Expression:
             return term
 
 
-def carried(ledger: Ledger) -> dict[str, str]:
-    """Ids of vectors by the ids of their sizes: seg.v.pb → plan.v.b, seg.v.as2 → laid.v.as2, Pqt2 → F.Pqt2."""
-    vectors: dict[str, str] = {}
-    for id, family in ledger.families.items():
-        match family.definition:
-            case Call("abs", (Ref(vector),)):
-                vectors[id] = vector
-        # A vector that is computed from its size follows it by itself.
-        size = family.of if family.hidden else ""
-        if size in ledger and family.definition is not None and size not in refs(family.definition):
-            vectors[size] = id
-    return vectors
-
-
 def follow(ledger: Ledger, changes: Mapping[str, Any], *, only: Container[str] | None = None) -> dict[str, np.ndarray]:
     """As `Ledger.evaluate`, with each vector as long as the size says that was measured of it or laid off."""
-    vectors = {size: one for size, one in carried(ledger).items() if only is None or size in only}
+    vectors = {size: one for size, one in ledger.vectors.items() if only is None or size in only}
     sizes: dict[str, list[str]] = {}
     for size, vector in vectors.items():
         sizes.setdefault(vector, []).append(size)
@@ -302,14 +302,11 @@ def follow(ledger: Ledger, changes: Mapping[str, Any], *, only: Container[str] |
     return ledger.evaluate(changes, entered=entered, only=only)
 
 
-def standing_on(ledger: Ledger, id: str, vectors: Mapping[str, str]) -> tuple[str, ...]:
-    """Every quantity that one stands on, nearest first: its `ancestors` and what was read from their vectors.
-
-    `vectors` is what `carried` says of the ledger.
-    """
+def standing_on(ledger: Ledger, id: str) -> tuple[str, ...]:
+    """Every quantity that one stands on, nearest first: its `ancestors` and what was read from their vectors."""
     read: dict[str, list[str]] = {}
     order = {name: index for index, name in enumerate(ledger.families)}
-    for size, vector in vectors.items():
+    for size, vector in ledger.vectors.items():
         read.setdefault(vector, []).append(size)
     found: dict[str, None] = {}
     waiting = [id]

@@ -339,6 +339,7 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
     return (f"{name}.relative" if name in _OF_POINTS and len(points) > 1 else name), words
 
 
+@lru_cache(maxsize=4096)
 def plan(id: str) -> str:
     """The id of the scale that a length on paper is measured with; "" for anything else."""
     found, parts = _found(id)

@@ -18,6 +18,7 @@ from reportgen.grading.submission import read_submission
 from reportgen.notation.numbers import Language
 from reportgen.workbook import write_xlsx
 from tests.grading.keys import small_key
+from tests.reports import built
 
 
 def test_json_has_unrounded_values_and_null_for_what_does_not_exist() -> None:
@@ -69,7 +70,7 @@ def test_a_band_that_is_nothing_beside_its_row_is_nothing() -> None:
 
 @pytest.mark.parametrize("name", ["slider-crank-01", "engine-twin-05", "linkage-slide"])
 def test_the_document_has_every_quantity_at_every_position_on_pages_that_hold_it(name: str) -> None:
-    case = open_case(f"assignments/{name}.yaml", "en")
+    case = built.case(built.ROOT / "assignments" / f"{name}.yaml", "en")
     key = make_key(case)
     tree = key_document(key, case.title)
     tables = [block for block in tree.blocks if isinstance(block, Table)]

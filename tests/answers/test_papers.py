@@ -15,7 +15,7 @@ from reportgen.notation.numbers import Language
 from tests.answers.test_sheet import handout
 from tests.grading.test_feedback import marking
 from tests.reports.built import needs_tex
-from tests.reports.pages import BEARING, INK, outside, overlaps
+from tests.reports.pages import BEARING, INK, Page, outside, overlaps
 
 NAME = "Lê #1 $x_2$ & <b>Hoàng</b> \\input{x} *_`"
 """Markup of every language that a name passes through on its way to the page."""
@@ -42,10 +42,11 @@ def test_a_paper_keeps_to_its_page(name: str, language: Language, engine: api.En
     pymupdf = pytest.importorskip("pymupdf")
     tree = PAPERS[name](language)
     with pymupdf.open(stream=api.typeset(tree, engine)[1]) as pdf:
-        for page in pdf:
+        for sheet in pdf:
+            page = Page(sheet)
             assert overlaps(page, INK) == []
             assert outside(page, BEARING) == []
-        text = "".join(page.get_text() for page in pdf).replace("\n", "").replace(" ", "")
+        text = "".join(sheet.get_text() for sheet in pdf).replace("\n", "").replace(" ", "")
     if name == "feedback":
         assert NAME.replace(" ", "") in text
 

@@ -14,11 +14,11 @@ from openpyxl import load_workbook
 from reportgen.answers.key import Key, Role, make_key
 from reportgen.answers.paper import answer_tables, task
 from reportgen.answers.sheet import answer_book, number_format
-from reportgen.case import open_case
 from reportgen.document.tree import Document, Table, plain, text_of
 from reportgen.notation.numbers import Language, write
 from reportgen.workbook import write_xlsx
 from tests.grading.keys import small_key
+from tests.reports import built
 
 
 def cells(key: Key, tmp_path: Path) -> Iterator[tuple[str, str, object, bool]]:
@@ -95,7 +95,7 @@ def test_paper_does_not_tell_where_a_direction_does_not_exist() -> None:
 
 
 def handout(name: str, language: Language) -> tuple[Key, Document]:
-    case = open_case(f"assignments/{name}.yaml", language)
+    case = built.case(built.ROOT / "assignments" / f"{name}.yaml", language)
     key = make_key(case)
     return key, task(case, key)
 

@@ -11,18 +11,18 @@ import pytest
 
 from reportgen.answers.key import Key, make_key
 from reportgen.answers.paper import answer_tables
-from reportgen.case import open_case
 from reportgen.document.tree import plain
 from reportgen.notation import vocabulary
 from reportgen.notation.numbers import Language
 from reportgen.words import load_words, search_path
+from tests.reports import built
 
 FILES = sorted(path.stem for path in Path("assignments").glob("*.yaml"))
 
 
 @cache
 def key(name: str, language: Language) -> Key:
-    return make_key(open_case(f"assignments/{name}.yaml", language))
+    return make_key(built.case(built.ROOT / "assignments" / f"{name}.yaml", language))
 
 
 @pytest.mark.parametrize("name", FILES)

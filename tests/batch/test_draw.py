@@ -9,15 +9,29 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.batch.draw import draw, judge_of, pick
-from reportgen.batch.spec import read_spec
+from reportgen.batch.draw import Judge, draw, judge_of, pick
+from reportgen.batch.spec import Settings, Spec, read_spec
 from reportgen.batch.variants import Effort, compare, make_variants
-from reportgen.errors import AssignmentError
+from reportgen.errors import AssignmentError, Fault
 from reportgen.source import plain, read_text
 from reportgen.workbook import Book, Sheet, write_xlsx
 from tests.batch.specs import BARS, ROOT, Put, classes, ids, located
 
 PINNED = 993029
+_judged: dict[tuple[object, ...], tuple[Fault, ...]] = {}
+
+
+def judge_of_bars(spec: Spec) -> Judge:
+    """The judge of `BARS`, who remembers what was found of a variant in an earlier draw."""
+    judge = judge_of(spec)
+
+    def ask(settings: Settings) -> tuple[Fault, ...]:
+        key = tuple((where, plain(node)) for where, node in sorted(settings.items()))
+        if key not in _judged:
+            _judged[key] = judge(settings)
+        return _judged[key]
+
+    return ask
 
 
 def test_a_draw_is_the_sha256_of_the_text_that_is_documented() -> None:
@@ -31,7 +45,7 @@ def test_a_draw_is_the_sha256_of_the_text_that_is_documented() -> None:
 
 def test_a_student_more_changes_nobody(put_file: Put) -> None:
     spec = read_spec(put_file(BARS))
-    judge = judge_of(spec)
+    judge = judge_of_bars(spec)
     full = draw(spec, classes(*ids(60)), judge).drawn
     for count in (1, 7, 30, 59):
         assert draw(spec, classes(*ids(count)), judge).drawn == full[:count]
@@ -39,7 +53,7 @@ def test_a_student_more_changes_nobody(put_file: Put) -> None:
 
 def test_who_leaves_moves_only_whom_he_clashed_with(put_file: Put) -> None:
     spec = read_spec(put_file(BARS))
-    judge = judge_of(spec)
+    judge = judge_of_bars(spec)
     full = {one.student.id: one.combination for one in draw(spec, classes(*ids(20)), judge).drawn}
     less = {one.student.id: one.combination for one in draw(spec, classes(*ids(20)[1:]), judge).drawn}
     assert all(less[id] in (full[id], full["K000"]) for id in less)
@@ -48,7 +62,7 @@ def test_who_leaves_moves_only_whom_he_clashed_with(put_file: Put) -> None:
 def test_nobody_shares_while_the_space_allows_it(put_file: Put) -> None:
     """112 combinations, all of which turn: 112 students have them all, 250 have each twice or three times."""
     spec = read_spec(put_file(BARS))
-    judge = judge_of(spec)
+    judge = judge_of_bars(spec)
     whole = draw(spec, classes(*ids(112)), judge)
     assert len({one.combination for one in whole.drawn}) == 112
     assert whole.usable is None

@@ -8,8 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen import api
-from reportgen.case import Case
 from reportgen.document import comments, overview
 from reportgen.document.outline import open_report
 from reportgen.document.report import Report
@@ -23,7 +21,7 @@ FILES = pytest.mark.parametrize("path", built.FILES, ids=lambda path: path.stem)
 
 
 def opened(path: Path) -> Report:
-    return open_report(Case(api.load(path)))
+    return open_report(built.case(path, built.own_language(path)))
 
 
 def sizes(report: Report, id: str, count: int) -> np.ndarray:

@@ -8,17 +8,16 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.case import Case, open_case
 from reportgen.document import tree
-from reportgen.document.outline import compose
 from reportgen.figures.forces import LEAST_ARM
 from reportgen.figures.scene import Content, Label
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.kinematics.linkage import POLES
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Symbol, refs
+from tests.reports import built
+from tests.reports.built import Written
 
-FILES = sorted((Path(__file__).parents[2] / "assignments").glob("*.yaml"))
 MM = 1e3
 PLAN = re.compile(r"plan\.([va])\.(?:([nk])\.)?(.+)")
 FORCES = re.compile(r"plan\.R(.+)\.(\w+)")
@@ -41,20 +40,14 @@ def names(document: tree.Document) -> dict[str, set[Content]]:
     return found
 
 
-def printed(case: Case, monkeypatch: pytest.MonkeyPatch) -> tuple[tree.Document, set[tuple[str, int | None]]]:
-    """The document, and each quantity that it has a worked line for, with its position."""
-    seen: set[tuple[str, int | None]] = set()
-    chain = Ledger.chain
-
-    def watched(ledger: Ledger, id: str, position: int | None = None, note: str = "") -> object:
+def worked(written: Written) -> set[tuple[str, int | None]]:
+    """The quantities with a worked line, and the lengths it shows that they are worked out from: v_B = μ_v · pb."""
+    ledger, found = written.case.ledger, set(written.lines)
+    for id, k in written.lines:
         definition = ledger[id].definition
-        # A line shows the lengths it is worked out from: v_B = μ_v · pb.
-        for one in (id, *(refs(definition) if definition is not None and not ledger[id].constructed else ())):
-            seen.add((one, None if position is None else int(position)))
-        return chain(ledger, id, position, note)
-
-    monkeypatch.setattr(Ledger, "chain", watched)
-    return compose(case), seen
+        if definition is not None and not ledger[id].constructed:
+            found |= {(one, k) for one in refs(definition)}
+    return found
 
 
 def image(what: str, part: str, name: str) -> Symbol:
@@ -99,13 +92,12 @@ def ends(ledger: Ledger, id: str, k: int, label: str, turn: str) -> tuple[list[s
     return figures, wanted
 
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
-def test_ends_of_what_is_measured_are_named_in_its_figure(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    case = open_case(file)
-    document, seen = printed(case, monkeypatch)
-    ledger, machine, shown = case.ledger, case.analysis.machine, names(document)
+@pytest.mark.parametrize("file", built.FILES, ids=lambda file: file.stem)
+def test_ends_of_what_is_measured_are_named_in_its_figure(file: Path) -> None:
+    written = built.written(file, built.own_language(file))
+    ledger, machine, shown = written.case.ledger, written.case.analysis.machine, names(written.document)
     checked, missing = 0, []
-    for id, k in sorted(seen, key=str):
+    for id, k in sorted(worked(written), key=str):
         family = ledger[id]
         if k is None or not (family.arm or (family.constructed and family.kind in ("segment", "angle"))):
             continue

@@ -6,15 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.case import open_case
 from reportgen.document.groups import GroupView
 from reportgen.document.plans import force_stages, motion_plan
 from reportgen.document.report import Report
 from reportgen.figures.plan import Plan, merged, stages
 from reportgen.figures.scene import Arrow, Line
 from reportgen.figures.style import NEW
+from tests.reports import built
 
-FILES = sorted((Path(__file__).parents[2] / "assignments").glob("*.yaml"))
 VISIBLE = 1e-6
 """What is shorter (mm) is a point on any paper."""
 SAME = 0.05
@@ -34,9 +33,9 @@ def additions(drawing: Plan, stage: int) -> list[tuple[complex, complex]]:
     return [(start, end) for start, end in (*new, *lines) if abs(end - start) > VISIBLE]
 
 
-@pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])
+@pytest.mark.parametrize("file", built.FILES, ids=lambda file: file.stem)
 def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> None:
-    report = Report(open_case(file))
+    report = Report(built.case(file, built.own_language(file)))
     k = report.assignment.worked_positions[0]
 
     def is_drawn(group: GroupView, name: str) -> bool:
@@ -57,9 +56,9 @@ def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> Non
         assert not by_moments or not second & {s.start + s.end for s in group.polygon.edges if s.unknown}
 
 
-@pytest.mark.parametrize("file", FILES, ids=[file.stem for file in FILES])
+@pytest.mark.parametrize("file", built.FILES, ids=lambda file: file.stem)
 def test_every_stage_adds_an_arrow_or_a_line(file: Path) -> None:
-    report = Report(open_case(file))
+    report = Report(built.case(file, built.own_language(file)))
     for k in range(1, report.count + 1):
         for drawing in (motion_plan(report, "v", k), motion_plan(report, "a", k)):
             parts = merged(drawing)

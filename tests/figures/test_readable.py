@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen.case import open_case
 from reportgen.document.figures import FIGURES, Drawn
 from reportgen.document.outline import open_report
 from reportgen.document.report import Report
@@ -23,6 +22,7 @@ from reportgen.figures.scene import Arc, Arrow, Circle, Hatch, Label, Line, Poly
 from reportgen.figures.scheme import ARROWS, LINES, line_styles
 from reportgen.notation.expressions import Symbol
 from reportgen.writers.drawing import clip_hatch
+from tests.reports import built
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 NAMES = sorted(file.stem for file in ASSIGNMENTS.glob("*.yaml"))
@@ -33,7 +33,7 @@ every = pytest.mark.parametrize("name", NAMES)
 
 @cache
 def report(name: str) -> Report:
-    return open_report(open_case(ASSIGNMENTS / f"{name}.yaml", "en"))
+    return open_report(built.case(ASSIGNMENTS / f"{name}.yaml", "en"))
 
 
 def draw(name: str, figure: str, *shown: object) -> Drawn:

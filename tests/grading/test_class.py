@@ -35,6 +35,15 @@ def assignments(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
+def few(assignments: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The assignments of two classmates, where more would show nothing more: all that are there are computed."""
+    folder = tmp_path_factory.mktemp("few")
+    for id in ("K225520103004", "K225520103007"):
+        shutil.copy(assignments / f"{id}.yaml", folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
 def graded(assignments: Path) -> Graded:
     return assess.grade([demo.SHEETS], assignments, WHOLE)
 
@@ -66,38 +75,38 @@ def test_unreadable_cells_are_located(graded: Graded) -> None:
     assert all(mark.split("!")[1][0] in "EF" and "K225520103040.xlsx:" in mark for mark in marks)
 
 
-def test_what_is_no_sheet_that_can_be_read_is_told(assignments: Path, tmp_path: Path) -> None:
+def test_what_is_no_sheet_that_can_be_read_is_told(few: Path, tmp_path: Path) -> None:
     """Whoever saved as .xls or .ods handed something in, which a folder does not pass over in silence."""
     for name in ("K225520103001.xls", "K225520103004.ods", "K225520103007.xlsm"):
         (tmp_path / name).write_bytes(b"\xd0\xcf\x11\xe0" if name.endswith(".xls") else b"PK\x03\x04")
-    result = assess.grade([tmp_path], assignments, Policy())
+    result = assess.grade([tmp_path], few, Policy())
     assert [Path(problem.mark.file).suffix for problem in result.problems] == [".xls", ".ods", ".xlsm"]
 
 
-def test_nobody_displaces_a_sheet_by_claiming_its_name(assignments: Path, tmp_path: Path) -> None:
+def test_nobody_displaces_a_sheet_by_claiming_its_name(few: Path, tmp_path: Path) -> None:
     own = tmp_path / "K225520103004.csv"
     own.write_bytes((demo.SHEETS / "K225520103004.csv").read_bytes())
     for name in ("A.csv", "Z.csv"):
         (tmp_path / name).write_bytes(own.read_bytes())
-    result = assess.grade([tmp_path], assignments, Policy())
+    result = assess.grade([tmp_path], few, Policy())
     assert [Path(marking.submission.file) for marking in result.markings] == [own]
     assert {Path(problem.mark.file).name for problem in result.problems} == {"A.csv", "Z.csv"}
     assert all("K225520103004.csv" in problem.message for problem in result.problems)
 
 
 @pytest.mark.parametrize("place", ["K225520103007.csv", "k225520103007.CSV", "K225520103007/answers.csv"])
-def test_a_sheet_named_after_a_classmate_is_told(assignments: Path, tmp_path: Path, place: str) -> None:
+def test_a_sheet_named_after_a_classmate_is_told(few: Path, tmp_path: Path, place: str) -> None:
     """It is marked as what it says inside, but not without a word; a name that is nobody's needs none."""
     sheet = tmp_path / place
     sheet.parent.mkdir(exist_ok=True)
     sheet.write_bytes((demo.SHEETS / "K225520103004.csv").read_bytes())
-    result = assess.grade([tmp_path], assignments, Policy(), "en")
+    result = assess.grade([tmp_path], few, Policy(), "en")
     assert [marking.key.id for marking in result.markings] == ["K225520103004"]
     assert [(problem.code, problem.mark.file) for problem in result.problems] == [("sheet-named-otherwise", str(sheet))]
     for name in ("“K225520103007”", "“K225520103004”"):
         assert name in result.problems[0].message
     sheet.rename(tmp_path / "homework.csv")
-    assert assess.grade([tmp_path / "homework.csv"], assignments, Policy()).problems == ()
+    assert assess.grade([tmp_path / "homework.csv"], few, Policy()).problems == ()
 
 
 def test_one_sheet_never_stops_the_others(assignments: Path, tmp_path: Path) -> None:
@@ -117,14 +126,14 @@ def test_one_sheet_never_stops_the_others(assignments: Path, tmp_path: Path) -> 
     }
 
 
-def test_names_in_a_sheet_are_no_paths(assignments: Path, tmp_path: Path) -> None:
+def test_names_in_a_sheet_are_no_paths(few: Path, tmp_path: Path) -> None:
     """Whoever writes another path for the assignment's name reaches no file outside the folder."""
     secret = tmp_path / "secret.yaml"
-    secret.write_bytes((assignments / "K225520103004.yaml").read_bytes())
+    secret.write_bytes((few / "K225520103004.yaml").read_bytes())
     text = (demo.SHEETS / "K225520103004.csv").read_text(encoding="utf-8-sig")
     sheet = tmp_path / "sheet.csv"
     sheet.write_text(text.replace("K225520103004", str(secret.with_suffix("")), 1), encoding="utf-8")
-    result = assess.grade([sheet], assignments, Policy())
+    result = assess.grade([sheet], few, Policy())
     assert result.markings == ()
     assert [problem.code for problem in result.problems] == ["sheet-unknown"]
 

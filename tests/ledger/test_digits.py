@@ -11,16 +11,13 @@ import pytest
 from random_variants import cases
 from recompute import worst_lines
 
-from reportgen import api
-from reportgen.case import Case
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.kinematics.centres import PREFIX
 from reportgen.ledger.report import SAME
 from reportgen.notation.sheet import ZERO, Family
 from reportgen.notation.vocabulary import MAX_DIGITS, Chapter
+from tests.reports import built
 
-FILES = sorted((Path(__file__).parents[2] / "assignments").glob("*.yaml"))
-KINDS = list({api.load(path).kind: path for path in reversed(FILES)}.values())
 RESULTS = {"velocity", "acceleration", "angular velocity", "angular acceleration", "force", "torque", "work", "power"}
 CONSTANTS = {"omega.1"}
 """What many lines are computed with, and which therefore may have more figures than a result."""
@@ -94,12 +91,12 @@ def assert_a_person_would_write_it(ledger: Ledger) -> None:
     assert_one_quantity_has_one_number_of_decimals(ledger)
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", built.FILES, ids=lambda path: path.stem)
 def test_files(path: Path) -> None:
-    assert_a_person_would_write_it(Case(api.load(path)).ledger)
+    assert_a_person_would_write_it(built.case(path, built.own_language(path)).ledger)
 
 
-@pytest.mark.parametrize("path", KINDS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", built.TYPESET, ids=lambda path: path.stem)
 def test_variants(path: Path, tmp_path: Path) -> None:
     for case in cases(path, VARIANTS, tmp_path):
         assert_a_person_would_write_it(case.ledger)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from reportgen.answers.key import Row
-from reportgen.case import Case, open_case
+from reportgen.case import Case
 from reportgen.document.outline import open_report
 from reportgen.document.plans import force_plan, motion_plan
 from reportgen.figures.plan import Plan
@@ -17,8 +16,8 @@ from reportgen.grading.marking import mark
 from reportgen.ledger.scales import SHEET_BOXES, TEXT_BOX
 from reportgen.notation.numbers import SERIES, nice_down, nice_up
 from tests.grading import students
+from tests.reports import built
 
-FILES = sorted((Path(__file__).parents[2] / "assignments").glob("*.yaml"))
 MM = 1e3
 LEAST_MOTION, LEAST_FORCES = 60.0, 100.0
 """Millimetres that a lecturer asks of a worked plan."""
@@ -26,9 +25,9 @@ FINER = 2.0
 """From one member of the series to the next finer one a drawing grows at most so much."""
 
 
-@pytest.fixture(params=FILES, ids=lambda file: file.stem, scope="module")
+@pytest.fixture(params=built.FILES, ids=lambda file: file.stem, scope="module")
 def case(request: pytest.FixtureRequest) -> Case:
-    return open_case(request.param)
+    return built.case(request.param, built.own_language(request.param))
 
 
 def size(plan: Plan) -> tuple[float, float]:

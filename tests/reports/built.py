@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import pytest
 
@@ -17,8 +18,10 @@ from reportgen.case import Case
 from reportgen.document import outline
 from reportgen.document.tree import Block, Document, Figure, List, Plate
 from reportgen.figures.scene import Scene
+from reportgen.ledger.core import Ledger
+from reportgen.notation.expressions import Chain
 from reportgen.notation.numbers import Language
-from tests.reports.pages import Glyph, body
+from tests.reports.pages import Glyph, Page
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted((ROOT / "assignments").glob("*.yaml"))
@@ -29,10 +32,20 @@ needs_tex = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflate
 MARKS = {"typst": (), "latex": (needs_tex,)}
 
 
+@cache
+def assignment(path: Path) -> Assignment:
+    """A file of the repository in its own language."""
+    return api.load(path)
+
+
+def own_language(path: Path) -> Language:
+    return assignment(path).language
+
+
 def _first_of_each_kind(files: Iterable[Path]) -> list[Path]:
     kinds: dict[str, Path] = {}
     for path in files:
-        kinds.setdefault(api.load(path).kind, path)
+        kinds.setdefault(assignment(path).kind, path)
     return list(kinds.values())
 
 
@@ -46,10 +59,10 @@ ENGINE_CASES = [pytest.param(engine, marks=MARKS[engine], id=engine) for engine 
 WRITTEN = [
     pytest.param((path, language), id=f"{path.stem}-{language}")
     for path in FILES
-    for language in (LANGUAGES if path in TYPESET else (api.load(path).language,))
+    for language in (LANGUAGES if path in TYPESET else (own_language(path),))
 ]
 PRINTED = [
-    (path, language) for path in TYPESET for language in (LANGUAGES if path == SAMPLE else (api.load(path).language,))
+    (path, language) for path in TYPESET for language in (LANGUAGES if path == SAMPLE else (own_language(path),))
 ]
 """The sample is printed in both languages, other kinds in their file's own; trees are compared in both."""
 CASES = [
@@ -66,6 +79,8 @@ class Written:
 
     case: Case
     document: Document
+    lines: frozenset[tuple[str, int | None]]
+    """The quantities that have a worked line, with its position."""
 
     @property
     def language(self) -> Language:
@@ -91,25 +106,47 @@ class Report:
         return self.written.language
 
     @cached_property
-    def pages(self) -> Any:
+    def opened(self) -> Any:
         """The open PDF."""
         return pytest.importorskip("pymupdf").open(stream=self.pdf, filetype="pdf")
 
     @cached_property
+    def pages(self) -> list[Page]:
+        return [Page(sheet) for sheet in self.opened]
+
+    @cached_property
     def bodies(self) -> list[list[Glyph]]:
         """The glyphs of each page without header and footer."""
-        return [body(page) for page in self.pages]
+        return [page.body for page in self.pages]
 
 
 def compose(assignment: Assignment) -> Written:
     """The tree of an assignment with all it stands on."""
-    case = Case(assignment)
-    return Written(case, outline.compose(case))
+    return _composed(Case(assignment))
+
+
+def _composed(case: Case) -> Written:
+    lines: set[tuple[str, int | None]] = set()
+    chain = Ledger.chain
+
+    def watched(ledger: Ledger, id: str, position: int | None = None, note: str = "") -> Chain:
+        lines.add((id, None if position is None else int(position)))
+        return chain(ledger, id, position, note)
+
+    with mock.patch.object(Ledger, "chain", watched):
+        document = outline.compose(case)
+    return Written(case, document, frozenset(lines))
+
+
+@cache
+def case(path: Path, language: Language) -> Case:
+    return Case(assignment(path) if language == own_language(path) else api.load(path, language))
 
 
 @cache
 def written(path: Path, language: Language) -> Written:
-    return compose(api.load(path, language))
+    """The tree of a file of the repository."""
+    return _composed(case(path, language))
 
 
 def typeset(tree: Written, engine: api.Engine) -> Report:

@@ -85,10 +85,11 @@ def _value(node: ast.AST, values: Sequence[float]) -> float:
 
 def printed_lines(report: Report) -> Iterator[PrintedLine]:
     """Every line of the body of a PDF whose last two parts are numbers put in and a number."""
-    for page, found in zip(report.pages, report.bodies, strict=True):
+    for page in report.pages:
+        found = page.body
         bars = [
             drawing["rect"]
-            for drawing in page.get_drawings()
+            for drawing in page.drawings
             if drawing["rect"].height < 1 and drawing["rect"].width < 100 * pages.MM
         ]
         for row in _rows(found):

@@ -34,9 +34,9 @@ def compared(report: Report) -> list[Glyph]:
     skipped = {0, *contents_pages(report)}
     return [
         glyph
-        for page, before, found in zip(report.pages, [[], *report.bodies], report.bodies, strict=False)
+        for page, before in zip(report.pages, [[], *report.bodies], strict=False)
         if page.number not in skipped
-        for glyph in pages.without_repeated_head(page, found, before)
+        for glyph in pages.without_repeated_head(page, before)
         if not (glyph.italic and abs(glyph.size - ROW_NAMES) < 0.1)
     ]
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from itertools import pairwise
-from typing import Any
 
 from reportgen.document.tree import Figure
 from reportgen.writers.layout import in_rows
 from tests.reports import built
 from tests.reports.built import Report
-from tests.reports.pages import MM
+from tests.reports.pages import MM, Page
 
 
 def heights(report: Report) -> dict[str, float]:
@@ -22,15 +21,10 @@ def heights(report: Report) -> dict[str, float]:
     }
 
 
-def captions(page: Any, word: str) -> dict[str, float]:
+def captions(page: Page, word: str) -> dict[str, float]:
     """The upper edges (points) of the captions that begin a line of a page, by number."""
-    found: dict[str, float] = {}
-    for block in page.get_text("dict")["blocks"]:
-        for line in block.get("lines", ()):
-            text = "".join(span["text"] for span in line["spans"]).strip()
-            if match := re.match(rf"{word}\s+([\d.]*\d)\.(\s|$)", text):
-                found[match[1]] = line["bbox"][1]
-    return found
+    caption = re.compile(rf"{word}\s+([\d.]*\d)\.(\s|$)")
+    return {match[1]: top for text, top in page.lines if (match := caption.match(text))}
 
 
 def test_no_figure_lies_on_another(report: Report) -> None:

@@ -217,7 +217,7 @@ def test_every_word_is_used() -> None:
 
 def test_every_reason_for_a_nothing_fits_a_quantity() -> None:
     """Each pattern of `zero` is the first that fits some quantity of some machine."""
-    ids = {id for path in built.TYPESET for id in built.written(path, "en").case.ledger.families}
+    ids = {id for path in built.TYPESET for id in built.case(path, "en").ledger.families}
     patterns = list(load_words(search_path("en"))["zero"])
     first = {next((p for p in patterns if re.fullmatch(p, id)), None) for id in ids}
     assert set(patterns) - first == set()

@@ -39,7 +39,8 @@ def lines(report: Report) -> list[PrintedLine]:
 def test_lines_read_from_the_pdf_recompute(report: Report) -> None:
     found = lines(report)
     assert len({(line.substitution, line.result) for line in found}) >= 10
-    off = {line: line.misfit(rounded(report.written)) for line in found}
+    numbers = rounded(report.written)
+    off = {line: line.misfit(numbers) for line in found}
     assert {line: misfit for line, misfit in off.items() if misfit > 1} == {}
 
 

@@ -87,11 +87,11 @@ def test_names_are_printed_as_typed(engine: api.Engine, text: str) -> None:
     _, second, *_ = (i for i, block in enumerate(blocks) if isinstance(block, Section) and block.level == 1)
     front = blocks[:second]
     report = built.typeset(replace(whole, document=replace(whole.document, blocks=front)), engine)
-    cover = pages.text(pages.glyphs(report.pages[0]))
+    cover = pages.text(report.pages[0].glyphs)
     for name in (*FIELDS, *student_fields()):
         assert pages.squash(f"{name} {text}") in cover, name
-    header = pages.text(pages.glyphs(report.pages[1]))
+    header = pages.text(report.pages[1].glyphs)
     assert pages.squash(f"course {text}") in header
-    assert report.pages.metadata["author"] == f"name {text}"
+    assert report.opened.metadata["author"] == f"name {text}"
     assert report.overfull == ()
     assert [fault for page in report.pages for fault in pages.overlaps(page, pages.INK)] == []

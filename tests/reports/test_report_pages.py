@@ -54,17 +54,16 @@ def test_a_figure_stands_behind_its_first_mention(written: Written) -> None:
 
 
 def test_few_pages_are_thin(report: Report) -> None:
-    sheets = list(report.pages)
-    own = {0, *contents_pages(report), len(sheets) - 1}
-    found = [index for index in thin(sheets) if index not in own]
-    assert len(found) <= max(SHARE * len(sheets), FEW), [index + 1 for index in found]
+    own = {0, *contents_pages(report), len(report.pages) - 1}
+    found = [index for index in thin(report.pages) if index not in own]
+    assert len(found) <= max(SHARE * len(report.pages), FEW), [index + 1 for index in found]
 
 
 def test_no_letter_is_too_small_to_read(report: Report) -> None:
     small = {
         (page.number + 1, glyph.char, round(glyph.size, 2))
         for page in report.pages
-        for glyph in pages.glyphs(page)
+        for glyph in page.glyphs
         if glyph.size < LEAST - ROUNDED
     }
     assert small == set()
@@ -73,14 +72,14 @@ def test_no_letter_is_too_small_to_read(report: Report) -> None:
 def test_a_table_that_goes_on_says_so(report: Report) -> None:
     """No page begins with the rules of a table's head; the label on a continued table names one of the pages before."""
     tables = {block.number for block in report.document.blocks if isinstance(block, Table)}
-    for page, found in zip(report.pages, report.bodies, strict=True):
-        if pages.is_plate(page):
+    for page in report.pages:
+        if page.is_plate:
             continue
-        top = min((glyph.box[1] for glyph in found), default=0.0)
-        rules = [path["rect"] for path in page.get_drawings() if path["rect"].width > 60 * pages.MM]
+        top = min((glyph.box[1] for glyph in page.body), default=0.0)
+        rules = [path["rect"] for path in page.drawings if path["rect"].width > 60 * pages.MM]
         heads = [rule for rule in rules if rule.height < 1.5 and pages.BODY < rule.y0 < top]
         assert heads == [], page.number + 1
-        if label := pages.continued(found):
+        if label := pages.continued(page.body):
             match = pages.CONTINUED.fullmatch(pages.text(label))
             assert match
             assert match[1] in tables
@@ -89,17 +88,19 @@ def test_a_table_that_goes_on_says_so(report: Report) -> None:
 def test_a_figure_follows_its_mention_closely(report: Report) -> None:
     """Pages of another size, which a figure passes over, are not counted."""
     word = report.document.words.figure
-    a4 = [page.number for page in report.pages if not pages.is_plate(page)]
+    a4 = [page.number for page in report.pages if not page.is_plate]
     place: dict[str, int] = {}
     for page in report.pages:
         for number in captions(page, word):
             place.setdefault(number, page.number)
     prose: dict[str, int] = {}
-    for page, found in zip(report.pages, report.bodies, strict=True):
-        for link in page.get_links():
+    for page in report.pages:
+        for link in page.sheet.get_links():
             left, top, right, bottom = link["from"]
             inside = (
-                glyph for glyph in found if left < sum(glyph.box[::2]) / 2 < right and top < glyph.origin[1] < bottom
+                glyph
+                for glyph in page.body
+                if left < sum(glyph.box[::2]) / 2 < right and top < glyph.origin[1] < bottom
             )
             text = "".join(glyph.char for glyph in inside).strip(" .,;()")
             if text in place and link.get("page", -1) in (place[text], place[text] - 1, place[text] + 1):

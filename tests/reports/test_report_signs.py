@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.case import Case
 from reportgen.document import force_figures, outline, result_tables
 from reportgen.document.report import Report
 from reportgen.document.tree import Block, Equation, InlineMath, Paragraph, plain
@@ -21,6 +21,7 @@ from reportgen.writers.latex_math import LatexFormulas
 from reportgen.writers.typst import TypstFormulas
 from tests.document.test_rare_groups import SLOTTED, TRANSLATED
 from tests.reports import built
+from tests.reports.built import Written
 
 RARE = {"slotted": SLOTTED, "translated": TRANSLATED}
 SAME = 1e-9
@@ -30,22 +31,28 @@ FURTHER = 4
 
 
 @pytest.fixture(scope="module", params=[*built.FILES, *RARE], ids=lambda one: getattr(one, "stem", one))
-def report(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Report:
-    """Every file of the repository and the groups that none of them has; those with loads only."""
+def written(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Written:
+    """Every file of the repository and the groups that none of them has."""
     path = request.param
-    if isinstance(path, str):
-        file = tmp_path_factory.mktemp(path) / "linkage.yaml"
-        file.write_text(RARE[path].strip() + "\n", encoding="utf-8")
-        path = file
-    found = outline.open_report(Case(api.load(path)))
+    if isinstance(path, Path):
+        return built.written(path, built.own_language(path))
+    file = tmp_path_factory.mktemp(path) / "linkage.yaml"
+    file.write_text(RARE[path].strip() + "\n", encoding="utf-8")
+    return built.compose(api.load(file))
+
+
+@pytest.fixture(scope="module")
+def report(written: Written) -> Report:
+    """Machines with loads only."""
+    found = outline.open_report(written.case)
     if not found.has_forces:
         pytest.skip("nothing loads this machine")
     return found
 
 
 @pytest.fixture(scope="module")
-def blocks(report: Report) -> list[Block]:
-    return list(built.walk(outline.compose(report.case).blocks))
+def blocks(report: Report, written: Written) -> list[Block]:
+    return list(built.walk(written.document.blocks))
 
 
 def positions(report: Report) -> list[int]:

@@ -28,7 +28,7 @@ def compare(name: str, text: str, request: pytest.FixtureRequest) -> None:
     assert text == file.read_text(encoding="utf-8"), f"{name} differs; look, then --update-snapshots"
 
 
-@pytest.mark.parametrize("language", built.LANGUAGES)
+@pytest.mark.parametrize("language", built.LANGUAGES, ids=lambda language: f"{SAMPLE.stem}-{language}")
 def test_text_of_the_sample(language: Language, request: pytest.FixtureRequest) -> None:
     compare(f"{SAMPLE.stem}-{language}.txt", text_of(built.written(SAMPLE, language).document), request)
 
@@ -42,7 +42,7 @@ def section(document: Document, number: str) -> tuple[Block, ...]:
     return blocks[start:end]
 
 
-@pytest.mark.parametrize("engine", built.ENGINES)
+@pytest.mark.parametrize("engine", built.ENGINES, ids=lambda engine: f"{SAMPLE.stem}-{engine}")
 def test_source_of_a_section(engine: api.Engine, request: pytest.FixtureRequest) -> None:
     from reportgen.writers import latex, typst
 

@@ -95,5 +95,5 @@ VIETNAMESE = {"cb", "qt", "tt", "đ"}
 @pytest.mark.parametrize("path", built.FILES, ids=lambda path: path.stem)
 def test_an_english_report_has_english_indices(path: Path) -> None:
     """In the ledger, of which report, key and sheet are made."""
-    english = built.written(path, "en").case.ledger
+    english = built.case(path, "en").ledger
     assert words_of(family.symbol for family in english.families.values() if not family.hidden) & VIETNAMESE == set()

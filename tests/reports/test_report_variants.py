@@ -54,7 +54,7 @@ def test_a_variant_on_paper(name: str, engine: api.Engine, folder: Path) -> None
     assert report.overfull == ()
     faults = [
         fault
-        for page in list(report.pages)[1:]
+        for page in report.pages[1:]
         for fault in (*pages.outside(page, pages.BEARING), *pages.overlaps(page, pages.INK))
     ]
     assert faults == []

@@ -8,11 +8,10 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from itertools import groupby
-from typing import Any
 
 import numpy as np
 
-from tests.reports.pages import MM, is_plate
+from tests.reports.pages import MM, Page
 
 GAP = 12.0
 """Lower white (mm) is what headings, figures and tables have around them."""
@@ -28,21 +27,21 @@ PAPER = 250
 """A lighter gray is paper: a hair line of the tables is darker at this fineness."""
 
 
-def emptiness(page: Any) -> float:
+def emptiness(page: Page) -> float:
     """The share of the text block's height that lies in gaps of 12 mm or more."""
     import pymupdf
 
     scale = FINE / MM
-    picture = page.get_pixmap(matrix=pymupdf.Matrix(scale, scale), colorspace=pymupdf.csGRAY, alpha=False)
+    picture = page.sheet.get_pixmap(matrix=pymupdf.Matrix(scale, scale), colorspace=pymupdf.csGRAY, alpha=False)
     rows = np.frombuffer(picture.samples, dtype=np.uint8).reshape(picture.height, picture.stride)
-    above, below = (PLATE, PLATE) if is_plate(page) else (TOP, BOTTOM)
+    above, below = (PLATE, PLATE) if page.is_plate else (TOP, BOTTOM)
     block = rows[round(above * FINE) : picture.height - round(below * FINE), : picture.width]
     white = (block >= PAPER).all(axis=1)
     gaps = [len(list(run)) for empty, run in groupby(white) if empty]
     return sum(gap for gap in gaps if gap >= GAP * FINE) / len(white)
 
 
-def thin(pages: Sequence[Any]) -> list[int]:
+def thin(pages: Sequence[Page]) -> list[int]:
     """Indices of the thin pages."""
     return [index for index, page in enumerate(pages) if emptiness(page) >= THIN]
 
@@ -51,7 +50,8 @@ def main(files: Sequence[str]) -> None:
     import pymupdf
 
     for file in files:
-        pages = list(pymupdf.open(file))
+        opened = pymupdf.open(file)
+        pages = [Page(sheet) for sheet in opened]
         found = thin(pages)
         print(f"{file}: {len(pages)} pages, {len(found)} thin: {' '.join(str(index + 1) for index in found)}")
 
