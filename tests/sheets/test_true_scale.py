@@ -19,6 +19,8 @@ ezdxf = pytest.importorskip("ezdxf")
 pymupdf = pytest.importorskip("pymupdf")
 pages = pytest.importorskip("tests.reports.pages")
 
+FORCED = tuple(name for name in MACHINES if name != "slotted-lever-01")
+"""Machines that forces act on."""
 CAD = 1e-4
 """Places in a DXF file are written to a millionth of a millimetre."""
 RULER = 0.02
@@ -40,7 +42,7 @@ def lengths(name: str) -> Iterator[tuple[str, str, float, list[float]]]:
             if scale:
                 found = [line.dxf.start.distance(line.dxf.end) for line in lines]
                 word = laid(name, "A1").case.words["table"]["position"]
-                place = next((text for text in texts if text.startswith(f"{word} ")), "")
+                place = next((text for text in texts if re.search(rf"\b{word} \w+$", text, re.IGNORECASE)), "")
                 yield plate, place, float(scale[1].replace(",", ".")), found
 
 
@@ -60,6 +62,36 @@ def test_every_velocity_and_acceleration_measures_its_value_over_the_scale(name:
                     assert min(abs(one - length) for one in found) < CAD * max(length, 1.0), (plate, point)
                     measured += 1
     assert measured > 8
+
+
+@pytest.mark.parametrize("name", FORCED)
+def test_every_reaction_measures_its_value_over_the_scale(name: str) -> None:
+    of = laid(name, "A1")
+    words, analysis, measured = of.case.words, of.case.analysis, 0
+    named = titles(of)
+    groups = {words["figure"]["group"].format(i=one.name[0], j=one.name[1]): one for one in of.case.polygons[:-1]}
+    for plate, place, scale, found in lengths(name):
+        polygon = groups.get(place.partition(", ")[0])
+        if named[plate] != words["plates"]["forces"] or polygon is None:
+            continue
+        k = position(of, place)
+        for edge in (*polygon.edges, *polygon.reads):
+            force = analysis.forces.reactions.get(edge.name)
+            if force is not None and (length := abs(complex(force.force[k])) / scale) > 1.0:
+                assert min(abs(one - length) for one in found) < CAD * length, (plate, edge.name)
+                measured += 1
+    assert measured > 4
+
+
+# One has a sliding driver, the cranks of the other are drawn as one line from pin to pin.
+@pytest.mark.parametrize("name", [name for name in MACHINES if name not in ("linkage-slide", "engine-twin-05")])
+def test_the_crank_is_drawn_to_scale_at_every_position(name: str) -> None:
+    of = laid(name, "A1")
+    named, driver = titles(of), of.case.analysis.machine.linkage.driver
+    (plan,) = [one for one in lengths(name) if named[one[0]] == of.case.words["plates"]["positions"]]
+    _, _, scale, found = plan
+    drawn = [one for one in found if abs(one - driver.length / scale) < CAD * one]
+    assert len(drawn) >= of.case.analysis.machine.count
 
 
 def titles(of: Laid) -> dict[str, str]:
@@ -94,7 +126,7 @@ def test_all_arrows_are_as_long_on_paper_as_in_cad(name: str) -> None:
             size = pdf[0].rect
             assert abs(size.width / pages.MM - sheet.width) < 0.1
             assert abs(size.height / pages.MM - sheet.height) < 0.1
-            on_paper = list(pages.arrows(pdf[0]))
+            on_paper = list(pages.arrows(pages.Page(pdf[0])))
         expected = [abs(item.end - item.start) for item in arrows(sheet)]
         assert len(on_paper) == len(expected)
         assert all(abs(one - other) < RULER for one, other in zip(on_paper, expected, strict=True))
