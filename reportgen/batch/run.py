@@ -176,7 +176,7 @@ def _run(
         files = {student.id: str(file) for student, file in assigned}
         with closing(pool(jobs, lambda job: watch(job.folder, job.product, "retried"))) as outcomes:
             for job, made in outcomes:
-                outcome = _put(job, made, out)
+                outcome = _put(job, made, out, entries.get((job.student, job.product)))
                 file_name = files[job.student]
                 problems = tuple(one if isinstance(one, str) else one.in_file(file_name) for one in outcome.problems)
                 add(manifest.entry(job, outcome), problems, outcome.exit_code)
@@ -314,16 +314,19 @@ def _remove_temporary(folder: Path) -> None:
                 path.unlink(missing_ok=True)
 
 
-def _put(job: Job, outcome: Outcome, out: Path) -> Outcome:
+def _put(job: Job, outcome: Outcome, out: Path, earlier: Entry | None) -> Outcome:
     """The outcome once its files stand; if they cannot, and it is this student's matter alone, a failure.
 
-    Raises `OutputError` where every other student would meet the same.
+    Files that an earlier run made of the product and this one did not, a third sheet of two, go.  Raises `OutputError` where every other student would meet the same.
     """
     try:
         if outcome.files:
             (out / job.folder).mkdir(exist_ok=True)
         for name, content in outcome.files.items():
             api.replace(out / job.folder / name, content)
+        if outcome.files and earlier is not None and earlier.folder == job.folder:
+            for name in earlier.files.keys() - outcome.files.keys():
+                (out / job.folder / name).unlink(missing_ok=True)
     except OSError as error:
         if error.errno in NO_ROOM:
             raise api.OutputError(f"{error.filename or ''}: {error.strerror or error}") from error

@@ -20,7 +20,7 @@ from reportgen.notation.numbers import Language
 
 
 def little(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
-    """Two files; lines `key: value` of the assignment file make it slow, wrong or deadly before."""
+    """Two files; lines `key: value` of the assignment file make it slow, wrong or deadly before, or of fewer files."""
     text = path.read_text(encoding="utf-8")
     orders = dict(line.split(": ", 1) for line in text.splitlines())
     if "log" in orders:
@@ -39,7 +39,8 @@ def little(path: Path, engine: Engine, language: Language | None) -> Mapping[str
             flag.touch()
             os.kill(os.getpid(), signal.SIGKILL)
     digest = sha256(f"{text}{engine}{language}".encode()).hexdigest()
-    return {"a.pdf": f"{path.stem} {digest}".encode(), "b.xlsx": digest.encode()}
+    files = {"a.pdf": f"{path.stem} {digest}".encode(), "b.xlsx": digest.encode()}
+    return {name: files[name] for name in orders.get("files", "a.pdf b.xlsx").split()}
 
 
 def main() -> int:

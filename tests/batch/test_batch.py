@@ -32,6 +32,15 @@ def test_each_student_gets_a_folder(tmp_path: Path) -> None:
     assert (done.made, done.kept, done.exit_code, done.notes) == (2, 0, 0, [])
 
 
+def test_files_that_are_no_longer_made_go_and_others_stay(tmp_path: Path) -> None:
+    batch = Batch(tmp_path, {"K1": "seconds: 0", "K2": "seconds: 0"})
+    batch.run("little")
+    (batch.out / "K1" / "mine.txt").write_text("mine", encoding="utf-8")
+    (batch.given / "K1.yaml").write_text("files: a.pdf", encoding="utf-8")
+    assert batch.run("little").made == 1
+    assert set(tree(batch.out)) == {"K1", "K1/a.pdf", "K1/mine.txt", "K2", "K2/a.pdf", "K2/b.xlsx", "manifest.json"}
+
+
 def test_a_failure_is_a_result(tmp_path: Path) -> None:
     batch = Batch(tmp_path, {"K1": "wrong: not so", "K2": "seconds: 0", "K3": "seconds: 0.0"})
     (batch.given / "K3.yaml").unlink()
