@@ -8,11 +8,11 @@ same for the first and the thousandth student, and a torn one costs no other.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from hashlib import sha256
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
@@ -48,6 +48,13 @@ class Entry:
             and (self.folder, self.made_of) == (job.folder, made_of(job))
             and all(_hash(out / self.folder / name) == known for name, known in self.files.items())
         )
+
+    def outlived(self, made: Collection[str], out: Path) -> Iterator[Path]:
+        """The files that were made, are unaltered and are `made` no more; a name with a folder in it is none of them."""
+        for name, known in self.files.items():
+            path = out / self.folder / name
+            if name not in made and PurePath(name).name == name and _hash(path) == known:
+                yield path
 
 
 _ENTRY = TypeAdapter(Entry)

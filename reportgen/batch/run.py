@@ -317,7 +317,8 @@ def _remove_temporary(folder: Path) -> None:
 def _put(job: Job, outcome: Outcome, out: Path, earlier: Entry | None) -> Outcome:
     """The outcome once its files stand; if they cannot, and it is this student's matter alone, a failure.
 
-    Files that an earlier run made of the product and this one did not, a third sheet of two, go.  Raises `OutputError` where every other student would meet the same.
+    Files that an earlier run made of the product and this one did not, a third sheet of two, go.  Raises `OutputError`
+    where every other student would meet the same.
     """
     try:
         if outcome.files:
@@ -325,8 +326,8 @@ def _put(job: Job, outcome: Outcome, out: Path, earlier: Entry | None) -> Outcom
         for name, content in outcome.files.items():
             api.replace(out / job.folder / name, content)
         if outcome.files and earlier is not None and earlier.folder == job.folder:
-            for name in earlier.files.keys() - outcome.files.keys():
-                (out / job.folder / name).unlink(missing_ok=True)
+            for path in earlier.outlived(outcome.files, out):
+                path.unlink(missing_ok=True)
     except OSError as error:
         if error.errno in NO_ROOM:
             raise api.OutputError(f"{error.filename or ''}: {error.strerror or error}") from error

@@ -133,6 +133,7 @@ def test_a_forged_manifest_vouches_for_nothing(tmp_path: Path, name: str) -> Non
     content["students"]["K1"]["products"]["little"]["files"] = {name: sha256(b"A").hexdigest()}
     path.write_text(json.dumps(content), encoding="utf-8")
     assert batch.run().made == 1
+    assert (batch.out / "secret.pdf").read_bytes() == b"A"
 
 
 def test_neither_times_nor_places_are_told(tmp_path: Path) -> None:
