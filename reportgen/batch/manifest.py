@@ -50,7 +50,7 @@ class Entry:
         )
 
     def outlived(self, made: Collection[str], out: Path) -> Iterator[Path]:
-        """The files that were made, are unaltered and are `made` no more; a name with a folder in it is none of them."""
+        """The files that were made, are unaltered and are `made` no more; a name with a folder is none of them."""
         for name, known in self.files.items():
             path = out / self.folder / name
             if name not in made and PurePath(name).name == name and _hash(path) == known:
