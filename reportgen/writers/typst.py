@@ -365,14 +365,8 @@ class _Blocks:
         return f"#{name}{','.join(f'[{inner.write(item)}]' for item in block.items)})"
 
     def equation(self, equation: tree.Equation) -> str:
-        """Rows in one block each, but a vector equation as a grid of its own; the number on the last."""
-        groups: list[list[Expression]] = []
-        for row in equation.rows:
-            grid = isinstance(row, VectorEquation)
-            if groups and not grid and not isinstance(groups[-1][-1], VectorEquation):
-                groups[-1].append(row)
-            else:
-                groups.append([row])
+        """Rows that are set alike in one block each; the number on the last."""
+        groups = layout.in_groups(equation.rows, self.room)
         lines = []
         for index, group in enumerate(groups):
             number = literal(equation.number if index == len(groups) - 1 else "")
@@ -381,7 +375,7 @@ class _Blocks:
                 lines.append(f"#V({number},{self.room:g},{self.vector_equation(first)})")
             else:
                 rows = ",".join(_array(self.row(row)) for row in group)
-                lines.append(f"#E({number},{self.room:g},{rows})")
+                lines.append(f"#E({number},{self.room:g},{layout.ABREAST:g},{rows})")
         return "\n".join(lines) + _label(equation.key)
 
     def row(self, row: Expression) -> list[str]:
