@@ -47,7 +47,7 @@ WHITE = (40.0, 64.0)
 HALF = 0.5
 CLOSE = 5.5
 """What of their margins (mm) scenes of one figure give up to stand side by side."""
-SCHEME_BOX = (120.0, 130.0)
+SCHEME_BOX = (120.0, 85.0)
 SMALL_SCHEME = 79.0
 """Height with its labels at most of a scheme that stands among tables, mm."""
 REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
