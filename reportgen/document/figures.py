@@ -19,7 +19,7 @@ from reportgen.catalogue.loads import Piston
 from reportgen.catalogue.machine import Machine, Position
 from reportgen.cycle import StrokeIndicator
 from reportgen.document.groups import GroupView
-from reportgen.document.report import DENSE, FUNCTIONS, SAME, Report
+from reportgen.document.report import DENSE, FUNCTIONS, SAME, Report, member
 from reportgen.document.tree import Figure, InlineMath, Plate, Text
 from reportgen.figures import indicator as indicator_figure
 from reportgen.figures import scheme as scheme_figure
@@ -43,7 +43,7 @@ LARGER = tuple(
 """Sheets A2, A1, A0, lying and standing."""
 TEXT_BLOCK = (160.0, 225.0)
 """What of an A4 page a figure may fill with its caption."""
-WHITE = (40.0, 64.0)
+WHITE = (34.0, 64.0)
 """What of a plate's page (mm) its margins, header and caption take."""
 HALF = 0.5
 CLOSE = 5.5
@@ -213,6 +213,12 @@ def _reduction(report: Report) -> float:
 @figure("positions")
 def positions(report: Report) -> Drawn:
     return on_paper(_positions(report, None))
+
+
+@member
+def plan_in_text(report: Report) -> bool:
+    """Whether the position plan stands in the text, on no page of its own."""
+    return positions(report).paper is None
 
 
 def _positions(report: Report, beside: Draft | None) -> Scene:

@@ -50,7 +50,7 @@ UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
 
 TITLE = 5.0
 """What the titles of a row of scenes take below it (mm)."""
-LONG_FIGURE = 80.0
+LONG_FIGURE = 110.0
 """A figure of several rows that is higher than this (mm) may break between them; its caption then comes first."""
 Column = tuple[str, str, tuple[Expression | str | None, ...]]
 """Of a vector equation: the sign before a term, the term itself, what is known of it."""
