@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
@@ -14,33 +15,41 @@ from reportgen.figures.plan import Plan
 
 SAME = 0.01
 """Ends of vectors nearer than this (mm), the last digit of a measured length, are one for any reader."""
+FEWEST = 2
+"""Pairs of positions, less of which are not worth a sentence."""
 PARALLEL = 1e-3
 """Two lines of mirroring whose directions differ by no more (radians, twice) are one."""
 
 
 @dataclass(frozen=True, slots=True)
 class Mirrored:
-    """Positions (numbers) and, in the same order, those whose plans are their mirror images."""
+    """Positions (numbers) and, in the same order, the earlier ones of whose plans theirs are the mirror images."""
 
     at: tuple[int, ...]
     of: tuple[int, ...]
 
 
 def mirrored(plans: Mapping[int, Plan]) -> Mirrored:
-    """Which of the plans, at their positions, mirror one at an earlier position, all of them in parallel lines."""
+    """Which of the plans, at their positions, mirror one at an earlier position in parallel lines.
+
+    Of several such lines the one with most pairs counts; a single pair, as of the two dead centres, is drawn.
+    """
     ends = {k: np.array([end for v in plan.vectors for end in (v.start, v.end)]) for k, plan in plans.items()}
-    pairs: list[tuple[int, int]] = []
-    line: complex | None = None
-    for k, found in ends.items():
-        taken = {number for pair in pairs for number in pair}
-        for earlier in (number for number in ends if number < k and number not in taken):
-            turn = _turn(ends[earlier], found)
-            if turn is not None and (line is None or abs(turn - line) < PARALLEL):
-                line = turn
-                pairs.append((k, earlier))
-                break
-    pairs.sort(key=lambda pair: pair[1])
-    return Mirrored(tuple(k for k, _ in pairs), tuple(earlier for _, earlier in pairs))
+    found = [
+        (one, other, turn)
+        for one, other in combinations(sorted(ends), 2)
+        if (turn := _turn(ends[one], ends[other])) is not None
+    ]
+    best: dict[int, int] = {}
+    for *_, line in found:
+        pairs: dict[int, int] = {}
+        for one, other, turn in found:
+            if abs(turn - line) < PARALLEL and not {one, other} & {*pairs, *pairs.values()}:
+                pairs[one] = other
+        best = max(best, pairs, key=len)
+    if len(best) < FEWEST:
+        return Mirrored((), ())
+    return Mirrored(tuple(best.values()), tuple(best))
 
 
 def _turn(one: np.ndarray, other: np.ndarray) -> complex | None:

@@ -13,7 +13,9 @@ import numpy as np
 from reportgen.document.figures import A3_ACROSS, MM, TEXT_BLOCK, Drawn, figure, on_paper, scale_note
 from reportgen.document.groups import GroupView
 from reportgen.document.mirrors import Mirrored, mirrored
+from reportgen.document.phrases import counted
 from reportgen.document.report import Report, function
+from reportgen.document.tree import Inlines
 from reportgen.figures.draft import sheets
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, Titles, lettered, plan, stages
 from reportgen.figures.scene import Scene
@@ -70,7 +72,7 @@ def _register(name: str, what: What) -> None:
         return _stages(report, until, f"mu.{what}", titles, begin)
 
     def on_plates(report: Report) -> Drawn:
-        told = mirror_images(report, what).at
+        told = _mirrored(report, what).at
         return _plates(report, drawing, [k for k in _one_turn(report) if k not in told], f"mu.{what}")
 
     figure(name, f"fig.{what}")(whole)
@@ -83,10 +85,17 @@ def _one_turn(report: Report) -> list[int]:
     return sorted({(k - 1) % report.count + 1 for k in report.plates})
 
 
-@function
-def mirror_images(report: Report, what: What) -> Mirrored:
+def _mirrored(report: Report, what: What) -> Mirrored:
     """The positions whose plans of velocity (v) or acceleration (a) mirror drawn ones."""
     return mirrored({k: motion_plan(report, what, k) for k in _one_turn(report)})
+
+
+@function
+def mirror_images(report: Report, what: What) -> Inlines:
+    """What is said of the positions whose plans are not drawn again; nothing where all are drawn."""
+    found = _mirrored(report, what)
+    drawn = ", ".join(str(report.machine.position(k)) for k in found.of)
+    return counted(report, "mirrored", [report.machine.position(k) for k in found.at], drawn=drawn)
 
 
 _register("velocity", "v")
@@ -132,7 +141,7 @@ def _stages(
 ) -> Drawn:
     """The stages of a plan at half its size or, for large plans, less, with the scale that makes."""
     number = report.ledger.number(scale, k)
-    for share in SHARES[1:]:
+    for share in SHARES[1:-1]:
         scenes = stages(drawing, share, titles, begin)
         across = sum(scene.width for scene in scenes) + SCENE_GAP * (len(scenes) - 1)
         widest, highest = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
