@@ -19,7 +19,7 @@ from reportgen.catalogue.loads import Piston
 from reportgen.catalogue.machine import Machine, Position
 from reportgen.cycle import StrokeIndicator
 from reportgen.document.groups import GroupView
-from reportgen.document.report import DENSE, FUNCTIONS, SAME, Report
+from reportgen.document.report import DENSE, FUNCTIONS, SAME, Report, member
 from reportgen.document.tree import Figure, InlineMath, Plate, Text
 from reportgen.figures import indicator as indicator_figure
 from reportgen.figures import scheme as scheme_figure
@@ -35,6 +35,7 @@ from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Chain, Number, Symbol
 
 MM = 1e3
+A4_ACROSS = (297.0, 210.0)
 A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)
 LARGER = tuple(
     size for short, long in ((420.0, 594.0), (594.0, 841.0), (841.0, 1189.0)) for size in ((long, short), (short, long))
@@ -42,12 +43,12 @@ LARGER = tuple(
 """Sheets A2, A1, A0, lying and standing."""
 TEXT_BLOCK = (160.0, 225.0)
 """What of an A4 page a figure may fill with its caption."""
-WHITE = (40.0, 64.0)
+WHITE = (34.0, 64.0)
 """What of a plate's page (mm) its margins, header and caption take."""
 HALF = 0.5
 CLOSE = 5.5
 """What of their margins (mm) scenes of one figure give up to stand side by side."""
-SCHEME_BOX = (120.0, 130.0)
+SCHEME_BOX = (120.0, 75.0)
 SMALL_SCHEME = 79.0
 """Height with its labels at most of a scheme that stands among tables, mm."""
 REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
@@ -123,7 +124,7 @@ def on_paper(*scenes: Scene) -> Drawn:
     if all(map(in_text, scenes)):
         return Drawn(scenes)
     width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
-    papers = (paper for paper in (A3_ACROSS, A3_UPRIGHT, *LARGER) if fits(width, height, paper))
+    papers = (paper for paper in (A4_ACROSS, A3_ACROSS, A3_UPRIGHT, *LARGER) if fits(width, height, paper))
     return Drawn(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
 
 
@@ -212,6 +213,12 @@ def _reduction(report: Report) -> float:
 @figure("positions")
 def positions(report: Report) -> Drawn:
     return on_paper(positions_scene(report))
+
+
+@member
+def plan_in_text(report: Report) -> bool:
+    """Whether the position plan stands in the text, on no page of its own."""
+    return positions(report).paper is None
 
 
 def positions_scene(report: Report, beside: Draft | None = None) -> Scene:

@@ -12,7 +12,10 @@ import numpy as np
 
 from reportgen.document.figures import A3_ACROSS, MM, TEXT_BLOCK, Drawn, figure, on_paper, scale_note
 from reportgen.document.groups import GroupView
-from reportgen.document.report import Report
+from reportgen.document.mirrors import Mirrored, mirrored
+from reportgen.document.phrases import counted
+from reportgen.document.report import Report, function
+from reportgen.document.tree import Inlines
 from reportgen.figures.draft import sheets
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, Titles, lettered, plan, stages
 from reportgen.figures.scene import Scene
@@ -23,14 +26,20 @@ from reportgen.ledger.kinematics.sides import Side, image
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Chain, Symbol
 
+SCENE_GAP = 4.0
+"""Between scenes side by side (mm)."""
 SHEET = (385.0, 232.0)
 """What of an A3 page (landscape) plans may fill."""
 SHARES = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1)
 """How much smaller the plans of all positions may be drawn than the worked ones: scales stay in their series."""
-LARGEST = (78.0, 75.0)
-"""The largest of these plans (mm): two stand side by side, three rows on a page."""
-PANEL = (78.0, 66.0)
-"""The panel of a construction's step at most (mm)."""
+LARGEST = 58.0
+"""What the longest extent of these plans may be without their labels (mm): about three stand side by side."""
+ROOM = (78.0, 75.0)
+"""What each of them may take with its labels (mm)."""
+PANELS = 160.0, 60.0
+"""What of a page the panels of a construction's steps may take, all in one row (mm)."""
+PANEL = 78.0
+"""The width of one panel at most (mm)."""
 CLOSE_MARGIN = 2.0
 """White around each of many plans (mm)."""
 
@@ -63,12 +72,30 @@ def _register(name: str, what: What) -> None:
         return _stages(report, until, f"mu.{what}", titles, begin)
 
     def on_plates(report: Report) -> Drawn:
-        one_turn = sorted({(k - 1) % report.count + 1 for k in report.plates})
-        return _plates(report, drawing, one_turn, f"mu.{what}")
+        told = _mirrored(report, what).at
+        return _plates(report, drawing, [k for k in _one_turn(report) if k not in told], f"mu.{what}")
 
     figure(name, f"fig.{what}")(whole)
     figure(f"{name}-stages", f"fig.{what}.stages")(in_stages)
     figure(f"{name}-plates", f"fig.{what}.plates")(on_plates)
+
+
+def _one_turn(report: Report) -> list[int]:
+    """The positions of one turn whose plans are drawn."""
+    return sorted({(k - 1) % report.count + 1 for k in report.plates})
+
+
+def _mirrored(report: Report, what: What) -> Mirrored:
+    """The positions whose plans of velocity (v) or acceleration (a) mirror drawn ones."""
+    return mirrored({k: motion_plan(report, what, k) for k in _one_turn(report)})
+
+
+@function
+def mirror_images(report: Report, what: What) -> Inlines:
+    """What is said of the positions whose plans are not drawn again; nothing where all are drawn."""
+    found = _mirrored(report, what)
+    drawn = ", ".join(str(report.machine.position(k)) for k in found.of)
+    return counted(report, "mirrored", [report.machine.position(k) for k in found.at], drawn=drawn)
 
 
 _register("velocity", "v")
@@ -114,9 +141,11 @@ def _stages(
 ) -> Drawn:
     """The stages of a plan at half its size or, for large plans, less, with the scale that makes."""
     number = report.ledger.number(scale, k)
-    for share in SHARES[1:]:
+    for share in SHARES[1:-1]:
         scenes = stages(drawing, share, titles, begin)
-        if all(scene.width <= PANEL[0] and scene.height <= PANEL[1] for scene in scenes):
+        across = sum(scene.width for scene in scenes) + SCENE_GAP * (len(scenes) - 1)
+        widest, highest = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
+        if widest <= PANEL and across <= PANELS[0] and highest <= PANELS[1]:
             break
     smaller = replace(number, value=float(f"{number.shown / share:.9g}"), decimals=None)
     return Drawn(scenes, note=Chain((report.ledger.symbol(scale), smaller)))
@@ -136,8 +165,9 @@ def _plates(
             plan(shown.scaled(share), title=f"{word} {report.machine.position(k)}", enlarged=False, margin=CLOSE_MARGIN)
             for k, shown in plans.items()
         )
-        room = LARGEST if share > SHARES[-1] else TEXT_BLOCK
-        if all(scene.width <= room[0] and scene.height <= room[1] for scene in scenes):
+        room = ROOM if share > SHARES[-1] else TEXT_BLOCK
+        small = share * max(shown.extent for shown in plans.values()) <= LARGEST or share == SHARES[-1]
+        if small and all(scene.width <= room[0] and scene.height <= room[1] for scene in scenes):
             return Drawn(scenes, note=scale_note(report, scale, share, at))
     return Drawn(sheets(scenes, *SHEET, scale_note(report, scale, share, at), trim=0.0), A3_ACROSS)
 

@@ -112,6 +112,12 @@ class Plan:
         """The vectors that can be seen."""
         return tuple(v for v in self.vectors if v.length > INVISIBLE)
 
+    @property
+    def extent(self) -> float:
+        """The larger of its width and height without labels, mm."""
+        low, high = bounds(_arrows(self.drawn()))
+        return max((high - low).real, (high - low).imag)
+
     def scaled(self, factor: complex) -> Plan:
         """The plan enlarged or reduced; a complex factor also turns it."""
         return replace(

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from reportgen.document import tree
 from reportgen.figures.scene import Scene
-from reportgen.notation.expressions import Symbol
+from reportgen.notation.expressions import Expression, Symbol
 from reportgen.words import templates
 from reportgen.writers import layout
 from reportgen.writers.drawing import paint_latex
@@ -47,6 +47,7 @@ def write(document: tree.Document) -> str:
         header=[escape(text) for text in document.header],
         footer=[escape(text) for text in document.footer],
         characters=declarations(),
+        gap=f"{layout.ABREAST:g}",
         body=body,
     )
 
@@ -224,9 +225,14 @@ class _Writer:
     def equation(self, equation: tree.Equation) -> str:
         place = rf"\place{{{self.places[equation.key]}}}" if equation.key else ""
         number = place + (f"({escape(equation.number)})" if equation.number else "")
+        *before, last = layout.in_groups(equation.rows, layout.TEXT_WIDTH)
+        return "\n".join([*(self.aligned(group, "") for group in before), self.aligned(last, number)])
+
+    def aligned(self, group: Sequence[Expression], number: str) -> str:
+        """Rows that are set alike, the number on the last."""
         rows = []
-        for index, row in enumerate(equation.rows):
-            macro = "L" if index == len(equation.rows) - 1 else "R"
+        for index, row in enumerate(group):
+            macro = "L" if index == len(group) - 1 else "R"
             left, rest = self.formulas.aligned(row)
             rows.append(rf"\{macro}{{{left}}}{{{rest}}}")
         return f"\\EQ{{{number}}}{{%\n" + "%\n".join(rows) + "}"

@@ -6,10 +6,12 @@ import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import groupby
 from typing import ClassVar
 
 from reportgen.document.tree import Block, Equation, List, PageBreak, Paragraph, Plate, Table, plain
 from reportgen.errors import TypesetterError
+from reportgen.figures.metrics import box
 from reportgen.figures.scene import Scene
 from reportgen.notation.expressions import (
     Call,
@@ -35,6 +37,10 @@ TEXT_WIDTH = 160.0
 """Of the A4 text block, mm."""
 SCENE_GAP = 4.0
 """Between scenes side by side, mm."""
+ABREAST = 8.0
+"""Between two short rows of an equation side by side, mm."""
+TEXT_SIZE = 12.0
+"""Of running text and formulas, points."""
 WHOLE_TABLE = 12
 """A table with no more rows than this is kept on one page."""
 TOGETHER = 3
@@ -44,7 +50,7 @@ UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
 
 TITLE = 5.0
 """What the titles of a row of scenes take below it (mm)."""
-LONG_FIGURE = 150.0
+LONG_FIGURE = 110.0
 """A figure of several rows that is higher than this (mm) may break between them; its caption then comes first."""
 Column = tuple[str, str, tuple[Expression | str | None, ...]]
 """Of a vector equation: the sign before a term, the term itself, what is known of it."""
@@ -243,6 +249,50 @@ def level(node: Expression) -> int:
 def short_end(row: Expression) -> bool:
     """Whether a row ends in "= 0", which must not stand on a line of its own."""
     return isinstance(row, Chain) and isinstance(row.parts[-1], Number) and row.parts[-1].shown == 0
+
+
+def in_groups(rows: Sequence[Expression], room: float) -> list[tuple[Expression, ...]]:
+    """The rows of an equation in groups that are set alike: vector equations alone, runs of short rows, others.
+
+    Of short rows two have `room` (mm) side by side; one alone stays with the rows beside it.
+    """
+    groups = [list(run) for _, run in groupby(rows, lambda row: isinstance(row, VectorEquation))]
+    found: list[tuple[Expression, ...]] = []
+    for group in groups:
+        if isinstance(group[0], VectorEquation):
+            found += ((row,) for row in group)
+            continue
+        aligned: list[Expression] = []
+        for short, run in groupby(group, lambda row: 2 * _width(row) + ABREAST <= room):
+            members = tuple(run)
+            if not short or len(members) == 1:
+                aligned += members
+                continue
+            found += [tuple(aligned)] if aligned else []
+            found.append(members)
+            aligned = []
+        found += [tuple(aligned)] if aligned else []
+    return found
+
+
+def _width(row: Expression) -> float:
+    """About what a displayed row takes across (mm)."""
+    return box(_flat(row), TEXT_SIZE).width
+
+
+def _flat(node: Expression) -> Expression:
+    """An expression with the wider part of each fraction in its place: displayed, it is set in full size."""
+    match node:
+        case Fraction(top, bottom):
+            return max(_flat(top), _flat(bottom), key=lambda part: box(part, TEXT_SIZE).width)
+        case Chain(parts, note):
+            return Chain(tuple(map(_flat, parts)), note)
+        case Product(factors):
+            return Product(tuple(map(_flat, factors)))
+        case Sum(terms):
+            return Sum(tuple(map(_flat, terms)))
+        case _:
+            return node
 
 
 # --- blocks ---------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ between spaces, because identifiers of Typst may hold a hyphen.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -108,6 +108,8 @@ LIST_INDENT = 12.0
 SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
 #show math.equation: set text(font:"New Computer Modern Math")"""
 UNSETTLED = "#let settled = (:)"
+ROUNDS = 8
+"""How often the typesetter is helped on at most."""
 HELD = 40
 """A plate waits for the end of its page behind at most so many blocks."""
 
@@ -124,14 +126,41 @@ def typeset(document: tree.Document) -> tuple[str, bytes]:
     """The source of a document with its PDF.
 
     Where figures stand depends on where those before them stand.  Should the typesetter come to no end with that,
-    what it found last is written into the source.  Raises `TypesetterError`.
+    the choices that it has found right are written into the source, and it goes on behind them.  Raises
+    `TypesetterError`.
     """
-    source = write(document)
+    unsettled = source = write(document)
     pdf, settles = _compile(source)
-    if not settles:
-        source = source.replace(UNSETTLED, f"#let settled = ({_settled(source)})", 1)
-        pdf, _ = _compile(source)
+    known: dict[str, str] = {}
+    for _ in range(ROUNDS):
+        if settles:
+            break
+        found = {name: choice for name, choice, _ in _choices(source)}
+        known = _right(_choices(_settled(unsettled, {**found, **known})), known)
+        source = _settled(unsettled, known)
+        pdf, settles = _compile(source)
     return source, pdf
+
+
+def _settled(source: str, choices: Mapping[str, str]) -> str:
+    """A source with choices of its figures and plates written in."""
+    entries = "".join(f"{literal(name)}: {choice}," for name, choice in choices.items())
+    return source.replace(UNSETTLED, f"#let settled = ({entries or ':'})", 1)
+
+
+def _right(choices: Iterable[tuple[str, str, str]], known: Mapping[str, str]) -> dict[str, str]:
+    """The choices up to the first that the pages it has led to do not show; of that one, what they show.
+
+    A choice stands on those before it only.
+    """
+    right = dict(known)
+    for name, choice, seen in choices:
+        if name in known:
+            continue
+        right[name] = seen
+        if choice != seen:
+            break
+    return right
 
 
 def _compile(source: str) -> tuple[bytes, bool]:
@@ -160,12 +189,12 @@ def lacking(letters: str, system: bool) -> str:
     return "".join(json.loads(answer))
 
 
-def _settled(source: str) -> str:
-    """The entries of a dictionary: where the typesetter has last put figures and plates."""
+def _choices(source: str) -> list[tuple[str, str, str]]:
+    """Of each figure and plate that may wait, in order: its name, what was chosen, what the pages show."""
     import typst
 
     found = json.loads(typst.query(source.encode(), "<settled>", field="value", ignore_system_fonts=True))
-    return "".join(f"{literal(name)}: {str(choice).lower()}," for name, choice in found)
+    return [(name, json.dumps(choice), json.dumps(seen)) for name, choice, seen in found]
 
 
 def write(document: tree.Document) -> str:
@@ -348,14 +377,8 @@ class _Blocks:
         return f"#{name}{','.join(f'[{inner.write(item)}]' for item in block.items)})"
 
     def equation(self, equation: tree.Equation) -> str:
-        """Rows in one block each, but a vector equation as a grid of its own; the number on the last."""
-        groups: list[list[Expression]] = []
-        for row in equation.rows:
-            grid = isinstance(row, VectorEquation)
-            if groups and not grid and not isinstance(groups[-1][-1], VectorEquation):
-                groups[-1].append(row)
-            else:
-                groups.append([row])
+        """Rows that are set alike in one block each; the number on the last."""
+        groups = layout.in_groups(equation.rows, self.room)
         lines = []
         for index, group in enumerate(groups):
             number = literal(equation.number if index == len(groups) - 1 else "")
@@ -364,7 +387,7 @@ class _Blocks:
                 lines.append(f"#V({number},{self.room:g},{self.vector_equation(first)})")
             else:
                 rows = ",".join(_array(self.row(row)) for row in group)
-                lines.append(f"#E({number},{self.room:g},{rows})")
+                lines.append(f"#E({number},{self.room:g},{layout.ABREAST:g},{rows})")
         return "\n".join(lines) + _label(equation.key)
 
     def row(self, row: Expression) -> list[str]:

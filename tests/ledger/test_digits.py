@@ -93,7 +93,14 @@ def assert_a_person_would_write_it(ledger: Ledger) -> None:
 
 @pytest.mark.parametrize("path", built.FILES, ids=lambda path: path.stem)
 def test_files(path: Path) -> None:
-    assert_a_person_would_write_it(built.case(path, built.own_language(path)).ledger)
+    """A line that is listed for some position holds at those at which it is written out."""
+    case = built.case(path, built.own_language(path))
+    assignment, ledger = case.assignment, case.ledger
+    assert_a_person_would_write_it(ledger)
+    worked = {(k - 1) % turn + 1 for k in assignment.worked_positions for turn in (assignment.positions.count, 10**6)}
+    assert [
+        line for line in worst_lines(ledger) if line[1] in ledger.cancellations and line[2] in worked if line[0] > 1
+    ] == []
 
 
 @pytest.mark.parametrize("path", built.TYPESET, ids=lambda path: path.stem)

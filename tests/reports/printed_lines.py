@@ -10,6 +10,7 @@ import unicodedata
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 from tests.reports import pages
@@ -17,6 +18,8 @@ from tests.reports.built import Report
 from tests.reports.pages import Glyph
 from tests.reports.recompute import Printed, misfit
 
+WHITE = 6 * pages.MM
+"""Between two equations on a line at least; nothing within one stands so far apart."""
 NUMBER = r"\d+(?:\.\d+)?"
 RESULT = re.compile(rf"(?P<sign>-?)(?P<number>{NUMBER})(?P<unit>(?:[^\d.()=+-].*)?)")
 OPERATOR: dict[type[ast.operator], Callable[[float, float], float]] = {
@@ -92,8 +95,9 @@ def printed_lines(report: Report) -> Iterator[PrintedLine]:
             for drawing in page.drawings
             if drawing["rect"].height < 1 and drawing["rect"].width < 100 * pages.MM
         ]
-        for row in _rows(found):
-            text = _read(row, found, bars)
+        for row, left, right in (part for line in _rows(found) for part in _abreast(line, found)):
+            inside = [glyph for glyph in found if left < glyph.origin[0] < right]
+            text = _read(row, inside, [bar for bar in bars if left < bar.x0 < right])
             text = text.replace("−", "-").replace(",", ".") if report.language == "vi" else text.replace("−", "-")
             *before, substitution, result = ["", "", *text.split("=")]
             if before[2:] and _is_calculation(substitution) and RESULT.fullmatch(result):
@@ -121,6 +125,23 @@ def _rows(found: Sequence[Glyph]) -> Iterator[list[Glyph]]:
     for row in rows.values():
         if any(glyph.char == "=" for glyph in row):
             yield sorted(row, key=lambda glyph: glyph.origin[0])
+
+
+def _abreast(row: list[Glyph], found: Sequence[Glyph]) -> Iterator[tuple[list[Glyph], float, float]]:
+    """The equations of a row that stand side by side, each with the ends of its place: white is between them."""
+    baseline = row[0].origin[1]
+    near = sorted(
+        (glyph.box[0], glyph.box[2]) for glyph in found if abs(glyph.origin[1] - baseline) < 1.5 * row[0].size
+    )
+    cuts, reached = [-math.inf], near[0][1]
+    for start, end in near:
+        if start - reached > WHITE:
+            cuts.append((start + reached) / 2)
+        reached = max(reached, end)
+    for left, right in pairwise((*cuts, math.inf)):
+        part = [glyph for glyph in row if left < glyph.origin[0] < right]
+        if any(glyph.char == "=" for glyph in part):
+            yield part, left, right
 
 
 def _read(row: Sequence[Glyph], found: Sequence[Glyph], bars: Sequence[Any]) -> str:

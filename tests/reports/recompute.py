@@ -30,7 +30,6 @@ from reportgen.document.tree import (
     formula,
 )
 from reportgen.figures.scene import Label
-from reportgen.ledger.report import SAME
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol, Term, VectorEquation, rebuild, walk
 from reportgen.notation.numbers import write
@@ -92,7 +91,7 @@ def steps(chain: Chain) -> Iterator[tuple[Expression, Number]]:
             yield left, right
 
 
-def step_misfit(left: Expression, result: Number, loose: bool = False) -> float:
+def step_misfit(left: Expression, result: Number) -> float:
     numbers = [node for node in walk(left) if isinstance(node, Number)]
 
     def function(values: Sequence[float]) -> float:
@@ -106,20 +105,16 @@ def step_misfit(left: Expression, result: Number, loose: bool = False) -> float:
         return float(evaluate(put_in(left)))
 
     shown = as_result(result)
-    return misfit(function, [as_printed(number) for number in numbers], shown, loose or result.decimals == 0)
+    return misfit(function, [as_printed(number) for number in numbers], shown, loose=result.decimals == 0)
 
 
 def off(written: Written) -> list[str]:
     """The lines of a report that a reader's calculator does not come to, each with how far it is off."""
-    ledger = written.case.ledger
-    # Results of the whole report are listed for other positions only than those at which their lines stand.
-    ids = set(ledger.cancellations).difference(*SAME)
-    listed = [ledger.chain(id, k) for id in ids for k in range(1, ledger.positions + 1)]
     return [
         f"{misfit:.2f}: {formula(chain, written.language)}"
         for chain in chains(written.document)
         for left, result in steps(chain)
-        if not (misfit := step_misfit(left, result, loose=replace(chain, note="") in listed)) <= 1
+        if not (misfit := step_misfit(left, result)) <= 1
     ]
 
 

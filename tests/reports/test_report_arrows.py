@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from reportgen.document.tree import Figure, InlineMath, Plate
+from reportgen.document.tree import Figure, InlineMath, Plate, text_of
 from reportgen.figures.scene import Arrow, Label
 from reportgen.mechanism.structure import DRIVER
 from reportgen.notation.expressions import Chain, Number, Symbol
@@ -80,7 +80,7 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
     else:
         return {}
     count = written.case.analysis.machine.count if motion else written.case.analysis.machine.positions
-    positions = range(1, count + 1) if position == "plates" else [worked(written, position, count)]
+    positions = on_plates(written, key, count) if position == "plates" else [worked(written, position, count)]
     scale = f"mu.{motion[1]}" if motion else f"mu.R{polygon.name}"
     printed = scale_of(written, key, ledger.symbol(scale))
     share = {k: ledger.number(scale, k).value / printed for k in positions}
@@ -88,6 +88,23 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
         name: [abs(complex(ledger[id].at(k))) * MM * share[k] for id in of for k in positions]
         for name, of in ids.items()
     }
+
+
+def on_plates(written: Written, key: str, count: int) -> list[int]:
+    """The positions whose plans a figure draws, by the titles of its scenes; the text names the others."""
+    titles = set()
+    for figure, scene in built.scenes(written.document):
+        if figure == key:
+            titles |= {scene.title, *(item.content for item in scene.items if isinstance(item, Label))}
+    word = written.case.words["table"]["position"]
+    position = written.case.analysis.machine.position
+    found = [k for k in range(1, count + 1) if f"{word} {position(k)}" in titles]
+    if len(found) < count:
+        before, between, _ = re.split(r"\{list\}|\{drawn\}", written.case.words["counted"]["mirrored"])
+        sentence = re.compile(f"{re.escape(before)}(.+?){re.escape(between)}")
+        told = {name for names in sentence.findall(text_of(written.document)) for name in names.split(", ")}
+        assert told >= {str(position(k)) for k in range(1, count + 1) if k not in found}
+    return found
 
 
 def scale_of(written: Written, key: str, symbol: Symbol) -> float:
