@@ -163,7 +163,8 @@ def _other_data(guide: Guide, cells: Cells) -> Iterator[Flag]:
 def _copied(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> list[Flag]:
     """Runs of values that a classmate's sheet or key has, chapter by chapter and over the sheet."""
     own = {place: cell for place, cell in cells.items() if cell.given is not None and _is_personal(guide, cell)}
-    others = [one for one in classmates if one.key.id != guide.key.id and not _is_source(guide, cells, one)]
+    right = [cell for cell in cells.values() if cell.verdict is Verdict.right]
+    others = [one for one in classmates if one.key.id != guide.key.id and not _is_source(guide, right, one)]
     chapters = {place: guide.rows[place[0]].part for place in own}
     compared = 2 * len(others) * (1 + len(set(chapters.values())))
     flags: list[Flag] = []
@@ -176,8 +177,10 @@ def _copied(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> list
         for part in (*parts, list(own), *wrong):
             telling = [place for place in part if meets[place] is not None]
             met = [place for place in telling if meets[place]]
+            if len(met) < max(FEWEST, SAME * len(telling)):
+                continue
             by_chance = compared * _tail([NEAR if _is_near(own[place]) else FAR for place in telling], len(met))
-            if len(met) >= max(FEWEST, SAME * len(telling)) and by_chance < CHANCE:
+            if by_chance < CHANCE:
                 found |= dict.fromkeys(met)
                 chance = min(chance, by_chance)
         if found:
@@ -205,17 +208,19 @@ def _is_whole(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
     return len(telling) > FEWEST_ROWS and met >= SAME * len(telling)
 
 
-def _is_source(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
-    """Whether it is the other sheet that has this one's values: those that are right here and wrong there.
+def _is_source(guide: Guide, right: Sequence[Marked], classmate: Classmate) -> bool:
+    """Whether it is the other sheet that has this one's values: those that are `right` here and wrong there.
 
     What depends on a scale says nothing: the classmate may have chosen another one than the key.
     """
     taken = 0
-    for place, cell in cells.items():
+    for cell in right:
+        # Few values are equal, so that is asked first: there may be hundreds of classmates.
+        if not _equal(cell, _theirs(classmate, (cell.id, cell.position))):
+            continue
         row = _row(classmate, cell)
-        if row is not None and cell.verdict is Verdict.right and not _is_drawn(row):
-            off = _apart(guide, cell, float(row.values[row.at(cell.position)]), cell.expected)
-            taken += off >= APART * cell.band and _equal(cell, _theirs(classmate, place))
+        if row is not None and not _is_drawn(row):
+            taken += _apart(guide, cell, float(row.values[row.at(cell.position)]), cell.expected) >= APART * cell.band
     return taken >= FEWEST_ROWS
 
 

@@ -6,9 +6,11 @@ one sheet; the table says how many are located, named and charged, and how many 
 
 from __future__ import annotations
 
+import argparse
+import math
 import operator
-import sys
 from collections import Counter
+from collections.abc import Sequence
 from functools import partial
 from statistics import median
 
@@ -76,31 +78,49 @@ def honest(name: str, sheets: int) -> list[tuple[str, str]]:
     return [(f"honest sheets that lose a mark (± 0.3, ± 0.5 mm, {len(SCALES) + 1} scales)", share(losing, worked))]
 
 
-def flagged(sheets: int) -> list[tuple[str, str]]:
+def class_of(name: str, sheets: int) -> list[tuple[str, str]]:
     """A class of 40: honest sheets that are flagged, copies that are not, names and costs of usual mistakes."""
-    rng = np.random.default_rng(40)
-    guides = hands.variants(CLASS, rng)
+    rng = np.random.default_rng(CLASS)
+    guides = hands.variants(CLASS, rng, name)
     room = Room(guides, [hands.honest(guide, rng) for guide in guides])
-    wrongly, worked, costs = 0, 0, []
+    classmates = room.classmates
+    usual = hands.possible(guides[0])
+    wrongly: list[tuple[int, str, tuple[str, ...]]] = []
+    costs: list[float] = []
     named: list[bool] = []
     for number in range(sheets):
         guide = guides[number % CLASS]
-        mistake = "" if number % 2 else str(rng.choice(list(hands.MISTAKES)))
-        marking = mark(guide, hands.honest(guide, rng, mistake), room.classmates)
-        wrongly += bool(marking.flags)
-        worked += 1
+        mistake = "" if number // CLASS % 2 else str(rng.choice(usual))
+        marking = mark(guide, hands.honest(guide, rng, mistake), classmates)
+        if marking.flags:
+            wrongly.append((number, mistake, marking.warnings))
         if mistake:
             costs.append(lost(marking))
             named += [any(cell.mistake for cell in marking.first_errors)] if mistake in NAMEABLE else []
+    for one in wrongly:
+        print("flagged:", *one, flush=True)
+    of = f"honest sheets flagged in a class of {CLASS}, half of them with one mistake"
     rows = [
-        (f"honest sheets flagged in a class of {CLASS}, every other with one mistake", share(wrongly, worked)),
+        (of, f"{share(len(wrongly), sheets)}, at most {at_most(len(wrongly), sheets):.2%}"),
         ("usual mistakes that have a name: a name is told", share(sum(named), len(named))),
         ("marks lost for one usual mistake at three positions: median, most", f"{median(costs):.0f}, {max(costs):.0f}"),
     ]
     for what in COPIES:
-        found = sum(_told(room, number, what) for number in range(CLASS // 2))
-        rows.append((f"copied from a classmate and told: {what}", share(found, CLASS // 2)))
+        missed = [number for number in range(CLASS // 2) if not _told(room, number, what)]
+        rows.append((f"copied from a classmate and told: {what}", share(CLASS // 2 - len(missed), CLASS // 2)))
+        for number in missed:
+            print(f"not told: {what}, sheet {number}", flush=True)
     return rows
+
+
+def at_most(met: int, tried: int, certainty: float = 0.95) -> float:
+    """The rate above which so few would be met with less than the rest of the certainty."""
+    low, high = met / tried, 1.0
+    for _ in range(60):
+        rate = (low + high) / 2
+        few = sum(math.comb(tried, k) * rate**k * (1 - rate) ** (tried - k) for k in range(met + 1))
+        low, high = (rate, high) if few > 1 - certainty else (low, rate)
+    return high
 
 
 def _told(room: Room, number: int, what: str) -> bool:
@@ -111,15 +131,20 @@ def _told(room: Room, number: int, what: str) -> bool:
     return bool(mark(guide, copied, room.classmates).flags)
 
 
-def main(sheets: int) -> None:
-    for name in (hands.TWIN, hands.SLIDER):
-        print(f"\n{name}")
-        for line in injected(name, np.random.default_rng(1)):
-            print("| {} | {} |".format(*line), flush=True)
-    print(f"\n{hands.TWIN}, honest")
-    for line in (*honest(hands.TWIN, max(1, sheets // 40)), *flagged(sheets)):
-        print("| {} | {} |".format(*line), flush=True)
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(prog="python -m tests.bench.hands", description=__doc__)
+    parser.add_argument("sheets", nargs="?", type=int, default=400, help="honest sheets of each class")
+    parser.add_argument("--machine", action="append", choices=(*hands.DRAWN,), help="only this one (repeatable)")
+    parser.add_argument("--flags-only", action="store_true", help="only the classes")
+    chosen = parser.parse_args(arguments)
+    for name in chosen.machine or hands.DRAWN:
+        print(f"\n{name}", flush=True)
+        if not chosen.flags_only:
+            rows = (*injected(name, np.random.default_rng(1)), *honest(name, max(1, chosen.sheets // 40)))
+            print(*("| {} | {} |".format(*row) for row in rows), sep="\n", flush=True)
+        print(*("| {} | {} |".format(*row) for row in class_of(name, chosen.sheets)), sep="\n", flush=True)
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 400)
+    main()

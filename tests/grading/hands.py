@@ -87,21 +87,39 @@ MISTAKES: dict[str, Change] = {
 """One mistake that a member of a class makes: in a value or in reading a datum."""
 
 
-def variants(count: int, rng: np.random.Generator) -> list[Guide]:
-    """The assignments of a class whose data are drawn from short lists, as a lecturer's table has them."""
+DRAWN: Mapping[str, Mapping[str, tuple[str, ...]]] = {
+    TWIN: {
+        "H": ("85 mm", "90 mm", "95 mm", "100 mm", "105 mm"),
+        "n": ("2000 rpm", "2100 rpm", "2200 rpm", "2300 rpm"),
+        "lambda": ("1/3.5", "1/3.6", "1/3.8", "1/4"),
+        "D": ("92 mm", "95 mm", "98 mm", "100 mm"),
+        "G2": ("18 N", "20 N", "24 N"),
+        "G3": ("20 N", "22 N", "25 N"),
+    },
+    SLIDER: {
+        "r": ("130 mm", "140 mm", "150 mm", "160 mm"),
+        "l": ("560 mm", "580 mm", "600 mm", "620 mm", "640 mm"),
+        "n": ("280 rpm", "300 rpm", "320 rpm", "350 rpm"),
+        "G2": ("36 N", "40 N", "45 N", "50 N"),
+        "G3": ("55 N", "60 N", "65 N"),
+    },
+}
+"""The lists that the data of a class are drawn from, as a lecturer's table has them."""
+
+
+def variants(count: int, rng: np.random.Generator, name: str = TWIN) -> list[Guide]:
+    """The assignments of a class."""
     found = []
     for number in range(count):
-        drawn = {
-            "H": f"{rng.choice([85, 90, 95, 100, 105])} mm",
-            "n": f"{rng.choice([2000, 2100, 2200, 2300])} rpm",
-            "lambda": str(rng.choice(["1/3.5", "1/3.6", "1/3.8", "1/4"])),
-            "D": f"{rng.choice([92, 95, 98, 100])} mm",
-            "G2": f"{rng.choice([18, 20, 24])} N",
-            "G3": f"{rng.choice([20, 22, 25])} N",
-        }
-        guide = students.open_guide(students.assignment(TWIN, PLACES, **drawn))
+        drawn = {id: str(rng.choice(values)) for id, values in DRAWN[name].items()}
+        guide = students.open_guide(students.assignment(name, PLACES, **drawn))
         found.append(replace(guide, key=replace(guide.key, id=f"SV{number:02}")))
     return found
+
+
+def possible(guide: Guide) -> list[str]:
+    """The mistakes of `MISTAKES` that can be made on a sheet."""
+    return [id for id in MISTAKES if id in guide.ledger]
 
 
 def honest(guide: Guide, rng: np.random.Generator, mistake: str = "") -> Submission:
