@@ -320,6 +320,7 @@ def machine(assignment: Assignment) -> Machine:
     positions, turn = assignment.positions, assignment.positions.sign
     q = _sheet(given, assignment.drawing.crank)
     linkage, frame, force = _linkage(given, q), given.frame.si, given.force
+    q.fix("p.D", linkage.ground["D"], q["l.AD"])
     start = positions.start_or(frame)
     points = tuple(point for point in linkage.points if point.link == 2)
     names = [point.name for point in points]

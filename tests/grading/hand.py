@@ -15,7 +15,7 @@ import numpy as np
 
 MM, DEGREE = 1e-3, math.pi / 180
 PRINTED = {"drawn": MM, "seg": MM, "ic.seg": MM, "h": MM, "F": 1e-4, "p": 1e4, "mu": 1e3} | dict.fromkeys(
-    ("dir", "beta", "ic.angle"), DEGREE
+    ("dir", "beta", "ic.angle", "theta", "alpha", "psi", "swing"), DEGREE
 )
 """What one printed unit is in SI, by the first part of an id; 1 for all others."""
 

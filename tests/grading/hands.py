@@ -12,6 +12,8 @@ from reportgen.grading.marks import Answer, Submission
 from reportgen.grading.working import Guide
 from tests.grading import students
 from tests.grading.hand import Change, Hand, Rod, Task
+from tests.grading.machines import WAYS
+from tests.grading.vectors import Paper, Vectors
 
 TWIN, SLIDER = "engine-twin-05", "slider-crank-01"
 
@@ -54,6 +56,23 @@ def work(guide: Guide, positions: Iterable[int], **how: object) -> Submission:
     seed = int(how.pop("seed", 0))  # type: ignore[call-overload]
     hands = {k: Hand(task(guide, k), seed=100 * seed + k, **how) for k in positions}  # type: ignore[arg-type]
     return handed_in(guide, hands)
+
+
+def vectors(guide: Guide, position: int, **how: object) -> Vectors:
+    """The student's work on any machine of the book: data, the crank's angle and the loads as the task gives them."""
+    ledger = guide.ledger
+
+    def si(id: str) -> float:
+        family = ledger[id]
+        return float(family.values[position - 1 if len(family.values) > 1 else 0].real)
+
+    given = {id: si(id) for id, family in ledger.families.items() if not (family.is_plane or family.kind == "segment")}
+    given["turn"] = float(np.sign(guide.analysis.machine.turn))
+    forces = {id.removeprefix("mu.R"): si(id) for id in ledger.families if id.startswith("mu.R")}
+    paper = Paper(si("mu.l"), si("mu.v"), si("mu.a"), forces)
+    work = Vectors(given, paper, turn=int(given["turn"]), **how)  # type: ignore[arg-type]
+    WAYS[guide.key.id](work)
+    return work
 
 
 # --- a class --------------------------------------------------------------------------------------
