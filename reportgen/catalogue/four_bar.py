@@ -35,6 +35,7 @@ from reportgen.notation.expressions import (
     acos,
     atan,
     atan2,
+    cis,
     column,
     cos,
     signed,
@@ -44,6 +45,8 @@ from reportgen.notation.expressions import (
 from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
 
+FLAT = 0.01
+"""A coupler point this share of its distance beside the rod makes a triangle too flat to be drawn from its sides."""
 STRAIGHT = Number(180.0, None, "°")
 
 
@@ -91,7 +94,12 @@ def triangle(q: Sheet, name: str) -> None:
     BE = q.define(f"l.B{name}", sqrt(x**2 + y**2) if q.si(y) else abs(x))
     q.set_out("places", BE)
     if q.si(y):
-        q.set_out("places", q.define(f"l.C{name}", sqrt((BC - x) ** 2 + y**2)))
+        CE = q.define(f"l.C{name}", sqrt((BC - x) ** 2 + y**2))
+        q.set_out("places", CE)
+        if abs(q.si(y)) > FLAT * q.si(BE):
+            # It is drawn as the triangle of these sides.
+            angle = cis(acos((BE**2 + BC**2 - CE**2) / (2 * BE * BC)))
+            q.construct(f"turn.{name}", angle if q.si(y) > 0 else 1 / angle)
 
 
 # --- the analytic method --------------------------------------------------------------------------

@@ -139,7 +139,6 @@ def toggle_press(s: Vectors) -> None:
     for name, one, other, link, at in (("S2", "A", "B", 2, AS / ab), ("S3", "D", "B", 3, DS / l)):
         s.point(name, one, other, link, at)
     s.point("S4", "B", "C", 4, BS / bc)
-    s.say("s.5", s.given["s.5"])
     for link, centre, moment in ((2, "S2", J2), (3, "S3", J3), (4, "S4", J4), (5, "C", None)):
         s.body(link, centre, m[link], moment)
     s.force("P5", 5, "C", 1j * s.say("P5", s.given["P5"]))
@@ -158,7 +157,6 @@ def linkage_8(s: Vectors) -> None:
     s.rrr((4, 5), "EFG", (lengths["EF"], lengths["GF"]), 1)
     s.point("H", "G", "F", 5, (0.130 + 0.030j) / lengths["GF"])
     s.rrp((6, 7), "H", "K", lengths["HK"], 1 + 0j, 0.240j)
-    s.say("s.7", s.given["s.7"])
     s.body(2, "E", m[2], s.datum("J.2"))
     s.body(5, "H", m[5], s.datum("J.5"))
     s.body(7, "K", m[7])
