@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
+from reportgen.answers.asking import Ask
+from reportgen.answers.key import Role
 from reportgen.errors import Mark
 from reportgen.grading.marks import Answer, Submission
 from reportgen.grading.working import Guide
@@ -15,7 +20,17 @@ from tests.grading.hand import Change, Hand, Rod, Task
 from tests.grading.machines import WAYS
 from tests.grading.vectors import Paper, Vectors
 
-TWIN, SLIDER = "engine-twin-05", "slider-crank-01"
+TWIN, SLIDER, FOUR_BAR = "engine-twin-05", "slider-crank-01", "four-bar-01"
+DRAWING = {"engine-twin", "slider-crank"}
+"""Kinds of which the student's whole sheet is worked out, plans and closed formulas too."""
+
+WRONG_AT = 4
+"""The position at which one value is wrong."""
+
+
+def asked(guide: Guide) -> Guide:
+    """A guide to what a student hands in: the whole sheet if it was worked out by drawing, or what a class is asked."""
+    return guide if guide.analysis.machine.kind in DRAWING else replace(guide, key=Ask().of(guide.key))
 
 
 def task(guide: Guide, position: int) -> Task:
@@ -39,7 +54,7 @@ def task(guide: Guide, position: int) -> Task:
     return Task(given, (Rod("B", "C", "S2", (2, 3), 0.0, force=si("P3")),), angle, 1 + 0j, "AB")
 
 
-def handed_in(guide: Guide, worked: Mapping[int, Hand]) -> Submission:
+def handed_in(guide: Guide, worked: Mapping[int, Hand | Vectors]) -> Submission:
     """The sheet of a student who worked so at each position."""
     values = {}
     for row in guide.key.asked:
@@ -51,11 +66,33 @@ def handed_in(guide: Guide, worked: Mapping[int, Hand]) -> Submission:
     return Submission(guide.key.id, "sheet.csv", values, {})
 
 
+def at_work(guide: Guide, position: int, **how: object) -> Hand | Vectors:
+    """A student's work at one position: by drawing on the machines of `DRAWING`, by vectors on all others."""
+    if guide.analysis.machine.kind in DRAWING:
+        return Hand(task(guide, position), **how)  # type: ignore[arg-type]
+    return vectors(guide, position, **how)
+
+
 def work(guide: Guide, positions: Iterable[int], **how: object) -> Submission:
     """The sheet of a student who works every position alike, with other luck in drawing."""
     seed = int(how.pop("seed", 0))  # type: ignore[call-overload]
-    hands = {k: Hand(task(guide, k), seed=100 * seed + k, **how) for k in positions}  # type: ignore[arg-type]
-    return handed_in(guide, hands)
+    return handed_in(guide, {k: at_work(guide, k, seed=100 * seed + k, **how) for k in positions})
+
+
+def one_wrong(guide: Guide, id: str, factors: Iterable[float], **how: object) -> Submission | None:
+    """A sheet with one value so many times too large, at position 4 if it has several; None if none can be drawn so.
+
+    Of the `factors` the first with which the machine still goes together is taken.
+    """
+    for factor in factors:
+        changes = {id: partial(operator.mul, factor)}
+        with suppress(ValueError):
+            worked = {
+                k: at_work(guide, k, changes=changes if k == WRONG_AT or guide.rows[id].single else {}, seed=k, **how)
+                for k in {WRONG_AT, *(position for row in guide.judged for position in row.positions if position)}
+            }
+            return handed_in(guide, worked)
+    return None
 
 
 def vectors(guide: Guide, position: int, **how: object) -> Vectors:
@@ -71,8 +108,15 @@ def vectors(guide: Guide, position: int, **how: object) -> Vectors:
     forces = {id.removeprefix("mu.R"): si(id) for id in ledger.families if id.startswith("mu.R")}
     paper = Paper(si("mu.l"), si("mu.v"), si("mu.a"), forces)
     work = Vectors(given, paper, turn=int(given["turn"]), **how)  # type: ignore[arg-type]
-    WAYS[guide.key.id](work)
+    WAYS[guide.analysis.machine.kind](work)
     return work
+
+
+def data_used(guide: Guide) -> list[str]:
+    """The data of the task that a student of the machine needs, in the order of the task."""
+    work = at_work(guide, WRONG_AT)
+    used = work.used if isinstance(work, Vectors) else {*task(guide, WRONG_AT).given}
+    return [id for id in guide.ledger.families if id in used and id not in guide.rows and guide.ledger[id].values.any()]
 
 
 # --- a class --------------------------------------------------------------------------------------
@@ -102,6 +146,13 @@ MISTAKES: dict[str, Change] = {
     "G2": lambda value: value + 5,
     "D": lambda value: value - 10e-3,
     "s": lambda value: value + 0.05,
+    # of the four-bar linkage
+    "l.AD": lambda value: value + 20e-3,
+    "sum.ends": lambda value: 0.9 * value,
+    "v.E": lambda value: 1.2 * value,
+    "turn.omega.3": lambda value: -value,
+    "R.03.t": lambda value: -value,
+    "M3": lambda value: 1.25 * value,
 }
 """One mistake that a member of a class makes: in a value or in reading a datum."""
 
@@ -122,6 +173,14 @@ DRAWN: Mapping[str, Mapping[str, tuple[str, ...]]] = {
         "G2": ("36 N", "40 N", "45 N", "50 N"),
         "G3": ("55 N", "60 N", "65 N"),
     },
+    FOUR_BAR: {
+        "AB": ("110 mm", "115 mm", "120 mm", "125 mm"),
+        "BC": ("330 mm", "340 mm", "350 mm", "360 mm"),
+        "CD": ("270 mm", "280 mm", "290 mm"),
+        "omega1": ("18 rad/s", "20 rad/s", "22 rad/s", "25 rad/s"),
+        "G2": ("26 N", "30 N", "34 N"),
+        "G3": ("22 N", "25 N", "28 N"),
+    },
 }
 """The lists that the data of a class are drawn from, as a lecturer's table has them."""
 
@@ -131,21 +190,24 @@ def variants(count: int, rng: np.random.Generator, name: str = TWIN) -> list[Gui
     found = []
     for number in range(count):
         drawn = {id: str(rng.choice(values)) for id, values in DRAWN[name].items()}
-        guide = students.open_guide(students.assignment(name, PLACES, **drawn))
+        guide = asked(students.open_guide(students.assignment(name, PLACES, **drawn)))
         found.append(replace(guide, key=replace(guide.key, id=f"SV{number:02}")))
     return found
 
 
 def possible(guide: Guide) -> list[str]:
-    """The mistakes of `MISTAKES` that can be made on a sheet."""
-    return [id for id in MISTAKES if id in guide.ledger]
+    """The mistakes of `MISTAKES` that can be made on a sheet; a given speed needs no formula."""
+    given = {row.id for row in guide.key.rows if row.role is Role.given} - {"omega.1"}
+    return [id for id in MISTAKES if id in given or id in guide.rows]
 
 
 def honest(guide: Guide, rng: np.random.Generator, mistake: str = "") -> Submission:
     """The sheet of a member of a class who worked alone, with one mistake or none."""
     how = {"blunt": float(rng.choice(BLUNT)), "figures": int(rng.choice([3, 4])), "seed": int(rng.integers(1 << 30))}
     changes = {mistake: MISTAKES[mistake]} if mistake else {}
-    return work(guide, PLACES, changes=changes, by_lengths=bool(rng.integers(2)), **how)
+    if guide.analysis.machine.kind in DRAWING:
+        how["by_lengths"] = bool(rng.integers(2))
+    return work(guide, PLACES, changes=changes, **how)
 
 
 def with_cells(sheet: Submission, other: Submission, taken: Callable[[str, int], bool]) -> Submission:

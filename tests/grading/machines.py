@@ -234,16 +234,34 @@ def scotch_yoke(s: Vectors) -> None:
     s.reactions("O", "A")
 
 
+def linkage(s: Vectors) -> None:
+    """The two linkages of the repository that a file declares: the one with a crank, the one with a sliding driver."""
+    (linkage_slide if "span" in s.given else linkage_8)(s)
+
+
 WAYS: Mapping[str, Work] = {
-    "engine-single-III": engine_single,
-    "engine-v-01": engine_v,
-    "four-bar-01": four_bar,
-    "lever-six-bar-01": lever_six_bar,
-    "linkage-8": linkage_8,
-    "linkage-slide": linkage_slide,
-    "scotch-yoke-01": scotch_yoke,
-    "shaper-02": shaper,
-    "slotted-lever-02": slotted_lever,
-    "toggle-press-01": toggle_press,
+    "engine-single": engine_single,
+    "engine-v": engine_v,
+    "four-bar": four_bar,
+    "lever-six-bar": lever_six_bar,
+    "linkage": linkage,
+    "scotch-yoke": scotch_yoke,
+    "shaper": shaper,
+    "slotted-lever": slotted_lever,
+    "toggle-press": toggle_press,
 }
-"""The way through each machine of the repository, by its assignment."""
+"""The way through the machines of each kind."""
+
+ASSIGNMENTS = (
+    "engine-single-III",
+    "engine-v-01",
+    "four-bar-01",
+    "lever-six-bar-01",
+    "linkage-8",
+    "linkage-slide",
+    "scotch-yoke-01",
+    "shaper-02",
+    "slotted-lever-02",
+    "toggle-press-01",
+)
+"""The assignments of the repository that are worked out so."""

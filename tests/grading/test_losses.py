@@ -13,15 +13,11 @@ from reportgen.grading.mistakes import Mistake
 from tests.grading import hands, students
 from tests.grading.hand import Change
 from tests.grading.published import FIGURES, POSITION
+from tests.grading.rates import lost
 
 AT = (4,)
 MOST = 2
 """Marks that one mistake may cost: its own, and one that the drawing's errors keep from being met."""
-
-
-def lost(marking: Marking) -> float:
-    """Marks lost among the cells that are filled in."""
-    return sum(cell.worth - cell.points for cell in marking.cells if cell.given is not None)
 
 
 MADE: dict[str, tuple[str, Change]] = {

@@ -129,6 +129,9 @@ class Vectors:
         """The driver: its speed is known, v = ωR and a = ω²R."""
         turns = "n" in self.given
         speed = self.say("omega.1", 2 * math.pi * self.datum("n") / 60) if turns else self.datum("omega.1")
+        if "unevenness" in self.given:
+            for name, side in (("max", 1), ("min", -1)):
+                self.say(f"omega.{name}", speed * (1 + side * self.datum("unevenness") / 2))
         along = np.exp(1j * angle)
         self.omega[1], self.eps[1] = self.turn * speed, 0.0
         self.p[pin], self.link_of[pin] = self.p[centre] + length * along, 1
