@@ -39,7 +39,7 @@ def test_the_chain_comes_to_the_key(name: str) -> None:
 
 
 OF_THE_CYCLE = {
-    *("power", "M.mean.positions", "M.energy", "J.r", "M.r", "J.d", "A.excess", "omega.of"),
+    *("power", "M.mean.positions", "M.energy", "J.r", "J.d", "A.excess", "omega.of"),
     *(f"J.r.{link}" for link in range(1, 8)),
     # How far a slider is from where it turns back, which takes the machine at another position.
     *("s.5", "s.7"),
@@ -98,3 +98,22 @@ def test_who_works_rightly_loses_nothing(name: str) -> None:
     guide = hands.asked(students.guide(name, (AT,)))
     for seed, blunt in enumerate((0.3e-3, 0.5e-3)):
         assert lost(mark(guide, hands.work(guide, (AT,), blunt=blunt, seed=seed))) == 0
+
+
+@pytest.mark.parametrize("factor", [1.0, 1.25])
+def test_the_excess_work_follows_the_own_loads(factor: float) -> None:
+    """M_tt from the own torque on the lever at every position, A from it by the trapezoid rule: one mark at most."""
+    guide = hands.asked(students.guide("slotted-lever-02"))
+    changes = {"M3": lambda value: factor * value}
+    worked = {k: hands.vectors(guide, k, changes=changes) for k in range(1, guide.count + 1)}
+    torque = np.array([one.written["M.r"] for one in worked.values()])
+    step = 2 * np.pi / guide.count
+    above = torque - torque.mean()
+    work = np.concatenate(([0.0], np.cumsum(step * (above + np.roll(above, -1)) / 2)[:-1]))
+    for one, value in zip(worked.values(), work, strict=True):
+        one.say("A.excess", float(value))
+    marking = mark(guide, hands.handed_in(guide, worked))
+    assert lost(marking) == (factor != 1)
+    followed = [cell.verdict.name for cell in marking.cells if cell.id in ("M.r", "A.excess")]
+    assert len(followed) == 2 * guide.count
+    assert (followed.count("follows") > guide.count) == (factor != 1)

@@ -327,10 +327,16 @@ class Vectors:
             pushed = -(np.conj(along) * total).real
             self.measure("R.cb", pushed, self.paper.force["1"])
             self.say("M.eq", math.copysign(self.written["R.cb"], pushed))
-        power = sum((np.conj(one.force) * self.v[one.point]).real for one in self.loads if one.point)
-        power += sum(one.couple * self.omega[one.link] for one in self.loads if one.couple)
         rate = self.omega[1] if centre else abs(self.v[pin])
-        self.say("M.vw", -power / rate)
+        self.say("M.vw", -self._power(self.loads) / rate)
+        if "unevenness" in self.given:
+            static = [one for one in self.loads if not one.name.startswith("Pqt")]
+            self.say("M.r", self._power(static) / abs(rate))
+
+    def _power(self, loads: Sequence[Load]) -> float:
+        """The power of forces and couples on their points and links."""
+        of_forces = sum((np.conj(one.force) * self.v[one.point]).real for one in loads if one.point)
+        return float(of_forces + sum(one.couple * self.omega[one.link] for one in loads if one.couple))
 
     def _moment(self, forces: Sequence[tuple[str, complex, float]], about: complex) -> float:
         return float(
