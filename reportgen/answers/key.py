@@ -45,6 +45,12 @@ WHOLE_DEGREE = np.pi / 180
 REACH = 3 / np.sqrt(3)
 """Three standard deviations of errors that are spread evenly over ±1."""
 
+DIAGRAM = 0.1
+"""How high an indicator diagram is plotted (m on paper)."""
+
+SMALL = 0.05
+"""The share of a pressure that reading it from such a diagram may be off by."""
+
 SHARE = 1e-4
 """A change of this share of an error stands for its slope."""
 
@@ -108,7 +114,10 @@ def measuring_errors(
             scale = ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
             errors[id] = np.full(len(family.values), 2 * error * scale)
     for link, slope in _pressure_slopes(ledger).items():
-        errors[f"p.{link}"] = slope * 2 * error * ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
+        pressure = np.abs(ledger[f"p.{link}"].values)
+        # Read from a diagram that the student has plotted; what is small stands in the table.
+        height = np.minimum(error / DIAGRAM * np.nanmax(pressure), SMALL * pressure)
+        errors[f"p.{link}"] = slope * 2 * error * ledger["mu.l"].values * drawn_at.get("mu.l", 1.0) + height
     return errors
 
 

@@ -327,7 +327,9 @@ def _meets(guide: Guide, cell: Marked, classmate: Classmate) -> bool | None:
     if _is_near(cell):
         # Two readings of one drawing.
         return None if theirs is None else _equal(cell, theirs)
-    if _apart(guide, cell, value, cell.expected) < APART * cell.band:
+    # A direction that is a little wrong has few whole degrees to be; any other value has a hundred.
+    far = APART if is_direction(cell.id) else 1.0
+    if _apart(guide, cell, value, cell.expected) < far * cell.band:
         return None
     return _equal(cell, theirs) or _apart(guide, cell, cell.given, value) <= last_half_unit(cell.given) * (1 + 1e-9)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 from collections.abc import Iterable, Sequence
 from statistics import median
 
@@ -57,11 +58,12 @@ def class_of(name: str, sheets: int) -> list[tuple[str, str]]:
         marking = mark(guide, hands.honest(guide, rng, mistake), classmates)
         if marking.flags:
             wrongly.append((number, mistake, marking.warnings))
+            print("flagged:", *wrongly[-1], flush=True)
+        if (number + 1) % 500 == 0:
+            print(f"{number + 1} marked, {len(wrongly)} flagged", file=sys.stderr, flush=True)
         if mistake:
             costs.append(lost(marking))
             named += [any(cell.mistake for cell in marking.first_errors)] if mistake in NAMEABLE else []
-    for one in wrongly:
-        print("flagged:", *one, flush=True)
     of = f"honest sheets flagged in a class of {CLASS}, half of them with one mistake"
     rows = [
         (of, f"{share(len(wrongly), sheets)}, at most {at_most(len(wrongly), sheets):.2%}"),

@@ -117,7 +117,7 @@ def test_the_bands_of_an_engine_know_its_strokes_and_the_scale_of_its_plans() ->
     finer = guide.bands_at({"mu.R23": np.full(len(guide.ledger["mu.R23"].values), 0.2)})
     pressure, reaction = guide.key.row("p.3").values, np.abs(guide.ledger["R.03"].values)
     assert pressure[2] == 2
-    assert usual["p.3"][2] / guide.ledger["p.3"].how.scale < 0.05
+    assert usual["p.3"][2] / guide.ledger["p.3"].how.scale < 0.15
     assert np.median(finer["R.03"] / usual["R.03"]) < 0.7
     assert (usual["R.03"] < reaction).mean() > 0.9
 
