@@ -7,6 +7,7 @@ A few show a mass or the diameter; then it must be a number that somebody would 
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -15,9 +16,11 @@ import numpy as np
 from reportgen.answers.key import half_unit, is_direction
 from reportgen.grading.marks import Cells, Marked, Place, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM, Mistake
+from reportgen.grading.naming import unseen_mistakes
 from reportgen.grading.plans import behind_many
 from reportgen.grading.working import Change, Guide, Working, last_half_unit
 from reportgen.ledger.core import follow
+from reportgen.notation.expressions import refs
 
 FACTORS = np.geomspace(1 / 4, 4, 120)
 WIDE = np.geomspace(1 / 5, 5, 400)
@@ -47,7 +50,17 @@ def misread_by_many(working: Working, cells: Cells) -> dict[Place, Mistake]:
     open_ones = [place for place, cell in cells.items() if cell.first and not cell.mistake]
     if len(open_ones) < FEWEST:
         return {}
-    return behind_many(working, cells, open_ones, list(_candidates(working, open_ones)), FEWEST)
+    candidates = [*_worked_out(working, open_ones), *_candidates(working, open_ones)]
+    return behind_many(working, cells, open_ones, candidates, FEWEST)
+
+
+def _worked_out(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
+    """Mistakes with a name in what is worked out before some of the places: one that explains as much goes first."""
+    guide = working.guide
+    before = Counter(id for place in places for id in guide.before[place[0]])
+    for id in guide.ledger.families:
+        if before[id] >= FEWEST and guide.ledger[id].definition is not None:
+            yield from unseen_mistakes(working, id)
 
 
 def _candidates(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
@@ -77,8 +90,10 @@ def _data(guide: Guide) -> Iterator[str]:
     """Given data, and loads of a given size, that are not asked for."""
     loads = {load.name for load in guide.analysis.applied}
     for id, family in guide.ledger.families.items():
-        given = family.definition is None and not (family.hidden or family.is_plane or id in guide.rows)
-        if given and (len(family.values) == 1 or id in loads) and np.any(family.values):
+        # A ratio is given as 1/3.6, which the ledger works out.
+        given = family.definition is None or not refs(family.definition)
+        unseen = not (family.hidden or family.is_plane or id in guide.rows)
+        if given and unseen and (len(family.values) == 1 or id in loads) and np.any(family.values):
             yield id
 
 

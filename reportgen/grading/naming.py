@@ -16,7 +16,6 @@ from reportgen.grading.marks import Cells, Marked, Place, Verdict
 from reportgen.grading.mistakes import NO_CORIOLIS, OF_POSITION, Mistake, general_mistakes, mistakes_in
 from reportgen.grading.working import Change, Guide, Values, Working
 from reportgen.ledger.core import follow
-from reportgen.notation.sheet import Family
 
 FEW_FIGURES = 2
 """Significant figures that are too few, but still show the value; one figure shows too little."""
@@ -183,16 +182,18 @@ def _candidates(working: Working, id: str) -> Iterator[Mistake]:
         yield from mistakes_in(guide, size, working.scales)
     before = guide.before[id]
     for other in before:
-        family = guide.ledger[other]
-        if not working.shows(other) and other != size and not (family.hidden or family.is_plane or _is_drawn(family)):
-            yield from (one for one in mistakes_in(guide, other, working.scales) if one.name not in OF_WRITING)
+        if other != size:
+            yield from unseen_mistakes(working, other)
     concerned = {*before, id}
     yield from (mistake for mistake in general_mistakes(guide) if concerned & mistake.changes.keys())
 
 
-def _is_drawn(family: Family) -> bool:
-    """Whether it is a length on paper or a scale: a plan many times too large is never drawn."""
-    return family.kind == "segment" or family.kind.endswith("scale")
+def unseen_mistakes(working: Working, id: str) -> Iterator[Mistake]:
+    """Mistakes in a quantity that the sheet does not show; a plan many times too large is never drawn."""
+    family = working.guide.ledger[id]
+    drawn = family.kind == "segment" or family.kind.endswith("scale")
+    if not (working.shows(id) or family.hidden or family.is_plane or drawn):
+        yield from (one for one in mistakes_in(working.guide, id, working.scales) if one.name not in OF_WRITING)
 
 
 def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) -> dict[str, np.ndarray]:
