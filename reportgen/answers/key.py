@@ -98,7 +98,7 @@ def measuring_errors(
     lengths = (float(one.values[0]) for one in ledger.families.values() if is_chosen_length(ledger, one))
     crank = min(lengths, default=np.inf)
     for id, family in ledger.families.items():
-        if family.hidden or family.is_plane or not family.constructed:
+        if family.hidden or family.is_plane or not (family.constructed or _may_be_measured(family)):
             continue
         if family.kind == "segment":
             errors[id] = np.full(len(family.values), 2 * error * drawn_at.get(vocabulary.plan(id), 1.0))
@@ -119,6 +119,13 @@ def measuring_errors(
         height = np.minimum(error / DIAGRAM * np.nanmax(pressure), SMALL * pressure)
         errors[f"p.{link}"] = slope * 2 * error * ledger["mu.l"].values * drawn_at.get("mu.l", 1.0) + height
     return errors
+
+
+def _may_be_measured(family: Family) -> bool:
+    """Whether a length from a plan's pole, worked out by similarity from another, can be read from the plan as well."""
+    plan = vocabulary.plan(family.id)
+    from_pole = plan and family.kind == "segment" and family.id.startswith((f"seg.{plan[3:]}.p",))
+    return bool(from_pole and family.definition and any(vocabulary.plan(id) == plan for id in refs(family.definition)))
 
 
 def _pressure_slopes(ledger: Ledger) -> dict[str, np.ndarray]:
