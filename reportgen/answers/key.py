@@ -45,6 +45,12 @@ WHOLE_DEGREE = np.pi / 180
 REACH = 3 / np.sqrt(3)
 """Three standard deviations of errors that are spread evenly over ±1."""
 
+DIAGRAM = 0.1
+"""How high an indicator diagram is plotted (m on paper)."""
+
+SMALL = 0.05
+"""The share of a pressure that reading it from such a diagram may be off by."""
+
 SHARE = 1e-4
 """A change of this share of an error stands for its slope."""
 
@@ -92,7 +98,7 @@ def measuring_errors(
     lengths = (float(one.values[0]) for one in ledger.families.values() if is_chosen_length(ledger, one))
     crank = min(lengths, default=np.inf)
     for id, family in ledger.families.items():
-        if family.hidden or family.is_plane or not family.constructed:
+        if family.hidden or family.is_plane or not (family.constructed or _may_be_measured(family)):
             continue
         if family.kind == "segment":
             errors[id] = np.full(len(family.values), 2 * error * drawn_at.get(vocabulary.plan(id), 1.0))
@@ -108,8 +114,18 @@ def measuring_errors(
             scale = ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
             errors[id] = np.full(len(family.values), 2 * error * scale)
     for link, slope in _pressure_slopes(ledger).items():
-        errors[f"p.{link}"] = slope * 2 * error * ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
+        pressure = np.abs(ledger[f"p.{link}"].values)
+        # Read from a diagram that the student has plotted; what is small stands in the table.
+        height = np.minimum(error / DIAGRAM * np.nanmax(pressure), SMALL * pressure)
+        errors[f"p.{link}"] = slope * 2 * error * ledger["mu.l"].values * drawn_at.get("mu.l", 1.0) + height
     return errors
+
+
+def _may_be_measured(family: Family) -> bool:
+    """Whether a length from a plan's pole, worked out by similarity from another, can be read from the plan as well."""
+    plan = vocabulary.plan(family.id)
+    from_pole = plan and family.kind == "segment" and family.id.startswith((f"seg.{plan[3:]}.p",))
+    return bool(from_pole and family.definition and any(vocabulary.plan(id) == plan for id in refs(family.definition)))
 
 
 def _pressure_slopes(ledger: Ledger) -> dict[str, np.ndarray]:
@@ -328,7 +344,8 @@ def make_key(case: Case) -> Key:
         role = _role(ledger, family)
         part = Chapter.data if role is Role.given and len(values) == 1 else family.chapter
         # What is read from a diagram can be worked out on paper, an integral over the cycle cannot.
-        workable = id != "M.difference" and (family.definition is not None or len(values) > 1)
+        integral = family.definition is None or f"rest.{id}" in ledger
+        workable = id != "M.difference" and (len(values) > 1 or not integral)
         workable = workable and (part is not Chapter.cycle or complete) and is_workable(ledger, id, by_rule)
         asked = (role is Role.scale and not is_round_scale(family)) or (role is Role.asked and workable)
         return Row(

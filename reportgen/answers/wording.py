@@ -27,11 +27,14 @@ MAGNITUDE = "magnitude"
 def phrase(id: str, ledger: Ledger, words: Mapping[str, Any]) -> str:
     """What a quantity is, without a capital; "" where the words have no phrase for it."""
     phrases: Mapping[str, str] = words["quantities"]
-    own = words.get("given", {}).get(id) or phrases.get(id)
+    # A sliding driver is balanced by a force, which has the ids of the torque.
+    kind = f":{ledger[id].kind}" if id in ledger else ""
+    own = words.get("given", {}).get(id) or phrases.get(f"{id}{kind}") or phrases.get(id)
     if own:
         return _uncapitalised(str(own))
     shown = ledger[id].symbol if id in ledger else _symbol(id)
     name, parts = vocabulary.wording(id, shown)
+    name = f"{name}{kind}" if f"{name}{kind}" in phrases else name
     if name not in phrases:
         return ""
     vector = vocabulary.vector_of(id)

@@ -16,6 +16,7 @@ from reportgen.api import Engine
 from reportgen.batch import gradebooks
 from reportgen.batch.downloads import Owner, handed_in, zipped
 from reportgen.batch.roster import Student, assignment_files, comparable, folder_name, read_roster
+from reportgen.batch.sheets import read_sheets
 from reportgen.errors import AssignmentError, Fault, Mark, Problem, ReportgenError
 from reportgen.grading.feedback import feedback_book, feedback_document
 from reportgen.grading.grades import class_document, grade_rows, person
@@ -116,10 +117,13 @@ def grade(
     owners: dict[str, Owner] = {}
     problems: list[Problem] = []
     faults: list[Fault] = []
-    for handed in handed_in(submissions, faults):
+    for handed, found in read_sheets(handed_in(submissions, faults), language):
         path, owner = handed.path, handed.owner
+        if isinstance(found, list):
+            problems += found
+            continue
         try:
-            submission = read_submission(path, lambda name: room.guide(name).key, language, handed.data)
+            submission = read_submission(path, lambda name: room.guide(name).key, language, found)
             name = room.guide(submission.assignment).key.student.get("name", "")
             if owner and not owner.may_be(name):
                 fault = Fault("sheet-other-hands", Mark(str(path)), {"text": name, "owner": owner.name})

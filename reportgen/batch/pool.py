@@ -4,6 +4,8 @@ A job is one product of one student.  It holds all that decides its result, the 
 file included, so that it can run in this process, in another, or on another machine, and so that its
 result need not be made twice.  Each has a process of its own, started by pebble: its outcome arrives on a
 pipe that it shares with nobody, and all its memory ends with it.
+
+What others hand in is read in processes too, each call within limits of time and memory.
 """
 
 from __future__ import annotations
@@ -16,14 +18,14 @@ import tempfile
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, wait
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from hashlib import sha256
 from multiprocessing.process import BaseProcess, parent_process
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from pebble import concurrent
+from pebble import ProcessExpired, ProcessPool, concurrent
 
 from reportgen.api import Engine, Maker
 from reportgen.errors import AssignmentError, Problem, ReportgenError
@@ -191,14 +193,14 @@ def _dismiss(running: Iterable[Future[Outcome]]) -> None:
         wait(running, seconds)
 
 
-def _context() -> ForkServerContext | SpawnContext:
+def _context(preload: str = "reportgen.batch.warm") -> ForkServerContext | SpawnContext:
     """New processes come from a server that has imported everything already, where the system allows it."""
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     from multiprocessing import forkserver, resource_tracker
 
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["reportgen.batch.warm"])
+    context.set_forkserver_preload([preload])
     # It lets Ctrl-C through again once it has started, which the server would do first.
     resource_tracker.ensure_running()
     with _uninterrupted():
@@ -233,3 +235,61 @@ def _work(job: Job) -> Outcome:
         # Nobody listens: the result could not be sent.
         os._exit(0)
     return outcome
+
+
+# --- calls within limits --------------------------------------------------------------------------
+
+Argument = TypeVar("Argument")
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What one call may take: seconds, and megabytes beyond those of the process that it begins in."""
+
+    seconds: float
+    megabytes: int
+
+
+def each_within(
+    limits: Limits, function: Callable[[Argument], Result], arguments: Iterable[Argument], preload: str
+) -> Iterator[tuple[Argument, Result | None]]:
+    """Each argument with what `function` makes of it, in their order; None where the call passed its limits or died.
+
+    A few calls run at a time, so that arguments are taken as they are needed.  `preload` is the module of `function`.
+    """
+    workers = os.cpu_count() or 1
+    running: deque[tuple[Argument, Future[Any]]] = deque()
+    with _uninterrupted():
+        # Some of its methods are annotated with other names, or not at all.
+        make: Any = ProcessPool
+        pool = make(workers, initializer=_limit_memory, initargs=(limits.megabytes,), context=_context(preload))
+    try:
+        for argument in arguments:
+            with _uninterrupted():
+                running.append((argument, pool.schedule(function, (argument,), timeout=limits.seconds)))
+            if len(running) > workers:
+                yield _outcome(running.popleft())
+        while running:
+            yield _outcome(running.popleft())
+    finally:
+        pool.stop()
+        pool.join()
+
+
+def _outcome(call: tuple[Argument, Future[Any]]) -> tuple[Argument, Any]:
+    argument, future = call
+    fault = future.exception()
+    if fault is not None and not isinstance(fault, (TimeoutError, MemoryError, ProcessExpired)):
+        raise fault
+    return argument, None if fault is not None else future.result()
+
+
+def _limit_memory(megabytes: int) -> None:
+    """Let this process take so much more memory than it has; where the system cannot say that, time is the limit."""
+    with suppress(ImportError, OSError, ValueError):
+        import resource
+
+        taken = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+        _, most = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (taken + megabytes * 1_000_000, most))

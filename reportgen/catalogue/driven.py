@@ -29,7 +29,7 @@ from reportgen.catalogue.machine import Machine
 from reportgen.errors import Finding
 from reportgen.mechanism.structure import Inertia, Linkage, LinkPoint
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import PI, Number, Operand, Ref, Symbol
+from reportgen.notation.expressions import PI, Number, Operand, Ref, Symbol, turned
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import drawn_length
 from reportgen.units import Given
@@ -218,8 +218,15 @@ class GivenSheet(Sheet):
 
     def point(self, name: str, place: FixedPoint) -> None:
         """The coordinates of a fixed point as typed."""
-        self.datum(f"{name}.x", place.x, Symbol("x", name), "length")
-        self.datum(f"{name}.y", place.y, Symbol("y", name), "length")
+        x = self.datum(f"{name}.x", place.x, Symbol("x", name), "length")
+        y = self.datum(f"{name}.y", place.y, Symbol("y", name), "length")
+        self.construct(f"p.{name}", x + turned(y))
+
+    def fix(self, id: str, at: complex, length: Operand) -> None:
+        """A fixed point or a guide's point that lies at a given `length` from the origin, and so goes with it."""
+        far = self.construct(f"{id}.far", length)
+        if self.si(far):
+            self.construct(id, far * self.give(f"{id}.unit", complex(at / self.si(far)), Symbol(id), "ratio"))
 
     def bodies(self, bars: Mapping[int, tuple[str, str]], slider: int, always: bool = False) -> None:
         """Gravity if anything has mass; the bars by the pins at their ends, as `bar` does; the slider's mass."""

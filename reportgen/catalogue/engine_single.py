@@ -188,6 +188,8 @@ def machine(assignment: Assignment) -> Machine:
     start = _start(geometry, positions)
     places, labels = lettered(positions.count, TURNS, _special(geometry, start))
     linkage = geometry.linkage(q.inertias({1: "A", 2: "S2", 3: "C"}), given.g.si, q.si("l.BS2"))
+    if given.e.si:
+        q.fix("guide.3.at", geometry.line, q["e"])
     piston = Piston.on(geometry.course(start, TURNS), given.D.si, assignment.indicator.table)
     angles, offset = start + np.tile(places, TURNS), q["e"] if given.e.si else None
     return driven(

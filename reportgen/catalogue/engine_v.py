@@ -22,7 +22,7 @@ from reportgen.catalogue.reach import Member
 from reportgen.catalogue.sliders import centred_slider, compared, second_cylinder
 from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
-from reportgen.notation.expressions import PI, Symbol
+from reportgen.notation.expressions import PI, Symbol, cis
 from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
 
@@ -153,6 +153,9 @@ def machine(assignment: Assignment) -> Machine:
     positions, turn = assignment.positions, assignment.positions.sign
     q = _sheet(given, turn, assignment.drawing.crank)
     linkage, start = _linkage(given, q), positions.start_or()
+    for link, axis in ((3, q["alpha"]), (5, q["beta"])):
+        outwards = q.construct(f"guide.{link}", cis(axis))
+        q.construct(f"sense.P{link}", -outwards)
     places, labels = _places(given, positions)
 
     motion_at = crank_motion(linkage, positions, start, given.speed)

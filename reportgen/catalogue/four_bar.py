@@ -35,6 +35,7 @@ from reportgen.notation.expressions import (
     acos,
     atan,
     atan2,
+    cis,
     column,
     cos,
     signed,
@@ -44,6 +45,8 @@ from reportgen.notation.expressions import (
 from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
 
+FLAT = 0.01
+"""A coupler point this share of its distance beside the rod makes a triangle too flat to be drawn from its sides."""
 STRAIGHT = Number(180.0, None, "°")
 
 
@@ -91,7 +94,12 @@ def triangle(q: Sheet, name: str) -> None:
     BE = q.define(f"l.B{name}", sqrt(x**2 + y**2) if q.si(y) else abs(x))
     q.set_out("places", BE)
     if q.si(y):
-        q.set_out("places", q.define(f"l.C{name}", sqrt((BC - x) ** 2 + y**2)))
+        CE = q.define(f"l.C{name}", sqrt((BC - x) ** 2 + y**2))
+        q.set_out("places", CE)
+        if abs(q.si(y)) > FLAT * q.si(BE):
+            # It is drawn as the triangle of these sides.
+            angle = cis(acos((BE**2 + BC**2 - CE**2) / (2 * BE * BC)))
+            q.construct(f"turn.{name}", angle if q.si(y) > 0 else 1 / angle)
 
 
 # --- the analytic method --------------------------------------------------------------------------
@@ -320,6 +328,7 @@ def machine(assignment: Assignment) -> Machine:
     positions, turn = assignment.positions, assignment.positions.sign
     q = _sheet(given, assignment.drawing.crank)
     linkage, frame, force = _linkage(given, q), given.frame.si, given.force
+    q.fix("p.D", linkage.ground["D"], q["l.AD"])
     start = positions.start_or(frame)
     points = tuple(point for point in linkage.points if point.link == 2)
     names = [point.name for point in points]

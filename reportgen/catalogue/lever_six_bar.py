@@ -16,7 +16,7 @@ from reportgen.catalogue.loads import Applied, Constant, Law, crank_motion, oppo
 from reportgen.catalogue.machine import Machine
 from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
-from reportgen.notation.expressions import Symbol
+from reportgen.notation.expressions import Symbol, turned
 from reportgen.notation.vocabulary import drawn_length
 from reportgen.units import Given
 
@@ -124,6 +124,7 @@ def machine(assignment: Assignment) -> Machine:
     positions = assignment.positions
     q = _sheet(given, assignment.drawing.crank)
     linkage, start = _linkage(given, q), positions.start_or()
+    q.construct("guide.5.at", turned(q["F.y"]))
     return driven(
         assignment,
         q,

@@ -37,7 +37,7 @@ from reportgen.catalogue.machine import Machine, lettered
 from reportgen.errors import Finding
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import DRIVER, Linkage
-from reportgen.notation.expressions import Symbol
+from reportgen.notation.expressions import Symbol, turned
 from reportgen.notation.numbers import nice_up
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import drawn_length
@@ -141,8 +141,11 @@ def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | N
     """Fixed points, lengths, speed, drawn length, masses and moments of inertia."""
     q, driver = GivenSheet(), given.driver
     for name, place in linkage.ground.items():
-        for axis, value in (("x", place.real), ("y", place.imag)):
+        x, y = (
             q.give(f"frame.{axis}.{name}", value, Symbol(axis, name), "length")
+            for axis, value in (("x", place.real), ("y", place.imag))
+        )
+        q.construct(f"p.{name}", x + turned(y))
     if isinstance(driver, file.CrankDriver):
         q.datum(f"l.{driver.centre}{driver.pin}", driver.length)
         q.speed(driver.n, driver.omega1, given.flywheel)

@@ -122,6 +122,8 @@ def machine(assignment: Assignment) -> Machine:
     geometry = _geometry(given, q, positions.sign)
     start = 0.0 if positions.start is None else geometry.crank.phi(positions.start.si)
     course = geometry.course(start)
+    q.fix("p.C", geometry.crank.ground["C"], q["a"])
+    q.fix("guide.5.at", geometry.line, q["b"] - q["a"])
     points = q.centre_points({link: rod[0] for link, rod in RODS.items()})
 
     def formulas(q: Sheet) -> None:

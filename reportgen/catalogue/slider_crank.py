@@ -78,6 +78,8 @@ def machine(assignment: Assignment) -> Machine:
     start = geometry.stretched if positions.start is None else geometry.phi(positions.start.si)
     centre = q.si("l.BS2") if has_centre else None
     linkage = geometry.linkage(q.inertias({2: "S2", 3: "C"}), given.g.si, centre)
+    if e is not None:
+        q.fix("guide.3.at", geometry.line, e)
     course = geometry.course(start, TURNS)
     offset = None if e is None else e if turn > 0 else -e
     return driven(

@@ -189,12 +189,17 @@ class OffsetSlider:
             phase=(start - self.stretched + ROUND) % (turns * FULL_TURN) - ROUND,
         )
 
+    @property
+    def line(self) -> complex:
+        """The point of the guide's line that is nearest to A."""
+        return self._placed(1j * self.e)
+
     def linkage(self, inertias: Sequence[Inertia], gravity: float, centre: float | None = None) -> Linkage:
         """The mechanism; S2 on the rod at `centre` (m) from B, if it is wanted."""
         return Linkage(
             ground={"A": 0j},
             driver=Crank("A", "B", self.r),
-            dyads=(Dyad("RRP", (2, 3), "B", "C", Guide(self._placed(1j * self.e), self.axis), (self.l, 0.0)),),
+            dyads=(Dyad("RRP", (2, 3), "B", "C", Guide(self.line, self.axis), (self.l, 0.0)),),
             points=() if centre is None else (LinkPoint("S2", 2, complex(centre)),),
             inertias=tuple(inertias),
             gravity=-1j * gravity,

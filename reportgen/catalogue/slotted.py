@@ -127,10 +127,15 @@ class Ram:
             phase=(start - self.beginning + ROUND) % FULL_TURN - ROUND,
         )
 
+    @property
+    def line(self) -> complex:
+        """The point of the ram's line that is nearest to A."""
+        return self.crank.place(1j * (self.height - self.crank.d))
+
     def linkage(self, points: Sequence[LinkPoint], inertias: Sequence[Inertia], gravity: float) -> Linkage:
         """The mechanism; the ram's guide points against its working way, E lies on the working side of D."""
         towards = self.crank.place(1 + 0j)
-        guide = Guide(self.crank.place(1j * (self.height - self.crank.d)), math.atan2(towards.imag, towards.real))
+        guide = Guide(self.line, math.atan2(towards.imag, towards.real))
         return Linkage(
             ground=self.crank.ground,
             driver=self.crank.driver,

@@ -81,6 +81,7 @@ def machine(assignment: Assignment) -> Machine:
     q.set_out("loads", "M3")
 
     geometry = SlottedCrank(q.si(r), q.si(d), given.axis.si, positions.sign)
+    q.fix("p.C", geometry.ground["C"], d)
     start = math.pi / 2 if positions.start is None else geometry.phi(positions.start.si)
     linkage = Linkage(
         ground=geometry.ground,

@@ -89,6 +89,7 @@ def machine(assignment: Assignment) -> Machine:
     positions, turn, press = assignment.positions, assignment.positions.sign, given.press
     q = _sheet(given, assignment.drawing.crank)
     linkage, start = _linkage(given, q), positions.start_or()
+    q.construct("guide.5.at", q["p.D"])
     minus = (given.B == "left") == (turn > 0)
     sliders = () if press is None else (course(linkage, 5, crank_motion(linkage, positions, start)),)
 

@@ -106,7 +106,7 @@ def _flags(marking: Marking, words: Mapping[str, Any], people: Mapping[str, str]
         cells = [cell for cell in marking.cells if (cell.id, cell.position) in {*flag.places[:SHOWN]}]
         where = ", ".join(_cell_text(marking.key, cell) for cell in cells) + (", …" if len(flag.places) > SHOWN else "")
         of = f" = {people.get(flag.other, flag.other)}" if flag.other else ""
-        chance = f", p < {max(flag.chance, 1e-9):.0e}" if flag.other else ""
+        chance = f", p < {max(flag.chance, 1e-9):.0e}" if flag.kind.startswith("classmate") else ""
         taken = f", {words['warning_names']['taken']}: {len(flag.taken)}" if flag.taken else ""
         texts.append(f"{words['warning_names'][flag.kind]}{of} ({len(flag.places)}: {where}{chance}{taken})")
     return "; ".join(texts)

@@ -6,7 +6,7 @@ what is beyond doubt, and only if the policy says so: what follows from a wrong 
 
 Copying shows in values that are the student's alone: too far from the key and from what the own values give to come
 from rounding.  An honest one meets a classmate's figures now and then; how many do so by chance is a binomial tail,
-multiplied by the classmates and chapters that were compared, and only what is rarer than `CHANCE` is told.
+multiplied by the classmates, chapters and positions that were compared, and only what is rarer than `CHANCE` is told.
 """
 
 from __future__ import annotations
@@ -19,14 +19,18 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.answers.key import Key, Role, Row
+from reportgen.answers.key import Key, Role, Row, is_direction
 from reportgen.grading.marks import Cells, Flag, Marked, Place, Submission, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM
 from reportgen.grading.working import Guide, last_half_unit
 from reportgen.notation import vocabulary
+from reportgen.notation.vocabulary import Chapter
 
 SAME = 0.8
 """The share of a sheet's, a column's or a chapter's values that are not its own."""
+
+ALL = 0.95
+"""The share that is a whole, but for a slip or two."""
 
 FEWEST = 4
 """Fewer values may agree by chance."""
@@ -59,6 +63,13 @@ some hundred numbers of three figures near by.
 LAST = 1.5
 """So many units of the last figure may come from rounding."""
 
+DEGREE = 1.0
+"""A direction is read to whole degrees (°)."""
+
+STEPS = (1.0, 0.5)
+TENTH = 0.1
+"""Lengths on paper are read to whole or half millimetres or, where they show that, to tenths (mm)."""
+
 
 @dataclass(frozen=True)
 class Classmate:
@@ -71,8 +82,9 @@ class Classmate:
 def guard(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> tuple[dict[Place, Marked], tuple[Flag, ...]]:
     """The cells without what the policy takes, and everything that was found."""
     result, flags = dict(cells), []
-    for search in (_one_number, _other_data, _same_columns, _constant_rows):
+    for search in (_one_number, _same_columns, _constant_rows):
         flags += list(search(guide, cells))
+    flags += _other_data(guide, cells, classmates)
     flags += _copied(guide, cells, classmates)
     policy = guide.policy
     for number, flag in enumerate(flags):
@@ -142,42 +154,70 @@ def _differ(cells: Cells, one: Place, other: Place) -> bool:
     return abs(cells[one].expected - cells[other].expected) >= APART * band
 
 
-def _other_data(guide: Guide, cells: Cells) -> Iterator[Flag]:
-    """Values that belong to other data than the assignment's: what follows from them is work on another one."""
+def _other_data(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> Iterator[Flag]:
+    """Values that belong to other data than the assignment's: what follows from them is work on another one.
+
+    Two data are enough where the whole sheet is right for a classmate's assignment, from which it has them.
+    """
     first = [place for place, cell in cells.items() if cell.first and cell.position == 0]
     named = [place for place in first if cells[place].mistake == WRONG_DATUM]
     # What is worked out from given data alone, wrongly and nobody knows how, may be of other data too.
     alone = [place for place in first if not any(id in guide.rows for id in guide.before[place[0]])]
     unnamed = [place for place in alone if not cells[place].mistake]
     misread = {cells[place].where for place in named}
-    if len(misread) + len(unnamed) >= (OTHER_DATA if len(misread) >= NAMED else INVENTED):
+    other = ""
+    if len(misread) >= NAMED:
+        other = next((one.key.id for one in classmates if _is_right_for(guide, cells, one)), "")
+    if other or len(misread) + len(unnamed) >= (OTHER_DATA if len(misread) >= NAMED else INVENTED):
         causes = {*named, *unnamed}
         follows = (place for place, cell in cells.items() if cell.verdict is Verdict.follows)
         spoiled = (one for one in follows if guide.stands_on(one, causes) or misread & {*guide.before[one[0]]})
-        yield Flag("other-data", tuple(causes), tuple(spoiled))
+        yield Flag("other-data", tuple(causes), tuple(spoiled), other=other)
+
+
+def _is_right_for(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
+    """Whether nearly all values that tell a classmate's assignment from the own one are right for the classmate's."""
+    telling = met = 0
+    for cell in cells.values():
+        row = _row(classmate, cell)
+        if cell.given is None or row is None or _is_drawn(row):
+            continue
+        theirs = float(row.values[row.at(cell.position)])
+        if _apart(guide, cell, theirs, cell.expected) >= APART * cell.band:
+            telling += 1
+            met += _apart(guide, cell, cell.given, theirs) <= cell.band
+    return telling >= FEWEST_ROWS and met >= ALL * telling
 
 
 # --- classmates -----------------------------------------------------------------------------------
 
 
 def _copied(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> list[Flag]:
-    """Runs of values that a classmate's sheet or key has, chapter by chapter and over the sheet."""
-    own = {place: cell for place, cell in cells.items() if cell.given is not None and _is_personal(guide, cell)}
-    others = [one for one in classmates if one.key.id != guide.key.id and not _is_source(guide, cells, one)]
-    chapters = {place: guide.rows[place[0]].part for place in own}
-    compared = 2 * len(others) * (1 + len(set(chapters.values())))
+    """Runs of values that a classmate's sheet or key has, by chapters, by positions and over the sheet."""
+    step = _read_to(guide, cells)
+    own = {place: cell for place, cell in cells.items() if cell.given is not None and _is_personal(guide, cell, step)}
+    right = [cell for cell in cells.values() if cell.verdict is Verdict.right]
+    others = [one for one in classmates if one.key.id != guide.key.id and not _is_source(guide, right, one)]
+    runs: dict[Chapter | int, list[Place]] = {}
+    for place in own:
+        runs.setdefault(guide.rows[place[0]].part, []).append(place)
+        if place[1]:
+            runs.setdefault(place[1], []).append(place)
+    parts = [*runs.values(), list(own)]
+    compared = 2 * len(others) * len(parts)
     flags: list[Flag] = []
     for classmate in others:
         meets = {place: _meets(guide, cell, classmate) for place, cell in own.items()}
-        parts = [[place for place in own if chapters[place] is part] for part in dict.fromkeys(chapters.values())]
         found: dict[Place, None] = {}
         chance = 1.0
-        wrong = [[place for place in part if not _is_near(own[place])] for part in (*parts, list(own))]
-        for part in (*parts, list(own), *wrong):
+        wrong = [[place for place in part if not _is_near(own[place])] for part in parts]
+        for part in (*parts, *wrong):
             telling = [place for place in part if meets[place] is not None]
             met = [place for place in telling if meets[place]]
+            if len(met) < max(FEWEST, SAME * len(telling)):
+                continue
             by_chance = compared * _tail([NEAR if _is_near(own[place]) else FAR for place in telling], len(met))
-            if len(met) >= max(FEWEST, SAME * len(telling)) and by_chance < CHANCE:
+            if by_chance < CHANCE:
                 found |= dict.fromkeys(met)
                 chance = min(chance, by_chance)
         if found:
@@ -205,17 +245,19 @@ def _is_whole(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
     return len(telling) > FEWEST_ROWS and met >= SAME * len(telling)
 
 
-def _is_source(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
-    """Whether it is the other sheet that has this one's values: those that are right here and wrong there.
+def _is_source(guide: Guide, right: Sequence[Marked], classmate: Classmate) -> bool:
+    """Whether it is the other sheet that has this one's values: those that are `right` here and wrong there.
 
     What depends on a scale says nothing: the classmate may have chosen another one than the key.
     """
     taken = 0
-    for place, cell in cells.items():
+    for cell in right:
+        # Few values are equal, so that is asked first: there may be hundreds of classmates.
+        if not _equal(cell, _theirs(classmate, (cell.id, cell.position))):
+            continue
         row = _row(classmate, cell)
-        if row is not None and cell.verdict is Verdict.right and not _is_drawn(row):
-            off = _apart(guide, cell, float(row.values[row.at(cell.position)]), cell.expected)
-            taken += off >= APART * cell.band and _equal(cell, _theirs(classmate, place))
+        if row is not None and not _is_drawn(row):
+            taken += _apart(guide, cell, float(row.values[row.at(cell.position)]), cell.expected) >= APART * cell.band
     return taken >= FEWEST_ROWS
 
 
@@ -245,15 +287,29 @@ def _equal(cell: Marked, value: float | None) -> bool:
     return value is not None and cell.given is not None and math.isclose(cell.given, value, rel_tol=1e-9)
 
 
-def _is_personal(guide: Guide, cell: Marked) -> bool:
+def _read_to(guide: Guide, cells: Cells) -> float:
+    """The step (mm) to which the lengths on paper of a sheet are read."""
+    lengths = [cell.given for cell in cells.values() if cell.given and guide.ledger[cell.id].kind == "segment"]
+    for step in STEPS:
+        if sum(math.isclose(one, round(one / step) * step, rel_tol=1e-9) for one in lengths) >= SAME * len(lengths):
+            return step
+    return TENTH
+
+
+def _is_personal(guide: Guide, cell: Marked, step: float) -> bool:
     """Whether a value is neither the key's nor what the student's own give, as far as it is written down.
 
-    One that was worked out rightly from a wrong one says nothing: so would anybody's with the same mistake.
+    Two who read one length to `step` (mm) write the same, of a short one not even a second figure.  One that was
+    worked out rightly from a wrong one says nothing: so would anybody's with the same mistake.
     """
     assert cell.given is not None
     if cell.verdict is Verdict.follows or (cell.mistake and cell.mistake != WRONG_DATUM) or cell.given == 0:
         return False
     last = 2 * last_half_unit(cell.given)
+    if guide.ledger[cell.id].kind == "segment":
+        last = max(last, step)
+    elif is_direction(cell.id):
+        last = max(last, DEGREE)
     return all(_apart(guide, cell, cell.given, value) > LAST * last for value in (cell.expected, cell.own))
 
 
@@ -271,7 +327,9 @@ def _meets(guide: Guide, cell: Marked, classmate: Classmate) -> bool | None:
     if _is_near(cell):
         # Two readings of one drawing.
         return None if theirs is None else _equal(cell, theirs)
-    if _apart(guide, cell, value, cell.expected) < APART * cell.band:
+    # A direction that is a little wrong has few whole degrees to be; any other value has a hundred.
+    far = APART if is_direction(cell.id) else 1.0
+    if _apart(guide, cell, value, cell.expected) < far * cell.band:
         return None
     return _equal(cell, theirs) or _apart(guide, cell, cell.given, value) <= last_half_unit(cell.given) * (1 + 1e-9)
 

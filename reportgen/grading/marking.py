@@ -20,8 +20,9 @@ from reportgen.answers.key import Row, half_unit, symbol_text, words_of
 from reportgen.catalogue import load
 from reportgen.grading.guard import Classmate, guard
 from reportgen.grading.marks import Cells, Flag, Marked, Marking, Place, Policy, Submission, Verdict
-from reportgen.grading.mistakes import Mistake
-from reportgen.grading.naming import misread_data, mistakes_of_working, slips_of_writing
+from reportgen.grading.misread import misread_by_many, misread_data
+from reportgen.grading.mistakes import WRONG_DATUM, Mistake
+from reportgen.grading.naming import mistakes_of_working, slips_of_writing
 from reportgen.grading.plans import mistakes_of_plans
 from reportgen.grading.remarks import not_from_own
 from reportgen.grading.submission import read_submission
@@ -32,6 +33,7 @@ from reportgen.notation.numbers import Language
 SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
     slips_of_writing,
     mistakes_of_plans,
+    misread_by_many,
     mistakes_of_working,
     misread_data,
 )
@@ -128,12 +130,12 @@ def _charged_once(working: Working, cells: Cells, found: Mapping[Place, Mistake]
     }
     for (name, where), mistake in unseen.items():
         own_values = working.own_values(changes=mistake.changes)
-        single = len(guide.ledger[where].values) == 1
+        once = len(guide.ledger[where].values) == 1 or name == WRONG_DATUM
         caused = [place for place, one in found.items() if (one.name, one.where) == (name, where)]
         charged: dict[int, Place] = {}
         for place in sorted(caused, key=lambda place: order[place[0]]):
             # In a quantity with a value at each position, it is a mistake of its own at each of them.
-            charged.setdefault(0 if single else place[1], place)
+            charged.setdefault(0 if once else place[1], place)
         for place, cell in cells.items():
             if cell.verdict is not Verdict.wrong or place in charged.values() or place in changed:
                 continue

@@ -1,4 +1,4 @@
-"""The first wrong values by name: slips of writing, mistakes of working, given data taken wrongly.
+"""The first wrong values by name: slips of writing, mistakes of working; data taken wrongly have their own module.
 
 Each search looks at the first wrong values that have no name yet; `marking.SEARCHES` is their order.
 """
@@ -7,15 +7,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 
-from reportgen.answers.key import Role, half_unit, is_direction
+from reportgen.answers.key import Role, is_direction
 from reportgen.grading.marks import Cells, Marked, Place, Verdict
-from reportgen.grading.mistakes import NO_CORIOLIS, OF_POSITION, WRONG_DATUM, Mistake, general_mistakes, mistakes_in
-from reportgen.grading.working import Change, Guide, Values, Working, last_half_unit
+from reportgen.grading.mistakes import NO_CORIOLIS, OF_POSITION, Mistake, general_mistakes, mistakes_in
+from reportgen.grading.working import Change, Guide, Values, Working
 from reportgen.ledger.core import follow
 
 FEW_FIGURES = 2
@@ -35,17 +34,11 @@ CONVENTIONS: tuple[tuple[str, float, float], ...] = (
 )
 """How angles are measured otherwise: name, factor and summand (°) of the angle asked for."""
 
-NEAT = 2
-"""Significant figures of a datum that somebody would have given; a half of the last one where the right one has it."""
-
 OWN_FIGURES = 0.1
 """A value within the tolerance of nothing shows a mistake that gives it to this share of itself."""
 
-APART = 3.0
-"""A right value that would be this many tolerances off with another datum shows that the datum was right."""
-
-FACTORS = np.geomspace(1 / 5, 5, 400)
-"""A datum that is taken wrongly lies within these of the right one."""
+OF_WRITING = frozenset({"thousands-mark", "sign-reversed"})
+"""Slips of writing down, which nobody makes in what is not written down; by chance one of hundreds would fit."""
 
 
 # --- slips of writing -----------------------------------------------------------------------------
@@ -189,11 +182,18 @@ def _candidates(working: Working, id: str) -> Iterator[Mistake]:
         yield from mistakes_in(guide, size, working.scales)
     before = guide.before[id]
     for other in before:
-        family = guide.ledger[other]
-        if not working.shows(other) and other != size and not (family.hidden or family.is_plane):
-            yield from mistakes_in(guide, other, working.scales)
+        if other != size:
+            yield from unseen_mistakes(working, other)
     concerned = {*before, id}
     yield from (mistake for mistake in general_mistakes(guide) if concerned & mistake.changes.keys())
+
+
+def unseen_mistakes(working: Working, id: str) -> Iterator[Mistake]:
+    """Mistakes in a quantity that the sheet does not show; a plan many times too large is never drawn."""
+    family = working.guide.ledger[id]
+    drawn = family.kind == "segment" or family.kind.endswith("scale")
+    if not (working.shows(id) or family.hidden or family.is_plane or drawn):
+        yield from (one for one in mistakes_in(working.guide, id, working.scales) if one.name not in OF_WRITING)
 
 
 def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) -> dict[str, np.ndarray]:
@@ -240,139 +240,3 @@ class _RowOf(Mapping[str, np.ndarray]):
 
     def __len__(self) -> int:
         return len(self.all)
-
-
-# --- given data taken wrongly ---------------------------------------------------------------------
-# A datum is sought by working backwards: the ledger is evaluated with many values of it at once, and the one
-# that meets the student's value counts if it is a number that somebody would have given: as round as the
-# right one.  A slip of arithmetic could otherwise nearly always be put down to some datum.
-
-
-@dataclass(frozen=True, slots=True)
-class _Datum:
-    """A given quantity and the value (SI) that it seems to have been taken for."""
-
-    id: str
-    value: float
-
-    @property
-    def mistake(self) -> Mistake:
-        return Mistake(WRONG_DATUM, self.id, {self.id: lambda value, _: np.full_like(value, self.value)})
-
-
-def misread_data(working: Working, cells: Cells) -> dict[Place, Mistake]:
-    """The misread data behind first wrong values that have no other name.
-
-    Only what is the same at all positions is traced back: a length, a mass, the crank's speed.
-    """
-    found: dict[Place, Mistake] = {}
-    known: list[_Datum] = []
-    for place, cell in cells.items():
-        if not cell.first or cell.mistake or not working.guide.rows[cell.id].single:
-            continue
-        datum = next((one for one in known if _explains(working, cell, one)), None)
-        if datum is None:
-            possible = [one for one in _possible_data(working, cell) if _explains(working, cell, one)]
-            datum = next((one for one in possible if not _is_contradicted(working.guide, cells, one)), None)
-            known += [datum] if datum else []
-            # Elsewhere the datum was right, so it must be a slip in copying it: one figure, met in all figures.
-            datum = datum or next((one for one in possible if _is_slip(working, cell, one)), None)
-        if datum is not None:
-            found[place] = datum.mistake
-    return found
-
-
-def _possible_data(working: Working, cell: Marked) -> Iterator[_Datum]:
-    """Neat values of each datum at which a quantity passes through the student's value."""
-    guide = working.guide
-    for id in guide.before[cell.id]:
-        family = guide.ledger[id]
-        single = len(family.values) == 1 and not (family.hidden or family.is_plane)
-        if not single or id in guide.rows or not family.values[0] > 0:
-            continue
-        right = float(family.values[0])
-        values = _at(guide, cell, id, FACTORS * right) - _given(working, cell)
-        crossing = np.flatnonzero(np.diff(np.sign(values)) != 0)
-        for index in crossing[np.isfinite(values[crossing]) & np.isfinite(values[crossing + 1])]:
-            one, other = values[index], values[index + 1]
-            share = one / (one - other)
-            factor = float(FACTORS[index : index + 2] @ (1 - share, share))
-            yield _Datum(id, _neat(guide, id, right * factor))
-
-
-def _explains(working: Working, cell: Marked, datum: _Datum) -> bool:
-    """Whether the quantity comes to the student's value, not the key's, with this value of the datum."""
-    guide = working.guide
-    if datum.id not in guide.before[cell.id]:
-        return False
-    band = cell.band * float(working.unit(cell.id)[_index(guide, cell)])
-    with_it = float(_at(guide, cell, datum.id, np.array([datum.value]))[0])
-    key = float(guide.ledger[cell.id].values[_index(guide, cell)].real)
-    return abs(with_it - _given(working, cell)) <= band < abs(with_it - key)
-
-
-def _is_slip(working: Working, cell: Marked, datum: _Datum) -> bool:
-    """Whether a datum differs from the given one in its last figure by one, and gives the value as it is written."""
-    right = float(working.guide.ledger[datum.id].values[0])
-    last = 2 * float(half_unit(np.array([right]), NEAT)[0])
-    with_it = float(_at(working.guide, cell, datum.id, np.array([datum.value]))[0])
-    assert cell.given is not None, "a wrong value is given"
-    written = last_half_unit(cell.given) * float(working.unit(cell.id)[_index(working.guide, cell)])
-    return abs(abs(datum.value - right) - last) < last / 10 and abs(with_it - _given(working, cell)) <= written
-
-
-def _is_contradicted(guide: Guide, cells: Cells, datum: _Datum) -> bool:
-    """Whether a value that is right, and stands on nothing wrong, would lie far off with this value of the datum.
-
-    Lengths on paper prove nothing: they are read at the student's own scale.
-    """
-    values = follow(guide.ledger, {datum.id: np.array([datum.value])})
-    wrong = {place[0] for place, cell in cells.items() if cell.verdict is Verdict.wrong}
-    for (id, position), cell in cells.items():
-        before = set(guide.before[id])
-        proves = cell.verdict is Verdict.right and not _is_on_paper(guide, id)
-        if proves and datum.id in before and not wrong & before:
-            column = np.broadcast_to(values[id].real, len(guide.ledger[id].values))
-            moved = float(column[guide.rows[id].at(position)]) / guide.ledger[id].how.scale - cell.expected
-            if abs(moved) > APART * cell.band:
-                return True
-    return False
-
-
-def _is_on_paper(guide: Guide, id: str) -> bool:
-    kind = guide.ledger[id].kind
-    return kind == "segment" or kind.endswith("scale") or is_direction(id)
-
-
-def _at(guide: Guide, cell: Marked, id: str, values: np.ndarray) -> np.ndarray:
-    """A quantity (SI) over values of a datum [M]."""
-    wanted = {*guide.before[cell.id], cell.id}
-    result = follow(guide.ledger, {id: values[:, None]}, only=wanted)[cell.id].real
-    return np.broadcast_to(result, (len(values), len(guide.ledger[cell.id].values)))[:, _index(guide, cell)]
-
-
-def _given(working: Working, cell: Marked) -> float:
-    return float(working.values[cell.id][_index(working.guide, cell)])
-
-
-def _index(guide: Guide, cell: Marked) -> int:
-    return guide.rows[cell.id].at(cell.position)
-
-
-def _neat(guide: Guide, id: str, value: float) -> float:
-    """The nearest number (SI) as round as the right one in the datum's printed unit; for 1/3.6 that of its inverse."""
-    family = guide.ledger[id]
-    # Lengths stand in metres in the ledger and in millimetres on the page: the same figures.
-    taken, right = (one / family.how.scale for one in (value, float(family.values[0])))
-    # A ratio that the ledger works out was given as 1/3.6.
-    if family.kind == "ratio" and taken < 1 and family.definition is not None:
-        return family.how.scale / _rounded(1 / taken, 1 / right)
-    return _rounded(taken, right) * family.how.scale
-
-
-def _rounded(value: float, like: float) -> float:
-    """A number to `NEAT` figures, to halves of the last one if `like` has more figures than these or begins with 1."""
-    begins_with_1 = f"{like:.0e}".startswith("1")
-    parts = 1 if np.isclose(like, float(f"{like:.{NEAT - 1}e}"), rtol=1e-9) and not begins_with_1 else 2
-    step = 10.0 ** (np.floor(np.log10(value)) - NEAT + 1) / parts
-    return float(round(value / step) * step)

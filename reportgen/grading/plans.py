@@ -6,7 +6,7 @@ sought in all values at once that are read there, and counts if it explains near
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -26,22 +26,33 @@ AGREED = 0.7
 
 def mistakes_of_plans(working: Working, cells: Cells) -> dict[Place, Mistake]:
     """The vectors reversed or left out behind first wrong values that have no name yet."""
-    guide = working.guide
     open_ones = [place for place, cell in cells.items() if cell.first and not cell.mistake and place[1]]
-    ids = list(dict.fromkeys(id for id, _ in open_ones))
-    before = {id: {*guide.before[id]} for id in ids}
-    candidates = [one for one in _candidates(guide) if any(one.changes.keys() & before[id] for id in ids)]
-    if len(open_ones) < FEWEST or not candidates:
-        return {}
-    values = foreseen(working, ids, candidates)
-    met = {place: _met(working, cells, place, values[place[0]]) for place in open_ones}
+    candidates = list(_candidates(working.guide))
     found: dict[Place, Mistake] = {}
     for position in dict.fromkeys(position for _, position in open_ones):
-        left = [place for place in open_ones if place[1] == position]
-        while best := _best(candidates, left, met, before):
-            mistake, explained = best
-            found |= dict.fromkeys(explained, mistake)
-            left = [place for place in left if place not in explained]
+        here = [place for place in open_ones if place[1] == position]
+        found |= behind_many(working, cells, here, candidates, FEWEST)
+    return found
+
+
+def behind_many(
+    working: Working, cells: Cells, places: Sequence[Place], candidates: Sequence[Mistake], fewest: int
+) -> dict[Place, Mistake]:
+    """The mistakes that explain nearly all wrong values behind them, `fewest` at least, those of the most first."""
+    guide = working.guide
+    ids = list(dict.fromkeys(id for id, _ in places))
+    before = {id: {*guide.before[id]} for id in ids}
+    candidates = [one for one in candidates if any(one.changes.keys() & before[id] for id in ids)]
+    if len(places) < fewest or not candidates:
+        return {}
+    values = foreseen(working, ids, candidates)
+    met = {place: _met(working, cells, place, values[place[0]]) for place in places}
+    found: dict[Place, Mistake] = {}
+    left = list(places)
+    while best := _best(candidates, left, met, before, fewest):
+        mistake, explained = best
+        found |= dict.fromkeys(explained, mistake)
+        left = [place for place in left if place not in explained]
     return found
 
 
@@ -81,13 +92,13 @@ def _met(working: Working, cells: Cells, place: Place, values: np.ndarray) -> np
 
 
 def _best(
-    candidates: list[Mistake], left: list[Place], met: dict[Place, np.ndarray], before: dict[str, set[str]]
+    candidates: list[Mistake], left: list[Place], met: dict[Place, np.ndarray], before: dict[str, set[str]], fewest: int
 ) -> tuple[Mistake, list[Place]] | None:
     """The mistake that explains most of the values that are left, if it explains nearly all that it moves."""
     best: tuple[Mistake, list[Place]] | None = None
     for number, mistake in enumerate(candidates):
         behind = [place for place in left if mistake.changes.keys() & before[place[0]]]
         explained = [place for place in behind if met[place][number]]
-        if len(explained) >= max(FEWEST, AGREED * len(behind), len(best[1]) + 1 if best else 0):
+        if len(explained) >= max(fewest, AGREED * len(behind), len(best[1]) + 1 if best else 0):
             best = mistake, explained
     return best

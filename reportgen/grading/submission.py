@@ -34,16 +34,19 @@ _UNREADABLE = {"date": "cell-date", "error": "cell-error", "boolean": "cell-bool
 
 
 def read_submission(
-    path: Path, key_of: Callable[[str], Key] | Key, language: Language | None = None, data: bytes | None = None
+    path: Path,
+    key_of: Callable[[str], Key] | Key,
+    language: Language | None = None,
+    pages: Sequence[Page] | None = None,
 ) -> Submission:
-    """The answer sheet of a file, or of the `data` of one inside an archive, read by the key of its assignment.
+    """The answer sheet of a file, or of its `pages` where they have been read, by the key of its assignment.
 
     The assignment is the one that its page of information names, or its title, or else the file's stem.
     `key_of` finds a key by the name that the sheet gives, which may be any text, and raises `KeyError` if
     there is none.  Raises `AssignmentError`, worded in `language`, if the file cannot be read, is no
     answer sheet or belongs to another assignment or machine.
     """
-    pages = read(path, language, data)
+    pages = read(path, language) if pages is None else pages
     found = _sheet(pages)
     if found is None:
         raise as_error([Fault("sheet-no-head", Mark(str(path)))], language)

@@ -45,6 +45,9 @@ MANY = 3
 LEAST_FIGURES = 3
 """Figures that a number has been written with, though noughts at its end do not show them."""
 
+READ_TO = 0.05e-3
+"""Half of the last figure of a length on paper (m), which is read to a tenth of a millimetre."""
+
 CONFIRMED = 0.02
 """Two scales nearer than this are one: a millimetre in the length of a drawn crank."""
 
@@ -363,7 +366,7 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
             # A scale for all positions is judged by all lengths, a position's own by those of its plan.
             own = slice(None) if len(usual) == 1 else slice(place, place + 1)
             tried = [float(one) for one in (stated[place] / usual[place], 1.0)]
-            if (in_use := _in_use(guide, values, scale, own)) is not None:
+            if (in_use := _in_use(guide, values, scale, own, float(stated[place]))) is not None:
                 tried.insert(0, float(in_use / usual[place]))
             if first is not None:
                 with np.errstate(divide="ignore"):
@@ -390,10 +393,11 @@ def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:
     return column
 
 
-def _in_use(guide: Guide, values: Values, scale: str, place: slice) -> float | None:
+def _in_use(guide: Guide, values: Values, scale: str, place: slice, stated: float) -> float | None:
     """The scale (SI) that a plan was drawn at by what was read from it: most sizes over their lengths, if these agree.
 
-    Only a scale that is chosen freely shows so; `place` is the part of the columns that is drawn at it.
+    Only a scale that is chosen freely shows so; `place` is the part of the columns that is drawn at it.  Where they
+    agree with the one that is `stated`, few are enough: the plan of a crank has two lengths.
     """
     if guide.ledger[scale].definition is not None or scale == "mu.l":
         return None
@@ -401,11 +405,18 @@ def _in_use(guide: Guide, values: Values, scale: str, place: slice) -> float | N
     for length in (id for id in values if vocabulary.plan(id) == scale):
         for size in guide.sizes[length] & values.keys():
             with np.errstate(all="ignore"):
-                found.append(np.abs(values[size] / values[length])[place])
-    ratios = np.concatenate(found) if found else np.zeros(0)
-    ratios = ratios[np.isfinite(ratios) & (ratios > 0)]
-    middle = float(np.median(ratios)) if ratios.size else 0.0
-    agree = np.abs(ratios / middle - 1) < CONFIRMED if middle else np.zeros(0)
+                # A short length may be rounded by more than scales differ.
+                rounding = READ_TO / np.abs(values[length])
+                found.append(np.array([np.abs(values[size] / values[length]), rounding])[:, place])
+    ratios, rounding = np.concatenate(found, axis=1) if found else np.zeros((2, 0))
+    known = np.isfinite(ratios) & (ratios > 0)
+    ratios, rounding = ratios[known], rounding[known]
+    if not ratios.size:
+        return None
+    middle = float(np.median(ratios))
+    if (np.abs(ratios / stated - 1) < CONFIRMED + rounding).mean() > 1 / 2:
+        return stated
+    agree = np.abs(ratios / middle - 1) < CONFIRMED
     return middle if agree.sum() >= MANY and agree.mean() > 1 / 2 else None
 
 

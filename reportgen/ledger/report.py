@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from reportgen import flywheel
-from reportgen.analysis import Analysis
+from reportgen.analysis import FULL_TURN, Analysis
 from reportgen.catalogue.loads import TableLaw
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
@@ -16,7 +16,7 @@ from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics import centres, enter_kinematics
 from reportgen.mechanism.structure import Crank, Linkage
 from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import PI, Expression, Symbol, call, circle_line, total
+from reportgen.notation.expressions import PI, Expression, Number, Ref, Symbol, call, circle_line, sqrt, total
 from reportgen.notation.expressions import size as size_of
 from reportgen.notation.sheet import ZERO, Sheet, is_short
 from reportgen.notation.vocabulary import Chapter
@@ -55,7 +55,7 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, wor
             _cycle(q, analysis)
             if machine.unevenness is not None:
                 regulated = flywheel.flywheel(machine, machine.unevenness)
-                _flywheel(q, machine.linkage, regulated, machine.cycle_angles)
+                _flywheel(q, analysis, regulated)
     checks = {id for id in q.families if id.startswith(centres.PREFIX)}
     decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
     return Ledger(q.families, decimals, machine.positions, cancellations, units or {}, polygons, regulated, q.lines)
@@ -150,29 +150,55 @@ def _without_dust(value: float, size: float) -> float:
 # --- the flywheel -----------------------------------------------------------------------------------
 
 
-def _flywheel(q: Sheet, linkage: Linkage, regulated: flywheel.Flywheel, positions: np.ndarray) -> None:
-    """Enter the flywheel of a machine whose positions are the cycle angles `positions`; δ is `unevenness`.
+def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.Flywheel) -> None:
+    """Enter the flywheel of a machine; δ is `unevenness`.
 
+    What is integrated over the cycle is what the trapezoid rule makes of the positions, and the rest of the integral.
     Ids: `J.r` reduced inertia (only where a moving link has mass), `M.r` reduced torque, `A.excess` excess work,
     `omega.of` the regulated speed at each position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`,
     `A.lower`, and `J.d` the flywheel.
     """
-    at = np.searchsorted(regulated.angle, positions - 1e-9)
-    inertia = _reduced(q, linkage)
+    machine = analysis.machine
+    at = np.searchsorted(regulated.angle, machine.cycle_angles - 1e-9)
+    inertia = _reduced(q, machine.linkage)
     if inertia is not None:
-        q.define("J.r", inertia, Symbol("J", "tt"))
+        J_r: Expression = q.define("J.r", inertia, Symbol("J", "tt"))
+    else:
+        J_r = Number(0.0)
     largest, δ, ω1 = float(np.abs(regulated.torque).max()), q["unevenness"], q["omega.1"]
-    q.give("M.r", regulated.torque[at], Symbol("M", "tt"), exact=False, scale=largest)
-    q.give("M.c", regulated.constant, exact=False, scale=largest)
+    on_lever = [q[f"M.{load.name}.p"] for load in (*analysis.weights, *analysis.applied) if f"M.{load.name}.p" in q]
+    ways = np.diff(np.append(machine.cycle_angles, machine.turns * FULL_TURN))
+    steps = q.give("steps", ways, Symbol("φ"), "ratio", hidden=True)
+    torque = machine.turn * total(on_lever) if on_lever else Number(0.0)
+    M_r = _with_rest(q, "M.r", regulated.torque[at], torque, Symbol("M", "tt"), "torque", largest)
+    _with_rest(q, "M.c", regulated.constant, -call("level", M_r, steps), "", "torque", largest)
     most = float(np.abs(regulated.work).max())
-    q.give("A.excess", regulated.work[at], "A", "work", exact=False, scale=most)
-    q.define("omega.max", ω1 * (1 + δ / 2))
-    q.define("omega.min", ω1 * (1 - δ / 2))
-    a = q.give("A.upper", regulated.upper, "a", "work", exact=False)
-    b = q.give("A.lower", regulated.lower, "b", "work", exact=False)
-    q.define("J.d", (a - b) / (δ * ω1**2))
+    A = _with_rest(q, "A.excess", regulated.work[at], call("excess", M_r, steps), "A", "work", most)
+    most_energy, least_energy = (
+        A - q.define(f"omega.{name}", ω1 * (1 + side * δ / 2)) ** 2 * J_r / 2
+        for name, side in (("max", 1), ("min", -1))
+    )
+    a = _with_rest(q, "A.upper", regulated.upper, call("highest", most_energy), "a", "work")
+    b = _with_rest(q, "A.lower", regulated.lower, call("lowest", least_energy), "b", "work")
+    J_d = q.define("J.d", (a - b) / (δ * ω1**2))
     if regulated.moment > 0:
-        q.give("omega.of", regulated.speed[at], "ω", exact=False)
+        energy = q["omega.max"] ** 2 * J_d / 2 - a + A
+        _with_rest(q, "omega.of", regulated.speed[at], sqrt(2 * energy / (J_d + J_r)), "ω")
+
+
+def _with_rest(
+    q: Sheet,
+    id: str,
+    values: np.ndarray | float,
+    by_rule: Expression,
+    symbol: Symbol | str,
+    kind: str = "",
+    scale: float = 0.0,
+) -> Ref:
+    """Enter what is integrated: it follows what stands in a rule for the positions, by which it is nearly found."""
+    found = q.construct(f"rule.{id}", by_rule)
+    rest = q.give(f"rest.{id}", np.asarray(values) - q.value(found), Symbol(id), "ratio", hidden=True)
+    return q.define(id, call("re", found + rest), symbol, kind, scale=scale)
 
 
 def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:

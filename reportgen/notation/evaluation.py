@@ -83,6 +83,19 @@ def mean(values: Value) -> Value:
     return np.mean(np.atleast_1d(values), axis=-1, keepdims=True)
 
 
+def level(value: Value, steps: Value) -> Value:
+    """The mean over a cycle by the trapezoid rule, `steps` being the ways from each position to the next."""
+    mean_of_step = (np.asarray(value) + np.roll(value, -1, axis=-1)) / 2
+    return np.sum(mean_of_step * steps, axis=-1, keepdims=True) / np.sum(steps)
+
+
+def excess(value: Value, steps: Value) -> Value:
+    """The integral of what is above the mean, from the first position to each, by the trapezoid rule."""
+    above = np.asarray(value) - level(value, steps)
+    parts = (above + np.roll(above, -1, axis=-1)) / 2 * steps
+    return np.roll(np.cumsum(parts, axis=-1), 1, axis=-1) - np.sum(parts, axis=-1, keepdims=True)
+
+
 def heading(vector: Value) -> Value:
     """A vector's direction from +x, in [0, 2π); rounding just below a full turn counts as 0."""
     return np.mod(np.angle(vector) + 1e-12, 2 * np.pi) - 1e-12
@@ -113,6 +126,10 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "min": np.minimum,
     "max": np.maximum,
     "mean": mean,
+    "level": level,
+    "excess": excess,
+    "highest": lambda value: np.max(value, axis=-1, keepdims=True),
+    "lowest": lambda value: np.min(value, axis=-1, keepdims=True),
     "quotient": quotient,
     "if_zero": if_zero,
     "within": within,

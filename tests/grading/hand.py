@@ -15,7 +15,7 @@ import numpy as np
 
 MM, DEGREE = 1e-3, math.pi / 180
 PRINTED = {"drawn": MM, "seg": MM, "ic.seg": MM, "h": MM, "F": 1e-4, "p": 1e4, "mu": 1e3} | dict.fromkeys(
-    ("dir", "beta", "ic.angle"), DEGREE
+    ("dir", "beta", "ic.angle", "theta", "alpha", "psi", "swing"), DEGREE
 )
 """What one printed unit is in SI, by the first part of an id; 1 for all others."""
 
@@ -59,7 +59,7 @@ class Hand:
 
     `paper` is the drawn crank and `force_scale` the scale of the force plans (N to a metre on paper); `figures` are
     written, all there are if 0; the scales of the plans of velocity and acceleration are chosen (`plan_scales`, SI), or
-    v_A/pa `by_lengths`, or ω μ_l; a drawn point is read up to `blunt` (m) beside where it lies.
+    v_A/pa `by_lengths`, or ω μ_l; a drawn point is read up to `blunt` (m) beside where it lies, lengths to `step` mm.
     """
 
     task: Task
@@ -72,6 +72,7 @@ class Hand:
     by_lengths: bool = True
     figures: int = 4
     blunt: float = 0.0
+    step: float = 0.1
     seed: int = 0
     written: dict[str, float] = field(default_factory=dict)
 
@@ -92,7 +93,7 @@ class Hand:
         elif id.startswith("dir."):
             printed = float(round(printed % 360))
         elif unit == MM:
-            printed = round(printed, 1 if self.blunt else 2)
+            printed = round(round(printed / self.step) * self.step, 2) if self.blunt else round(printed, 2)
         elif printed:
             printed = float(f"{printed:.{self.figures - 1}e}")
         self.written[id] = printed

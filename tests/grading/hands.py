@@ -2,19 +2,36 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
+from reportgen.answers.asking import Ask
+from reportgen.answers.key import Role
 from reportgen.errors import Mark
 from reportgen.grading.marks import Answer, Submission
 from reportgen.grading.working import Guide
 from tests.grading import students
 from tests.grading.hand import Change, Hand, Rod, Task
+from tests.grading.machines import WAYS
+from tests.grading.vectors import Paper, Vectors
 
-TWIN, SLIDER = "engine-twin-05", "slider-crank-01"
+TWIN, SLIDER, FOUR_BAR = "engine-twin-05", "slider-crank-01", "four-bar-01"
+DRAWING = {"engine-twin", "slider-crank"}
+"""Kinds of which the student's whole sheet is worked out, plans and closed formulas too."""
+
+WRONG_AT = 4
+"""The position at which one value is wrong."""
+
+
+def asked(guide: Guide) -> Guide:
+    """A guide to what a student hands in: the whole sheet if it was worked out by drawing, or what a class is asked."""
+    return guide if guide.analysis.machine.kind in DRAWING else replace(guide, key=Ask().of(guide.key))
 
 
 def task(guide: Guide, position: int) -> Task:
@@ -38,7 +55,7 @@ def task(guide: Guide, position: int) -> Task:
     return Task(given, (Rod("B", "C", "S2", (2, 3), 0.0, force=si("P3")),), angle, 1 + 0j, "AB")
 
 
-def handed_in(guide: Guide, worked: Mapping[int, Hand]) -> Submission:
+def handed_in(guide: Guide, worked: Mapping[int, Hand | Vectors]) -> Submission:
     """The sheet of a student who worked so at each position."""
     values = {}
     for row in guide.key.asked:
@@ -50,10 +67,56 @@ def handed_in(guide: Guide, worked: Mapping[int, Hand]) -> Submission:
     return Submission(guide.key.id, "sheet.csv", values, {})
 
 
+def at_work(guide: Guide, position: int, **how: Any) -> Hand | Vectors:
+    """A student's work at one position: by drawing on the machines of `DRAWING`, by vectors on all others."""
+    if guide.analysis.machine.kind in DRAWING:
+        return Hand(task(guide, position), **how)
+    return vectors(guide, position, **how)
+
+
 def work(guide: Guide, positions: Iterable[int], seed: int = 0, **how: Any) -> Submission:
     """The sheet of a student who works every position alike, with other luck in drawing."""
-    hands = {k: Hand(task(guide, k), seed=100 * seed + k, **how) for k in positions}
-    return handed_in(guide, hands)
+    return handed_in(guide, {k: at_work(guide, k, seed=100 * seed + k, **how) for k in positions})
+
+
+def one_wrong(guide: Guide, id: str, factors: Iterable[float], **how: Any) -> Submission | None:
+    """A sheet with one value so many times too large, at position 4 if it has several; None if none can be drawn so.
+
+    Of the `factors` the first with which the machine still goes together is taken.
+    """
+    for factor in factors:
+        changes = {id: partial(operator.mul, factor)}
+        with suppress(ValueError):
+            worked = {
+                k: at_work(guide, k, changes=changes if k == WRONG_AT or guide.rows[id].single else {}, seed=k, **how)
+                for k in {WRONG_AT, *(position for row in guide.judged for position in row.positions if position)}
+            }
+            return handed_in(guide, worked)
+    return None
+
+
+def vectors(guide: Guide, position: int, **how: Any) -> Vectors:
+    """The student's work on any machine of the book: data, the crank's angle and the loads as the task gives them."""
+    ledger = guide.ledger
+
+    def si(id: str) -> float:
+        family = ledger[id]
+        return float(family.values[position - 1 if len(family.values) > 1 else 0].real)
+
+    given = {id: si(id) for id, family in ledger.families.items() if not (family.is_plane or family.kind == "segment")}
+    given["turn"] = float(np.sign(guide.analysis.machine.turn))
+    forces = {id.removeprefix("mu.R"): si(id) for id in ledger.families if id.startswith("mu.R")}
+    paper = Paper(si("mu.l"), si("mu.v"), si("mu.a"), forces)
+    work = Vectors(given, paper, turn=int(given["turn"]), **how)
+    WAYS[guide.analysis.machine.kind](work)
+    return work
+
+
+def data_used(guide: Guide) -> list[str]:
+    """The data of the task that a student of the machine needs, in the order of the task."""
+    work = at_work(guide, WRONG_AT)
+    used = work.used if isinstance(work, Vectors) else {*task(guide, WRONG_AT).given}
+    return [id for id in guide.ledger.families if id in used and id not in guide.rows and guide.ledger[id].values.any()]
 
 
 # --- a class --------------------------------------------------------------------------------------
@@ -83,32 +146,68 @@ MISTAKES: dict[str, Change] = {
     "G2": lambda value: value + 5,
     "D": lambda value: value - 10e-3,
     "s": lambda value: value + 0.05,
+    # of the four-bar linkage
+    "l.AD": lambda value: value + 20e-3,
+    "sum.ends": lambda value: 0.9 * value,
+    "v.E": lambda value: 1.2 * value,
+    "turn.omega.3": lambda value: -value,
+    "R.03.t": lambda value: -value,
+    "M3": lambda value: 1.25 * value,
 }
 """One mistake that a member of a class makes: in a value or in reading a datum."""
 
 
-def variants(count: int, rng: np.random.Generator) -> list[Guide]:
-    """The assignments of a class whose data are drawn from short lists, as a lecturer's table has them."""
+DRAWN: Mapping[str, Mapping[str, tuple[str, ...]]] = {
+    TWIN: {
+        "H": ("85 mm", "90 mm", "95 mm", "100 mm", "105 mm"),
+        "n": ("2000 rpm", "2100 rpm", "2200 rpm", "2300 rpm"),
+        "lambda": ("1/3.5", "1/3.6", "1/3.8", "1/4"),
+        "D": ("92 mm", "95 mm", "98 mm", "100 mm"),
+        "G2": ("18 N", "20 N", "24 N"),
+        "G3": ("20 N", "22 N", "25 N"),
+    },
+    SLIDER: {
+        "r": ("130 mm", "140 mm", "150 mm", "160 mm"),
+        "l": ("560 mm", "580 mm", "600 mm", "620 mm", "640 mm"),
+        "n": ("280 rpm", "300 rpm", "320 rpm", "350 rpm"),
+        "G2": ("36 N", "40 N", "45 N", "50 N"),
+        "G3": ("55 N", "60 N", "65 N"),
+    },
+    FOUR_BAR: {
+        "AB": ("110 mm", "115 mm", "120 mm", "125 mm"),
+        "BC": ("330 mm", "340 mm", "350 mm", "360 mm"),
+        "CD": ("270 mm", "280 mm", "290 mm"),
+        "omega1": ("18 rad/s", "20 rad/s", "22 rad/s", "25 rad/s"),
+        "G2": ("26 N", "30 N", "34 N"),
+        "G3": ("22 N", "25 N", "28 N"),
+    },
+}
+"""The lists that the data of a class are drawn from, as a lecturer's table has them."""
+
+
+def variants(count: int, rng: np.random.Generator, name: str = TWIN) -> list[Guide]:
+    """The assignments of a class."""
     found = []
     for number in range(count):
-        drawn = {
-            "H": f"{rng.choice([85, 90, 95, 100, 105])} mm",
-            "n": f"{rng.choice([2000, 2100, 2200, 2300])} rpm",
-            "lambda": str(rng.choice(["1/3.5", "1/3.6", "1/3.8", "1/4"])),
-            "D": f"{rng.choice([92, 95, 98, 100])} mm",
-            "G2": f"{rng.choice([18, 20, 24])} N",
-            "G3": f"{rng.choice([20, 22, 25])} N",
-        }
-        guide = students.open_guide(students.assignment(TWIN, PLACES, **drawn))
+        drawn = {id: str(rng.choice(values)) for id, values in DRAWN[name].items()}
+        guide = asked(students.open_guide(students.assignment(name, PLACES, **drawn)))
         found.append(replace(guide, key=replace(guide.key, id=f"SV{number:02}")))
     return found
+
+
+def possible(guide: Guide) -> list[str]:
+    """The mistakes of `MISTAKES` that can be made on a sheet; a given speed needs no formula."""
+    given = {row.id for row in guide.key.rows if row.role is Role.given} - {"omega.1"}
+    return [id for id in MISTAKES if id in given or id in guide.rows]
 
 
 def honest(guide: Guide, rng: np.random.Generator, mistake: str = "") -> Submission:
     """The sheet of a member of a class who worked alone, with one mistake or none."""
     how = {"blunt": float(rng.choice(BLUNT)), "figures": int(rng.choice([3, 4])), "seed": int(rng.integers(1 << 30))}
     changes = {mistake: MISTAKES[mistake]} if mistake else {}
-    return work(guide, PLACES, changes=changes, by_lengths=bool(rng.integers(2)), **how)
+    if guide.analysis.machine.kind in DRAWING:
+        how["by_lengths"] = bool(rng.integers(2))
+    return work(guide, PLACES, changes=changes, **how)
 
 
 def with_cells(sheet: Submission, other: Submission, taken: Callable[[str, int], bool]) -> Submission:

@@ -82,6 +82,28 @@ def test_three_other_data_keep_what_does_not_depend_on_them(mine: Guide, paramet
     assert all(cell.points == cell.worth for cell in marking.cells if cell.verdict is Verdict.right)
 
 
+def test_two_data_are_enough_where_the_sheet_is_a_classmates(mine: Guide) -> None:
+    """Two data misread are mistakes, unless both are those of one classmate, and all else on the sheet too."""
+    theirs = replace(other(G2="24 N", D="95 mm"), key=replace(other(G2="24 N", D="95 mm").key, id="SV01"))
+    copied = students.sheet(theirs, lambda row, k, value: students.figures(value))
+    assert mark(mine, copied).flags == ()
+    (flag,) = mark(mine, copied, [Classmate(theirs.key)]).flags
+    assert (flag.kind, flag.other) == ("other-data", "SV01")
+    once = students.sheet(other(G2="24 N"), lambda row, k, value: students.figures(value))
+    assert mark(mine, once, [Classmate(theirs.key)]).flags == ()
+
+
+@pytest.mark.parametrize("step", [0.1, 0.5])
+def test_lengths_read_to_the_same_step_are_no_copies(room: Room, step: float) -> None:
+    """A force of 0.2 mm is so on every sheet, and lengths read to half a millimetre often are."""
+    guide = room.guides[0]
+    sheets = [hands.work(guide, hands.PLACES, blunt=0.3e-3, step=step, seed=seed) for seed in range(6)]
+    classmates = [
+        Classmate(replace(guide.key, id=f"SV{number:02}"), sheet) for number, sheet in enumerate(sheets[1:], start=50)
+    ]
+    assert mark(guide, sheets[0], classmates).flags == ()
+
+
 @pytest.mark.parametrize(("datum", "factor"), [("n", 0.9), ("H", 1.1), ("G2", 1.2), ("D", 0.9), ("s", 1.1)])
 def test_a_misread_datum_is_one_mistake(mine: Guide, datum: str, factor: float) -> None:
     mistake = Mistake("", datum, {datum: lambda value, _: value * factor})

@@ -13,15 +13,11 @@ from reportgen.grading.mistakes import Mistake
 from tests.grading import hands, students
 from tests.grading.hand import Change
 from tests.grading.published import FIGURES, POSITION
+from tests.grading.rates import lost
 
 AT = (4,)
 MOST = 2
 """Marks that one mistake may cost: its own, and one that the drawing's errors keep from being met."""
-
-
-def lost(marking: Marking) -> float:
-    """Marks lost among the cells that are filled in."""
-    return sum(cell.worth - cell.points for cell in marking.cells if cell.given is not None)
 
 
 MADE: dict[str, tuple[str, Change]] = {
@@ -121,7 +117,7 @@ def test_the_bands_of_an_engine_know_its_strokes_and_the_scale_of_its_plans() ->
     finer = guide.bands_at({"mu.R23": np.full(len(guide.ledger["mu.R23"].values), 0.2)})
     pressure, reaction = guide.key.row("p.3").values, np.abs(guide.ledger["R.03"].values)
     assert pressure[2] == 2
-    assert usual["p.3"][2] / guide.ledger["p.3"].how.scale < 0.05
+    assert usual["p.3"][2] / guide.ledger["p.3"].how.scale < 0.15
     assert np.median(finer["R.03"] / usual["R.03"]) < 0.7
     assert (usual["R.03"] < reaction).mean() > 0.9
 

@@ -33,6 +33,7 @@ HEADINGS = {
     "downwards": 270,
     "to the right and down": 315,
 }
+DEGREE = np.pi / 180
 TURN_OF_X = "positive along y, which is x turned by 90° in the direction of rotation"
 
 
@@ -67,6 +68,12 @@ AXES: dict[str, dict[str, Callable[[Position], complex]]] = {
     },
     "linkage-8": {},
     "linkage-slide": {},
+    # Cylinder C stands at 50° from x.
+    "engine-v-01": {
+        "positive to the side to which the crank leaves the top dead centre": lambda _: complex(np.exp(140j * DEGREE)),
+        "positive away from the crankshaft": lambda _: complex(np.exp(50j * DEGREE)),
+    },
+    "slotted-lever-02": {},
 }
 """The axes that the words of closed formulas speak of, as one draws them."""
 
@@ -75,9 +82,60 @@ def place(one: Position, point: str) -> complex:
     return vector(one["points"][point]["p"])
 
 
+def of_the_v_engine(row: Row, one: Position) -> float | None:
+    """The joint D and its motion by the axis of cylinder E, at 70° from x; the engine turns anticlockwise."""
+    axis = complex(np.exp(1j * np.radians(70.0)))
+    side, joint = 1j * axis, one["points"]["D"]
+    ahead = "positive to the side to which the crank leaves the top dead centre of piston E"
+    if row.id in ("f.h", "beta.4"):
+        assert row.positive == (ahead if row.id == "f.h" else "positive where h is")
+        h = along(vector(joint["p"]), side)
+        return h if row.id == "f.h" else float(np.arcsin(h / 0.196))
+    if found := re.fullmatch(r"f\.(across|along)\.([va])", row.id):
+        assert row.positive == (ahead if found[1] == "across" else "positive away from the crankshaft")
+        return along(vector(joint[found[2]]), side if found[1] == "across" else axis)
+    return None
+
+
+def of_the_slotted_lever(row: Row, one: Position) -> float | None:
+    """The end D of the lever, and the Coriolis acceleration of the block, 2ω × v along CB."""
+    across = 1j * (place(one, "D") - place(one, "C"))
+    if row.id in ("f.v.D", "f.a.D.t"):
+        assert row.positive == "positive where the lever turns or speeds up anticlockwise"
+        return along(vector(one["points"]["D"][row.id[2]]), across)
+    if row.id == "f.a.k":
+        assert row.positive == "positive along CB turned by 90° anticlockwise"
+        sliding = along(vector(one["points"]["B"]["v"]), place(one, "B") - place(one, "C"))
+        return 2 * float(one["links"]["3"]["omega"]) * sliding
+    return None
+
+
+def of_the_four_bar(row: Row, one: Position) -> float | None:
+    """The entries of both matrices, from the closed loop AB + BC = AD + DC projected on x and y."""
+    x = (place(one, "D") - place(one, "A")) / abs(place(one, "D") - place(one, "A"))
+    bar = {"A.11": "BC", "A.21": "BC", "A.12": "DC", "A.22": "DC", "B.1": "AB", "B.2": "AB"}.get(row.id)
+    if bar is None:
+        return None
+    own = np.conj(x) * (place(one, bar[1]) - place(one, bar[0]))
+    first = row.id in ("A.11", "A.12", "B.1")
+    assert row.positive.startswith("sign as in a₁₁ = −BC·sin φ₂" if first else "sign as in a₂₁ = BC·cos φ₂")
+    # d/dt of it: −BC sin φ₂ ω₂ + CD sin φ₃ ω₃ = AB sin φ₁ ω₁; BC cos φ₂ ω₂ − CD cos φ₃ ω₃ = −AB cos φ₁ ω₁.
+    return float((-own.imag if bar == "BC" else own.imag) if first else (own.real if bar == "BC" else -own.real))
+
+
+OWN: dict[str, Callable[[Row, Position], float | None]] = {
+    "engine-v-01": of_the_v_engine,
+    "slotted-lever-02": of_the_slotted_lever,
+    "four-bar-01": of_the_four_bar,
+}
+"""What one machine alone has."""
+
+
 def signed(name: str, row: Row, one: Position) -> float | None:
     """A quantity with the sign that the words beside its row give it; None for one that is not tried."""
     points, kind = one["points"], row.id.split(".")
+    if name in OWN and (own := OWN[name](row, one)) is not None:
+        return own
     if found := re.fullmatch(r"(turn|f)\.(omega|eps)\.(\d)", row.id):
         assert row.positive == "positive anticlockwise"
         return float(one["links"][found[3]]["omega" if found[2] == "omega" else "epsilon"])
@@ -90,7 +148,9 @@ def signed(name: str, row: Row, one: Position) -> float | None:
         return along(vector(one["reactions"][f"R{found[1]}"]), 1j * (place(one, words[2]) - place(one, words[1])))
     if (found := re.fullmatch(r"f\.([va])\.([A-Z])", row.id)) and row.positive:
         heading = np.exp(1j * np.radians(HEADINGS[row.positive.removeprefix("positive ")]))
-        return along(vector(points[found[2]][found[1]]), complex(heading))
+        # The words name the nearest of eight headings of a slider, which moves along its guide.
+        motion = vector(points[found[2]][found[1]])
+        return float(np.copysign(abs(motion), along(motion, complex(heading))))
     if found := re.fullmatch(r"f\.[xy]\.(\w+)\.([va])", row.id):
         return along(vector(points[found[1]][found[2]]), AXES[name][row.positive](one))
     if row.id in ("M.eq", "M.vw") and "balancing_torque" in one:
@@ -144,10 +204,16 @@ def test_a_couple_of_inertia_has_either_sign(name: str) -> None:
     assert {cell.verdict for cell in marking.cells if cell.given is not None} == {Verdict.right}
 
 
-def test_a_sense_that_the_sheet_leaves_open_is_right_either_way() -> None:
-    guide, _ = opened("engine-v-01")
-    left_open = {row.id for row in guide.key.asked if row.open_sense}
-    assert {"f.h", "beta.4", "f.across.v"} <= left_open
-    assert all(not row.positive for row in guide.key.asked if row.open_sense and not row.id.startswith("M.Pqt"))
-    marking = mark(guide, students.sheet(guide, lambda row, _, value: -value if row.id in left_open else value))
+def test_what_is_asked_for_as_a_magnitude_is_right_either_way() -> None:
+    guide, _ = opened("four-bar-01")
+    magnitudes = {row.id for row in guide.key.asked if row.positive == "magnitude"}
+    assert {"q.2", "q.3", "M.Pqt2"} <= magnitudes
+    marking = mark(guide, students.sheet(guide, lambda row, _, value: -value if row.id in magnitudes else value))
     assert {cell.verdict for cell in marking.cells if cell.given is not None} == {Verdict.right}
+
+
+@pytest.mark.parametrize("name", sorted(path.stem for path in students.ASSIGNMENTS.glob("*.yaml")))
+def test_no_sheet_leaves_a_sense_open(name: str) -> None:
+    """Whatever can be negative has words: which sense is positive, or that its magnitude is asked for."""
+    guide = students.guide(name)
+    assert [row.id for row in guide.key.asked if row.open_sense and not row.positive] == []

@@ -121,7 +121,8 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
         if (body.mass > 0 or body.moment > 0) and not still_driver:
             loads.append(_inertia(statics, body))
     for name, (link, place, sense) in applied.items():
-        positive = q.give(f"sense.{name}", np.asarray(sense, dtype=complex), name, "ratio")
+        # The machine has entered the sense of a force along a guide that is given by its angle.
+        positive = q.find(f"sense.{name}") or q.give(f"sense.{name}", np.asarray(sense, dtype=complex), name, "ratio")
         q.construct(f"F.{name}", q[name] * positive, of=name)
         loads.append(LoadOn(name, link, place, q[name], Origin.applied, name))
     loads += [LoadOn(name, link, "", q[name], Origin.applied) for name, link in torques.items()]

@@ -36,7 +36,9 @@ def enter_kinematics(q: Sheet, linkage: Linkage, turn: int, worked: Sequence[int
 
 def _enter(q: Sheet, linkage: Linkage, turn: int, scales: Mapping[str, float | None] | None = None) -> Kinematics:
     for name, at in linkage.ground.items():
-        q.give(f"p.{name}", complex(at), point(name), "length")
+        # The machine has placed what follows from given lengths.
+        if f"p.{name}" not in q:
+            q.give(f"p.{name}", complex(at), point(name), "length")
     plan = scheme(linkage)
     if isinstance(linkage.driver, Crank):
         k = crank(q, plan, linkage.driver, turn, scales or {})
