@@ -11,13 +11,14 @@ from reportgen.document.mirrors import mirrored
 from reportgen.document.plans import motion_plan
 from reportgen.document.report import Report
 from reportgen.figures.plan import Plan, PlanVector
+from reportgen.ledger.kinematics.linkage import What
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 
 
-def plans_of(name: str, what: str) -> dict[int, Plan]:
+def plans_of(name: str, what: What) -> dict[int, Plan]:
     report = Report(open_case(ASSIGNMENTS / f"{name}.yaml"))
-    return {k: motion_plan(report, what, k) for k in range(1, report.count + 1)}  # type: ignore[arg-type]
+    return {k: motion_plan(report, what, k) for k in range(1, report.count + 1)}
 
 
 @pytest.mark.parametrize("what", ["v", "a"])

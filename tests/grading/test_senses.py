@@ -140,7 +140,9 @@ def signed(name: str, row: Row, one: Position) -> float | None:
         assert row.positive == "positive anticlockwise"
         return float(one["links"][found[3]]["omega" if found[2] == "omega" else "epsilon"])
     if kind[:2] == ["ic", "along"]:
-        start, end = re.fullmatch(r"positive from (\w+) to (\w+)", row.positive).groups()  # type: ignore[union-attr]
+        ends = re.fullmatch(r"positive from (\w+) to (\w+)", row.positive)
+        assert ends is not None
+        start, end = ends.groups()
         return along(vector(points[kind[3]]["v"]), place(one, end) - place(one, start))
     if found := re.fullmatch(r"R\.(\d\d)\.t", row.id):
         words = re.fullmatch(r"positive along ([A-Z]\w*?)([A-Z]\w*) turned by 90° anticlockwise", row.positive)

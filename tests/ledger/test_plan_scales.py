@@ -13,6 +13,7 @@ from reportgen.document.outline import open_report
 from reportgen.document.plans import force_plan, motion_plan
 from reportgen.figures.plan import Plan
 from reportgen.grading.marking import mark
+from reportgen.ledger.kinematics.linkage import What
 from reportgen.ledger.scales import SHEET_BOXES, TEXT_BOX
 from reportgen.notation.numbers import SERIES, nice_down, nice_up
 from tests.grading import students
@@ -57,9 +58,9 @@ def test_worked_force_plans_are_100_mm_long_or_as_long_as_the_page_allows(case: 
 
 
 @pytest.mark.parametrize("what", ["v", "a"])
-def test_worked_motion_plans_are_60_mm_long_or_as_long_as_the_sheets_allow(case: Case, what: str) -> None:
+def test_worked_motion_plans_are_60_mm_long_or_as_long_as_the_sheets_allow(case: Case, what: What) -> None:
     report = open_report(case)
-    every = [size(motion_plan(report, what, k)) for k in range(1, report.count + 1)]  # type: ignore[arg-type]
+    every = [size(motion_plan(report, what, k)) for k in range(1, report.count + 1)]
     largest = max(width for width, _ in every), max(height for _, height in every)
     growth = finer(report.ledger.number(f"mu.{what}").value)
     for k in report.worked:

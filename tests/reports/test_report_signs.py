@@ -14,6 +14,7 @@ from reportgen.document.report import Report
 from reportgen.document.tree import Block, Equation, InlineMath, Paragraph, plain
 from reportgen.figures.forces import COUPLE_RADIUS
 from reportgen.figures.scene import Arc, Arrow, Scene
+from reportgen.mechanism.structure import SlidingDriver
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol, VectorEquation, walk
 from reportgen.notation.vocabulary import vector
@@ -74,8 +75,9 @@ def true(report: Report, name: str, k: int) -> complex:
     """The force on the link by the equations of equilibrium, which know neither plans nor assumed senses."""
     analysis = report.analysis
     if name == "Rcb":
-        guide = report.machine.linkage.driver.guide  # type: ignore[union-attr]
-        return complex(analysis.torque[k - 1] * np.exp(1j * guide.angle))
+        driver = report.machine.linkage.driver
+        assert isinstance(driver, SlidingDriver)
+        return complex(analysis.torque[k - 1] * np.exp(1j * driver.guide.angle))
     digits = name.removeprefix("R").partition(".")[0]
     reactions = analysis.forces.reactions
     if f"R{digits}" in reactions:
