@@ -148,9 +148,9 @@ class Ledger:
         result = self.number(id, position)
         if family.arm:
             result = Number(abs(result.value), result.decimals, result.unit)
-        if family.definition is None or family.constructed:
+        if family.line is None or family.constructed:
             return Chain((family.symbol, result), note)
-        shown = self._signs_out(family.definition, position)
+        shown = self._signs_out(family.line, position)
         formula = _replace(shown, lambda ref: self.symbol(ref.id))
         numbers = _replace(shown, lambda ref: self._bare(ref.id, position))
         parts: list[Expression] = [family.symbol, formula]

@@ -218,12 +218,12 @@ class _Choice:
     def _line(self, id: str) -> _Line | None:
         """The line that a family is printed with; None for what is given, measured or drawn."""
         family = self.families[id]
-        if family.definition is None or family.constructed or family.is_plane or family.hidden:
+        if family.line is None or family.constructed or family.is_plane or family.hidden:
             return None
-        inputs = refs(family.definition)
+        inputs = refs(family.line)
         if not inputs or any(self.families[name].is_plane for name in inputs):
             return None
-        return _Line(id, inputs, family.definition)
+        return _Line(id, inputs, family.line)
 
     def decimals(self, id: str) -> int | None:
         return self.quantities[id].decimals if id in self.quantities else None

@@ -47,7 +47,8 @@ class Family:
     of a sum where it is nothing.  `scale` is the size below which, times 1e-9, a value is nothing.  A
     `hidden` family serves a construction and is never printed.  `of` is the id of the size whose direction,
     signed value or vector this is, of an arm the load, `about` the point an arm is measured from; both are ""
-    for any other quantity.
+    for any other quantity.  `written` is a formula of the same value in place of the definition on the page, where
+    printed figures would be too few for that.
     """
 
     id: str
@@ -63,6 +64,12 @@ class Family:
     chapter: Chapter = Chapter.geometry
     of: str = ""
     about: str = ""
+    written: Expression | None = None
+
+    @property
+    def line(self) -> Expression | None:
+        """The formula of its line on the page."""
+        return self.definition if self.written is None else self.written
 
     @property
     def how(self) -> Kind:

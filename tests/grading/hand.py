@@ -279,9 +279,8 @@ class _Side:
         self.size: dict[str, float] = {}
         self.force: dict[str, complex] = {}
         self._load(f"Pqt{i}", say(f"Pqt{i}", hand.masses[i] * a_S), -s2 / abs(s2))
-        say(f"M.Pqt{i}", hand.moments[rod] * abs(self.eps))
-        arm = hand.moments[rod] * abs(self.eps) / (hand.masses[i] * a_S)
-        self.beside = math.copysign(say(f"e.Pqt{i}", arm), -self.eps)
+        couple = say(f"M.Pqt{i}", hand.moments[rod] * abs(self.eps))
+        self.beside = math.copysign(say(f"e.Pqt{i}", couple / self.size[f"Pqt{i}"]), -self.eps)
         say(f"l.{centre}K{i}", hand.moments[rod] / (hand.masses[i] * hand.shares[rod]))
         self._load(f"Pqt{j}", say(f"Pqt{j}", hand.masses[j] * a_B), -b2 / abs(b2))
         self._load(f"G{i}", hand.given[f"G{i}"], -1j)

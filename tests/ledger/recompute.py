@@ -78,7 +78,7 @@ def worst_lines(ledger: Ledger) -> Iterator[tuple[float, str, int]]:
     Lines without a value (a position where a quantity does not exist) are passed over.
     """
     for id, family in ledger.families.items():
-        if family.definition is None or family.constructed or family.is_plane or family.hidden:
+        if family.line is None or family.constructed or family.is_plane or family.hidden:
             continue
         whole = ledger.decimals[id] == 0 and float(np.nanmax(np.abs(family.values))) >= MANY * family.how.scale
         for position in range(1, (ledger.positions if len(family.values) > 1 else 1) + 1):

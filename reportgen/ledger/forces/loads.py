@@ -143,10 +143,10 @@ def _inertia(statics: Statics, body: Inertia) -> LoadOn:
         couple = q.define(f"M.{name}", J * q[f"eps.{link}"], scale=body.moment * statics.sizes.rotation**2)
         turning = q.construct(f"couple.{name}", -(J * q[f"turn.eps.{link}"]), of=couple.id)
         if not nothing:
-            # Written out, M/P would be a quotient of two products whose printed figures are too few for it.
-            product = q[f"m.{link}"] * q[f"a.{centre}"]
-            e = q.define(f"e.{name}", J * q[f"eps.{link}"] / product, scale=1e-3)
-            q.construct(f"beside.{name}", quotient(turning, product), of=e.id)
+            # M/P, written out of mass and acceleration: a quotient of two products has more figures than they print.
+            written = J * q[f"eps.{link}"] / (q[f"m.{link}"] * q[f"a.{centre}"])
+            e = q.define(f"e.{name}", couple / force, scale=1e-3, written=written)
+            q.construct(f"beside.{name}", quotient(turning, force), of=e.id)
             _centre_of_percussion(statics, link, centre)
     return LoadOn(name, link, centre, force, Origin.inertia, name)
 
