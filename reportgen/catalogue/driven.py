@@ -224,9 +224,9 @@ class GivenSheet(Sheet):
 
     def fix(self, id: str, at: complex, length: Operand) -> None:
         """A fixed point or a guide's point that lies at a given `length` from the origin, and so goes with it."""
-        far = self.construct(f"{id}.far", length)
+        far = self.construct(f"far.{id}", length)
         if self.si(far):
-            self.construct(id, far * self.give(f"{id}.unit", complex(at / self.si(far)), Symbol(id), "ratio"))
+            self.construct(id, far * self.give(f"unit.{id}", complex(at / self.si(far)), Symbol(id), "ratio"))
 
     def bodies(self, bars: Mapping[int, tuple[str, str]], slider: int, always: bool = False) -> None:
         """Gravity if anything has mass; the bars by the pins at their ends, as `bar` does; the slider's mass."""
