@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from reportgen.document import tree
 from reportgen.figures.scene import Scene
-from reportgen.notation.expressions import Expression, Symbol
+from reportgen.notation.expressions import Expression, Symbol, VectorEquation
 from reportgen.words import templates
 from reportgen.writers import layout
 from reportgen.writers.drawing import paint_latex
@@ -31,6 +31,8 @@ CAPTION = 15.0
 """About what a figure's caption takes, with the white around it (mm)."""
 OPENING, TITLE, ROW = 20, 14, 5.5
 """Approximate heights in mm: of the words before a table, of its caption, and of a row."""
+LONG, SHORT = 42, 18
+"""Of words with what they lead to: a vector equation in two storeys or the first step of a list, any other row."""
 
 
 def write(document: tree.Document) -> str:
@@ -107,6 +109,9 @@ class _Writer:
             needed = _command("tableroom", f"{_whole(following):g}mm") + _command(
                 "needed", f"{OPENING + _height(following):g}mm"
             )
+        else:
+            short = isinstance(following, tree.Equation) and not isinstance(following.rows[0], VectorEquation)
+            needed = _command("neededbelow", f"{SHORT if short else LONG:g}mm")
         return f"{needed}{self.block(block)}\\par\\nobreak"
 
     def block(self, block: tree.Block) -> str:
