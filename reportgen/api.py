@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.case import Case, open_case
+from reportgen.case import Case, open_case, opened
 from reportgen.errors import ReportgenError
 from reportgen.notation.numbers import Language
 from reportgen.scratch import scratch
@@ -51,14 +51,15 @@ def solve(assignment: Assignment, positions: int | None = None) -> dict[str, Any
     from reportgen.answers.results import results
 
     chosen = assignment if positions is None else assignment.with_positions(positions)
-    return results(Case(chosen))
+    found: dict[str, Any] = results(opened(chosen))
+    return found
 
 
 def document(assignment: Assignment) -> Document:
     """The report as a numbered tree, ready for any writer."""
     from reportgen.document.outline import compose
 
-    return compose(Case(assignment))
+    return compose(opened(assignment))
 
 
 def build(
