@@ -120,7 +120,7 @@ class ExerciseCase(Opened):
         """
         from reportgen.ledger.instant.write import work_out
 
-        worked = work_out(self.exercise, self.words["units"])
+        worked = work_out(self.exercise, self.words["units"], self.words["symbols"])
         if worked.missing:
             raise NotOfferedError(word("no_steps", self.assignment.language, asked=", ".join(worked.missing)))
         return worked

@@ -33,9 +33,11 @@ from reportgen.ledger.instant.write import Worked
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Chain, Number, Symbol, Term, VectorEquation, refs
 
+TYPED = 6
+"""Significant figures of given data; more of them are those of a root or of π."""
 AT = 1
 """The one position of an exercise."""
-ANSWER = (30.0, 45.0, 85.0)
+ANSWER = (25.0, 65.0, 70.0)
 """Widths (mm) of the columns of the answers."""
 
 
@@ -94,7 +96,9 @@ class StepView:
     point: PointName
     base: PointName
     centre: PointName
-    others: tuple[PointName, ...]
+    one: PointName
+    other: PointName
+    """The points whose normals meet in the centre."""
     lines: tuple[Equation, ...]
     equation: tuple[Equation, ...]
     angles: tuple[Inlines, ...]
@@ -152,7 +156,7 @@ class Page:
                     yield GivenItem("from-rest", PointName(point), 0, shown, after)
 
     def _typed(self, id: str, value: float, typed_unit: str) -> Chain:
-        return Chain((vocabulary.symbol(id), Number(value, None, pretty(typed_unit))))
+        return Chain((vocabulary.symbol(id), Number(float(f"{value:.{TYPED}g}"), None, pretty(typed_unit))))
 
     def _angle(self, radians: float) -> Inlines:
         return (Value(Number(round(math.degrees(radians) % 360.0, 2), None, "°")),)
@@ -196,7 +200,7 @@ class Page:
         rate = motion.omega(step.body) if step.body else 0.0
         if any(id.startswith("eps.") for id in shown):
             rate = motion.epsilon(step.body)
-        others = centre.points if centre is not None else ()
+        others = centre.points if centre is not None and centre.points else ("", "")
         angles = dict.fromkeys(id for one in shown for id in self._angles_of(one))
         return StepView(
             step.kind,
@@ -204,7 +208,8 @@ class Page:
             PointName(step.point),
             PointName(step.base),
             PointName(centre.name if centre is not None else ""),
-            tuple(map(PointName, others)),
+            PointName(others[0]),
+            PointName(others[1]),
             (Equation(tuple(ledger.chain(id, AT) for id in shown)),) if shown else (),
             (self._equation(step),) if step.equation is not None and step.equation.left else (),
             tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),

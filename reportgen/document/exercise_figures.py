@@ -78,6 +78,7 @@ def _draw(
         [joint.at for joint in pins if GROUND in joint.bodies],
         [joint.at for joint in pins if GROUND not in joint.bodies],
         [*_rails(case, points)],
+        [*_slots(case, points)],
         [*_grounds(case, scale)],
         [(start * scale, end * scale) for start, end in normals],
         arrows,
@@ -110,6 +111,16 @@ def _rails(case: ExerciseCase, points: dict[str, complex]) -> Iterator[instant.R
         elif isinstance(joint, file.Slider):
             first = system.bodies[joint.body][0]
             yield instant.Rail(points[first], direction(joint, system.points), joint.on == GROUND)
+
+
+def _slots(case: ExerciseCase, points: dict[str, complex]) -> Iterator[tuple[complex, complex]]:
+    """The lines of moving bodies along which points slide, from the body's own point on to beyond the block."""
+    given, system = case.exercise.given, case.exercise.motion.system
+    for joint in given.joints:
+        if isinstance(joint, file.SlotJoint) and joint.on != GROUND:
+            u, at = direction(joint, system.points), points[joint.point]
+            along = [(u.conjugate() * (points[name] - at)).real for name in system.bodies[joint.on]]
+            yield at + (min(*along, 0.0) - instant.BEYOND) * u, at + (max(*along, 0.0) + instant.BEYOND) * u
 
 
 def _grounds(case: ExerciseCase, scale: float) -> Iterator[instant.Ground]:

@@ -72,6 +72,8 @@ class Drawn:
     pivots: Sequence[str] = ()
     joints: Sequence[str] = ()
     rails: Sequence[Rail] = ()
+    slots: Sequence[tuple[complex, complex]] = ()
+    """Lines on bodies along which others slide."""
     grounds: Sequence[Ground] = ()
     normals: Sequence[tuple[complex, complex]] = ()
     vectors: Sequence[tuple[complex, complex, Content]] = ()
@@ -86,11 +88,13 @@ def instant(drawn: Drawn, notes: Sequence[Content] = ()) -> Scene:
         along = 1j * ground.out * WALL
         items += style.ground(ground.at + along, ground.at - along, 1)
     items += [Circle(disc.centre, disc.radius, style.THIN if disc.fixed else style.VISIBLE) for disc in drawn.discs]
+    items += [Line(start, end, style.HEAVY) for start, end in drawn.slots]
     for rail in drawn.rails:
         on = rail.way * GUIDE
         if rail.on_ground:
             items += style.guide(rail.at - on / 2, rail.at + on / 2, style.BLOCK)
-        items.append(style.block(rail.at, cmath.phase(rail.way), style.BLOCK))
+        size = style.BLOCK if rail.on_ground else style.SMALL_BLOCK
+        items.append(style.block(rail.at, cmath.phase(rail.way), size))
     for points in drawn.bodies.values():
         items += style.body(points)
     items += [Line(start, end, style.NORMAL) for start, end in drawn.normals]

@@ -278,15 +278,15 @@ def _slot(parts: Parts, joint: file.SlotJoint) -> bool:
     lines: tuple[str, ...] = ()
     length = board.length(centre.name, point)
     if q.si(f"omega.{body}"):
-        q.define(normal.id, q[f"omega.{body}"] ** 2 * length, Symbol("a", "e", "n"))
+        q.define(normal.id, q[f"omega.{body}"] ** 2 * length)
         lines += (normal.id,)
         if q.si(f"v.{point}.r"):
-            q.define(coriolis.id, 2 * q[f"omega.{body}"] * q[f"v.{point}.r"], Symbol("a", "k"))
+            q.define(coriolis.id, 2 * q[f"omega.{body}"] * q[f"v.{point}.r"])
             lines += (coriolis.id,)
     known = parts.nonzero(normal, coriolis)
     equation = Equation(parts.of[point], (*known, tangential, sliding), (tangential.id, sliding.id))
     value = solved_for(q, tangential.way, 1j * u, parts.of[point], known)
-    q.define(tangential.id, value, Symbol("a", "e", "τ"))
+    q.define(tangential.id, value)
     q.define(f"eps.{body}", q[tangential.id] / length)
     lines += (tangential.id, f"eps.{body}")
     board.steps.append(Step("acceleration-slot", lines, body, point, centre.name, equation))

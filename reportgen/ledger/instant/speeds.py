@@ -188,10 +188,12 @@ def _slot(board: Board, joint: file.SlotJoint) -> bool:
         q.define(f"omega.{body}", q[turning.id] / arm)
         lines = (turning.id, f"omega.{body}")
     if sliding.way:
-        q.define(sliding.id, solved_for(q, sliding.way, u, (whole,), (*bases, turning)), Symbol("v", "r"), "velocity")
+        q.define(
+            sliding.id, solved_for(q, sliding.way, u, (whole,), (*bases, turning)), Symbol("v", point, "r"), "velocity"
+        )
         lines = (*lines, sliding.id)
     else:
-        q.give(sliding.id, 0.0, Symbol("v", "r"), "velocity")
+        q.give(sliding.id, 0.0, Symbol("v", point, "r"), "velocity")
     board.steps.append(Step("slot-rate" if not known_rate else "slot-speed", lines, body, point, base, equation))
     return True
 

@@ -32,8 +32,11 @@ class Worked:
     missing: tuple[str, ...]
 
 
-def work_out(exercise: Exercise, units: Mapping[str, str] | None = None) -> Worked:
-    """The exercise worked out step by step; what nothing asked stands on is left out."""
+def work_out(exercise: Exercise, units: Mapping[str, str], names: Mapping[str, str]) -> Worked:
+    """The exercise worked out step by step; what nothing asked stands on is left out.
+
+    `units` and `names` are the units and the indices of symbols as a language has them.
+    """
     board = Board(Sheet(POSITIONS), lay_out(exercise))
     enter_velocities(board)
     enter_accelerations(board)
@@ -52,7 +55,7 @@ def work_out(exercise: Exercise, units: Mapping[str, str] | None = None) -> Work
         if id in needed:
             q.enter(family)
     decimals, cancellations = choose_decimals(q.families, (), set(), (1,))
-    ledger = Ledger(q.families, decimals, POSITIONS, cancellations, units or {})
+    ledger = Ledger(q.families, decimals, POSITIONS, cancellations, units).in_language(names)
     return Worked(ledger, board.layout, steps, tuple(missing))
 
 
