@@ -125,10 +125,20 @@ class ExerciseCase(Opened):
             raise NotOfferedError(word("no_steps", self.assignment.language, asked=", ".join(worked.missing)))
         return worked
 
+    @property
+    def ledger(self) -> Ledger:
+        """Every number of the solution by its id."""
+        return self.worked.ledger
+
 
 def opened(assignment: Assignment) -> Case | ExerciseCase:
     """The case of an assignment, whatever its kind makes of it."""
     return ExerciseCase(assignment) if catalogue.makes(assignment.kind) == "exercise" else Case(assignment)
+
+
+def open_any(path: Path | str, language: Language | None = None) -> Case | ExerciseCase:
+    """The case of an assignment file, whatever its kind makes of it.  Raises `AssignmentError` as `open_case`."""
+    return opened(catalogue.load(path, language))
 
 
 def open_case(path: Path | str, language: Language | None = None) -> Case:

@@ -257,6 +257,8 @@ def _inside(one: dict[str, Any], step: str | int) -> Iterator[dict[str, Any]]:
         yield one["properties"][step]
     elif isinstance(one.get("additionalProperties"), dict):
         yield one["additionalProperties"]
+    else:
+        yield from one.get("patternProperties", {}).values()
 
 
 def _alternatives(one: dict[str, Any], schema: dict[str, Any]) -> Iterator[dict[str, Any]]:

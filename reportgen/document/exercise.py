@@ -10,7 +10,7 @@ from typing import Any
 
 from reportgen.case import ExerciseCase
 from reportgen.catalogue import plane_motion_file as file
-from reportgen.document.exercise_figures import acceleration_figure, velocity_figure
+from reportgen.document.exercise_figures import FIGURES
 from reportgen.document.numbering import number
 from reportgen.document.prose import PointName, Prose
 from reportgen.document.tree import (
@@ -37,6 +37,9 @@ TYPED = 6
 """Significant figures of given data; more of them are those of a root or of π."""
 AT = 1
 """The one position of an exercise."""
+MM = 1e3
+PLACES = (25.0, 35.0, 35.0)
+"""Widths (mm) of the columns of the coordinates."""
 ANSWER = (25.0, 65.0, 70.0)
 """Widths (mm) of the columns of the answers."""
 
@@ -58,16 +61,26 @@ def solution(case: ExerciseCase) -> Document:
     )
 
 
-def names(case: ExerciseCase) -> Mapping[str, Any]:
-    """What the templates of an exercise name."""
+def task_names(case: ExerciseCase) -> Mapping[str, Any]:
+    """What the templates of an exercise name that say what is given and asked."""
     page = Page(case)
     return {
         "title": case.title,
         "variant": case.assignment.variant,
         "who": page.who,
         "words": case.words,
+        "places": page.places,
         "given": page.given,
         "asked": page.asked,
+        "system_figure": page.figure("system"),
+    }
+
+
+def names(case: ExerciseCase) -> Mapping[str, Any]:
+    """What the templates of its solution name."""
+    page = Page(case)
+    return {
+        **task_names(case),
         "lengths": page.lengths,
         "steps": page.steps,
         "velocity_figure": page.figure("velocity"),
@@ -181,6 +194,25 @@ class Page:
         ids = [id for id in ledger.families if id.startswith("l.") and self._declared(id)]
         return (Equation(tuple(ledger.chain(id, AT) for id in ids)),) if ids else ()
 
+    @property
+    def places(self) -> Table:
+        """The coordinates of the points."""
+        words = self.case.words["instant"]
+        head = tuple(Cell((Text(str(text)),)) for text in words["place_heads"])
+        points = self.case.exercise.motion.system.points
+        body = tuple(
+            (
+                Cell((InlineMath(vocabulary.point(name)),)),
+                *(Cell((Value(self._coordinate(part)),)) for part in (at.real, at.imag)),
+            )
+            for name, at in points.items()
+        )
+        return Table(tuple(map(Column, PLACES)), (head,), body, (Text(str(words["places"])),), "tab.places")
+
+    def _coordinate(self, value: float) -> Number:
+        """A coordinate in mm, without the dust of floats."""
+        return Number(round(value * MM, 6 - math.ceil(math.log10(self.case.exercise.motion.size * MM))) + 0.0)
+
     def _declared(self, id: str) -> bool:
         """Whether a distance is one of declared points."""
         centres = {one.name for one in self.worked.layout.centres.values() if one.rule == "normals"}
@@ -263,8 +295,7 @@ class Page:
 
     def figure(self, what: str) -> tuple[Block, ...]:
         """The system with its velocities or its accelerations; none where none are asked."""
-        draw = velocity_figure if what == "velocity" else acceleration_figure
-        drawn = draw(self.case)
+        drawn = FIGURES[what](self.case)
         if drawn is None:
             return ()
         scene, scale = drawn

@@ -24,6 +24,11 @@ LONGEST = 30.0
 MM = 1e3
 
 
+def system_figure(case: ExerciseCase) -> tuple[Scene, Chain | None] | None:
+    """The system alone, with no rates on it."""
+    return _draw(case, {}, "", {}, [])
+
+
 def velocity_figure(case: ExerciseCase) -> tuple[Scene, Chain | None] | None:
     """The system with the velocities of its points and the normals through the instant centres."""
     motion, layout = case.exercise.motion, case.worked.layout
@@ -60,7 +65,7 @@ def _draw(
     system, given = exercise.motion.system, exercise.given
     scale = _scale(case, [*extra.values()])
     points = {name: at * scale for name, at in {**system.points, **extra}.items()}
-    per_mm = nice_up(max(abs(vector) for vector, _ in vectors.values()) / LONGEST)
+    per_mm = nice_up(max((abs(vector) for vector, _ in vectors.values()), default=1.0) / LONGEST)
     arrows = [
         (points[name], points[name] + vector / per_mm, vocabulary.vector(symbol))
         for name, (vector, symbol) in vectors.items()
@@ -87,7 +92,7 @@ def _draw(
     )
     unit = "m/(s·mm)" if what == "v" else "m/(s²·mm)"
     length = Chain((Symbol("μ", "l"), Number(float(f"{1 / scale:.6g}"), None, "m/mm")))
-    note = Chain((Symbol("μ", what), Number(float(f"{per_mm:.6g}"), None, unit)))
+    note = Chain((Symbol("μ", what), Number(float(f"{per_mm:.6g}"), None, unit))) if vectors else None
     return instant.instant(drawn, (length,)), note
 
 
@@ -141,3 +146,7 @@ def _rotations(case: ExerciseCase, points: dict[str, complex]) -> Iterator[insta
         if centre.rule == "pivot" and motion.omega(body) and f"omega.{body}" in case.worked.ledger:
             sense = math.copysign(1.0, motion.omega(body))
             yield instant.Rotation(points[centre.name], sense, Symbol("ω", str(body)))
+
+
+FIGURES = {"system": system_figure, "velocity": velocity_figure, "acceleration": acceleration_figure}
+"""The figures by the names of their captions."""

@@ -44,7 +44,10 @@ def work_out(exercise: Exercise, units: Mapping[str, str], names: Mapping[str, s
     for asked in exercise.asked:
         if asked.what == "centre":
             missing += [] if _centre(board, asked.body) else [asked.id]
-    wanted = [one.id for one in exercise.asked] + [id for id in board.q.families if id.startswith("centre.")]
+    for asked in exercise.asked:
+        _signed(board, asked.id)
+    wanted = [one.id for one in exercise.asked]
+    wanted += [id for id in board.q.families if id.startswith(("centre.", "turn."))]
     needed = _with_ancestors(board, wanted)
     steps = tuple(step for step in board.steps if _leads_on(step, needed))
     # A step that is taken is written out whole.
@@ -69,6 +72,15 @@ def _centre(board: Board, body: int) -> bool:
             size = board.motion.size
             board.q.give(f"centre.{body}.{axis}", value, Symbol(axis, centre.name), "length", exact=False, scale=size)
     return True
+
+
+def _signed(board: Board, id: str) -> None:
+    """A rotation with its sign, positive anticlockwise, beside its size that is worked out."""
+    what, _, body = id.partition(".")
+    if what in ("omega", "eps") and id in board.q and board.q.families[id].definition is not None:
+        motion = board.motion
+        rate = motion.omega(int(body)) if what == "omega" else motion.epsilon(int(body))
+        board.q.define(f"turn.{id}", board.q[id] if rate >= 0 else -board.q[id], of=id)
 
 
 def _with_ancestors(board: Board, ids: Sequence[str]) -> set[str]:
