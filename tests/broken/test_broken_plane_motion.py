@@ -152,12 +152,11 @@ def test_the_bases_are_in_order(base: str, tmp_path: Path) -> None:
 
 
 def test_what_is_not_offered_is_told_in_one_line(tmp_path: Path) -> None:
-    """Keys and tasks need a machine; a solution needs steps that are known."""
+    """Drawing sheets need a machine; a solution needs steps that are known."""
     path = tmp_path / "file.yaml"
     path.write_text(BASE, encoding="utf-8")
-    for make in (api.key_files, api.task_files, api.sheet_files):
-        with pytest.raises(NotOfferedError, match="plane-motion"):
-            make(path, "typst", "en")
+    with pytest.raises(NotOfferedError, match="plane-motion"):
+        api.sheet_files(path, "typst", "en")
     loops = Path(__file__).parents[2] / "assignments" / "plane-motion" / "12.yaml"
     with pytest.raises(NotOfferedError, match=r"omega\.1"):
         api.document(load(loops, "en"))
