@@ -165,8 +165,22 @@ def _next_ways(found: Layout) -> bool:
         for name in found.members[body]
         if name not in found.ways and (way := _way(found, centre, name)) != 0
     }
+    if not new:
+        new = dict(_by_projection(found))
     found.ways.update(new)
     return bool(new)
+
+
+def _by_projection(found: Layout) -> Iterator[tuple[str, complex]]:
+    """Points of a body whose velocity has no component along the line to a point that moves across that line."""
+    for body, names in found.members.items():
+        known = [name for name in names if name in found.ways]
+        for name in names if body not in found.centres else ():
+            if name not in found.ways:
+                for other in known:
+                    line = found.points[name] - found.points[other]
+                    if abs(line) > NEAR and perpendicular(found.ways[other], line / abs(line)):
+                        yield name, found.ways[other]
 
 
 def _way(found: Layout, centre: Centre, name: str) -> complex:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import combinations
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_places import direction
-from reportgen.ledger.instant.centres import Centre, Layout
+from reportgen.ledger.instant.centres import NEAR, Centre, Layout
 from reportgen.ledger.instant.steps import Equation, Step
 from reportgen.ledger.instant.vectors import Vector, parallel, perpendicular, solved_for
 from reportgen.notation.expressions import Ref, Symbol
@@ -65,14 +66,8 @@ class Board:
         return next((body for body, names in self.layout.members.items() if point in names), 0)
 
 
-def enter_velocities(board: Board) -> None:
-    """Given rates first; then every rate that follows, one body after the other."""
-    _given(board)
-    while _next(board):
-        pass
-
-
-def _given(board: Board) -> None:
+def enter_given(board: Board) -> None:
+    """The rates that the file gives."""
     q = board.q
     for rate in board.layout.exercise.given.given:
         match rate:
@@ -87,7 +82,7 @@ def _given(board: Board) -> None:
                 board.steps.append(Step("from-rest", (f"v.{point}",), point=point))
 
 
-def _next(board: Board) -> bool:
+def derive(board: Board) -> bool:
     """One more body whose rate, or whose points' velocities become known; whether there was one."""
     for body, centre in board.layout.centres.items():
         if centre.rule == "translation":
@@ -95,6 +90,8 @@ def _next(board: Board) -> bool:
                 return True
         elif _rate(board, body, centre) or _points(board, body, centre):
             return True
+    if any(_parallel(board, body, names) for body, names in board.layout.members.items()):
+        return True
     return any(_slot(board, joint) for joint in board.layout.exercise.given.joints if isinstance(joint, file.SlotJoint))
 
 
@@ -147,6 +144,36 @@ def _points(board: Board, body: int, centre: Centre) -> bool:
     return True
 
 
+def is_across(board: Board, *names: str) -> bool:
+    """Whether points lie on one line and their velocities are all perpendicular to it."""
+    points, ways = board.layout.points, board.layout.ways
+    line = board.way(points[names[1]] - points[names[0]])
+    if not line or any(name not in ways for name in names):
+        return False
+    in_line = all(abs((line.conjugate() * (points[name] - points[names[0]])).imag) < NEAR for name in names)
+    return in_line and all(perpendicular(ways[name], line) for name in names)
+
+
+def _parallel(board: Board, body: int, names: list[str]) -> bool:
+    """ω from two velocities that are perpendicular to the line of their points."""
+    q = board.q
+    if body in board.layout.centres:
+        return False
+    known = [name for name in names if board.knows(f"v.{name}")]
+    for one, other in combinations(known, 2):
+        if not is_across(board, one, other):
+            continue
+        if not board.knows(f"omega.{body}"):
+            v, w = board.at(one), board.at(other)
+            first, second = (one, other) if abs(v) >= abs(w) else (other, one)
+            same = (v.conjugate() * w).real >= 0
+            difference = q[f"v.{first}"] - q[f"v.{second}"] if same else q[f"v.{first}"] + q[f"v.{second}"]
+            q.define(f"omega.{body}", difference / board.length(one, other))
+            board.steps.append(Step("rate-parallel", (f"omega.{body}",), body, one, other))
+            return True
+    return False
+
+
 # --- a point along the line of a moving body --------------------------------------------------------
 
 
@@ -160,7 +187,7 @@ def _slot(board: Board, joint: file.SlotJoint) -> bool:
         return False
     u = direction(joint, layout.points)
     arm_way = layout.points[point] - layout.points[base]
-    if abs(arm_way) < 1e-9 or not perpendicular(1j * u, arm_way / abs(arm_way)):
+    if abs(arm_way) < NEAR or not perpendicular(1j * u, arm_way / abs(arm_way)):
         # The line does not pass through the point known: its own point has a component along it too.
         return False
     own = board.at(point, body)

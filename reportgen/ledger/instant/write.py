@@ -10,7 +10,8 @@ from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.instant.accelerations import enter_accelerations
 from reportgen.ledger.instant.centres import Layout, lay_out
-from reportgen.ledger.instant.speeds import Board, enter_velocities
+from reportgen.ledger.instant.proportion import enter_proportion
+from reportgen.ledger.instant.speeds import Board, derive, enter_given
 from reportgen.ledger.instant.steps import Step
 from reportgen.notation.expressions import Symbol, refs
 from reportgen.notation.sheet import Sheet
@@ -38,7 +39,9 @@ def work_out(exercise: Exercise, units: Mapping[str, str], names: Mapping[str, s
     `units` and `names` are the units and the indices of symbols as a language has them.
     """
     board = Board(Sheet(POSITIONS), lay_out(exercise))
-    enter_velocities(board)
+    enter_given(board)
+    while derive(board) or enter_proportion(board):
+        pass
     enter_accelerations(board)
     missing = [one.id for one in exercise.asked if one.what != "centre" and one.id not in board.q]
     for asked in exercise.asked:
