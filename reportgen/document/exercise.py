@@ -117,8 +117,6 @@ class StepView:
     angles: tuple[Inlines, ...]
     sense: str
     way: str
-    zero: str
-    """The key of the words on whether the body turns: "still" or "turns"."""
 
 
 @dataclass(frozen=True)
@@ -245,9 +243,8 @@ class Page:
             (Equation(tuple(ledger.chain(id, AT) for id in shown)),) if shown else (),
             (self._equation(step),) if step.equation is not None and step.equation.left else (),
             tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),
-            self._sense(rate),
+            self._sense(rate) if rate else str(self.case.words["instant"]["no_sense"]),
             self._heading(step),
-            "turns" if rate else "still",
         )
 
     def _angles_of(self, id: str) -> list[str]:
