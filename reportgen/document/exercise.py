@@ -252,11 +252,15 @@ class Page:
         return [one for one in refs(definition) if one.startswith("alpha.")] if definition is not None else []
 
     def _heading(self, step: Step) -> str:
-        """Where the velocity of the step's point goes, in words."""
-        motion = self.case.exercise.motion
-        if step.point not in motion.system.points:
+        """Where the velocity or the acceleration of the step's point goes, in words; "" for several points."""
+        motion, layout = self.case.exercise.motion, self.worked.layout
+        if step.kind.startswith("acceleration") and step.point in motion.system.points:
+            return self._way(motion.a(step.point))
+        if step.point not in layout.points:
             return ""
-        v = motion.a(step.point) if step.kind.startswith("acceleration") else motion.v(step.point)
+        # A point of contact moves with the step's body.
+        known = step.point in motion.system.points
+        v = motion.v(step.point) if known else motion.velocities.at(step.body, layout.points[step.point])
         return self._way(v)
 
     def _way(self, vector: complex) -> str:

@@ -39,7 +39,9 @@ def velocity_figure(case: ExerciseCase) -> tuple[Scene, Chain | None] | None:
     vectors = {name: (motion.v(name), vocabulary.symbol(f"v.{name}")) for name in shown}
     if not vectors:
         return None
-    extra = {one.name: one.at for one in centres}
+    contacts = {step.point for step in case.worked.steps} - set(motion.system.points)
+    extra = {name: at for name, at in layout.points.items() if name in contacts}
+    extra |= {one.name: one.at for one in centres}
     normals = [(layout.points[name], one.at) for one in centres for name in one.points]
     return _draw(case, vectors, "v", extra, normals)
 

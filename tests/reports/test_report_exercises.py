@@ -50,6 +50,7 @@ def test_no_gap_is_left_in_the_words(path: Path, language: Any) -> None:
     assert re.search(r"\{|\}|\[[a-z]+\.|None", text) is None
     # What has no sense or direction has a dash of its own, in the answers alone.
     assert " –." not in text
+    assert re.search(r"[^\d] [.,;]( |$)", text, re.MULTILINE) is None
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
