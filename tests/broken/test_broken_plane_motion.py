@@ -48,30 +48,35 @@ parameters:
   find: [omega.1, omega.2]
 """
 
-TWO_CRANKS = """\
+THREE_RODS = """\
 kind: plane-motion
 parameters:
   points:
     O: {at: [0 m, 0 m]}
-    Q1: {at: [1 m, 0 m]}
     A: {at: [0.1 m, 0.2 m]}
-    B: {at: [0.8 m, 0.3 m]}
-    C: {at: [0.5 m, 0.9 m]}
+    D: {at: [0.4 m, 0.7 m]}
+    B: {at: [1.1 m, 0.2 m]}
+    E: {at: [0.8 m, 0.6 m]}
+    C: {at: [0.9 m, 1.5 m]}
+    F: {at: [0.5 m, 1.1 m]}
   bodies:
-    1: {points: [O, A]}
-    2: {points: [A, C]}
-    3: {points: [B, C]}
-    4: {points: [Q1, B]}
+    1: {points: [O, A, B]}
+    2: {points: [A, D]}
+    3: {points: [B, E]}
+    4: {points: [D, E, F]}
+    5: {points: [C, F]}
   joints:
     - {type: pin, at: O, bodies: [0, 1]}
     - {type: pin, at: A, bodies: [1, 2]}
-    - {type: pin, at: C, bodies: [2, 3]}
-    - {type: pin, at: B, bodies: [3, 4]}
-    - {type: pin, at: Q1, bodies: [0, 4]}
+    - {type: pin, at: D, bodies: [2, 4]}
+    - {type: pin, at: B, bodies: [1, 3]}
+    - {type: pin, at: E, bodies: [3, 4]}
+    - {type: pin, at: F, bodies: [4, 5]}
+    - {type: slot, point: C, body: 5, angle: 20 deg}
   given:
     - {type: omega, body: 1, value: 2 rad/s}
-    - {type: omega, body: 4, value: -3 rad/s}
-  find: [v.C]
+    - {type: omega, body: 5, value: 1 rad/s}
+  find: [v.D]
 """
 
 # (name, the file, what is replaced in it, by what, the faults expected)
@@ -183,7 +188,7 @@ def test_what_is_not_offered_is_told_in_one_line(tmp_path: Path) -> None:
     path.write_text(BASE, encoding="utf-8")
     with pytest.raises(NotOfferedError, match="plane-motion"):
         api.sheet_files(path, "typst", "en")
-    path.write_text(TWO_CRANKS, encoding="utf-8")
-    with pytest.raises(NotOfferedError, match=r"v\.C"):
+    path.write_text(THREE_RODS, encoding="utf-8")
+    with pytest.raises(NotOfferedError, match=r"v\.D"):
         api.document(load(path, "en"))
-    assert api.solve(load(path))["positions"][0]["points"]["C"]["v"] is not None
+    assert api.solve(load(path))["positions"][0]["points"]["D"]["v"] is not None

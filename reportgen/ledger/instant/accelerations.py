@@ -154,11 +154,22 @@ def _by_base(parts: Parts, body: int, names: list[str]) -> bool:
     for base in bases:
         for point in names:
             if point not in parts.of and (path := _path(parts, point, body)) is not None:
-                return _two_unknown(parts, body, point, base, *path)
+                return _two_unknown(parts, body, point, base, path)
     return False
 
 
-def _path(parts: Parts, point: str, body: int) -> tuple[tuple[Vector, ...], Vector, int, tuple[str, ...]] | None:
+@dataclass(frozen=True)
+class Path:
+    """What is known of the acceleration of a point, its part of unknown size, the body and base that it is about."""
+
+    known: tuple[Vector, ...]
+    unknown: Vector
+    body: int = GROUND
+    base: str = ""
+    lines: tuple[str, ...] = ()
+
+
+def _path(parts: Parts, point: str, body: int) -> Path | None:
     """What is known of the acceleration of a point on a known path, its unknown part, and the body it turns with.
 
     On a straight line of the ground nothing is known; about a pivot the normal acceleration.
@@ -167,7 +178,7 @@ def _path(parts: Parts, point: str, body: int) -> tuple[tuple[Vector, ...], Vect
     actual = board.motion.a(point) if point in board.motion.system.points else 0j
     if point in layout.slots:
         u = layout.slots[point]
-        return (), Vector(f"a.{point}", u if (u.conjugate() * actual).real >= 0 else -u), GROUND, ()
+        return Path((), Vector(f"a.{point}", u if (u.conjugate() * actual).real >= 0 else -u))
     for other, centre in layout.centres.items():
         if (
             other != body
@@ -177,20 +188,18 @@ def _path(parts: Parts, point: str, body: int) -> tuple[tuple[Vector, ...], Vect
         ):
             normal, tangential = _relative(parts, other, point, centre.name)
             lines = _enter_normal(parts, other, point, centre.name, normal)
-            return parts.nonzero(normal), tangential, other, lines
+            return Path(parts.nonzero(normal), tangential, other, centre.name, lines)
+    for other, names in layout.members.items():
+        base = next((name for name in names if name in parts.of), "")
+        if other != body and point in names and base and board.knows(f"omega.{other}"):
+            normal, tangential = _relative(parts, other, point, base)
+            lines = _enter_normal(parts, other, point, base, normal)
+            return Path((*parts.of[base], *parts.nonzero(normal)), tangential, other, base, lines)
     return None
 
 
-def _two_unknown(
-    parts: Parts,
-    body: int,
-    point: str,
-    base: str,
-    known: tuple[Vector, ...],
-    unknown: Vector,
-    other: int,
-    lines: tuple[str, ...],
-) -> bool:
+def _two_unknown(parts: Parts, body: int, point: str, base: str, path: Path) -> bool:
+    known, unknown, lines = path.known, path.unknown, path.lines
     board, q = parts.board, parts.board.q
     normal, tangential = _relative(parts, body, point, base)
     across = board.way(board.layout.points[point] - board.layout.points[base])
@@ -205,10 +214,9 @@ def _two_unknown(
     q.define(f"eps.{body}", q[tangential.id] / board.length(base, point))
     lines += (unknown.id, tangential.id, f"eps.{body}")
     parts.of[point] = (*known, *parts.nonzero(unknown))
-    if other:
-        centre = board.layout.centres[other]
-        q.define(f"eps.{other}", q[unknown.id] / board.length(centre.name, point))
-        lines += (f"eps.{other}",)
+    if path.body and not board.knows(f"eps.{path.body}"):
+        q.define(f"eps.{path.body}", q[unknown.id] / board.length(path.base, point))
+        lines += (f"eps.{path.body}",)
     board.steps.append(Step("acceleration-base", lines, body, point, base, equation))
     return True
 

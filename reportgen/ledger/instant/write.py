@@ -9,6 +9,7 @@ from reportgen.catalogue.plane_motion import Exercise
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.instant.accelerations import enter_accelerations
+from reportgen.ledger.instant.base_points import by_base_point
 from reportgen.ledger.instant.centres import Layout, lay_out
 from reportgen.ledger.instant.proportion import enter_proportion
 from reportgen.ledger.instant.speeds import Board, derive, enter_given
@@ -40,7 +41,7 @@ def work_out(exercise: Exercise, units: Mapping[str, str], names: Mapping[str, s
     """
     board = Board(Sheet(POSITIONS), lay_out(exercise))
     enter_given(board)
-    while derive(board) or enter_proportion(board):
+    while derive(board) or by_base_point(board) or enter_proportion(board):
         pass
     enter_accelerations(board)
     missing = [one.id for one in exercise.asked if one.what != "centre" and one.id not in board.q]
