@@ -172,7 +172,7 @@ class Path:
 def _path(parts: Parts, point: str, body: int) -> Path | None:
     """What is known of the acceleration of a point on a known path, its unknown part, and the body it turns with.
 
-    On a straight line of the ground nothing is known; about a pivot the normal acceleration.
+    On a straight line of the ground nothing is known; about a pivot, or another known point, the normal acceleration.
     """
     board, layout = parts.board, parts.board.layout
     actual = board.motion.a(point) if point in board.motion.system.points else 0j
