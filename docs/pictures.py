@@ -19,6 +19,8 @@ SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 CAPTION = ". Velocity plan at"
 """A part of the text of the page that the README shows, the number of the figure before it."""
 
+SHOWN = ROOT / "assignments" / "plane-motion" / "17.yaml"
+"""The exercise that the README shows."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"
 PAGE_DPI, SHEET_DPI, SCHEME_DPI = 100, 38, 60
 COLOURS = 96
@@ -46,9 +48,13 @@ def page_with(text: str, pages: pymupdf.Document) -> pymupdf.Page:
     return next(page for page in pages if page.search_for(text))
 
 
+SCHEMES = ("fig.scheme", "fig.velocity")
+"""The figure that shows a machine, or the system of an exercise."""
+
+
 def scheme_alone(report: Document) -> Document:
     """A document that shows the machine's scheme and nothing else."""
-    figure = next(block for block in report.blocks if isinstance(block, Figure) and block.key == "fig.scheme")
+    figure = next(block for block in report.blocks if isinstance(block, Figure) and block.key in SCHEMES)
     alone = replace(figure, caption=(), key="", number="")
     return replace(report, header=("", ""), footer=("", ""), blocks=(alone,))
 
@@ -77,7 +83,7 @@ def main() -> None:
     sheets = api.sheet_files(LAID_OUT, language="en", size="A1", sets=("kinematics",), formats=("pdf",))
     save(pymupdf.open(stream=sheets["sheet-1.pdf"])[0], "sheet", SHEET_DPI)
     for kind in catalogue.kinds():
-        file = min(SAMPLE.parent.glob(f"{kind}-*.yaml"))
+        file = next(iter(sorted(SAMPLE.parent.glob(f"{kind}-*.yaml"))), SHOWN)
         page = typeset(scheme_alone(document(file)))[0]
         save(page, kind, SCHEME_DPI, drawn(page))
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.case import Case, open_case
+from reportgen.case import Case, open_any, open_case, opened
 from reportgen.errors import ReportgenError
 from reportgen.notation.numbers import Language
 from reportgen.scratch import scratch
@@ -51,14 +51,15 @@ def solve(assignment: Assignment, positions: int | None = None) -> dict[str, Any
     from reportgen.answers.results import results
 
     chosen = assignment if positions is None else assignment.with_positions(positions)
-    return results(Case(chosen))
+    found: dict[str, Any] = results(opened(chosen))
+    return found
 
 
 def document(assignment: Assignment) -> Document:
     """The report as a numbered tree, ready for any writer."""
     from reportgen.document.outline import compose
 
-    return compose(Case(assignment))
+    return compose(opened(assignment))
 
 
 def build(
@@ -118,7 +119,7 @@ def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask |
     from reportgen.answers.sheet import answer_book
     from reportgen.workbook import write_xlsx
 
-    case = open_case(path, language)
+    case = open_any(path, language)
     chosen = ask or Ask()
     key = chosen.of(make_key(case))
     files = {"task.pdf": typeset(task(case, key, chosen.by_section), engine)[1]}
@@ -138,7 +139,7 @@ def key_files(
     from reportgen.answers.key import make_key
     from reportgen.workbook import write_csv, write_xlsx
 
-    case = open_case(path, language)
+    case = open_any(path, language)
     key = (ask or Ask()).of(make_key(case))
     makers: Mapping[str, Callable[[], bytes]] = {
         "pdf": lambda: typeset(files.key_document(key, case.title), engine)[1],
@@ -211,7 +212,7 @@ def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None)
         seen: set[str] = set()
         for path in files:
             with suppress(ReportgenError):
-                case = open_case(path, language)
+                case = open_any(path, language)
                 if case.assignment.kind not in seen:
                     seen.add(case.assignment.kind)
                     yield make_key(case)

@@ -1,4 +1,4 @@
-"""An assignment opened once: report, key, task, marking and results are all made of one `Case`."""
+"""An assignment opened once: report, key, task, marking and results are all made of one case."""
 
 from __future__ import annotations
 
@@ -10,28 +10,72 @@ from typing import TYPE_CHECKING, Any, get_args
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
+from reportgen.errors import NotOfferedError
 from reportgen.notation.numbers import Language
-from reportgen.words import load_words, search_path
+from reportgen.words import load_words, search_path, word
 
 if TYPE_CHECKING:
     from reportgen.analysis import Analysis
+    from reportgen.catalogue.plane_motion import Exercise
     from reportgen.flywheel import Flywheel
     from reportgen.ledger.core import Ledger
     from reportgen.ledger.forces.polygon import Polygon
+    from reportgen.ledger.instant.write import Worked
 
 
 @dataclass(frozen=True)
-class Case:
-    """An assignment with all that is computed of it; each part is computed when it is first asked for."""
+class Opened:
+    """An assignment with its words; each part is computed when it is first asked for."""
 
     assignment: Assignment
 
+    @property
+    def directories(self) -> tuple[Path, ...]:
+        """Where the words of this language, machine and school are looked for."""
+        assignment = self.assignment
+        return search_path(assignment.language, assignment.kind, assignment.report.school or "")
+
+    @cached_property
+    def words(self) -> Mapping[str, Any]:
+        """The short words of `words.yaml`.  Raises `TemplateError`."""
+        return load_words(self.directories)
+
+    @property
+    def course(self) -> str:
+        """The course as the assignment names it; by its standard name, whatever the language, in the case's own."""
+        standard: str = self.words["cover"]["course"]
+        names = {load_words(search_path(language))["cover"]["course"] for language in get_args(Language)}
+        given = self.assignment.report.course
+        return given if given and given not in names else standard
+
+    @property
+    def title(self) -> str:
+        """The machine's name in the assignment's language."""
+        return catalogue.title(self.assignment.kind, self.assignment.language)
+
+    @property
+    def variant_line(self) -> str:
+        """The variant as headers name it."""
+        variant = self.assignment.variant
+        return str(self.words["variant"].format(variant=variant)) if variant else ""
+
+
+@dataclass(frozen=True)
+class Case(Opened):
+    """A machine: its assignment with all that is computed of it."""
+
     @cached_property
     def analysis(self) -> Analysis:
-        """Everything computed, as arrays over the positions."""
+        """Everything computed, as arrays over the positions.
+
+        Raises `NotOfferedError` for an exercise, which has no machine.
+        """
         from reportgen.analysis import analyse
 
-        return analyse(catalogue.module(self.assignment.kind).machine(self.assignment))
+        kind, language = self.assignment.kind, self.assignment.language
+        if catalogue.makes(kind) != "machine":
+            raise NotOfferedError(word("no_machine", language, kind=kind))
+        return analyse(catalogue.module(kind).machine(self.assignment))
 
     @cached_property
     def ledger(self) -> Ledger:
@@ -57,29 +101,44 @@ class Case:
         """The flywheel, if the assignment asks for one."""
         return self.ledger.flywheel
 
-    @property
-    def directories(self) -> tuple[Path, ...]:
-        """Where the words of this language, machine and school are looked for."""
-        assignment = self.assignment
-        return search_path(assignment.language, assignment.kind, assignment.report.school or "")
+
+@dataclass(frozen=True)
+class ExerciseCase(Opened):
+    """One instant of a system in plane motion: its assignment with all that is computed of it."""
 
     @cached_property
-    def words(self) -> Mapping[str, Any]:
-        """The short words of `words.yaml`.  Raises `TemplateError`."""
-        return load_words(self.directories)
+    def exercise(self) -> Exercise:
+        """The system and what is asked of it."""
+        exercise: Exercise = catalogue.module(self.assignment.kind).exercise(self.assignment)
+        return exercise
+
+    @cached_property
+    def worked(self) -> Worked:
+        """The steps of its solution with their numbers.
+
+        Raises `NotOfferedError` if no steps that are known here lead to something that is asked.
+        """
+        from reportgen.ledger.instant.write import work_out
+
+        worked = work_out(self.exercise, self.words["units"], self.words["symbols"])
+        if worked.missing:
+            raise NotOfferedError(word("no_steps", self.assignment.language, asked=", ".join(worked.missing)))
+        return worked
 
     @property
-    def course(self) -> str:
-        """The course as the assignment names it; by its standard name, whatever the language, in the case's own."""
-        standard: str = self.words["cover"]["course"]
-        names = {load_words(search_path(language))["cover"]["course"] for language in get_args(Language)}
-        given = self.assignment.report.course
-        return given if given and given not in names else standard
+    def ledger(self) -> Ledger:
+        """Every number of the solution by its id."""
+        return self.worked.ledger
 
-    @property
-    def title(self) -> str:
-        """The machine's name in the assignment's language."""
-        return catalogue.title(self.assignment.kind, self.assignment.language)
+
+def opened(assignment: Assignment) -> Case | ExerciseCase:
+    """The case of an assignment, whatever its kind makes of it."""
+    return ExerciseCase(assignment) if catalogue.makes(assignment.kind) == "exercise" else Case(assignment)
+
+
+def open_any(path: Path | str, language: Language | None = None) -> Case | ExerciseCase:
+    """The case of an assignment file, whatever its kind makes of it.  Raises `AssignmentError` as `open_case`."""
+    return opened(catalogue.load(path, language))
 
 
 def open_case(path: Path | str, language: Language | None = None) -> Case:

@@ -126,6 +126,12 @@ class SheetError(ReportgenError):
     exit_code = 1
 
 
+class NotOfferedError(ReportgenError):
+    """What is asked for cannot be made of an assignment of this kind."""
+
+    exit_code = 1
+
+
 class TypesetterError(ReportgenError):
     """The typesetter is missing or failed; nothing the assignment can mend."""
 

@@ -13,17 +13,17 @@ which nothing evens out, is added whole:
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import cached_property
+from functools import cached_property, singledispatch
 from typing import Any
 
 import numpy as np
 
 from reportgen.answers.trapezoid import is_workable, trapezoid_errors
 from reportgen.answers.wording import MAGNITUDE, capitalised, is_open, phrase, positive_sense
-from reportgen.case import Case
+from reportgen.case import Case, ExerciseCase, Opened
 from reportgen.document.outline import open_report
 from reportgen.document.tree import formula
 from reportgen.ledger.core import Ledger
@@ -322,19 +322,56 @@ def shown_number(row: Row, value: float) -> Number:
     return Number(value if row.decimals is not None else float(f"{value:.12g}"), row.decimals)
 
 
-def make_key(case: Case) -> Key:
+@dataclass(frozen=True, slots=True)
+class Span:
+    """The positions that a key has: those of the cycle by their labels, `count` of them in a turn.
+
+    Those in `worked` are written out in full; of very many only those in `printed` stand in the document.
+    """
+
+    labels: tuple[str, ...]
+    count: int
+    worked: tuple[int, ...]
+    printed: tuple[int, ...] = ()
+
+
+INSTANT = Span(("1",), 1, (1,))
+"""The one position of an exercise."""
+
+
+@singledispatch
+def make_key(case: Opened) -> Key:
     """The key of a case, from the ledger that its report prints."""
-    assignment, machine, ledger, words = case.assignment, case.analysis.machine, case.ledger, case.words
-    report, by_rule = open_report(case), trapezoid_errors(ledger)
+    raise TypeError(type(case).__name__)
+
+
+@make_key.register
+def of_machine(case: Case) -> Key:
+    """The key of a machine, over all positions of its cycle."""
+    machine, report = case.analysis.machine, open_report(case)
+    labels = tuple(str(machine.position(k)) for k in range(1, machine.positions + 1))
+    printed = report.all_positions if report.thinned else ()
+    span = Span(labels, machine.count, tuple(case.assignment.worked_positions), printed)
+    return _key(case, case.ledger, span, lambda id: positive_sense(id, report))
+
+
+@make_key.register
+def of_exercise(case: ExerciseCase) -> Key:
+    """The key of an exercise, whose quantities are all sizes."""
+    return _key(case, case.ledger, INSTANT, lambda _: "")
+
+
+def _key(case: Opened, ledger: Ledger, span: Span, sense_of: Callable[[str], str]) -> Key:
+    assignment, words, worked = case.assignment, case.words, span.worked
+    by_rule = trapezoid_errors(ledger)
     on_paper, by_rounding = drawn_bands(ledger), computed_bands(ledger)
-    worked = tuple(assignment.worked_positions)
-    complete = set(worked) == set(range(1, machine.positions + 1))
+    complete = set(worked) == set(range(1, len(span.labels) + 1))
 
     def row(id: str) -> Row:
         family = ledger[id]
         scale = family.how.scale
         values = np.array([family.at(k + 1).real for k in range(len(family.values))])
-        sense = positive_sense(id, report)
+        sense = sense_of(id)
         if family.is_direction:
             # A vector of no length has none.
             exists = [ledger[family.of].at(k + 1) != 0 for k in range(len(values))]
@@ -359,7 +396,7 @@ def make_key(case: Case) -> Key:
             values / scale,
             on_paper[id] / scale,
             by_rounding[id] / scale,
-            _asked_at(values, worked, machine.count, family.kind == "force scale") if asked else (),
+            _asked_at(values, worked, span.count, family.kind == "force scale") if asked else (),
             tuple(_sense(family, value, words["sense"]) for value in values),
             family.of if family.is_signed_rotation else "",
             phrase(id, ledger, words),
@@ -379,9 +416,9 @@ def make_key(case: Case) -> Key:
         assignment.variant,
         assignment.language,
         {name: text for name, text in fields.items() if text},
-        tuple(str(machine.position(k)) for k in range(1, machine.positions + 1)),
+        span.labels,
         tuple(rows),
-        report.all_positions if report.thinned else (),
+        span.printed,
     )
 
 

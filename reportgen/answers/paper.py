@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from functools import singledispatch
 from itertools import groupby
 from typing import Any
 
 from reportgen.answers.key import Key, Role, Row, words_of
 from reportgen.answers.sheet import asked_positions, info_rows, open_cells
-from reportgen.case import Case
+from reportgen.case import Case, ExerciseCase, Opened
 from reportgen.document import tree
+from reportgen.document.exercise import task_names
 from reportgen.document.numbering import number
 from reportgen.document.outline import open_report
+from reportgen.document.prose import Prose
 from reportgen.document.report import PLATES_UP_TO
 from reportgen.document.tree import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
 from reportgen.figures.metrics import box
@@ -114,11 +117,28 @@ def shared_symbols(rows: Iterable[Row]) -> frozenset[Symbol]:
 # --- the task -------------------------------------------------------------------------------------
 
 
-def task(case: Case, key: Key, by_section: bool = False) -> Document:
+@singledispatch
+def task(case: Opened, key: Key, by_section: bool = False) -> Document:
     """What a student is handed, from the given data to the empty answer sheet; no answer is in it.
 
     `by_section` puts each section of the sheet on pages of its own, headed by whose it is.  Raises `TemplateError`.
     """
+    raise TypeError(type(case).__name__)
+
+
+@task.register
+def of_exercise(case: ExerciseCase, key: Key, by_section: bool = False) -> Document:
+    """The task of an exercise: what is given and asked, the system, and the sheet."""
+    tables = tuple(_sections(key) if by_section else answer_tables(key))
+    blocks = Prose(case.directories).render("exercise-task.md", {**task_names(case), "answer_tables": tables})
+    about = case.assignment.report
+    owner = (*fields(student_rows(key)), *blocks)
+    return paper(case.assignment.language, case.words, case.course, owner, about.student.name or "", key.variant)
+
+
+@task.register
+def of_machine(case: Case, key: Key, by_section: bool = False) -> Document:
+    """The task of a machine."""
     report = open_report(case)
     prose, names, words, machine = report.prose, report.names(), case.words, case.analysis.machine
     every = range(1, machine.positions + 1)

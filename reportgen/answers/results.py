@@ -9,12 +9,13 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from functools import singledispatch
 from typing import Any
 
 import numpy as np
 
 from reportgen.analysis import Analysis
-from reportgen.case import Case
+from reportgen.case import Case, ExerciseCase, Opened
 from reportgen.mechanism.forces import Load
 from reportgen.mechanism.structure import Crank
 from reportgen.notation.numbers import Language, significant_decimals, write
@@ -23,8 +24,15 @@ from reportgen.words import word
 FORMAT = "reportgen-results/1"
 
 
-def results(case: Case) -> dict[str, Any]:
+@singledispatch
+def results(case: Opened) -> dict[str, Any]:
     """The contract's JSON object of a case: one entry a position, null where it cannot be reached."""
+    raise TypeError(type(case).__name__)
+
+
+@results.register
+def of_machine(case: Case) -> dict[str, Any]:
+    """The object of a machine, an entry a position."""
     assignment, analysis = case.assignment, case.analysis
     machine = analysis.machine
     return {
@@ -34,6 +42,36 @@ def results(case: Case) -> dict[str, Any]:
         "units": "SI",
         "dyad_signs": {f"{dyad.links[0]}{dyad.links[1]}": dyad.sign for dyad in machine.linkage.dyads},
         "positions": [_position(analysis, k) for k in range(len(analysis.cycle_angle))],
+    }
+
+
+@results.register
+def of_instant(case: ExerciseCase) -> dict[str, Any]:
+    """The same object of an exercise, whose one position has its number alone; null is what is not determined."""
+    assignment, motion = case.assignment, case.exercise.motion
+    points = {
+        name: {
+            "p": _pair(place),
+            "v": _pair(motion.v(name)) if motion.knows_velocity(name) else None,
+            "a": _pair(motion.a(name)) if motion.knows_acceleration(name) else None,
+        }
+        for name, place in motion.system.points.items()
+        if motion.system.body_of(name)
+    }
+    links = {
+        str(body): {
+            "omega": motion.omega(body) if motion.knows_omega(body) else None,
+            "epsilon": motion.epsilon(body) if motion.knows_epsilon(body) else None,
+            "centre": None if not motion.knows_centre(body) or (at := motion.centre(body)) is None else _pair(at),
+        }
+        for body in motion.system.bodies
+    }
+    return {
+        "format": FORMAT,
+        "kind": assignment.kind,
+        "variant": assignment.variant,
+        "units": "SI",
+        "positions": [{"number": 1, "points": points, "links": links}],
     }
 
 
@@ -114,7 +152,8 @@ def _pair(value: complex) -> list[float] | None:
 
 DIGITS = 5
 MOST_DECIMALS = 4
-LEAD = 2
+LEADS = ("position", "crank_angle", "driver_way")
+"""Headings that stand in every table: the position, and where the driver is."""
 MOST_COLUMNS = 7
 MM = 1e3
 WORDS = frozenset({"position", "crank_angle", "driver_way", "equilibrium", "virtual_work"})
@@ -144,7 +183,7 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
 
 def _split(row: Row) -> list[list[str]]:
     """Headings of the tables side by side that a row is split into, each with the position and its angle."""
-    lead, others = list(row)[:LEAD], list(row)[LEAD:]
+    lead, others = [heading for heading in row if heading in LEADS], [one for one in row if one not in LEADS]
     return [[*lead, *others[at : at + MOST_COLUMNS]] for at in range(0, len(others), MOST_COLUMNS)]
 
 
@@ -176,9 +215,11 @@ def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]
 
 
 def _driver(position: Mapping[str, Any]) -> Row:
-    """The position of the driver: the angle of a crank in degrees, the way of a slider in mm."""
+    """The position of the driver: the angle of a crank in degrees, the way of a slider in mm; nothing without one."""
     if "driver_way" in position:
         return {"driver_way": position["driver_way"] * MM}
+    if "crank_angle" not in position:
+        return {}
     return {"crank_angle": round(math.degrees(position["crank_angle"]), 6) % 360}
 
 

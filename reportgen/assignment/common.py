@@ -126,7 +126,8 @@ class Kind:
 
     `turns` of the driver make a cycle; `indicator` is the type of the section of that name, None for a
     machine that has none; `checks` look at what no single value shows.  `added` tells from the parameters
-    and `Positions` how many positions a turn has beside the evenly spaced ones.
+    and `Positions` how many positions a turn has beside the evenly spaced ones.  A kind that is but one
+    instant of a motion has no positions, and nothing is drawn to a chosen length.
     """
 
     name: str
@@ -136,6 +137,7 @@ class Kind:
     checks: tuple[Check, ...] = ()
     added: Added = none_added
     indicator_optional: bool = False
+    has_positions: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,6 +203,8 @@ def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
     }
     if kind is None:
         return common
+    if not kind.has_positions:
+        return {"variant": common["variant"], "report": common["report"], "parameters": (kind.parameters, ...)}
     parameters = {**common, "parameters": (kind.parameters, ...)}
     if kind.indicator is None:
         return parameters

@@ -13,7 +13,16 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
-from reportgen.assignment.common import Assignment, Draft, Kind, file_model, sections, worked_positions
+from reportgen.assignment.common import (
+    Assignment,
+    Draft,
+    Drawing,
+    Kind,
+    Positions,
+    file_model,
+    sections,
+    worked_positions,
+)
 from reportgen.assignment.fields import RESERVED
 from reportgen.errors import Fault, Finding, Mark, Where
 from reportgen.notation.numbers import Language
@@ -43,7 +52,8 @@ def assess(
     if kind is None:
         findings.insert(0, _no_kind(name, kinds))
     else:
-        for check_one in (*kind.checks, worked_positions(kind.turns, kind.added)):
+        numbered = (worked_positions(kind.turns, kind.added),) if kind.has_positions else ()
+        for check_one in (*kind.checks, *numbered):
             found = {finding.where for finding in findings}
             findings += [finding for finding in check_one(draft) if finding.where not in found]
     # What the source already refuses is not judged a second time.
@@ -52,7 +62,7 @@ def assess(
     faults += [fault for fault in placed if fault.mark.line not in refused]
     if faults or kind is None:
         return None, faults
-    values = {"indicator": None, **draft.sections}
+    values = {"positions": Positions(), "drawing": Drawing(), "indicator": None, **draft.sections}
     return Assignment(kind.name, **values, source=path, id=path.stem, turns=kind.turns, added=kind.added), []
 
 
@@ -247,6 +257,8 @@ def _inside(one: dict[str, Any], step: str | int) -> Iterator[dict[str, Any]]:
         yield one["properties"][step]
     elif isinstance(one.get("additionalProperties"), dict):
         yield one["additionalProperties"]
+    else:
+        yield from one.get("patternProperties", {}).values()
 
 
 def _alternatives(one: dict[str, Any], schema: dict[str, Any]) -> Iterator[dict[str, Any]]:

@@ -24,7 +24,7 @@ from reportgen.batch.draw import Draw, Drawn, draw, judge_of, shared
 from reportgen.batch.editing import at, path_text, put, quoted, text_of
 from reportgen.batch.roster import read_roster
 from reportgen.batch.spec import Spec, assembled, read_spec
-from reportgen.case import Case
+from reportgen.case import Case, opened
 from reportgen.errors import AssignmentError, Fault, Mark, Where
 from reportgen.notation.numbers import Language
 from reportgen.source import Node, Scalar, Table, read_source
@@ -70,13 +70,13 @@ class Effort(NamedTuple):
 
     `worked` counts the printed values that are derived, over all positions; `largest` is the greatest balancing
     torque (N·m) or force (N) of the positions, `speed` that of the driver (rad/s or m/s), `positive` the share
-    of positions where the balance is positive (`largest` and `positive` are None without loads); `zeros` counts
-    the values that are zero beside their scale.
+    of positions where the balance is positive (`largest` and `positive` are None without loads, `speed` without a
+    driver); `zeros` counts the values that are zero beside their scale.
     """
 
     worked: int
     largest: float | None
-    speed: float
+    speed: float | None
     positive: float | None
     zeros: int
 
@@ -192,15 +192,15 @@ def _scalar(text: str) -> Scalar:
 
 def effort(assignment: Assignment) -> Effort:
     """The figures of an assignment, from its ledger."""
-    case = Case(assignment)
-    analysis, families = case.analysis, case.ledger.families.values()
+    case = opened(assignment)
+    analysis, families = case.analysis if isinstance(case, Case) else None, case.ledger.families.values()
     derived = [one for one in families if one.definition is not None and not one.hidden and not one.is_plane]
     zeros = sum(one.at(position) == 0 for one in derived if one.scale for position in range(1, len(one.values) + 1))
-    balance = np.real(analysis.torque) if analysis.loads else None
+    balance = np.real(analysis.torque) if analysis and analysis.loads else None
     return Effort(
         worked=sum(len(one.values) for one in derived),
         largest=None if balance is None else float(np.max(np.abs(balance))),
-        speed=analysis.machine.speed,
+        speed=analysis.machine.speed if analysis else None,
         positive=None if balance is None else float(np.mean(balance > 0)),
         zeros=int(zeros),
     )

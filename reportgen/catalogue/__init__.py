@@ -4,6 +4,8 @@ A machine is found because its module is here and its words are in `templates/<l
 `slider-crank` is the module `slider_crank`.  A module gives `TURNS` of the driver in a cycle, the models
 `Parameters` and, if it has one, `Indicator`, and `CHECKS`; `added_positions` if a turn has more positions than the
 evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
+
+A kind that is no machine but one instant of a system says `MAKES = "exercise"`, and makes one by `exercise`.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from functools import cache
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, Literal
 
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
@@ -38,6 +40,15 @@ def module(kind: str) -> ModuleType:
     return import_module(f"{__name__}.{kinds()[kind]}")
 
 
+Makes = Literal["machine", "exercise"]
+
+
+def makes(kind: str) -> Makes:
+    """What the module of a kind makes of an assignment; raises `KeyError` for a kind nobody knows."""
+    what: Makes = getattr(module(kind), "MAKES", "machine")
+    return what
+
+
 def kind(name: str) -> Kind:
     """What the reader of assignment files must know of a kind; raises `KeyError`."""
     machine = module(name)
@@ -50,13 +61,14 @@ def kind(name: str) -> Kind:
         (*shared(), *machine.CHECKS),
         getattr(machine, "added_positions", none_added),
         getattr(machine, "INDICATOR_OPTIONAL", False),
+        has_positions=makes(name) == "machine",
     )
 
 
 def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
     """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
     assignment, faults = reading.assess(source, path, kinds(), kind)
-    if assignment is not None:
+    if assignment is not None and makes(assignment.kind) == "machine":
         faults = reading.placed(source, _out_of_reach(assignment))
     return (None if faults else assignment), faults
 

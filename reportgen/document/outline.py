@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import singledispatch
 from typing import Any
 
-from reportgen.case import Case
+from reportgen.case import Case, ExerciseCase, Opened
 
 # Importing a module registers its figures, tables and functions.
 from reportgen.document import (  # noqa: F401
@@ -21,6 +22,7 @@ from reportgen.document import (  # noqa: F401
     result_tables,
     steps,
 )
+from reportgen.document.exercise import solution
 from reportgen.document.numbering import number
 from reportgen.document.report import Report
 from reportgen.document.tree import Block, Contents, Cover, Document, PageBreak, Words
@@ -31,8 +33,18 @@ def open_report(case: Case) -> Report:
     return Report(case)
 
 
-def compose(case: Case) -> Document:
-    """The finished, numbered document of a report; raises `TemplateError` for a fault in its words."""
+@singledispatch
+def compose(case: Opened) -> Document:
+    """The finished, numbered document of a case; raises `TemplateError` for a fault in its words."""
+    raise TypeError(type(case).__name__)
+
+
+compose.register(ExerciseCase, solution)
+
+
+@compose.register
+def of_machine(case: Case) -> Document:
+    """The report of a machine."""
     report = open_report(case)
     words, names = report.words, report.names()
     blocks: list[Block] = [_cover(report)]
@@ -47,18 +59,12 @@ def compose(case: Case) -> Document:
             assignment.language,
             f"{words['cover']['title']} – {case.title}",
             assignment.report.student.name or "",
-            (words["header"].format(course=case.course), variant_line(case)),
+            (words["header"].format(course=case.course), case.variant_line),
             ("", words["document"]["page"]),
             Words(**words["document"]),
             tuple(blocks),
         )
     )
-
-
-def variant_line(case: Case) -> str:
-    """The variant as headers name it."""
-    variant = case.assignment.variant
-    return str(case.words["variant"].format(variant=variant)) if variant else ""
 
 
 def _sections(report: Report) -> Iterator[str]:

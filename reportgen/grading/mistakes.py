@@ -169,7 +169,7 @@ def _power(guide: Guide, definition: Expression, scale: str) -> int:
 
 def _in_reading_a_pressure(guide: Guide, id: str) -> Iterator[tuple[str, Change]]:
     """The pressure of another piston, or of another stroke at the piston's own place."""
-    gas = guide.analysis.gas
+    gas = guide.analysis.gas if guide.analysis else {}
     here = next((state for state in gas.values() if f"p.{state.piston.link}" == id), None)
     if here is None:
         return
@@ -184,6 +184,8 @@ def _in_reading_a_pressure(guide: Guide, id: str) -> Iterator[tuple[str, Change]
 
 def _whole_rod(guide: Guide, id: str) -> str | None:
     """The length of the rod on which `l.AS2` places a mass centre."""
+    if guide.analysis is None:
+        return None
     linkage = guide.analysis.machine.linkage
     centres = {body.centre for body in linkage.inertias}
     for dyad in linkage.dyads:

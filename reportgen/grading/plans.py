@@ -67,7 +67,7 @@ def _candidates(guide: Guide) -> Iterator[Mistake]:
                 yield from _either("force-left-out", "force-reversed", source.of, id)
             elif source.definition is not None:
                 yield from _either("part-left-out", "part-reversed", refs(source.definition)[0], id)
-    for load in guide.analysis.loads:
+    for load in guide.analysis.loads if guide.analysis else ():
         vector = f"F.{load.name}"
         yield from _either("load-forgotten", "load-reversed", load.name, vector if vector in ledger else load.name)
 

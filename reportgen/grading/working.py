@@ -21,7 +21,7 @@ from reportgen.answers.key import (
     make_key,
 )
 from reportgen.assignment import Assignment
-from reportgen.case import Case
+from reportgen.case import Case, opened
 from reportgen.grading.marks import Place, Policy, Submission
 from reportgen.ledger.core import Ledger, follow, standing_on
 from reportgen.notation import vocabulary
@@ -58,7 +58,8 @@ class Guide:
 
     key: Key
     ledger: Ledger
-    analysis: Analysis
+    analysis: Analysis | None
+    """Of a machine; an exercise has none."""
     policy: Policy
 
     @cached_property
@@ -185,7 +186,7 @@ class Guide:
     @property
     def count(self) -> int:
         """Positions of one turn."""
-        return self.analysis.machine.count
+        return self.analysis.machine.count if self.analysis else 1
 
     def repeats(self, row: Row) -> bool:
         """Whether a quantity is asked for in the first turn only, because all turns are the same."""
@@ -200,8 +201,9 @@ class Guide:
 
 def open_guide(assignment: Assignment, policy: Policy | None = None) -> Guide:
     """The marking guide of an assignment, computed as its report is."""
-    case = Case(assignment)
-    return Guide(make_key(case), case.ledger, case.analysis, policy or Policy())
+    case = opened(assignment)
+    analysis = case.analysis if isinstance(case, Case) else None
+    return Guide(make_key(case), case.ledger, analysis, policy or Policy())
 
 
 # --- a student's values ---------------------------------------------------------------------------

@@ -1,0 +1,200 @@
+"""What no single value of a `plane-motion` file shows: names, places, contacts, and whether it is determined."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from reportgen.assignment.common import Draft
+from reportgen.catalogue import plane_motion_file as file
+from reportgen.catalogue.plane_motion_places import TOP, MisplacedError, system
+from reportgen.errors import Finding, Where
+from reportgen.plane_motion.conditions import GROUND
+from reportgen.plane_motion.motion import Motion
+
+
+def check(draft: Draft) -> Iterator[Finding]:
+    """Names first, then places, then the motion: each only where what it stands on is in order."""
+    given: file.Parameters | None = draft.sections.get("parameters")
+    if given is None:
+        return
+    names = _Names(given)
+    found = [*names.points(), *names.bodies(), *names.joints(), *names.rates(), *names.asked()]
+    yield from found or _motion(given)
+
+
+class _Names:
+    """Every point, body and disc is declared where it is named."""
+
+    def __init__(self, given: file.Parameters) -> None:
+        self.given = given
+
+    def points(self) -> Iterator[Finding]:
+        for name, point in self.given.points.items():
+            where = (*TOP, "points", name)
+            forms = {"at": point.at, "lines": point.lines, "from": point.from_}
+            told = [key for key, value in forms.items() if value is not None]
+            yield from _one_of(told, tuple(forms), where)
+            if told == ["from"]:
+                if point.distance is None:
+                    yield Finding("missing-key", where, {"key": "distance"})
+                ways = {"angle": point.angle, "on": point.on}
+                yield from _one_of([key for key, value in ways.items() if value is not None], tuple(ways), where)
+
+    def bodies(self) -> Iterator[Finding]:
+        for number, body in self.given.bodies.items():
+            where = (*TOP, "bodies", str(number))
+            for index, name in enumerate(body.points):
+                yield from self._point(name, (*where, "points", index))
+            if body.disc is not None:
+                yield from self._point(body.disc.centre, (*where, "disc", "centre"))
+            if number != GROUND and not body.carried:
+                yield Finding("missing-key", where, {"key": "points"})
+
+    def joints(self) -> Iterator[Finding]:
+        for index, joint in enumerate(self.given.joints):
+            where = (*TOP, "joints", index)
+            match joint:
+                case file.Pin(at=at, bodies=bodies):
+                    yield from self._point(at, (*where, "at"))
+                    yield from self._pair(bodies, (*where, "bodies"))
+                    for place, body in enumerate(bodies):
+                        yield from self._carried(at, body, (*where, "bodies", place))
+                case file.SlotJoint(point=point, body=body, on=carrier):
+                    yield from self._point(point, (*where, "point"))
+                    yield from self._pair((body, carrier), where, "body", "on")
+                    yield from self._carried(point, body, (*where, "body"))
+                case file.Slider(body=body, on=carrier):
+                    yield from self._pair((body, carrier), where, "body", "on")
+                case file.Translation(body=body):
+                    yield from self._body(body, (*where, "body"))
+                case file.RollingOnLine(disc=body, on=carrier, through=through):
+                    yield from self._point(through, (*where, "through"))
+                    yield from self._pair((body, carrier), where, "disc", "on")
+                    yield from self._disc(body, (*where, "disc"))
+                case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
+                    yield from self._pair(discs, (*where, "discs"))
+                    for place, body in enumerate(discs):
+                        yield from self._disc(body, (*where, "discs", place))
+                case file.Cord(points=points):
+                    yield from self._ends(points, (*where, "points"))
+            if isinstance(joint, file.Directed):
+                told = [key for key in ("angle", "along") if getattr(joint, key) is not None]
+                yield from _one_of(told, ("angle", "along"), where)
+                if joint.along is not None:
+                    yield from self._ends(joint.along, (*where, "along"))
+
+    def rates(self) -> Iterator[Finding]:
+        for index, rate in enumerate(self.given.given):
+            where = (*TOP, "given", index)
+            if isinstance(rate, file.OmegaOf | file.EpsilonOf):
+                yield from self._body(rate.body, (*where, "body"))
+            else:
+                yield from self._moving(rate.point, (*where, "point"))
+
+    def asked(self) -> Iterator[Finding]:
+        for index, asked in enumerate(self.given.find):
+            where = (*TOP, "find", index)
+            yield from self._body(asked.body, where) if asked.of_body else self._moving(asked.of, where)
+
+    def _point(self, name: str, where: Where) -> Iterator[Finding]:
+        if name not in self.given.points:
+            yield Finding("no-such-point", where, {"text": name, "known": ", ".join(self.given.points)})
+
+    def _moving(self, name: str, where: Where) -> Iterator[Finding]:
+        """A point of which a rate is given or asked moves with some body."""
+        moving = {point for number, body in self.given.bodies.items() if number for point in body.carried}
+        if name in self.given.points and name not in moving:
+            yield Finding("point-at-rest", where, {"text": name})
+        else:
+            yield from self._point(name, where)
+
+    def _ends(self, names: tuple[str, ...], where: Where) -> Iterator[Finding]:
+        for index, name in enumerate(names):
+            yield from self._point(name, (*where, index))
+        if names[0] == names[1]:
+            yield Finding("same-point", (*where, 1), {"text": names[1]})
+
+    def _body(self, number: int, where: Where) -> Iterator[Finding]:
+        if number != GROUND and number not in self.given.bodies:
+            known = ", ".join(map(str, sorted({GROUND, *self.given.bodies})))
+            yield Finding("no-such-body", where, {"text": str(number), "known": known})
+
+    def _pair(self, bodies: tuple[int, ...], where: Where, *keys: str) -> Iterator[Finding]:
+        at: Iterable[str | int] = keys or (0, 1)
+        places = [(*where, key) for key in at]
+        for body, place in zip(bodies, places, strict=True):
+            yield from self._body(body, place)
+        if bodies[0] == bodies[1]:
+            yield Finding("same-body", places[1], {"text": str(bodies[1])})
+
+    def _carried(self, point: str, body: int, where: Where) -> Iterator[Finding]:
+        if body and body in self.given.bodies and point not in self.given.bodies[body].carried:
+            yield Finding("not-on-body", where, {"text": point, "body": str(body)})
+
+    def _disc(self, body: int, where: Where) -> Iterator[Finding]:
+        if body in self.given.bodies and self.given.disc(body) is None:
+            yield Finding("no-disc", where, {"text": str(body)})
+
+
+def _one_of(told: list[str], keys: tuple[str, ...], where: Where) -> Iterator[Finding]:
+    if len(told) > 1:
+        yield Finding("both-given", (*where, told[1]), {"first": told[0], "second": told[1]}, at="key")
+    elif not told:
+        yield Finding("missing-key", where, {"key": " | ".join(keys)})
+
+
+# --- the motion -----------------------------------------------------------------------------------
+
+
+def _motion(given: file.Parameters) -> Iterator[Finding]:
+    """The system can move as is given, and what is asked follows from that."""
+    try:
+        motion = Motion(system(given))
+    except MisplacedError as fault:
+        yield fault.finding
+        return
+    for rank, conflicts in (
+        ("velocities", motion.velocity_conflicts),
+        ("accelerations", motion.acceleration_conflicts),
+    ):
+        for conflict in conflicts:
+            others = ", ".join(map(_short, conflict.others)) or "–"
+            arguments = {"text": _short(conflict.name), "others": others, "reason": rank}
+            yield Finding("contradiction", _place_of(conflict.name), arguments)
+        if conflicts:
+            return
+    knows = {
+        "omega": lambda of: motion.knows_omega(int(of)),
+        "eps": lambda of: motion.knows_epsilon(int(of)),
+        "centre": lambda of: motion.knows_centre(int(of)),
+        "v": motion.knows_velocity,
+        "a": motion.knows_acceleration,
+    }
+    for index, asked in enumerate(given.find):
+        if not knows[asked.what](asked.of):
+            yield Finding("undetermined", (*TOP, "find", index), {"text": asked.id, "open": _open(motion, asked)})
+
+
+def _place_of(name: str) -> Where:
+    """Where a joint or a given quantity stands in the file, from what messages call it: joints[2] (pin A)."""
+    section, _, rest = name.partition("[")
+    return (*TOP, section, int(rest.partition("]")[0]))
+
+
+def _short(name: str) -> str:
+    """What stands in the parentheses of a name: joints[2] (pin A) → pin A."""
+    return name.partition("(")[2].removesuffix(")")
+
+
+def _open(motion: Motion, asked: file.Asked) -> str:
+    """The bodies whose motion stays open, by number."""
+    bodies = motion.system.bodies
+    if asked.what in ("omega", "v", "centre"):
+        loose = [body for body in bodies if not (motion.knows_omega(body) and motion.knows_centre(body))]
+    else:
+        loose = [
+            body
+            for body, points in bodies.items()
+            if not (motion.knows_epsilon(body) and all(motion.knows_acceleration(point) for point in points))
+        ]
+    return ", ".join(map(str, loose)) or "–"

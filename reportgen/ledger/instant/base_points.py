@@ -1,0 +1,71 @@
+"""Velocities by the base point: of a body whose centre nothing tells, and of two that hang between known points."""
+
+from __future__ import annotations
+
+from reportgen.ledger.instant.speeds import Board
+from reportgen.ledger.instant.steps import Equation, Step
+from reportgen.ledger.instant.vectors import Vector, components, solved_for
+from reportgen.notation.expressions import Symbol, sqrt, total
+
+
+def by_base_point(board: Board) -> bool:
+    """One more velocity v_M = v_A + v_MA of a body that turns at a known rate, or the rates of two such bodies."""
+    bodies = {body: names for body, names in board.layout.members.items() if body not in board.layout.centres}
+    for body, names in bodies.items():
+        base = next((name for name in names if board.knows(f"v.{name}")), "")
+        new = next((name for name in names if not board.knows(f"v.{name}")), "")
+        if base and new and board.knows(f"omega.{body}") and _point(board, body, new, base):
+            return True
+    for body, names in bodies.items():
+        for other, others in bodies.items():
+            shared = [name for name in names if name in others and not board.knows(f"v.{name}")]
+            if body < other and shared and _between(board, body, other, shared[0]):
+                return True
+    return False
+
+
+def _relative(board: Board, body: int, point: str, base: str) -> Vector:
+    arm = board.layout.points[point] - board.layout.points[base]
+    return Vector(f"v.{point}{base}", board.way(1j * board.motion.omega(body) * arm))
+
+
+def _point(board: Board, body: int, point: str, base: str) -> bool:
+    q, relative = board.q, _relative(board, body, point, base)
+    lines: tuple[str, ...] = ()
+    if not board.knows(relative.id):
+        lines = (q.define(relative.id, q[f"omega.{body}"] * board.length(base, point)).id,)
+    parts = [one for one in (board.velocity(base), relative) if q.si(one.id)]
+    squares = []
+    for axis, name in ((1 + 0j, "x"), (1j, "y")):
+        if terms := components(q, parts, axis):
+            one = q.define(f"v.{point}.{name}", total(terms), Symbol("v", f"{point}{name}"), "velocity")
+            squares.append(one**2)
+            lines = (*lines, one.id)
+    if not squares:
+        return False
+    q.define(f"v.{point}", sqrt(total(squares)))
+    whole = board.velocity(point)
+    equation = Equation((whole,), tuple(parts), (whole.id,))
+    board.steps.append(Step("base-point", (*lines, whole.id), body, point, base, equation))
+    return True
+
+
+def _between(board: Board, body: int, other: int, point: str) -> bool:
+    """v_A + v_CA = v_B + v_CB: two unknown sizes, the first by projection on the line CB."""
+    q, members = board.q, board.layout.members
+    bases = [next((n for n in members[one] if board.knows(f"v.{n}")), "") for one in (body, other)]
+    if "" in bases or board.knows(f"omega.{body}") or board.knows(f"omega.{other}"):
+        return False
+    first, second = (_relative(board, one, point, base) for one, base in zip((body, other), bases, strict=True))
+    line = board.way(board.layout.points[point] - board.layout.points[bases[1]])
+    if not (first.way and second.way) or abs((line.conjugate() * first.way).real) < 1e-9:
+        return False
+    one, two = ((board.velocity(base),) if q.si(f"v.{base}") else () for base in bases)
+    equation = Equation((*one, first), (*two, second), (first.id, second.id))
+    q.define(first.id, solved_for(q, first.way, line, two, one))
+    q.define(second.id, solved_for(q, second.way, second.way, (*one, first), two))
+    lines = [first.id, second.id]
+    for turning, vector, base in zip((body, other), (first, second), bases, strict=True):
+        lines.append(q.define(f"omega.{turning}", q[vector.id] / board.length(base, point)).id)
+    board.steps.append(Step("two-bases", tuple(lines), body, point, bases[0], equation))
+    return True

@@ -1,0 +1,198 @@
+"""Where bodies have their instant centres, by the rules of the board; found before any speed is.
+
+A body pinned to the ground turns about the pin; one that rolls on the ground about the point of contact.  Elsewhere
+the directions of two velocities tell: the centre is where their normals meet, and where they are parallel, and not
+perpendicular to the line of the points, the body is in translation at the instant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Literal
+
+from reportgen.catalogue import plane_motion_file as file
+from reportgen.catalogue.plane_motion import Exercise
+from reportgen.catalogue.plane_motion_places import contact_of_discs, contact_on_line, direction, unit
+from reportgen.ledger.instant.vectors import parallel, perpendicular
+from reportgen.plane_motion.conditions import GROUND
+
+Rule = Literal["pivot", "contact", "normals", "translation"]
+NEAR = 1e-9
+"""Points nearer than this (m) are one."""
+LETTERS = "PQIK"
+
+
+@dataclass(frozen=True, slots=True)
+class Centre:
+    """The instant centre of a body: by which rule, its name and place, and the points whose normals meet there.
+
+    In translation it is infinitely far: `way` is then the direction of all velocities, 0 where it is not known.
+    """
+
+    body: int
+    rule: Rule
+    name: str = ""
+    at: complex = 0j
+    points: tuple[str, ...] = ()
+    way: complex = 0j
+
+
+@dataclass
+class Layout:
+    """Bodies with all points that move with them, the directions of their velocities, and the instant centres."""
+
+    exercise: Exercise
+    points: dict[str, complex] = field(default_factory=dict)
+    members: dict[int, list[str]] = field(default_factory=dict)
+    ways: dict[str, complex] = field(default_factory=dict)
+    """Along which line a point moves; the sense is not known yet."""
+    centres: dict[int, Centre] = field(default_factory=dict)
+    slots: dict[str, complex] = field(default_factory=dict)
+    """Points that are guided along a straight line of the ground."""
+
+    def point_at(self, at: complex, letter: str) -> str:
+        """The name of the point at a place, a new one if none is declared there."""
+        for name, place in self.points.items():
+            if abs(place - at) < NEAR:
+                return name
+        number = next(n for n in range(1, 100) if f"{letter}{n}" not in self.points)
+        self.points[f"{letter}{number}"] = at
+        return f"{letter}{number}"
+
+    def arm(self, centre: Centre, point: str) -> complex:
+        return self.points[point] - centre.at
+
+    def is_centre(self, centre: Centre, point: str) -> bool:
+        return abs(self.arm(centre, point)) < NEAR
+
+
+def lay_out(exercise: Exercise) -> Layout:
+    """Everything about directions and centres that the joints and the given directions tell."""
+    given, system = exercise.given, exercise.motion.system
+    found = Layout(exercise, dict(system.points), {body: [] for body in system.bodies})
+    for body, names in system.bodies.items():
+        found.members[body] += [name for name in names if _moves_alike(given, body, system.body_of(name), name)]
+    for index, joint in enumerate(given.joints):
+        _enter(found, joint, index)
+    for rate in given.given:
+        if isinstance(rate, file.VelocityOf | file.FromRest):
+            found.ways[rate.point] = unit(rate.direction.si)
+    while _next_centre(found) or _next_ways(found):
+        pass
+    return found
+
+
+def _moves_alike(given: file.Parameters, body: int, owner: int, point: str) -> bool:
+    """Whether a point of a body is the same as that of its owner: pinned together, over however many bodies."""
+    reached, waiting = {owner}, [owner]
+    while waiting:
+        one = waiting.pop()
+        for joint in given.joints:
+            if isinstance(joint, file.Pin) and joint.at == point and one in joint.bodies:
+                new = {*joint.bodies} - reached
+                reached |= new
+                waiting += new
+    return body in reached
+
+
+def _enter(found: Layout, joint: file.Joint, index: int) -> None:
+    given, known = found.exercise.given, found.points
+    match joint:
+        case file.Pin(at=at, bodies=bodies) if GROUND in bodies:
+            body = max(bodies)
+            found.centres[body] = Centre(body, "pivot", at, known[at])
+        case file.SlotJoint(point=point, on=0):
+            found.ways[point] = found.slots[point] = direction(joint, known)
+        case file.Slider(body=body, on=0):
+            found.centres[body] = Centre(body, "translation", way=direction(joint, known))
+        case file.Translation(body=body):
+            found.centres.setdefault(body, Centre(body, "translation"))
+        case file.RollingOnLine(disc=body, on=carrier):
+            touch = found.point_at(contact_on_line(joint, index, given, known), "K")
+            disc = given.disc(body)
+            if carrier == GROUND and disc is not None:
+                found.centres[body] = Centre(body, "contact", touch, known[touch])
+                found.slots[disc.centre] = direction(joint, known)
+            _share(found, touch, body, carrier)
+        case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
+            touch = found.point_at(contact_of_discs(joint, index, given, known), "K")
+            if GROUND in discs:
+                body = max(discs)
+                found.centres[body] = Centre(body, "contact", touch, known[touch])
+            _share(found, touch, *discs)
+
+
+def _share(found: Layout, point: str, *bodies: int) -> None:
+    """A point of contact moves alike with both bodies."""
+    for body in bodies:
+        if body != GROUND and point not in found.members[body]:
+            found.members[body].append(point)
+
+
+def _next_centre(found: Layout) -> bool:
+    """Finds the centre of one more body from directions; whether there was one."""
+    for body, names in found.members.items():
+        if body in found.centres:
+            continue
+        known = [name for name in names if name in found.ways]
+        for one, other in _pairs(known):
+            centre = _by_normals(found, body, one, other)
+            if centre is not None:
+                found.centres[body] = centre
+                return True
+    return False
+
+
+def _by_normals(found: Layout, body: int, one: str, other: str) -> Centre | None:
+    p, q, u, w = found.points[one], found.points[other], found.ways[one], found.ways[other]
+    if parallel(u, w):
+        if abs(p - q) < NEAR or perpendicular(u, (p - q) / abs(p - q)):
+            return None
+        return Centre(body, "translation", points=(one, other), way=u)
+    n, m = 1j * u, 1j * w
+    at = p + n * (((q - p).conjugate() * m).imag / (n.conjugate() * m).imag)
+    letter = next(one for one in LETTERS if not any(name[0] == one for name in found.exercise.given.points))
+    name = next((name for name, place in found.points.items() if abs(place - at) < NEAR), f"{letter}{body}")
+    return Centre(body, "normals", name, at, (one, other))
+
+
+def _next_ways(found: Layout) -> bool:
+    """Finds the directions of the points of bodies whose centres are known; whether any was new."""
+    new = {
+        name: way
+        for body, centre in found.centres.items()
+        for name in found.members[body]
+        if name not in found.ways and (way := _way(found, centre, name)) != 0
+    }
+    if not new:
+        new = dict(_by_projection(found))
+    found.ways.update(new)
+    return bool(new)
+
+
+def _by_projection(found: Layout) -> Iterator[tuple[str, complex]]:
+    """Points of a body whose velocity has no component along the line to a point that moves across that line."""
+    for body, names in found.members.items():
+        known = [name for name in names if name in found.ways]
+        for name in names if body not in found.centres else ():
+            if name not in found.ways:
+                for other in known:
+                    line = found.points[name] - found.points[other]
+                    if abs(line) > NEAR and perpendicular(found.ways[other], line / abs(line)):
+                        yield name, found.ways[other]
+
+
+def _way(found: Layout, centre: Centre, name: str) -> complex:
+    if centre.rule == "translation":
+        return centre.way
+    if found.is_centre(centre, name):
+        return 0j
+    arm = found.arm(centre, name)
+    return 1j * arm / abs(arm)
+
+
+def _pairs(names: list[str]) -> Iterator[tuple[str, str]]:
+    for index, one in enumerate(names):
+        for other in names[index + 1 :]:
+            yield one, other

@@ -1,0 +1,235 @@
+"""Velocities, step by step: from a body whose rates are known over its points to the next body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import combinations
+
+from reportgen.catalogue import plane_motion_file as file
+from reportgen.catalogue.plane_motion_places import direction
+from reportgen.ledger.instant.centres import NEAR, Centre, Layout
+from reportgen.ledger.instant.steps import Equation, Step
+from reportgen.ledger.instant.vectors import Vector, parallel, perpendicular, solved_for
+from reportgen.notation.expressions import Ref, Symbol
+from reportgen.notation.sheet import Sheet, is_short
+from reportgen.plane_motion.motion import Motion
+
+
+@dataclass
+class Board:
+    """What stands on the board so far: the sheet with its numbers, and the steps that led to them."""
+
+    q: Sheet
+    layout: Layout
+    steps: list[Step] = field(default_factory=list)
+
+    @property
+    def motion(self) -> Motion:
+        return self.layout.exercise.motion
+
+    def length(self, one: str, other: str, one_at: complex | None = None) -> Ref:
+        """The distance of two points, by the name l.OA."""
+        for id in (f"l.{one}{other}", f"l.{other}{one}"):
+            if id in self.q:
+                return self.q[id]
+        start = self.layout.points[one] if one_at is None else one_at
+        value = abs(self.layout.points[other] - start)
+        return self.q.give(f"l.{one}{other}", value, exact=is_short(value))
+
+    def given(self, id: str, value: float, symbol: Symbol | str = "", kind: str = "") -> Ref:
+        """A size that the file gives."""
+        return self.q.give(id, abs(value), symbol, kind, exact=is_short(abs(value)))
+
+    def knows(self, id: str) -> bool:
+        return id in self.q
+
+    def way(self, vector: complex) -> complex:
+        """The direction of a vector; 0 for none."""
+        return vector / abs(vector) if vector else 0j
+
+    def velocity(self, point: str) -> Vector:
+        """The velocity of a point that is on the board."""
+        return Vector(f"v.{point}", self.way(self.at(point)))
+
+    def at(self, point: str, body: int | None = None) -> complex:
+        """The velocity of a point, a point of contact among them, as it moves with its own body or with another."""
+        own = self.home(point) if body is None else body
+        motion = self.motion
+        v = motion.velocities.at(own, self.layout.points[point])
+        return 0j if abs(v) < 1e-9 * motion.fastest else complex(v)
+
+    def home(self, point: str) -> int:
+        """The body that a point's motion is that of."""
+        system = self.motion.system
+        if point in system.points and system.body_of(point):
+            return int(system.body_of(point))
+        return next((body for body, names in self.layout.members.items() if point in names), 0)
+
+
+def enter_given(board: Board) -> None:
+    """The rates that the file gives."""
+    q = board.q
+    for rate in board.layout.exercise.given.given:
+        match rate:
+            case file.OmegaOf(body=body, value=value):
+                board.given(f"omega.{body}", value.si)
+            case file.VelocityOf(point=point, size=size) if size is not None:
+                board.given(f"v.{point}", size.si)
+            case file.FromRest(point=point, acceleration=acceleration, time=time):
+                a = board.given(f"a.{point}", acceleration.si)
+                t = board.given("t", time.si, symbol=Symbol("t"), kind="time")
+                q.define(f"v.{point}", a * t)
+                board.steps.append(Step("from-rest", (f"v.{point}",), point=point))
+
+
+def derive(board: Board) -> bool:
+    """One more body whose rate, or whose points' velocities become known; whether there was one."""
+    for body, centre in board.layout.centres.items():
+        if centre.rule == "translation":
+            if _translation(board, body, centre):
+                return True
+        elif _rate(board, body, centre) or _points(board, body, centre):
+            return True
+    if any(_parallel(board, body, names) for body, names in board.layout.members.items()):
+        return True
+    return any(_slot(board, joint) for joint in board.layout.exercise.given.joints if isinstance(joint, file.SlotJoint))
+
+
+def _translation(board: Board, body: int, centre: Centre) -> bool:
+    """All points have one velocity."""
+    q, names = board.q, board.layout.members[body]
+    known = next((name for name in names if board.knows(f"v.{name}")), "")
+    new = [name for name in names if known and not board.knows(f"v.{name}")]
+    if not known or (not new and board.knows(f"omega.{body}")):
+        return False
+    if not board.knows(f"omega.{body}"):
+        q.give(f"omega.{body}", 0.0)
+    ids = tuple(q.define(f"v.{name}", q[f"v.{known}"]).id for name in new)
+    if ids or centre.points:
+        board.steps.append(Step("translation", ids, body, ", ".join(new), known))
+    return True
+
+
+def _rate(board: Board, body: int, centre: Centre) -> bool:
+    """ω = v/l from one velocity, about the centre."""
+    if board.knows(f"omega.{body}"):
+        return False
+    names = board.layout.members[body]
+    known = [name for name in names if board.knows(f"v.{name}") and not board.layout.is_centre(centre, name)]
+    if not known:
+        return False
+    arm = board.length(centre.name, known[0], centre.at)
+    board.q.define(f"omega.{body}", board.q[f"v.{known[0]}"] / arm)
+    board.steps.append(Step(f"rate-{centre.rule}", (arm.id, f"omega.{body}"), body, known[0], centre.name))
+    return True
+
+
+def _points(board: Board, body: int, centre: Centre) -> bool:
+    """v = ω l of every point, about the centre; what is at the centre is at rest."""
+    q, layout = board.q, board.layout
+    new = [name for name in layout.members[body] if not board.knows(f"v.{name}")]
+    if not new or not board.knows(f"omega.{body}"):
+        return False
+    for name in new:
+        if layout.is_centre(centre, name):
+            q.give(f"v.{name}", 0.0)
+            kind = "at-rest" if centre.rule == "normals" else ""
+            ids: tuple[str, ...] = ()
+        else:
+            arm = board.length(centre.name, name, centre.at)
+            q.define(f"v.{name}", q[f"omega.{body}"] * arm)
+            kind, ids = f"speed-{centre.rule}", (arm.id, f"v.{name}")
+        if kind:
+            board.steps.append(Step(kind, ids, body, name, centre.name))
+    return True
+
+
+def is_across(board: Board, *names: str) -> bool:
+    """Whether points lie on one line and their velocities are all perpendicular to it."""
+    points, ways = board.layout.points, board.layout.ways
+    line = board.way(points[names[1]] - points[names[0]])
+    if not line or any(name not in ways for name in names):
+        return False
+    in_line = all(abs((line.conjugate() * (points[name] - points[names[0]])).imag) < NEAR for name in names)
+    return in_line and all(perpendicular(ways[name], line) for name in names)
+
+
+def _parallel(board: Board, body: int, names: list[str]) -> bool:
+    """ω from two velocities that are perpendicular to the line of their points."""
+    q = board.q
+    if body in board.layout.centres:
+        return False
+    known = [name for name in names if board.knows(f"v.{name}")]
+    for one, other in combinations(known, 2):
+        if not is_across(board, one, other):
+            continue
+        if not board.knows(f"omega.{body}"):
+            v, w = board.at(one), board.at(other)
+            first, second = (one, other) if abs(v) >= abs(w) else (other, one)
+            same = (v.conjugate() * w).real >= 0
+            difference = q[f"v.{first}"] - q[f"v.{second}"] if same else q[f"v.{first}"] + q[f"v.{second}"]
+            q.define(f"omega.{body}", difference / board.length(one, other))
+            board.steps.append(Step("rate-parallel", (f"omega.{body}",), body, one, other))
+            return True
+    return False
+
+
+# --- a point along the line of a moving body --------------------------------------------------------
+
+
+def _slot(board: Board, joint: file.SlotJoint) -> bool:
+    """v_P = v_X + v_PX + v_r for a point P on a line of a body with a known point X, with two unknown sizes."""
+    body, point, q, layout = joint.on, joint.point, board.q, board.layout
+    if not body or board.knows(f"v.{point}.r"):
+        return False
+    base = _base(board, body)
+    if base is None or not (board.knows(f"v.{point}") or board.knows(f"omega.{body}")):
+        return False
+    u = direction(joint, layout.points)
+    arm_way = layout.points[point] - layout.points[base]
+    if abs(arm_way) < NEAR or not perpendicular(1j * u, arm_way / abs(arm_way)):
+        # The line does not pass through the point known: its own point has a component along it too.
+        return False
+    own = board.at(point, body)
+    turning = Vector(f"v.{point}{base}", board.way(own - board.at(base, body)))
+    sliding = Vector(f"v.{point}.r", board.way(board.at(point) - own))
+    whole = board.velocity(point)
+    bases = (board.velocity(base),) if q.si(f"v.{base}") else ()
+    arm = board.length(base, point)
+    known_rate = board.knows(f"omega.{body}")
+    if known_rate:
+        q.define(turning.id, q[f"omega.{body}"] * arm)
+        if not board.knows(whole.id):
+            if point not in layout.ways or parallel(layout.ways[point], u):
+                return False
+            unknown = (whole.id, sliding.id)
+            equation = Equation((whole,), (*bases, turning, sliding), unknown)
+            q.define(whole.id, solved_for(q, whole.way, 1j * u, (*bases, turning), ()))
+            lines: tuple[str, ...] = (turning.id, whole.id)
+        else:
+            equation = Equation((whole,), (*bases, turning, sliding), (sliding.id,))
+            lines = (turning.id,)
+    else:
+        equation = Equation((whole,), (*bases, turning, sliding), (turning.id, sliding.id))
+        q.define(turning.id, solved_for(q, turning.way, 1j * u, (whole,), bases))
+        q.define(f"omega.{body}", q[turning.id] / arm)
+        lines = (turning.id, f"omega.{body}")
+    if sliding.way:
+        q.define(
+            sliding.id, solved_for(q, sliding.way, u, (whole,), (*bases, turning)), Symbol("v", point, "r"), "velocity"
+        )
+        lines = (*lines, sliding.id)
+    else:
+        q.give(sliding.id, 0.0, Symbol("v", point, "r"), "velocity")
+    board.steps.append(Step("slot-rate" if not known_rate else "slot-speed", lines, body, point, base, equation))
+    return True
+
+
+def _base(board: Board, body: int) -> str | None:
+    """A point of a body whose velocity is known: its pivot, or one that another body carries."""
+    centre = board.layout.centres.get(body)
+    if centre is not None and centre.rule in ("pivot", "contact"):
+        if not board.knows(f"v.{centre.name}"):
+            board.q.give(f"v.{centre.name}", 0.0)
+        return centre.name
+    return next((name for name in board.layout.members[body] if board.knows(f"v.{name}")), None)

@@ -1,0 +1,107 @@
+"""Exercise → Ledger: the numbers of all steps that lead to what is asked, with their definitions and decimals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from reportgen.catalogue.plane_motion import Exercise
+from reportgen.ledger.core import Ledger
+from reportgen.ledger.decimals import choose_decimals
+from reportgen.ledger.instant.accelerations import enter_accelerations
+from reportgen.ledger.instant.base_points import by_base_point
+from reportgen.ledger.instant.centres import Layout, lay_out
+from reportgen.ledger.instant.proportion import enter_proportion
+from reportgen.ledger.instant.speeds import Board, derive, enter_given
+from reportgen.ledger.instant.steps import Step
+from reportgen.notation.expressions import Symbol, refs
+from reportgen.notation.sheet import Sheet
+
+POSITIONS = 1
+"""The instant."""
+
+
+@dataclass(frozen=True)
+class Worked:
+    """The ledger of an exercise, its layout, and the steps in their order.
+
+    `missing` are the ids of what is asked and no step leads to.
+    """
+
+    ledger: Ledger
+    layout: Layout
+    steps: tuple[Step, ...]
+    missing: tuple[str, ...]
+
+
+def work_out(exercise: Exercise, units: Mapping[str, str], names: Mapping[str, str]) -> Worked:
+    """The exercise worked out step by step; what nothing asked stands on is left out.
+
+    `units` and `names` are the units and the indices of symbols as a language has them.
+    """
+    board = Board(Sheet(POSITIONS), lay_out(exercise))
+    enter_given(board)
+    while derive(board) or by_base_point(board) or enter_proportion(board):
+        pass
+    enter_accelerations(board)
+    missing = [one.id for one in exercise.asked if one.what != "centre" and one.id not in board.q]
+    for asked in exercise.asked:
+        if asked.what == "centre":
+            missing += [] if _centre(board, asked.body) else [asked.id]
+    for asked in exercise.asked:
+        _signed(board, asked.id)
+    wanted = [one.id for one in exercise.asked]
+    wanted += [id for id in board.q.families if id.startswith(("centre.", "turn."))]
+    needed = _with_ancestors(board, wanted)
+    steps = tuple(step for step in board.steps if _leads_on(step, needed))
+    # A step that is taken is written out whole.
+    needed |= _with_ancestors(board, [id for step in steps for id in step.ids])
+    steps = tuple(step for step in board.steps if _leads_on(step, needed))
+    q = Sheet(POSITIONS)
+    for id, family in board.q.families.items():
+        if id in needed:
+            q.enter(family)
+    decimals, cancellations = choose_decimals(q.families, (), set(), (1,))
+    ledger = Ledger(q.families, decimals, POSITIONS, cancellations, units).in_language(names)
+    return Worked(ledger, board.layout, steps, tuple(missing))
+
+
+def _centre(board: Board, body: int) -> bool:
+    """Enters the coordinates of a body's instant centre; whether it is known, which one infinitely far is, too."""
+    centre = board.layout.centres.get(body)
+    if centre is None:
+        return False
+    if centre.rule != "translation":
+        for axis, value in (("x", centre.at.real), ("y", centre.at.imag)):
+            size = board.motion.size
+            board.q.give(f"centre.{body}.{axis}", value, Symbol(axis, centre.name), "length", exact=False, scale=size)
+    return True
+
+
+def _signed(board: Board, id: str) -> None:
+    """A rotation with its sign, positive anticlockwise, beside its size that is worked out."""
+    what, _, body = id.partition(".")
+    if what in ("omega", "eps") and id in board.q and board.q.families[id].definition is not None:
+        motion = board.motion
+        rate = motion.omega(int(body)) if what == "omega" else motion.epsilon(int(body))
+        board.q.define(f"turn.{id}", board.q[id] if rate >= 0 else -board.q[id], of=id)
+
+
+def _with_ancestors(board: Board, ids: Sequence[str]) -> set[str]:
+    """Those of the ids that are on the board, and everything that they stand on."""
+    families = board.q.families
+    waiting = [id for id in ids if id in families]
+    found: set[str] = set()
+    while waiting:
+        id = waiting.pop()
+        if id not in found:
+            found.add(id)
+            definition = families[id].definition
+            waiting += () if definition is None else refs(definition)
+    return found
+
+
+def _leads_on(step: Step, needed: set[str]) -> bool:
+    """Whether a step works out anything that is needed, or says why something needed is nothing."""
+    worked = [id for id in step.ids if not id.startswith("l.")]
+    return any(id in needed for id in worked or [f"v.{step.point}"])

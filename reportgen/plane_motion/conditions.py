@@ -1,0 +1,179 @@
+"""What a joint or a given quantity says of the rates of the bodies: linear conditions.
+
+The velocity of a point p that moves with a body is v(p) = v₀ + iω p, with v₀ that of the body's point at the origin;
+its acceleration is a(p) = a₀ + iε p − ω² p.  A condition is a sum of components of such vectors, and of angular
+rates, with its value.  Its coefficients are the same for velocities and for accelerations; only what it comes to is
+another: the `drift` of a condition is the part of its accelerations that is known once the velocities are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+GROUND = 0
+"""The number of the body that is at rest."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rates:
+    """ω, v₀ of a body, or ε, a₀."""
+
+    turn: float
+    origin: complex
+
+
+STILL = Rates(0.0, 0j)
+
+
+@dataclass(frozen=True)
+class Velocities:
+    """The rates of every body."""
+
+    bodies: Mapping[int, Rates]
+
+    def of(self, body: int) -> Rates:
+        return STILL if body == GROUND else self.bodies[body]
+
+    def omega(self, body: int) -> float:
+        return self.of(body).turn
+
+    def at(self, body: int, point: complex) -> complex:
+        """The velocity of a point that moves with a body."""
+        rates = self.of(body)
+        return rates.origin + 1j * rates.turn * point
+
+
+Drift = Callable[[Velocities], float]
+
+
+def no_drift(_: Velocities) -> float:
+    """Components that keep their value as the bodies move on."""
+    return 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Component:
+    """The component along `direction` of the rate of a point that moves with a body."""
+
+    body: int
+    point: complex
+    direction: complex
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """Σ components + Σ factor · turn = value, by body; a value of None says nothing of that rate.
+
+    `name` is what the file calls the joint or the given quantity that the condition is part of.
+    """
+
+    name: str
+    components: tuple[Component, ...] = ()
+    turns: tuple[tuple[int, float], ...] = ()
+    velocity: float | None = 0.0
+    drift: Drift | None = no_drift
+
+
+def _dot(a: complex, b: complex) -> float:
+    return (a.conjugate() * b).real
+
+
+def _between(
+    name: str, direction: complex, point: complex, one: int, other: int, drift: Drift | None = no_drift
+) -> Condition:
+    """Two bodies' points at one place do not part along a direction."""
+    components = (Component(one, point, direction), Component(other, point, -direction))
+    return Condition(name, components, drift=drift)
+
+
+# --- joints ---------------------------------------------------------------------------------------
+
+
+def pin(name: str, point: complex, one: int, other: int) -> tuple[Condition, ...]:
+    """Two bodies turn about a common point."""
+    return tuple(_between(name, axis, point, one, other) for axis in (1 + 0j, 1j))
+
+
+def slot(name: str, point: complex, body: int, carrier: int, angle: complex) -> tuple[Condition, ...]:
+    """A point of a body moves along a straight line of the carrier, which has the direction `angle` (of length 1).
+
+    Across the line the acceleration relative to the carrier's own point is Coriolis', 2 ω v_r.
+    """
+
+    def coriolis(motion: Velocities) -> float:
+        along = _dot(angle, motion.at(body, point) - motion.at(carrier, point))
+        return 2 * motion.omega(carrier) * along
+
+    return (_between(name, 1j * angle, point, body, carrier, coriolis),)
+
+
+def no_turning(name: str, one: int, other: int = GROUND) -> tuple[Condition, ...]:
+    """Two bodies turn alike; beside the ground, a body is in translation."""
+    return (Condition(name, turns=((one, 1.0), (other, -1.0))),)
+
+
+def distance(name: str, first: complex, one: int, second: complex, other: int) -> tuple[Condition, ...]:
+    """Two points, each of its own body, keep their distance: a rod between them, or a taut cord."""
+    span = first - second
+    line = span / abs(span)
+
+    def centripetal(motion: Velocities) -> float:
+        apart = motion.at(one, first) - motion.at(other, second)
+        return -(abs(apart) ** 2 - _dot(line, apart) ** 2) / abs(span)
+
+    return (Condition(name, (Component(one, first, line), Component(other, second, -line)), drift=centripetal),)
+
+
+def rolling_on_line(
+    name: str, disc: int, centre: complex, radius: float, contact: complex, carrier: int
+) -> tuple[Condition, ...]:
+    """A disc rolls without slip on a straight line of the carrier, which it touches at `contact`.
+
+    Its centre stays at the same distance from the line; along the line neither the points in contact part, nor
+    do their accelerations: where they touch moves along the line, and the relative acceleration across it.
+    """
+    across = (centre - contact) / radius
+    return (*slot(name, centre, disc, carrier, -1j * across), _between(name, -1j * across, contact, disc, carrier))
+
+
+def rolling_on_circle(
+    name: str, disc: int, centre: complex, other: int, other_centre: complex, contact: complex
+) -> tuple[Condition, ...]:
+    """A disc rolls without slip on the outside or the inside of a circle of another body."""
+    return (
+        *distance(name, centre, disc, other_centre, other),
+        *meshing(name, disc, centre, other, other_centre, contact),
+    )
+
+
+def meshing(
+    name: str, disc: int, centre: complex, other: int, other_centre: complex, contact: complex
+) -> tuple[Condition, ...]:
+    """Two gears whose pitch circles touch at `contact`; something else keeps their centres apart."""
+    along = 1j * (centre - other_centre) / abs(centre - other_centre)
+    return (_between(name, along, contact, disc, other),)
+
+
+# --- given quantities -----------------------------------------------------------------------------
+
+
+GivenComponent = Callable[[str, complex, int, complex, float], Condition]
+
+
+def given_velocity(name: str, point: complex, body: int, direction: complex, size: float) -> Condition:
+    """The component of a point's velocity along a direction."""
+    return Condition(name, (Component(body, point, direction),), velocity=size, drift=None)
+
+
+def given_acceleration(name: str, point: complex, body: int, direction: complex, size: float) -> Condition:
+    """The component of a point's acceleration along a direction."""
+    return Condition(name, (Component(body, point, direction),), velocity=None, drift=lambda _: size)
+
+
+def given_omega(name: str, body: int, omega: float) -> Condition:
+    return Condition(name, turns=((body, 1.0),), velocity=omega, drift=None)
+
+
+def given_epsilon(name: str, body: int, epsilon: float) -> Condition:
+    return Condition(name, turns=((body, 1.0),), velocity=None, drift=lambda _: epsilon)

@@ -1,0 +1,194 @@
+"""Wrong files of exercises of plane motion: every fault where it stands, and what is not determined by its bodies."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from reportgen import api
+from reportgen.catalogue import check, load
+from reportgen.errors import NotOfferedError
+
+BASE = """\
+kind: plane-motion
+parameters:
+  points:
+    O: {at: [0 m, 0 m]}
+    A: {from: O, distance: 0.2 m, angle: 45 deg}
+    B: {from: A, distance: 1 m, angle: -45 deg}
+  bodies:
+    1: {points: [O, A]}
+    2: {points: [A, B]}
+  joints:
+    - {type: pin, at: O, bodies: [0, 1]}
+    - {type: pin, at: A, bodies: [1, 2]}
+    - {type: slot, point: B, body: 2, angle: 0 deg}
+  given:
+    - {type: omega, body: 1, value: 10 rad/s}
+    - {type: epsilon, body: 1, value: 0 rad/s2}
+  find: [v.A, omega.2, a.B, eps.2]
+"""
+WHEELS = """\
+kind: plane-motion
+parameters:
+  points:
+    D: {at: [0 m, 0 m]}
+    C: {at: [0 m, 1 m]}
+    E: {at: [0 m, 3 m]}
+  bodies:
+    1: {points: [D], disc: {centre: C, radius: 1 m}}
+    2: {disc: {centre: E, radius: 1 m}}
+  joints:
+    - {type: rolling on line, disc: 1, through: D, angle: 0 deg}
+    - {type: pin, at: E, bodies: [0, 2]}
+    - {type: gears, discs: [1, 2]}
+  given:
+    - {type: velocity, point: C, size: 2 m/s, direction: 0 deg}
+  find: [omega.1, omega.2]
+"""
+
+THREE_RODS = """\
+kind: plane-motion
+parameters:
+  points:
+    O: {at: [0 m, 0 m]}
+    A: {at: [0.1 m, 0.2 m]}
+    D: {at: [0.4 m, 0.7 m]}
+    B: {at: [1.1 m, 0.2 m]}
+    E: {at: [0.8 m, 0.6 m]}
+    C: {at: [0.9 m, 1.5 m]}
+    F: {at: [0.5 m, 1.1 m]}
+  bodies:
+    1: {points: [O, A, B]}
+    2: {points: [A, D]}
+    3: {points: [B, E]}
+    4: {points: [D, E, F]}
+    5: {points: [C, F]}
+  joints:
+    - {type: pin, at: O, bodies: [0, 1]}
+    - {type: pin, at: A, bodies: [1, 2]}
+    - {type: pin, at: D, bodies: [2, 4]}
+    - {type: pin, at: B, bodies: [1, 3]}
+    - {type: pin, at: E, bodies: [3, 4]}
+    - {type: pin, at: F, bodies: [4, 5]}
+    - {type: slot, point: C, body: 5, angle: 20 deg}
+  given:
+    - {type: omega, body: 1, value: 2 rad/s}
+    - {type: omega, body: 5, value: 1 rad/s}
+  find: [v.D]
+"""
+
+# (name, the file, what is replaced in it, by what, the faults expected)
+EDITS = [
+    ("point without a place", BASE, "{at: [0 m, 0 m]}", "{}", ["4:8 missing-key"]),
+    ("two places", BASE, "O: {at: [0 m, 0 m]}", "O: {at: [0 m, 0 m], from: A}", ["4:25 both-given"]),
+    ("distance without a way", BASE, ", angle: 45 deg", "", ["5:8 missing-key"]),
+    ("later point", BASE, "from: O", "from: B", ["5:15 no-such-point"]),
+    ("unknown point of a body", BASE, "2: {points: [A, B]}", "2: {points: [A, X, B]}", ["9:21 no-such-point"]),
+    (
+        "body without points",
+        BASE,
+        "2: {points: [A, B]}",
+        "2: {points: []}",
+        ["9:8 missing-key", "12:38 not-on-body", "13:36 not-on-body", "17:24 point-at-rest"],
+    ),
+    ("kind of joint", BASE, "type: pin, at: O", "type: screw, at: O", ["11:14 choice"]),
+    ("unknown body", BASE, "bodies: [1, 2]}", "bodies: [1, 7]}", ["12:38 no-such-body"]),
+    ("body joined to itself", BASE, "bodies: [1, 2]}", "bodies: [1, 1]}", ["12:38 same-body"]),
+    ("pin beside its body", BASE, "at: A, bodies", "at: O, bodies", ["12:38 not-on-body"]),
+    ("line without direction", BASE, "body: 2, angle: 0 deg}", "body: 2}", ["13:7 missing-key"]),
+    ("line of one point", BASE, "angle: 0 deg}\n", "along: [A, A]}\n", ["13:50 same-point"]),
+    (
+        "rate of a fixed point",
+        BASE,
+        "{type: omega, body: 1, value: 10 rad/s}",
+        "{type: velocity, point: Z, direction: 0 deg}",
+        ["15:31 no-such-point"],
+    ),
+    ("wrong unit", BASE, "10 rad/s}", "10 m/s}", ["15:37 wrong-unit"]),
+    ("no such quantity", BASE, "find: [v.A", "find: [w.A", ["17:10 no-asked-quantity"]),
+    ("velocity of a body", BASE, "find: [v.A", "find: [v.2", ["17:10 no-asked-quantity"]),
+    ("positions of an exercise", BASE, "parameters:\n", "positions: {count: 8}\nparameters:\n", ["2:1 unknown-key"]),
+    (
+        "ε not given",
+        BASE,
+        "    - {type: epsilon, body: 1, value: 0 rad/s2}\n",
+        "",
+        ["16:24 undetermined", "16:29 undetermined"],
+    ),
+    (
+        "guide missing",
+        BASE,
+        "    - {type: slot, point: B, body: 2, angle: 0 deg}\n",
+        "",
+        ["16:15 undetermined", "16:24 undetermined", "16:29 undetermined"],
+    ),
+    (
+        "two speeds",
+        BASE,
+        "    - {type: epsilon",
+        "    - {type: velocity, point: B, size: 1 m/s, direction: 0 deg}\n    - {type: epsilon",
+        ["16:7 contradiction"],
+    ),
+    ("disc above its line", WHEELS, "[0 m, 1 m]", "[0 m, 1.1 m]", ["11:7 no-contact"]),
+    ("gears apart", WHEELS, "[0 m, 3 m]", "[0 m, 4 m]", ["13:7 no-contact-of-discs"]),
+    (
+        "no disc",
+        WHEELS,
+        "1: {points: [D], disc: {centre: C, radius: 1 m}}",
+        "1: {points: [D, C]}",
+        ["11:37 no-disc", "13:29 no-disc"],
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "base", "old", "new", "expected"), EDITS, ids=[edit[0] for edit in EDITS])
+@pytest.mark.parametrize("language", ["vi", "en"])
+def test_fault(name: str, base: str, old: str, new: str, expected: list[str], language: str, tmp_path: Path) -> None:
+    assert base.count(old) == 1
+    path = tmp_path / "file.yaml"
+    path.write_text(base.replace(old, new), encoding="utf-8")
+    found = check(path, "vi" if language == "vi" else "en")
+    assert [f"{p.mark.line}:{p.mark.column} {p.code}" for p in found] == expected
+
+
+def told(tmp_path: Path, content: str) -> str:
+    path = tmp_path / "file.yaml"
+    path.write_text(content, encoding="utf-8")
+    return "\n".join(str(problem) for problem in check(path, "en"))
+
+
+def test_a_contradiction_names_both_sides(tmp_path: Path) -> None:
+    second = "    - {type: velocity, point: B, size: 1 m/s, direction: 0 deg}\n    - {type: epsilon"
+    message = told(tmp_path, BASE.replace("    - {type: epsilon", second))
+    assert "velocity B contradicts pin O, pin A, slot B, omega 1" in message
+
+
+def test_what_stays_open_is_named(tmp_path: Path) -> None:
+    message = told(tmp_path, BASE.replace("    - {type: slot, point: B, body: 2, angle: 0 deg}\n", ""))
+    assert "omega.2 does not follow" in message
+    assert "stays open: 2" in message
+
+
+def test_distances_of_what_does_not_touch_are_told(tmp_path: Path) -> None:
+    message = told(tmp_path, WHEELS.replace("[0 m, 1 m]", "[0 m, 1.1 m]"))
+    assert "1100 mm" in message
+    assert "1000 mm" in message
+
+
+@pytest.mark.parametrize("base", [BASE, WHEELS])
+def test_the_bases_are_in_order(base: str, tmp_path: Path) -> None:
+    assert told(tmp_path, base) == ""
+
+
+def test_what_is_not_offered_is_told_in_one_line(tmp_path: Path) -> None:
+    """Drawing sheets need a machine; a solution needs steps that are known."""
+    path = tmp_path / "file.yaml"
+    path.write_text(BASE, encoding="utf-8")
+    with pytest.raises(NotOfferedError, match="plane-motion"):
+        api.sheet_files(path, "typst", "en")
+    path.write_text(THREE_RODS, encoding="utf-8")
+    with pytest.raises(NotOfferedError, match=r"v\.D"):
+        api.document(load(path, "en"))
+    assert api.solve(load(path))["positions"][0]["points"]["D"]["v"] is not None

@@ -1,0 +1,71 @@
+"""Exercises of plane motion end to end: every file in both languages with both engines, and what their pages say."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pymupdf
+import pytest
+
+from reportgen import api
+from reportgen.answers.results import print_tables
+from reportgen.case import ExerciseCase
+from reportgen.document.exercise import solution
+from reportgen.document.tree import Document, text_of
+from reportgen.notation.numbers import write
+
+FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
+FILES = sorted(FOLDER.glob("*.yaml"))
+LANGUAGES: tuple[Any, ...] = ("vi", "en")
+MOST_PAGES = 5
+
+
+@cache
+def document(path: Path, language: Any) -> Document:
+    return solution(ExerciseCase(api.load(path, language)))
+
+
+@pytest.mark.parametrize("engine", ["typst", "latex"])
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_every_exercise_builds(path: Path, language: Any, engine: Any) -> None:
+    """A few pages, with the answers on them as the ledger prints them."""
+    pages = pymupdf.open(stream=api.typeset(document(path, language), engine)[1])
+    assert 1 <= len(pages) <= MOST_PAGES
+    text = "".join(page.get_text() for page in pages)
+    case = ExerciseCase(api.load(path, language))
+    for asked in case.exercise.asked:
+        if asked.what != "centre":
+            number = case.ledger.number(asked.id)
+            assert write(number.value, number.decimals, language) in text
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_no_gap_is_left_in_the_words(path: Path, language: Any) -> None:
+    text = text_of(document(path, language))
+    assert re.search(r"\{|\}|\[[a-z]+\.|None", text) is None
+    # What has no sense or direction has a dash of its own, in the answers alone.
+    assert " –." not in text
+    assert re.search(r"[^\d] [.,;]( |$)", text, re.MULTILINE) is None
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_both_languages_write_the_same_steps(path: Path) -> None:
+    vi, en = ([type(block).__name__ for block in document(path, language).blocks] for language in LANGUAGES)
+    assert vi == en
+
+
+def test_results_are_tables_too(capsys: pytest.CaptureFixture[str]) -> None:
+    """Without a crank's angle; where no velocity is known there is no table of them."""
+    print_tables(api.solve(api.load(FOLDER / "17.yaml", "en")), "en")
+    shown = capsys.readouterr().out
+    assert "0.1075" in shown
+    assert "φ" not in shown
+    print_tables(api.solve(api.load(FOLDER / "19.yaml", "en")), "en")
+    shown = capsys.readouterr().out
+    assert "Accelerations" in shown
+    assert "Velocities" not in shown
