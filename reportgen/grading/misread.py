@@ -88,7 +88,7 @@ def _times(factor: float) -> Change:
 
 def _data(guide: Guide) -> Iterator[str]:
     """Given data, and loads of a given size, that are not asked for."""
-    loads = {load.name for load in guide.analysis.applied}
+    loads = {load.name for load in guide.analysis.applied} if guide.analysis else set()
     for id, family in guide.ledger.families.items():
         # A ratio is given as 1/3.6, which the ledger works out.
         given = family.definition is None or not refs(family.definition)
