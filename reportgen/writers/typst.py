@@ -9,9 +9,12 @@ between spaces, because identifiers of Typst may hold a hyphen.
 from __future__ import annotations
 
 import json
+import os
+import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
+from pathlib import Path
 
 from reportgen.document import tree
 from reportgen.errors import TypesetterError
@@ -119,7 +122,8 @@ def compile(source: str) -> bytes:
 
     Raises `TypesetterError` with the message's first lines.
     """
-    return _compile(source)[0]
+    with tempfile.TemporaryDirectory(prefix="typst-") as folder:
+        return _Run(source, Path(folder)).compile()[0]
 
 
 def typeset(document: tree.Document) -> tuple[str, bytes]:
@@ -129,17 +133,22 @@ def typeset(document: tree.Document) -> tuple[str, bytes]:
     the choices that it has found right are written into the source, and it goes on behind them.  Raises
     `TypesetterError`.
     """
-    unsettled = source = write(document)
-    pdf, settles = _compile(source)
+    unsettled = write(document)
     known: dict[str, str] = {}
-    for _ in range(ROUNDS):
-        if settles:
-            break
-        found = {name: choice for name, choice, _ in _choices(source)}
-        known = _right(_choices(_settled(unsettled, {**found, **known})), known)
-        source = _settled(unsettled, known)
-        pdf, settles = _compile(source)
-    return source, pdf
+    with tempfile.TemporaryDirectory(prefix="typst-") as folder:
+        run = _Run(unsettled, Path(folder))
+        pdf, settles = run.compile()
+        for _ in range(ROUNDS):
+            if settles:
+                break
+            found = {name: choice for name, choice, _ in run.choices()}
+            trial = _Run(_settled(unsettled, {**found, **known}), Path(folder))
+            shown = trial.choices()
+            known = _right(shown, known)
+            settled = all(choice == seen for _, choice, seen in shown)
+            run = trial if settled else _Run(_settled(unsettled, known), Path(folder))
+            pdf, settles = run.compile()
+    return run.source, pdf
 
 
 def _settled(source: str, choices: Mapping[str, str]) -> str:
@@ -163,19 +172,35 @@ def _right(choices: Iterable[tuple[str, str, str]], known: Mapping[str, str]) ->
     return right
 
 
-def _compile(source: str) -> tuple[bytes, bool]:
-    """The PDF of a source, and whether all places in it are final."""
-    try:
-        import typst
-    except ImportError as error:
-        raise TypesetterError("typst is not installed: pip install typst") from error
-    try:
+class _Run:
+    """A source in the typesetter's hands: what it has worked out for one question serves the next."""
+
+    def __init__(self, source: str, folder: Path) -> None:
+        try:
+            import typst
+        except ImportError as error:
+            raise TypesetterError("typst is not installed: pip install typst") from error
+        self.source, self._error = source, typst.TypstError
+        handle, name = tempfile.mkstemp(suffix=".typ", dir=folder)
+        with os.fdopen(handle, "w", encoding="utf-8", newline="") as stream:
+            stream.write(source)
         own = not needs_system_fonts(source, lacking)
-        pdf, warnings = typst.compile_with_warnings(source.encode(), ignore_system_fonts=own)
-    except typst.TypstError as error:
-        lines = str(getattr(error, "message", error)).splitlines()
-        raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
-    return bytes(pdf), not any("did not converge" in warning.message for warning in warnings)
+        self._typesetter = typst.Compiler(name, root=str(folder), ignore_system_fonts=own)
+
+    def compile(self) -> tuple[bytes, bool]:
+        """The PDF, and whether all places in it are final; raises `TypesetterError`."""
+        try:
+            pdf, warnings = self._typesetter.compile_with_warnings()
+        except self._error as error:
+            lines = str(getattr(error, "message", error)).splitlines()
+            raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
+        assert isinstance(pdf, bytes)
+        return pdf, not any("did not converge" in warning.message for warning in warnings)
+
+    def choices(self) -> list[tuple[str, str, str]]:
+        """Of each figure and plate that may wait, in order: its name, what was chosen, what the pages show."""
+        found = json.loads(self._typesetter.query("<settled>", field="value"))
+        return [(name, json.dumps(choice), json.dumps(seen)) for name, choice, seen in found]
 
 
 def lacking(letters: str, system: bool) -> str:
@@ -187,14 +212,6 @@ def lacking(letters: str, system: bool) -> str:
     asked = question(letters).encode()
     answer = typst.query(asked, "<lacking>", field="value", one=True, ignore_system_fonts=not system)
     return "".join(json.loads(answer))
-
-
-def _choices(source: str) -> list[tuple[str, str, str]]:
-    """Of each figure and plate that may wait, in order: its name, what was chosen, what the pages show."""
-    import typst
-
-    found = json.loads(typst.query(source.encode(), "<settled>", field="value", ignore_system_fonts=True))
-    return [(name, json.dumps(choice), json.dumps(seen)) for name, choice, seen in found]
 
 
 def write(document: tree.Document) -> str:
