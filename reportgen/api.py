@@ -168,12 +168,12 @@ def sheet_files(
     of the language unless a file of one is given.  Raises `SheetError` for a plate that has no place on the size.
     """
     from reportgen.document.drawing_sheets import drawing_sheets
-    from reportgen.writers import dxf, typst
+    from reportgen.writers import dxf, typst, typst_run
 
     case = open_case(path, language)
     sheets = drawing_sheets(case, size, sets, block)
     writers: Mapping[str, Callable[[Sheet], bytes]] = {
-        "pdf": lambda sheet: typst.compile(typst.write_sheet(sheet, case.title, case.assignment.language)),
+        "pdf": lambda sheet: typst_run.compile(typst.write_sheet(sheet, case.title, case.assignment.language)),
         "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
     }
     return {

@@ -37,15 +37,7 @@ MOST_GROUPS = 1 << 20
 MOST_TRANSLATED = 20_000_000
 """Characters of all formulas that take the text of a shared one, as if each were as long as the longest shared."""
 
-UNREADABLE_ZIP = (
-    zipfile.BadZipFile,
-    zlib.error,
-    EOFError,
-    NotImplementedError,
-    RuntimeError,
-    ValueError,
-    OverflowError,
-)
+UNREADABLE_ZIP = (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError, OverflowError)
 """What `zipfile` raises of an archive that it cannot read: damaged, cut off, with numbers out of range, encrypted or
 packed in a way unknown to it (`RuntimeError` and a kind of it)."""
 

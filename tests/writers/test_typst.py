@@ -27,7 +27,7 @@ from reportgen.document.tree import (
 from reportgen.errors import TypesetterError
 from reportgen.figures.scene import Arc, Arrow, Label, Polyline, Scene
 from reportgen.notation.expressions import Chain, Number, Product, Sum, Symbol, Term, VectorEquation
-from reportgen.writers import typst
+from reportgen.writers import typst, typst_run
 from reportgen.writers.layout import in_rows
 from reportgen.writers.typst import literal
 from tests.writers import sample
@@ -36,14 +36,14 @@ from tests.writers.pages import MM, body_of, by_typst, opened, plain, text_of
 
 @cache
 def sample_pdf() -> bytes:
-    return typst.compile(typst.write(sample.sample()))
+    return typst_run.compile(typst.write(sample.sample()))
 
 
 # --- the whole sample -----------------------------------------------------------------------------
 
 
 def test_every_node_compiles_byte_identically() -> None:
-    assert sample_pdf() == typst.compile(typst.write(sample.sample()))
+    assert sample_pdf() == typst_run.compile(typst.write(sample.sample()))
 
 
 def test_source_needs_no_other_file() -> None:
@@ -216,6 +216,6 @@ def test_nothing_but_zero_is_no_row_of_its_own() -> None:
 
 def test_a_fault_of_the_typesetter_is_told_in_its_first_lines() -> None:
     with pytest.raises(TypesetterError, match="unknown variable: nothing") as caught:
-        typst.compile("#nothing")
+        typst_run.compile("#nothing")
     assert caught.value.exit_code == 3
     assert len(str(caught.value).splitlines()) <= 5
