@@ -175,7 +175,7 @@ def polar(report: Report) -> Drawn:
         scenes = tuple(draw(size=size) for draw in diagrams)
         if all(scene.width <= charts.HALF_WIDTH for scene in scenes):
             return Drawn(scenes)
-    return Drawn(tuple(draw(size=charts.POLAR_BELOW) for draw in diagrams))
+    return Drawn(tuple(draw() for draw in diagrams))
 
 
 # --- the flywheel

@@ -49,8 +49,6 @@ HALF = 0.5
 CLOSE = 5.5
 """What of their margins (mm) scenes of one figure give up to stand side by side."""
 SCHEME_BOX = (120.0, 75.0)
-SMALL_SCHEME = 79.0
-"""Height with its labels at most of a scheme that stands among tables, mm."""
 REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
 SHOWN_AT = 1
 """The position (from 0) at which schemes are drawn: the first one away from the start."""
@@ -176,13 +174,6 @@ def line_styles(report: Report) -> Drawn:
 @figure("scheme")
 def scheme(report: Report) -> Drawn:
     return Drawn((scheme_scene(report, _reduction(report)),))
-
-
-@figure("scheme.small")
-def small_scheme(report: Report) -> Drawn:
-    """The scheme, small enough to stand on one page with the results."""
-    drawn = (scheme_scene(report, factor) for factor in REDUCTIONS if factor <= _reduction(report))
-    return Drawn((next(one for one in drawn if one.height <= SMALL_SCHEME),))
 
 
 def scheme_scene(report: Report, factor: float) -> Scene:

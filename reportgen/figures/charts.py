@@ -29,10 +29,10 @@ HALF_WIDTH, HALF_HEIGHT = 78.0, 46.0
 CHART_MARGIN = 1.5
 AXIS_NAME = 8.0
 """What the turned name of an axis takes beside its figures, mm."""
-POLAR_SIZE = 110.0
+POLAR_SIZE = 84.0
 """Of a polar diagram by itself at most, either way, mm."""
-POLAR_PAIRS, POLAR_BELOW = (58.0, 54.0, 50.0), 84.0
-"""Of one that stands beside another if it is narrow enough then, and of one that stands above another, mm."""
+POLAR_PAIRS = 58.0, 54.0, 50.0
+"""Of one that stands beside another if it is narrow enough then, mm."""
 PENS = (
     Stroke(0.4, style.BLUE),
     Stroke(0.4, style.RED, style.DASHED),

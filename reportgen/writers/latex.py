@@ -29,7 +29,7 @@ CONTENTS_LEVEL = 3
 """The deepest level of heading that the contents and the outline list."""
 CAPTION = 15.0
 """About what a figure's caption takes, with the white around it (mm)."""
-OPENING, TITLE, ROW = 20, 14, 5.5
+OPENING, TITLE, ROW = 20, 14, 5.0
 """Approximate heights in mm: of the words before a table, of its caption, and of a row."""
 LONG, SHORT = 42, 18
 """Of words with what they lead to: a vector equation in two storeys or the first step of a list, any other row."""

@@ -127,9 +127,7 @@ def test_each_kind_of_symbol_has_its_meaning(written: built.Written) -> None:
 
 def test_a_page_of_results_follows_the_task(written: built.Written) -> None:
     keys = [block.key for block in built.walk(written.document.blocks) if getattr(block, "key", "")]
-    order = [
-        keys.index(key) for key in ("fig.scheme", "fig.scheme.small", "tab.main.figures", "tab.extremes", "tab.symbols")
-    ]
+    order = [keys.index(key) for key in ("fig.scheme", "tab.main.figures", "tab.extremes", "tab.symbols")]
     assert order == sorted(order)
     tables = {block.key: block for block in built.walk(written.document.blocks) if isinstance(block, Table)}
     symbols = [plain(row[1].inlines, written.language) for row in tables["tab.main.figures"].rows]

@@ -14,7 +14,7 @@ import numpy as np
 
 MM = 72 / 25.4
 """PDF points in a millimetre."""
-BODY, FOOT = 24 * MM, 19 * MM
+BODY, FOOT = 21 * MM, 17 * MM
 """Above and below this much of an A4 page stand header and footer."""
 EDGE = 6 * MM
 """What printers leave white along the edge of the paper, with some to spare."""

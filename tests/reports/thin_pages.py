@@ -17,7 +17,7 @@ GAP = 12.0
 """Lower white (mm) is what headings, figures and tables have around them."""
 THIN = 0.4
 """A page is thin if this share of its text block or more lies in gaps."""
-TOP, BOTTOM = 25.0, 25.0
+TOP, BOTTOM = 22.0, 20.0
 """Margins of an A4 page (mm), header and footer in them."""
 PLATE = 15.0
 """Margins above and below the drawing of a larger page (mm), at least."""

@@ -46,7 +46,7 @@ def plain(text: str) -> str:
 
 def body_of(page: Any) -> Any:
     """The page without its header and footer."""
-    return pymupdf.Rect(0, 24 * MM, page.rect.width, page.rect.height - 24 * MM)
+    return pymupdf.Rect(0, 21 * MM, page.rect.width, page.rect.height - 17 * MM)
 
 
 def text_of(*blocks: Block) -> str:

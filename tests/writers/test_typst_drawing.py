@@ -21,7 +21,7 @@ def drawn(scene: Scene) -> tuple[complex, list[dict[str, Any]]]:
     w, h = scene.width, scene.height
     frame = Polyline((0j, complex(w, 0), complex(w, h), complex(0, h)), Stroke(0.1, "#ff0000"), closed=True)
     page = by_typst(Figure((replace(scene, items=(frame, *scene.items)),)))[0]
-    drawings = [drawing for drawing in page.get_drawings() if drawing["rect"].y0 > 24 * MM]
+    drawings = [drawing for drawing in page.get_drawings() if drawing["rect"].y0 > 21 * MM]
     (red,) = (drawing for drawing in drawings if drawing["color"] == (1.0, 0.0, 0.0))
     return complex(red["rect"].x0, red["rect"].y1), [drawing for drawing in drawings if drawing is not red]
 
