@@ -11,8 +11,9 @@ from pathlib import Path
 import pymupdf
 from PIL import Image
 
-from reportgen import api, catalogue
+from reportgen import api
 from reportgen.document.tree import Document, Figure
+from reportgen.kinds import kinds
 
 ROOT = Path(__file__).resolve().parent.parent
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
@@ -82,7 +83,7 @@ def main() -> None:
     save(page_with(CAPTION, typeset(document(SAMPLE))), "page", PAGE_DPI)
     sheets = api.sheet_files(LAID_OUT, language="en", size="A1", sets=("kinematics",), formats=("pdf",))
     save(pymupdf.open(stream=sheets["sheet-1.pdf"])[0], "sheet", SHEET_DPI)
-    for kind in catalogue.kinds():
+    for kind in kinds():
         file = next(iter(sorted(SAMPLE.parent.glob(f"{kind}-*.yaml"))), SHOWN)
         page = typeset(scheme_alone(document(file)))[0]
         save(page, kind, SCHEME_DPI, drawn(page))

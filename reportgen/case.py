@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
-from reportgen import catalogue
+from reportgen import catalogue, kinds
 from reportgen.assignment import Assignment
 from reportgen.errors import NotOfferedError
 from reportgen.notation.numbers import Language
@@ -51,7 +51,7 @@ class Opened:
     @property
     def title(self) -> str:
         """The machine's name in the assignment's language."""
-        return catalogue.title(self.assignment.kind, self.assignment.language)
+        return kinds.title(self.assignment.kind, self.assignment.language)
 
     @property
     def variant_line(self) -> str:

@@ -19,7 +19,7 @@ from typing import Any
 
 from reportgen.errors import AssignmentError, Fault, Mark, Problem, TemplateError
 from reportgen.notation.numbers import Language
-from reportgen.source import Table, plain, read_source
+from reportgen.source import Table, plain, read_words
 
 DEFAULT_LANGUAGE: Language = "vi"
 LONGEST_SHOWN = 40
@@ -101,7 +101,7 @@ def _read(path: Path) -> Mapping[str, Any]:
 @lru_cache(maxsize=FILES)
 def _as_of(path: Path, changed: int, size: int) -> Mapping[str, Any]:
     """A file's words, read once for as long as it stays the same; nobody changes them."""
-    source = read_source(path)
+    source = read_words(path)
     if source.faults:
         raise TemplateError("\n".join(f"{fault.mark}: {fault.code}" for fault in source.faults))
     if not isinstance(source.top, Table):

@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.catalogue import check, engine_twin, load
+from reportgen.kinds import sample
 from reportgen.units import PLAIN, QuantityFault, read_quantity, read_ratio, scale_by_pint
 
 ROOT = Path(__file__).parent.parent
@@ -156,7 +157,7 @@ def test_start_angle_moves_both_pistons(tmp_path: Path) -> None:
 @pytest.mark.parametrize("language", ["vi", "en"])
 def test_new_file_is_in_order(tmp_path: Path, language: str) -> None:
     file = tmp_path / "new.yaml"
-    file.write_text(catalogue.sample("engine-twin", "en" if language == "en" else "vi"), encoding="utf-8")
+    file.write_text(sample("engine-twin", "en" if language == "en" else "vi"), encoding="utf-8")
     assert check(file) == []
     assert load(file).language == language
 
@@ -182,7 +183,7 @@ def test_schema_accepts_what_the_reader_accepts() -> None:
     assert jsonschema.validators.validator_for(schema) is validator
     validator.check_schema(schema)
     assert not {"$defs", "prefixItems", "unevaluatedProperties", "dependentRequired"} & _words(schema)
-    for text in (SAMPLE_TEXT, catalogue.sample("engine-twin", "en")):
+    for text in (SAMPLE_TEXT, sample("engine-twin", "en")):
         validator(schema).validate(_as_an_editor_sees(text))
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from reportgen import catalogue
+from reportgen.kinds import kinds
 
 ROOT = Path(__file__).parent.parent
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
@@ -144,7 +144,7 @@ def test_new_where_nothing_can_be_written_ends_with_3(tmp_path: Path) -> None:
 
 def test_kinds_gives_a_line_each() -> None:
     done = reportgen("kinds", "--lang", "en")
-    assert [line.split()[0] for line in done.stdout.splitlines()] == list(catalogue.kinds())
+    assert [line.split()[0] for line in done.stdout.splitlines()] == list(kinds())
 
 
 def test_schema_is_json() -> None:

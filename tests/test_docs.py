@@ -19,6 +19,7 @@ import typer
 from reportgen import api, catalogue
 from reportgen.cli import app
 from reportgen.document.prose import Prose
+from reportgen.kinds import kinds
 from reportgen.words import search_path
 from reportgen.writers import pdflatex
 
@@ -239,14 +240,14 @@ def test_every_command_is_explained_with_its_options() -> None:
 
 def test_every_machine_is_shown_and_all_its_keys_are_explained() -> None:
     readme, text = text_of("README.md"), text_of("docs/machines.md")
-    for kind in catalogue.kinds():
+    for kind in kinds():
         row = rf"^\| \[`{kind}`\]\(docs/machines\.md#{kind}\) \| !\[[^\]]+\]\(docs/{kind}\.png\) \| "
         assert re.search(row, readme, re.MULTILINE)
         explained = section(text, "## Keys of several kinds") + section(text, f"## `{kind}`")
         for name, field in catalogue.kind(kind).parameters.model_fields.items():
             assert f"`{field.alias or name}`" in explained, (kind, name)
     (row,) = [line for line in text.splitlines() if line.startswith("| `flywheel` |")]
-    with_flywheel = {kind for kind in catalogue.kinds() if "flywheel" in catalogue.kind(kind).parameters.model_fields}
+    with_flywheel = {kind for kind in kinds() if "flywheel" in catalogue.kind(kind).parameters.model_fields}
     assert set(re.findall(r"`([a-z-]+)`", row)) - {"flywheel"} == with_flywheel
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
-from reportgen import api, catalogue
+from reportgen import api
 from reportgen.answers.key import Key
 from reportgen.api import Engine
 from reportgen.batch import gradebooks
@@ -25,6 +25,7 @@ from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking, Policy, Submission
 from reportgen.grading.submission import read_submission
 from reportgen.grading.working import Guide, open_guide
+from reportgen.kinds import title
 from reportgen.notation.numbers import Language
 from reportgen.scratch import scratch
 from reportgen.words import as_problem, counted, word
@@ -194,7 +195,7 @@ def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language 
         folder = Path(folder_name(key.student["id"]) if "id" in key.student else key.id)
         sheet = write_xlsx(feedback_book(marking, policy.show_answers))
         yield folder / "feedback.xlsx", sheet
-        tree = feedback_document(marking, catalogue.title(key.kind, key.language), policy.show_answers)
+        tree = feedback_document(marking, title(key.kind, key.language), policy.show_answers)
         page = api.typeset(tree, engine)[1]
         yield folder / "feedback.pdf", page
         if owner := graded.owners.get(key.id):
@@ -205,8 +206,8 @@ def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language 
         key = graded.markings[0].key
         spoken = language or key.language
         yield Path("grades.csv"), write_csv(grade_rows(graded.markings, spoken, graded.missing, policy.scale))
-        title = catalogue.title(key.kind, spoken)
-        overview = class_document(graded.markings, title, spoken, graded.missing, policy.scale)
+        named = title(key.kind, spoken)
+        overview = class_document(graded.markings, named, spoken, graded.missing, policy.scale)
         yield Path("class.pdf"), api.typeset(overview, engine)[1]
 
 

@@ -29,6 +29,7 @@ from reportgen.assignment.reading import allowed_forms, known_keys, language_of,
 from reportgen.batch.editing import at, path_text, put, without
 from reportgen.batch.roster import Column, columns, records
 from reportgen.errors import Fault, Mark, Where
+from reportgen.kinds import kinds
 from reportgen.notation.numbers import Language
 from reportgen.source import List, Node, Scalar, Source, Table, read_source
 from reportgen.units import NUMBER, QuantityFault, read_number, read_quantity, read_unit
@@ -146,7 +147,7 @@ def read_spec(path: Path, language: Language | None = None) -> Spec:
     language = language or language_of(source)
     top = source.top
     name = at(top, ("kind",))
-    named = isinstance(name, Scalar) and name.text in catalogue.kinds()
+    named = isinstance(name, Scalar) and name.text in kinds()
     if source.faults or not isinstance(top, Table) or not isinstance(name, Scalar) or not named:
         raise as_error(catalogue.assess(source, path)[1], language)
     kind = catalogue.kind(name.text)

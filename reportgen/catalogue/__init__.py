@@ -10,8 +10,7 @@ A kind that is no machine but one instant of a system says `MAKES = "exercise"`,
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from functools import cache
+from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -21,18 +20,10 @@ from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
 from reportgen.catalogue import reach
 from reportgen.errors import AssignmentError, Fault, Finding, Problem
+from reportgen.kinds import kinds
 from reportgen.notation.numbers import Language
 from reportgen.source import Source, read_source
-from reportgen.words import FILE, as_error, load_words, templates
-
-
-@cache
-def kinds() -> Mapping[str, str]:
-    """The module of every kind, by the name that stands in a file, in alphabetical order."""
-    modules = (path.stem for path in sorted(Path(__file__).parent.glob("*.py")))
-    named = {module.replace("_", "-"): module for module in modules}
-    words = templates() / "vi"
-    return {kind: module for kind, module in named.items() if (words / kind / FILE).is_file()}
+from reportgen.words import as_error
 
 
 def module(kind: str) -> ModuleType:
@@ -82,16 +73,6 @@ def _out_of_reach(assignment: Assignment) -> Iterator[Finding]:
         yield from reach.too_large(machine.linkage, machine.drawn, ("drawing", "crank"))
 
 
-def title(name: str, language: Language) -> str:
-    """The line of description of a kind, from its words."""
-    return str(load_words((templates() / language / name,))["title"])
-
-
-def titles(language: Language) -> dict[str, str]:
-    """Each kind with its line of description."""
-    return {name: title(name, language) for name in kinds()}
-
-
 def load(path: Path | str, language: Language | None = None) -> Assignment:
     """The assignment of a file, in its own language or in `language`.
 
@@ -112,14 +93,6 @@ def check(path: Path | str, language: Language | None = None) -> list[Problem]:
     except AssignmentError as error:
         return list(error.problems)
     return []
-
-
-def sample(name: str, language: Language) -> str:
-    """The commented assignment file to fill in of a kind; raises `KeyError`."""
-    if name not in kinds():
-        raise KeyError(name)
-    file = f"{name}.yaml"
-    return (templates() / language / "new" / file).read_text(encoding="utf-8")
 
 
 def schema() -> dict[str, Any]:

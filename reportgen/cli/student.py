@@ -131,22 +131,22 @@ def new(
     lang: LangOption = None,
 ) -> None:
     """Print a commented assignment file to fill in."""
-    from reportgen import catalogue
+    from reportgen.kinds import kinds, sample
 
-    if kind not in catalogue.kinds():
-        raise typer.BadParameter(say("no_kind", lang, kind=kind, known=", ".join(catalogue.kinds())))
+    if kind not in kinds():
+        raise typer.BadParameter(say("no_kind", lang, kind=kind, known=", ".join(kinds())))
     with ending(lang):
-        write(output or Path("-"), catalogue.sample(kind, lang or "vi"))
+        write(output or Path("-"), sample(kind, lang or "vi"))
 
 
 @app.command()
 def kinds(lang: LangOption = None) -> None:
     """List the machines that are known, a line each."""
-    from reportgen import catalogue
+    from reportgen.kinds import titles
 
-    titles = catalogue.titles(lang or "vi")
-    width = max(map(len, titles))
-    for kind, title in titles.items():
+    known = titles(lang or "vi")
+    width = max(map(len, known))
+    for kind, title in known.items():
         print(f"{kind:{width}}  {title}")
 
 

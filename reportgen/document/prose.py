@@ -12,10 +12,12 @@ from __future__ import annotations
 import re
 import traceback
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
+from pickle import UnpicklingError
 
 from jinja2 import (
     BytecodeCache,
@@ -36,15 +38,21 @@ from reportgen.document import markdown
 from reportgen.document.markdown import SECRET, Emitted, Key, Place, Rendered, Unnumbered
 from reportgen.document.tree import BlankLine, Block, InlineMath, Inlines, Reference, Text, Value
 from reportgen.errors import ReportgenError, TemplateError
+from reportgen.kept import keep, kept
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Expression, Number
 from reportgen.notation.numbers import MINUS
+from reportgen.words import version
 
 _PRIVATE = re.compile("[\ue000-\ue004]")
 _PIECE = re.compile(
     f"\ue000{SECRET}:(?P<value>\\d+)\ue001"
     f"|\ue002{SECRET}:(?P<line>\\d+):(?P<file>[^\ue003]*)\ue003(?P<static>[^\ue004]*)\ue004"
 )
+
+
+NUMBER = b"271828182845904523"
+"""Stands in the marks of a template that is kept; as long as that of a process."""
 
 
 _values: ContextVar[list[Emitted]] = ContextVar("values")
@@ -90,17 +98,31 @@ def _inlines(words: str) -> Inlines:
 
 
 class _Compiled(BytecodeCache):
-    """The compiled templates of this process, by file and content: the search paths of machines share most of them."""
+    """Templates as compiled, by file and content: in this process, and kept for the next.
+
+    The number in the marks is another one in each process; what is kept has `NUMBER` in its place.
+    """
 
     def __init__(self) -> None:
         self.codes: dict[str, bytes] = {}
 
     def load_bytecode(self, bucket: Bucket) -> None:
-        if code := self.codes.get(bucket.key):
-            bucket.bytecode_from_string(code)
+        code = self.codes.get(bucket.key)
+        if code is None and (found := kept(_kept_as(bucket))) is not None:
+            code = self.codes[bucket.key] = found.replace(NUMBER, SECRET.encode())
+        if code is not None:
+            # A damaged file is as good as none.
+            with suppress(EOFError, ValueError, TypeError, UnpicklingError):
+                bucket.bytecode_from_string(code)
 
     def dump_bytecode(self, bucket: Bucket) -> None:
-        self.codes[bucket.key] = bucket.bytecode_to_string()
+        code = self.codes[bucket.key] = bucket.bytecode_to_string()
+        keep(_kept_as(bucket), code.replace(SECRET.encode(), NUMBER))
+
+
+def _kept_as(bucket: Bucket) -> str:
+    # The code that a template becomes depends on what this module does with it.
+    return f"template-{version()}-{Path(__file__).stat().st_mtime_ns:x}-{bucket.key}"
 
 
 _compiled = _Compiled()

@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen import api, catalogue
+from reportgen import api
 from reportgen.analysis import FULL_TURN, analyse, motion_at
 from reportgen.catalogue.machine import Machine
 from reportgen.flywheel import Flywheel, accumulated, flywheel, reduced_inertia, regulate
+from reportgen.kinds import kinds
 from reportgen.ledger.report import write_ledger
 from reportgen.notation.sheet import Sheet
 
@@ -35,8 +36,8 @@ def machine(request: pytest.FixtureRequest) -> Machine:
 
 
 def test_every_kind_has_its_case() -> None:
-    kinds = {api.load(ASSIGNMENTS / f"{name}.yaml").kind for name in FILES}
-    assert kinds | EXERCISES == set(catalogue.kinds())
+    loaded = {api.load(ASSIGNMENTS / f"{name}.yaml").kind for name in FILES}
+    assert loaded | EXERCISES == set(kinds())
 
 
 def test_speed_stays_within_the_unevenness_and_meets_it(machine: Machine) -> None:

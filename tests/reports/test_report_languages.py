@@ -11,7 +11,6 @@ from typing import Any, get_args
 import pytest
 from jinja2 import Environment, nodes
 
-from reportgen import catalogue
 from reportgen.document.numbering import unreferenced
 from reportgen.document.tree import (
     Block,
@@ -32,6 +31,7 @@ from reportgen.document.tree import (
     formula,
     plain,
 )
+from reportgen.kinds import kinds
 from reportgen.mechanism.structure import DyadKind
 from reportgen.words import load_words, search_path
 from tests.reports import built
@@ -186,7 +186,7 @@ ONE_SIDED = {("cover", "months")}
 """English dates name the month; Vietnamese ones count it."""
 
 
-@pytest.mark.parametrize("kind", ["", *catalogue.kinds()])
+@pytest.mark.parametrize("kind", ["", *kinds()])
 @pytest.mark.parametrize("file", ["words.yaml", "messages.yaml"])
 def test_both_languages_have_the_same_words(kind: str, file: str) -> None:
     vi, en = (built_words(language, kind, file) for language in ("vi", "en"))
