@@ -134,17 +134,25 @@ def read_words(path: Path) -> Source:
 
     What libyaml refuses, and what is more than plain nodes, is read again with care, to say where the fault is.
     """
-    text = path.read_text(encoding="utf-8-sig")
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError):
+        return read_source(path)
+    return read_own(text, str(path))
+
+
+def read_own(text: str, file: str = "") -> Source:
+    """As `read_text`, for text of the program's own."""
     faults: list[Fault] = []
     try:
         events = yaml.parse(text, Loader=yaml.CSafeLoader)
         if any(isinstance(event, yaml.NodeEvent) and (event.anchor or getattr(event, "tag", None)) for event in events):
-            return read_source(path)
+            return read_text(text, file)
         root = yaml.compose(text, Loader=yaml.CSafeLoader)
     except (AttributeError, yaml.YAMLError):  # a PyYAML without libyaml has no such loader
-        return read_source(path)
-    top = root and _node(root, str(path), faults)
-    return Source(str(path), text, top, ()) if top and not faults else read_source(path)
+        return read_text(text, file)
+    top = root and _node(root, file, faults)
+    return Source(file, text, top) if top and not faults else read_text(text, file)
 
 
 def plain(node: Node) -> Any:

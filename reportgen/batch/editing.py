@@ -11,7 +11,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from reportgen.errors import Where
-from reportgen.source import List, Node, Scalar, Table, plain, read_text
+from reportgen.source import List, Node, Scalar, Table, plain, read_own
 
 WIDTH = 100
 _PLAIN = re.compile(r"[^\W\d_][\w/^²³⁴·.@-]*( [\w/^²³⁴·.@-]+)*|[+-]?[0-9.][\w./^²³⁴·+-]*( [\w./^²³⁴·*+-]+)*")
@@ -60,7 +60,7 @@ def path_text(where: Where) -> str:
 def text_of(table: Table, source: str, original: Table) -> str:
     """The file of a table whose unchanged parts are those of `original`, which was read from `source`."""
     kept = _block(table, original, source.splitlines(), 0)
-    read = read_text(kept)
+    read = read_own(kept)
     agrees = not read.faults and read.top is not None and plain(read.top) == plain(table)
     return kept if agrees else _lines(table, 0)
 

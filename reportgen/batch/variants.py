@@ -9,25 +9,27 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from statistics import median
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from reportgen import api
+from reportgen import api, catalogue
 from reportgen.assignment import Assignment
 from reportgen.batch.draw import Draw, Drawn, draw, judge_of, shared
 from reportgen.batch.editing import at, path_text, put, quoted, text_of
+from reportgen.batch.pool import Limits, each_within
 from reportgen.batch.roster import read_roster
 from reportgen.batch.spec import Spec, assembled, read_spec
 from reportgen.case import Case, opened
-from reportgen.errors import AssignmentError, Fault, Mark, Where
+from reportgen.errors import Fault, Mark, Where
+from reportgen.ledger.report import enter_positions
 from reportgen.notation.numbers import Language
-from reportgen.source import Node, Scalar, Table, read_source
+from reportgen.source import Node, Scalar, Source, Table, read_source
 from reportgen.words import as_error, version, word
 from reportgen.workbook import write_csv
 
@@ -43,35 +45,41 @@ MOST_DEVIATIONS = 3.0
 LEAST_SHARE = 0.1
 """… and than this share of the median: in a class of near equals there is no outlier."""
 
+ONE_PROCESS = 200
+"""The figures of a smaller class are found before other processes have started."""
+LIMITS = Limits(seconds=60.0, megabytes=1000)
+"""For the figures of one file."""
+
+Shown = Callable[[Iterable[Any], int], Iterable[Any]]
+"""Passes on what it is given, of which there are so many, and shows how far it has come."""
+
 State = Literal["new", "changed", "same", "kept"]
 """Of a file: made, made anew, left since nothing changed, left since it was edited by hand."""
 
 
 @dataclass(frozen=True)
 class StudentFile:
-    """A student's assignment file: whose it is, where it belongs, its whole text, what is to be done with it."""
+    """A student's assignment file: whose it is, where it belongs, what is to be done with it, what it says as drawn."""
 
     drawn: Drawn
     path: Path
-    text: str
     state: State
+    text: str
+    top: Table
 
     @cached_property
-    def effort(self) -> Effort | None:
-        """The figures of the file as it stands once it is made; None for one edited by hand that is at fault."""
-        try:
-            return effort(api.load(self.path))
-        except AssignmentError:
-            return None
+    def source(self) -> Source:
+        """The file as it stands once it is made."""
+        return read_source(self.path) if self.state == "kept" else Source(str(self.path), self.text, self.top)
 
 
 class Effort(NamedTuple):
     """What a variant asks for; the order is that of the columns of `variants.csv`.
 
-    `worked` counts the printed values that are derived, over all positions; `largest` is the greatest balancing
-    torque (N·m) or force (N) of the positions, `speed` that of the driver (rad/s or m/s), `positive` the share
-    of positions where the balance is positive (`largest` and `positive` are None without loads, `speed` without a
-    driver); `zeros` counts the values that are zero beside their scale.
+    `worked` counts the printed values that are derived at the positions, over all of these; `largest` is the greatest
+    balancing torque (N·m) or force (N) of the positions, `speed` that of the driver (rad/s or m/s), `positive` the
+    share of positions where the balance is positive (`largest` and `positive` are None without loads, `speed` without
+    a driver); `zeros` counts the values that are zero beside their scale.
     """
 
     worked: int
@@ -102,7 +110,12 @@ class Variants:
 
 
 def make_variants(
-    spec_path: Path, roster_path: Path, out: Path, force: bool = False, language: Language | None = None
+    spec_path: Path,
+    roster_path: Path,
+    out: Path,
+    force: bool = False,
+    language: Language | None = None,
+    shown: Shown = lambda files, _: files,
 ) -> Variants:
     """Draw for the class of a roster and write each student's assignment file into `out`.
 
@@ -120,10 +133,11 @@ def make_variants(
     for file in files:
         if file.state in ("new", "changed"):
             api.replace(file.path, file.text.encode())
-    api.replace(out / TABLE, _csv(files))
-    remarks = (*_remarks(files, spec.language), *_sharing(result, spec))
-    efforts = {file.drawn.student.id: file.effort for file in files if file.effort is not None}
-    return Variants(files, remarks, tuple(_summary(efforts, spec.language)))
+    efforts = tuple(shown(_efforts(files), len(files)))
+    api.replace(out / TABLE, _csv(files, efforts))
+    remarks = (*_remarks(files, efforts, spec.language), *_sharing(result, spec))
+    known = {file.drawn.student.id: one for file, one in zip(files, efforts, strict=True) if one is not None}
+    return Variants(files, remarks, tuple(_summary(known, spec.language)))
 
 
 def _refuse(faults: Sequence[Fault], spec: Spec) -> None:
@@ -136,9 +150,10 @@ def _refuse(faults: Sequence[Fault], spec: Spec) -> None:
 
 def _student_file(spec: Spec, drawn: Drawn, folder: Path, force: bool) -> StudentFile:
     """The assignment file of a student in `folder`; one there that was edited is kept unless `force`."""
-    body = _body(spec, drawn)
+    top = _table(spec, drawn)
+    body = text_of(top, spec.text, spec.whole)
     path = folder / f"{drawn.student.folder}.yaml"
-    return StudentFile(drawn, path, _head(spec, drawn, body) + body, _state(path, body, force))
+    return StudentFile(drawn, path, _state(path, body, force), _head(spec, drawn, body) + body, top)
 
 
 def _state(path: Path, body: str, force: bool) -> State:
@@ -169,7 +184,8 @@ def _head(spec: Spec, drawn: Drawn, body: str) -> str:
     return "".join(f"# {line}\n" for line in lines)
 
 
-def _body(spec: Spec, drawn: Drawn) -> str:
+def _table(spec: Spec, drawn: Drawn) -> Table:
+    """What the file says: the spec with the student's card and what was drawn."""
     card = Table(tuple((_scalar(key), _scalar(text)) for key, text in drawn.student.card.items()), _HERE)
     top: Node = put(assembled(spec.top, drawn.settings), ("report", "student"), card)
     if at(top, ("report", "language")) is None:
@@ -180,7 +196,7 @@ def _body(spec: Spec, drawn: Drawn) -> str:
     # The kind and the variant stand before all else.
     first = {"kind": 0, "variant": 1}
     entries = sorted(top.entries, key=lambda entry: first.get(entry[0].text, 2))
-    return text_of(Table(tuple(entries), top.mark), spec.text, spec.whole)
+    return Table(tuple(entries), top.mark)
 
 
 def _scalar(text: str) -> Scalar:
@@ -190,10 +206,24 @@ def _scalar(text: str) -> Scalar:
 # --- how equal the variants are ---------------------------------------------------------------------
 
 
+def _efforts(files: Sequence[StudentFile]) -> Iterator[Effort | None]:
+    """The figures of each file; None for one edited by hand that is at fault."""
+    if len(files) < ONE_PROCESS:
+        yield from map(_effort_of, files)
+    else:
+        yield from (found for _, found in each_within(LIMITS, _effort_of, files, __name__))
+
+
+def _effort_of(file: StudentFile) -> Effort | None:
+    assignment, _ = catalogue.assess(file.source, file.path)
+    return None if assignment is None else effort(assignment)
+
+
 def effort(assignment: Assignment) -> Effort:
-    """The figures of an assignment, from its ledger."""
+    """The figures of an assignment, from what is derived at each of its positions."""
     case = opened(assignment)
-    analysis, families = case.analysis if isinstance(case, Case) else None, case.ledger.families.values()
+    analysis = case.analysis if isinstance(case, Case) else None
+    families = (enter_positions(analysis)[0] if analysis else case.ledger).families.values()
     derived = [one for one in families if one.definition is not None and not one.hidden and not one.is_plane]
     zeros = sum(one.at(position) == 0 for one in derived if one.scale for position in range(1, len(one.values) + 1))
     balance = np.real(analysis.torque) if analysis and analysis.loads else None
@@ -229,7 +259,7 @@ def _outliers(name: str, values: Sequence[float | None], middle: float) -> tuple
     return tuple(k for k, value in known.items() if abs(value - middle) > limit)
 
 
-def _table(spreads: Sequence[Spread], language: Language) -> list[str]:
+def _lines(spreads: Sequence[Spread], language: Language) -> list[str]:
     """The spreads as lines of text: a figure, its least, median and greatest value."""
     rows = [["", *(word(name, language) for name in ("least", "median", "greatest"))]]
     rows += [[word(one.name, language), *map(_shown, (one.least, one.median, one.greatest))] for one in spreads]
@@ -248,12 +278,12 @@ def _shown(value: float) -> str:
 # --- what the instructor sees -----------------------------------------------------------------------
 
 
-def _remarks(files: Sequence[StudentFile], language: Language) -> Iterator[str]:
+def _remarks(files: Sequence[StudentFile], efforts: Sequence[Effort | None], language: Language) -> Iterator[str]:
     """What to say of the files that were kept."""
-    for file in files:
+    for file, found in zip(files, efforts, strict=True):
         if file.state == "kept":
             yield word("variants_kept", language, path=file.path)
-        if file.effort is None:
+        if found is None:
             yield word("variants_unchecked", language, id=file.drawn.student.id)
 
 
@@ -271,7 +301,7 @@ def _summary(efforts: Mapping[str, Effort], language: Language) -> Iterator[str]
     """How equal the variants are, by the figures of each student's file."""
     spreads, students = compare(list(efforts.values())), list(efforts.items())
     yield word("variants_table", language, count=len(efforts))
-    yield from _table(spreads, language)
+    yield from _lines(spreads, language)
     for spread in spreads:
         apart = [f"{id} ({_shown(getattr(one, spread.name))})" for id, one in (students[k] for k in spread.outliers)]
         if apart:
@@ -279,15 +309,15 @@ def _summary(efforts: Mapping[str, Effort], language: Language) -> Iterator[str]
             yield word("variants_apart", language, ids=", ".join(apart), **about)
 
 
-def _csv(files: Sequence[StudentFile]) -> bytes:
+def _csv(files: Sequence[StudentFile], efforts: Sequence[Effort | None]) -> bytes:
     """One row a student: id, name, file, variant, values drawn or set, as the file now has them, and its figures."""
     places: list[Where] = list(dict.fromkeys(where for file in files for where in file.drawn.settings))
     rows: list[list[str | float | None]] = [["id", "name", "file", "variant", *map(path_text, places), *Effort._fields]]
-    for file in files:
-        top = read_source(file.path).top
+    for file, one in zip(files, efforts, strict=True):
+        top = file.source.top
         found = (at(top, where) for where in (("variant",), *places))
         values = [node.text if isinstance(node, Scalar) else None for node in found]
-        tail = file.effort or (None,) * len(Effort._fields)
+        tail = one or (None,) * len(Effort._fields)
         rounded = [None if value is None else float(f"{value:.6g}") for value in tail]
         student = file.drawn.student
         rows.append([student.id, student.card.get("name"), file.path.name, *values, *rounded])

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -43,9 +44,17 @@ def variants(
     from reportgen.batch.variants import make_variants
 
     with ending(lang):
-        made = make_variants(spec, roster, out, force, lang)
+        made = make_variants(spec, roster, out, force, lang, _bar)
         print(*(file.path for file in made.files), "", *made.summary, sep="\n")
         print(*made.remarks, sep="\n", end="\n" * bool(made.remarks), file=sys.stderr)
+
+
+def _bar(things: Iterable[Any], count: int) -> Iterable[Any]:
+    """Shows on a terminal how far it has come with so many things."""
+    from rich.console import Console
+    from rich.progress import track
+
+    return track(things, "", count, console=Console(stderr=True), transient=True) if sys.stderr.isatty() else things
 
 
 @app.command()

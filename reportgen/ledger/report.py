@@ -32,6 +32,21 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, wor
 
     The plans of the `worked` positions fill their paper, of all positions if none is named.
     """
+    q, polygons = enter_positions(analysis, worked)
+    regulated: flywheel.Flywheel | None = None
+    if analysis.loads:
+        with q.within(Chapter.cycle):
+            _cycle(q, analysis)
+            if analysis.machine.unevenness is not None:
+                regulated = flywheel.flywheel(analysis.machine, analysis.machine.unevenness)
+                _flywheel(q, analysis, regulated)
+    checks = {id for id in q.families if id.startswith(centres.PREFIX)}
+    decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
+    return Ledger(q.families, decimals, q.positions, cancellations, units or {}, polygons, regulated, q.lines)
+
+
+def enter_positions(analysis: Analysis, worked: Sequence[int] = ()) -> tuple[Sheet, tuple[Polygon, ...]]:
+    """What is derived at each position, without the cycle's figures and without decimals; the force plans with it."""
     machine = analysis.machine
     q = Sheet(machine.positions)
     if machine.span:
@@ -43,7 +58,6 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, wor
     with q.within(Chapter.formulas):
         machine.formulas(q)
     polygons: tuple[Polygon, ...] = ()
-    regulated: flywheel.Flywheel | None = None
     if analysis.loads:
         _masses(q, analysis)
         _gas(q, analysis)
@@ -51,14 +65,7 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, wor
         applied = {one.name: (one.link, one.point, one.direction) for one in machine.applied}
         torques = {one.name: one.link for one in machine.torques}
         polygons = enter_forces(q, machine.linkage, machine.turn, applied, torques)
-        with q.within(Chapter.cycle):
-            _cycle(q, analysis)
-            if machine.unevenness is not None:
-                regulated = flywheel.flywheel(machine, machine.unevenness)
-                _flywheel(q, analysis, regulated)
-    checks = {id for id in q.families if id.startswith(centres.PREFIX)}
-    decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
-    return Ledger(q.families, decimals, machine.positions, cancellations, units or {}, polygons, regulated, q.lines)
+    return q, polygons
 
 
 def _masses(q: Sheet, analysis: Analysis) -> None:
