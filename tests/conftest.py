@@ -6,13 +6,18 @@ reports are made once; the others go by their own file.
 
 from __future__ import annotations
 
+import os
 import re
+from pathlib import Path
 from typing import Any
 
 import pytest
 from xdist.scheduler import LoadScopeScheduling
 
 from tests.reports import built
+
+# What is kept between runs is kept here for all processes of the tests, not in the home of whoever runs them.
+os.environ["XDG_CACHE_HOME"] = str(Path(__file__).resolve().parents[1] / ".pytest_cache" / "kept")
 
 STEM = re.compile("|".join(rf"\b{path.stem}\b" for path in built.FILES))
 

@@ -1,0 +1,84 @@
+"""What is kept between runs saves time only: it may be damaged, deleted or impossible, and nothing changes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from reportgen import kept
+from reportgen.document import prose
+from reportgen.document.tree import Block
+
+
+@pytest.fixture
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A cache folder of its own, in which nothing is kept yet."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    kept.folder.cache_clear()
+    yield tmp_path / "cache"
+    kept.folder.cache_clear()
+
+
+def rendered(folder: Path) -> tuple[Block, ...]:
+    """A template rendered as by a process that has not seen it yet."""
+    prose._compiled.codes.clear()
+    prose._environment.cache_clear()
+    return prose.Prose((folder,)).render("page.md", {"name": "O₁A \ue000 0 \ue001"})
+
+
+@pytest.fixture
+def words(tmp_path: Path) -> Path:
+    (tmp_path / "words").mkdir()
+    (tmp_path / "words" / "page.md").write_text("# Độ dài {{ name }}\n\nMột câu.\n", encoding="utf-8")
+    return tmp_path / "words"
+
+
+def test_what_was_kept_is_found_again(home: Path) -> None:
+    assert kept.kept("one") is None
+    path = kept.keep("one", b"1")
+    assert path is not None
+    assert path.parent.parent == home
+    assert kept.keep("one", b"2") == path
+    assert kept.kept("one") == b"2"
+    assert [entry.name for entry in path.parent.iterdir()] == ["one"], "nothing half-written stays"
+
+
+def test_a_template_reads_the_same_from_the_store(home: Path, words: Path) -> None:
+    first = rendered(words)
+    (file,) = (home / "reportgen").iterdir()
+    assert prose.SECRET.encode() not in file.read_bytes(), "the number of this process's marks stays in it"
+    file_before = file.read_bytes()
+    assert rendered(words) == first
+    assert file.read_bytes() == file_before
+
+
+def test_a_changed_template_is_compiled_anew(home: Path, words: Path) -> None:
+    first = rendered(words)
+    (words / "page.md").write_text("# Khác\n", encoding="utf-8")
+    assert rendered(words) != first
+
+
+@pytest.mark.parametrize("damage", [b"", b"?", b"\x80\x05 no bytecode at all" * 9])
+def test_a_damaged_store_changes_nothing(home: Path, words: Path, damage: bytes) -> None:
+    first = rendered(words)
+    (file,) = (home / "reportgen").iterdir()
+    for content in (damage, file.read_bytes()[:-40]):
+        file.write_bytes(content)
+        assert rendered(words) == first
+
+
+def test_without_a_folder_all_goes_on(home: Path, words: Path) -> None:
+    home.write_text("a file where the folder should be", encoding="utf-8")
+    assert kept.folder() is None
+    assert kept.keep("one", b"1") is None
+    assert kept.kept("one") is None
+    assert rendered(words)
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="no users on this system")
+def test_a_folder_of_somebody_else_is_not_used(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "getuid", lambda: 12345)
+    assert kept.folder() is None
