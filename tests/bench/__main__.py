@@ -31,6 +31,13 @@ PASSES = (
     "import sys, pathlib; from reportgen.writers import pdflatex; "
     "print(pdflatex.compile(pathlib.Path(sys.argv[1]).read_text(encoding='utf-8')).passes)"
 )
+STARTED = {
+    "check": (("check", "{file}"), "import numpy, yaml, pydantic", "≤ 1.5"),
+    "kinds": (("kinds",), "import typer", "≤ 1.8"),
+    "--help": (("--help",), "import typer", "≤ 1.8"),
+}
+"""Commands that are over before one notices: their arguments, the imports that they are held against, the aim."""
+CLASSES = 250, 1000
 SAME_DATE = {"SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"}
 
 
@@ -74,6 +81,15 @@ class Bench:
         options = ("--json", str(self.folder / "results.json"))
         return run((sys.executable, "-c", BUILD, "solve", str(self.file), *options), self.folder, self.installed())
 
+    def started(self, arguments: Sequence[str]) -> Cost:
+        """A short command, in a cold process."""
+        given = (argument.format(file=self.file) for argument in arguments)
+        return run((sys.executable, "-c", BUILD, *given), self.folder, self.installed())
+
+    def imported(self, statement: str) -> Cost:
+        """A process that loads some libraries and ends."""
+        return run((sys.executable, "-c", statement), self.folder, self.installed())
+
     def installed(self) -> dict[str, str]:
         """The checkout before whatever is installed, with its bytecode kept as that of an installed package is."""
         bytecode = {"PYTHONPYCACHEPREFIX": str(self.folder / "bytecode"), "PYTHONDONTWRITEBYTECODE": ""}
@@ -116,6 +132,8 @@ class Bench:
             passes = int(self.ask("-c", PASSES, str(self.source("latex"))))
             tasks["latex alone"] = partial(self.latex_alone, passes)
             tasks["plain"] = partial(self.plain, size)
+        for name, (arguments, statement, _) in STARTED.items():
+            tasks |= {name: partial(self.started, arguments), statement: partial(self.imported, statement)}
         costs = in_turns(tasks, rounds)
         for engine in self.engines:
             yield _over_typesetter(engine, costs[engine], costs[f"{engine} alone"], passes)
@@ -126,6 +144,10 @@ class Bench:
         count = len(list((self.folder / "sheets" / self.file.stem).glob("*.dxf")))
         yield _per_sheet(middle(costs["sheets"]), middle(costs["solve"]), count)
         yield _solving(json.loads(self.ask("-m", "tests.bench.solving", str(self.file), str(POSITIONS))))
+        for name, (_, statement, aim) in STARTED.items():
+            detail = f"{middle(costs[name]).seconds:.2f} s, {statement} {middle(costs[statement]).seconds:.2f} s"
+            yield Row(f"{name} / its libraries", aim, f"{ratio(costs[name], costs[statement]):.2f}", detail)
+        yield from _of_a_class(json.loads(self.ask("-m", "tests.bench.students", *map(str, CLASSES))))
         for name in (*self.engines, "typst alone"):
             yield Row(f"peak memory, {name}", "", f"{middle(costs[name]).memory:.0f} MB")
 
@@ -150,6 +172,14 @@ def _per_sheet(sheets: Cost, solve: Cost, count: int) -> Row:
     each = (sheets.seconds - solve.seconds) / count
     detail = f"{count} sheets A1, PDF and DXF, {sheets.seconds:.2f} s; results alone {solve.seconds:.2f} s"
     return Row("a drawing sheet beyond the analysis", "≤ 1 s", f"{each:.2f} s", detail)
+
+
+def _of_a_class(taken: Mapping[str, float]) -> Iterator[Row]:
+    for size in CLASSES:
+        yield Row(f"variants for {size} students", "≤ 10 ms", f"{taken[str(size)]:.1f} ms", "a student")
+    for name in ("key", "sheet", "guide", "mark"):
+        over = taken[name] / taken["solve"]
+        yield Row(f"{name} of a student / results", "≤ 10", f"{over:.1f}", f"{taken[name]:.0f} ms")
 
 
 def _solving(taken: dict[str, float]) -> Row:
