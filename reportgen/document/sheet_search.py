@@ -30,6 +30,8 @@ WHOLE_MACHINE = 2.2
 """How many times larger plates of the whole machine are."""
 SMALLER, LARGER = 0.4, 3.0
 """How many times as large as usual plates may become."""
+READABLE = 42.0
+"""The largest plan of a series is not drawn smaller than this (mm) unless it has no room else."""
 ENOUGH = 0.6
 """A sheet is filled to this share at least."""
 SPARE = 0.015
@@ -39,7 +41,7 @@ BEGINNINGS = (1.0, 0.85, 1.15, 0.7, 1.3, 0.6, 1.5)
 ATTEMPTS = 25
 """How often sheets are drawn and, where they came out emptier than estimated, estimated anew."""
 ATTEMPTS_IN_ROWS = 3
-TRIES_IN_ROWS, TRIES = 250, 1500
+TRIES_IN_ROWS, TRIES = 250, 2500
 """So many scales are tried at most."""
 LARGE = 300.0
 """A sheet with more height than this (mm) for plates takes some rows of them."""
@@ -151,7 +153,11 @@ class Search:
 
     def _beginning(self, share: float) -> Choice:
         """Plates so many times as large as usual."""
-        scales = {key: nice_up(one.size / (share * self.usual[key]), one.steps) for key, one in self.largest.items()}
+        scales = {}
+        for key, one in self.largest.items():
+            scale = nice_up(one.size / (share * self.usual[key]), one.steps)
+            # A round scale may leave a plan much smaller than meant.
+            scales[key] = scale if one.size / scale >= READABLE else nice_down(one.size / READABLE, one.steps)
         return Choice(scales, dict.fromkeys(self.forms, self.usual_form))
 
     def _fitting(self, choice: Choice) -> Choice:
@@ -202,16 +208,20 @@ class Search:
         empty = [filled(one.parts, self.space) < ENOUGH + SPARE for one in sheets]
         here = {index for n, some in enumerate(names) if empty[n] for index in some}
         before = {index for n, some in enumerate(names[:-1]) if empty[n + 1] for index in some}
-        keys = [[self.plates.series[index].scaled for index in some] for some in (here, before)]
-        for key in dict.fromkeys([*keys[0], *keys[1], *choice.scales]):
-            if key in choice.scales:
-                for other in self._steps(key, choice.scales[key]):
-                    yield Choice({**choice.scales, key: other}, choice.forms)
+        near = dict.fromkeys(self.plates.series[index].scaled for some in (here, before) for index in some)
+        yield from self._rescaled(choice, near)
         for index, form in choice.forms.items():
             if index in here | before:
                 for changed in self.forms[index]:
                     if changed != form:
                         yield Choice(choice.scales, {**choice.forms, index: changed})
+        yield from self._rescaled(choice, [key for key in choice.scales if key not in near])
+
+    def _rescaled(self, choice: Choice, keys: Iterable[Key]) -> Iterator[Choice]:
+        for key in keys:
+            if key in choice.scales:
+                for other in self._steps(key, choice.scales[key]):
+                    yield Choice({**choice.scales, key: other}, choice.forms)
 
     def _steps(self, key: Key, scale: float) -> Iterator[float]:
         """Some finer scales and some coarser ones at which plates are still of usual size."""
@@ -220,7 +230,7 @@ class Search:
         for _ in range(STEPS):
             finer, coarser = nice_down(0.99 * finer, one.steps), nice_up(1.01 * coarser, one.steps)
             for other in (finer, coarser):
-                if SMALLER * box <= one.size / other <= LARGER * box:
+                if max(SMALLER * box, READABLE) <= one.size / other <= LARGER * box:
                     yield other
 
     def _missing(self, choice: Choice) -> float:
