@@ -115,6 +115,9 @@ class Search:
         They stand in rows throughout if that is found to fill the sheets.  On a small sheet few plates stand in a row:
         there it is not tried.
         """
+        large = too_large(self._estimated(self._fitting(self._beginning(1.0))), self.space)
+        if large:
+            raise TooLargeError(replace(large, name=str(self.chosen.index(int(large.name)) + 1)))
         found: list[tuple[float, list[Laid]]] = []
         for in_rows, attempts in ((True, ATTEMPTS_IN_ROWS if self.is_large else 0), (False, ATTEMPTS)):
             self.estimating = Dividing(self.space, ENOUGH + SPARE, in_rows)
