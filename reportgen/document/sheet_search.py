@@ -160,7 +160,8 @@ class Search:
         for key, one in self.largest.items():
             scale = nice_up(one.size / (share * self.usual[key]), one.steps)
             # A round scale may leave a plan much smaller than meant.
-            scales[key] = scale if one.size / scale >= READABLE else nice_down(one.size / READABLE, one.steps)
+            least = _readable(one)
+            scales[key] = scale if one.size / scale >= least else nice_down(one.size / least, one.steps)
         return Choice(scales, dict.fromkeys(self.forms, self.usual_form))
 
     def _fitting(self, choice: Choice) -> Choice:
@@ -233,7 +234,7 @@ class Search:
         for _ in range(STEPS):
             finer, coarser = nice_down(0.99 * finer, one.steps), nice_up(1.01 * coarser, one.steps)
             for other in (finer, coarser):
-                if max(SMALLER * box, READABLE) <= one.size / other <= LARGER * box:
+                if max(SMALLER * box, _readable(one)) <= one.size / other <= LARGER * box:
                     yield other
 
     def _missing(self, choice: Choice) -> float:
@@ -280,6 +281,11 @@ def _numbered(series: int, plates: Sequence[tuple[str, Scene]]) -> Iterator[tupl
     """Plates with their numbers."""
     for number, (place, scene) in enumerate(plates, start=1):
         yield f"{series}.{number}" if len(plates) > 1 else f"{series}", place, scene
+
+
+def _readable(one: Series) -> float:
+    """What the largest plate of a series is at least (mm)."""
+    return READABLE * (WHOLE_MACHINE if one.is_whole_machine else 1.0)
 
 
 @lru_cache(maxsize=4096)

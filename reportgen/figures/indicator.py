@@ -30,7 +30,7 @@ STROKES = (
 """Pens of the branches in their order, told apart by dashes and width as well as by colour."""
 WIDTH = 80.0
 """Of the diagram at most, mm."""
-NARROW, SHAPE = 36.0, 1.5
+NARROW, SHAPE = 46.0, 1.5
 """On a sheet it is so wide at least (mm), and so many times as wide as high at most."""
 AWAY = 0.94
 """How far beside the cylinder it stands, in its widths."""
