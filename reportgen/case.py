@@ -15,6 +15,8 @@ from reportgen.notation.numbers import Language
 from reportgen.words import load_words, search_path, word
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from reportgen.analysis import Analysis
     from reportgen.catalogue.plane_motion import Exercise
     from reportgen.flywheel import Flywheel
@@ -85,8 +87,8 @@ class Case(Opened):
         written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions)
         return written.in_language(self.words["symbols"])
 
-    def redrawn(self, scales: Mapping[str, float]) -> Case:
-        """The same case with drawings to other scales (SI, by id)."""
+    def redrawn(self, scales: Mapping[str, float | np.ndarray]) -> Case:
+        """The same case with drawings to other scales (SI, by id), one or [N]."""
         case = Case(self.assignment)
         vars(case).update(vars(self), ledger=self.ledger.redrawn(scales))
         return case

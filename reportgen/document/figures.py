@@ -271,8 +271,8 @@ def indicator(report: Report) -> Drawn:
     # What lies below zero stands between diagram and cylinder, where there is half the room.
     highest = max(highest, -2 * lowest)
     side = _free_side(machine)
-    enlarged = report.area.enlarged if report.area else 1.0
-    start, end, mu = indicator_figure.beside(top, bottom, side, 75.0, highest, enlarged)
+    enlarged = report.area.enlarged if report.area else None
+    start, end, mu = indicator_figure.beside(top, bottom, side, highest, enlarged)
     note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
     frame = indicator_figure.Frame(start, end, side, mu, Chain((Symbol("p"),), "N/cm²"), note)
     branches = [

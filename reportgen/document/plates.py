@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import accumulate
 from typing import Literal
 
 import numpy as np
@@ -32,30 +33,27 @@ from reportgen.document.result_tables import (
 )
 from reportgen.figures.charts import Area
 from reportgen.figures.draft import MARGIN
-from reportgen.figures.grid import grid
+from reportgen.figures.grid import grid, widths
 from reportgen.figures.lettering import ENLARGED
 from reportgen.figures.plan import Plan, plan
 from reportgen.figures.scene import Content, Scene
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics.linkage import What
-from reportgen.ledger.scales import extents
+from reportgen.ledger.scales import NOTHING, PER_MM, extents
 from reportgen.notation.expressions import Number
+from reportgen.notation.numbers import nice_up
 
 Set = Literal["kinematics", "forces"]
 SETS: tuple[Set, ...] = ("kinematics", "forces")
 Drawing = tuple[str, Scene]
 """Where it applies, in words, and what is drawn."""
-MOST_COLUMNS = 9
-"""Columns of one table."""
-WIDEST = 180.0
-"""Width of one table on a sheet, mm."""
 NAMES: dict[What, str] = {"v": "velocity", "a": "acceleration"}
 SEGMENT = 2
 """Decimals of lengths on paper, mm."""
 CURVE = "curve"
 """In place of a scale's id: the axes of curves have scales of their own."""
 FINE = (1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.4, 8)
-"""Steps in the height of curves, whose scales are made round afterwards."""
+"""Steps in the height of curves and in the size of plates with their own scales, which are made round afterwards."""
 WHOLE, HALF = (1, 2, 2.5, 4, 5), (1, 2, 2.5, 5)
 """The series of round scales, and those that are round when a part is drawn at half the scale."""
 
@@ -65,7 +63,8 @@ class Series:
     """Plates of one name, in a set and on a layer, and how to draw them.
 
     `scale` is the id of their scale, "" if they have none; series of one `scale` and `key` share it.  `size` is the
-    largest width or height of what they show (SI), as it is without a scale.
+    largest width or height of what they show (SI), as it is without a scale.  Plates that differ too much for one scale
+    have their own `sizes` and each a scale of its own; they share the size on paper that is chosen for the sheet.
     """
 
     name: str
@@ -76,6 +75,8 @@ class Series:
     key: str = ""
     size: float = 0.0
     steps: Sequence[float] = WHOLE
+    sizes: tuple[float, ...] = ()
+    """The larger side (SI) of what each position shows, nan where there is nothing."""
 
     @property
     def scaled(self) -> tuple[str, str]:
@@ -85,15 +86,27 @@ class Series:
     def to_scale(self, report: Report, scale: float) -> Report:
         """The report that the series is drawn from, at its scale on the sheet (SI); of curves 1/scale is the height.
 
-        It draws for the enlargement that follows; numbers in tables are those of the sheet itself.
+        So it is of plates that have their own scales: each is as large as that or, for a round scale, smaller.  The
+        report draws for the enlargement that follows; numbers in tables are those of the sheet itself.
         """
         if self.scale == CURVE:
             height = MM / scale / ENLARGED
-            return replace(report, area=Area(2 * height, height, ENLARGED))
+            return replace(report, area=Area(report.form.shape * height, height, ENLARGED))
         if not scale:
             return report
         enlarged = 1.0 if self.layer == "tables" else ENLARGED
-        return replace(report, case=report.case.redrawn({self.scale: scale * enlarged}), area=Area(enlarged=ENLARGED))
+        own = self.own_scales(scale) if self.sizes else scale
+        return replace(report, case=report.case.redrawn({self.scale: own * enlarged}), area=Area(enlarged=ENLARGED))
+
+    def own_scales(self, scale: float) -> np.ndarray:
+        """The scale at each position at which what it shows is not larger than 1/scale (m)."""
+        largest = max(self.sizes)
+        return np.array([nice_up(max(one, NOTHING * largest) * scale / PER_MM) * PER_MM for one in self.sizes])
+
+    @property
+    def has_own_scales(self) -> bool:
+        """Whether its plates share a size on paper, from which each has a scale of its own."""
+        return self.scale == CURVE or bool(self.sizes)
 
     @property
     def is_whole_machine(self) -> bool:
@@ -139,14 +152,17 @@ def _largest(sizes: np.ndarray) -> float:
 
 def _on_plan(report: Report, prefix: str, scale: str) -> float:
     """The largest side (SI) of the plans whose points have ids that begin so, at all positions that are drawn."""
+    return _largest(_on_plans(report, prefix, scale)[[k - 1 for k in report.plates]])
+
+
+def _on_plans(report: Report, prefix: str, scale: str) -> np.ndarray:
+    """The larger side (SI) of the plan at each position [N]; nothing where the mechanism has no position."""
     families = [family for id, family in report.ledger.families.items() if id.startswith(prefix)]
-    if not families:
-        return 0.0
-    at = [k - 1 for k in report.plates]
     count = report.cycle_count
     points = [np.broadcast_to(family.values, (count,)) for family in families]
     sizes = extents([*points, np.zeros(count)], count) * report.ledger[scale].values
-    return _largest(sizes[:, at])
+    found: np.ndarray = np.nan_to_num(sizes.max(axis=0))
+    return found
 
 
 def _place(report: Report, k: int, of: str = "") -> str:
@@ -212,7 +228,10 @@ def _forces(report: Report) -> Iterator[Series]:
 
 
 def _plans_of(report: Report, polygon: Polygon, group: str) -> Series:
-    """The force plans of one group at all positions; the driver has no name."""
+    """The force plans of one group at all positions, each at its own scale; the driver has no name.
+
+    Forces of combustion are many times those of the other strokes: at one scale those would be points.
+    """
     scale = f"mu.R{polygon.name}"
 
     def drawings(report: Report) -> Iterator[Drawing]:
@@ -221,8 +240,8 @@ def _plans_of(report: Report, polygon: Polygon, group: str) -> Series:
             if drawing.drawn():
                 yield _place(report, k, _of(report, group)), _plain(drawing)
 
-    size = _on_plan(report, f"plan.R{polygon.name}.", scale)
-    return Series("forces", "forces", "forces", drawings, scale, size=size)
+    sizes = _on_plans(report, f"plan.R{polygon.name}.", scale)
+    return Series("forces", "forces", "forces", drawings, scale, "own", 1.0, FINE, tuple(sizes.tolist()))
 
 
 def _of(report: Report, group: str) -> str:
@@ -272,26 +291,30 @@ def _table(*listed: Callable[[Report], Sequence[str]], cycle: bool = False) -> C
         found = dict.fromkeys(id for ids in listed for id in ids(report))
         shown = [id for id in found if not all(report.is_zero(id, k) for k in at)]
         while shown:
-            counts = range(min(len(shown), MOST_COLUMNS), 1, -1)
-            count = next((n for n in counts if _is_narrow(report, shown[:n], at)), 1)
-            yield "", _quantities(report, shown[:count], at)
+            count = _columns(report, shown, at)
+            for some in report.form.broken(at):
+                yield "", grid(*_quantities(report, shown[:count], some), report.form.loose)
             shown = shown[count:]
 
     return drawings
 
 
-def _is_narrow(report: Report, ids: Sequence[str], positions: Sequence[int]) -> bool:
-    """Whether a table of quantities stands beside the title block of any sheet."""
-    return ENLARGED * _quantities(report, ids, positions).width <= WIDEST
+def _columns(report: Report, ids: Sequence[str], positions: Sequence[int]) -> int:
+    """How many of the quantities a table has room for, beside the column of positions."""
+    head, rows = _quantities(report, ids, positions)
+    right = accumulate(widths([*head, *rows], report.form.loose))
+    return max(sum(ENLARGED * one <= report.form.widest for one in right) - 1, 1)
 
 
-def _quantities(report: Report, ids: Sequence[str], positions: Sequence[int]) -> Scene:
-    head = [
+def _quantities(
+    report: Report, ids: Sequence[str], positions: Sequence[int]
+) -> tuple[list[list[Content]], list[list[Content]]]:
+    """The head of a table of quantities and its rows."""
+    head: list[list[Content]] = [
         [report.words["table"]["position"], *(report.ledger.symbol(id) for id in ids)],
         ["", *(_unit(report, id) for id in ids)],
     ]
-    rows = [[str(report.machine.position(k)), *(_bare(report, id, k) for id in ids)] for k in positions]
-    return grid(head, rows)
+    return head, [[str(report.machine.position(k)), *(_bare(report, id, k) for id in ids)] for k in positions]
 
 
 def _unit(report: Report, id: str) -> str:

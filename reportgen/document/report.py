@@ -22,6 +22,7 @@ from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink
 from reportgen.document.prose import Prose
 from reportgen.document.tree import Inlines, Text
 from reportgen.figures.charts import Area
+from reportgen.figures.grid import USUAL_FORM, Form
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.forces.polygon import Polygon
@@ -62,11 +63,12 @@ def member(of: Member) -> Member:
 class Report:
     """A case with its prose; every property is a name in its templates.
 
-    On a drawing sheet curves have an `area` and round scales.
+    On a drawing sheet curves have an `area` and round scales, and long tables a `form`.
     """
 
     case: Case
     area: Area | None = None
+    form: Form = USUAL_FORM
 
     # --- what it is made of
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
 
 from reportgen.figures import style
 from reportgen.figures.metrics import box
@@ -15,22 +18,53 @@ PADDING = 1.4
 EDGE, RULE = Stroke(0.35), Stroke(0.15)
 
 
-def grid(head: Sequence[Sequence[Content]], rows: Sequence[Sequence[Content]]) -> Scene:
+@dataclass(frozen=True, slots=True)
+class Form:
+    """How a sheet sets what has no size of its own.
+
+    Of a long table: how wide it may be (mm), how many rows it may have; of curves: their `shape`, width over height.
+    """
+
+    widest: float = 180.0
+    rows: int = 100
+    parts: int = 1
+    """It is broken into so many parts at least."""
+    loose: float = 1.0
+    """How many times as high as usual its rows are, and as wide the white in its columns."""
+    shape: float = 2.0
+
+    def broken(self, positions: Sequence[int]) -> list[Sequence[int]]:
+        """The positions in parts of about as many rows each."""
+        count = min(max(math.ceil(len(positions) / self.rows), self.parts), len(positions))
+        ends = [round(n * len(positions) / count) for n in range(count + 1)]
+        return [positions[start:end] for start, end in pairwise(ends)]
+
+
+USUAL_FORM = Form()
+
+
+def widths(rows: Sequence[Sequence[Content]], loose: float = 1.0) -> list[float]:
+    """The widths of columns: of each its widest cell with the white beside it."""
+    columns = zip(*rows, strict=True)
+    return [max(box(cell, style.SMALL).width for cell in column) + 2 * PADDING * loose for column in columns]
+
+
+def grid(head: Sequence[Sequence[Content]], rows: Sequence[Sequence[Content]], loose: float = 1.0) -> Scene:
     """Rows below head rows, all of as many cells; columns are as wide as their widest cell."""
     every = [*head, *rows]
-    widths = [max(box(cell, style.SMALL).width for cell in column) + 2 * PADDING for column in zip(*every, strict=True)]
-    width, height = sum(widths), ROW * len(every)
+    across, tall = widths(every, loose), ROW * loose
+    width, height = sum(across), tall * len(every)
     items: list[Item] = []
     for number, row in enumerate(every):
-        left, middle = 0.0, height - ROW * (number + 0.5)
-        for cell, wide in zip(row, widths, strict=True):
+        left, middle = 0.0, height - tall * (number + 0.5)
+        for cell, wide in zip(row, across, strict=True):
             if cell != "":
                 items.append(Label(complex(left + wide / 2, middle), cell, size=style.SMALL))
             left += wide
         if number:
-            below = height - ROW * number
+            below = height - tall * number
             items.append(Line(complex(0, below), complex(width, below), EDGE if number == len(head) else RULE))
-    for left in (sum(widths[:n]) for n in range(1, len(widths))):
+    for left in (sum(across[:n]) for n in range(1, len(across))):
         items.append(Line(complex(left, 0), complex(left, height), RULE))
     items.append(Polyline((0j, complex(width, 0), complex(width, height), complex(0, height)), EDGE, closed=True))
     return Scene(width, height, tuple(items))

@@ -222,14 +222,14 @@ class Ledger:
                     entered(id, values)
         return values
 
-    def redrawn(self, scales: Mapping[str, float]) -> Ledger:
-        """The same ledger with drawings to other scales (SI, by id): what is on paper is as much longer as its
-        scale is smaller, at every position.  Nothing else changes.
+    def redrawn(self, scales: Mapping[str, float | np.ndarray]) -> Ledger:
+        """The same ledger with drawings to other scales (SI, by id), one or [N]: what is on paper is as much longer as
+        its scale is smaller, at every position.  Nothing else changes.
         """
         families = dict(self.families)
         for id, family in self.families.items():
             if id in scales:
-                families[id] = replace(family, values=np.array([scales[id]]), definition=None)
+                families[id] = replace(family, values=np.atleast_1d(scales[id]), definition=None)
             elif (scale := vocabulary.scale_on_paper(id)) in scales:
                 longer = self.families[scale].values / scales[scale]
                 families[id] = replace(family, values=family.values * longer)

@@ -7,16 +7,20 @@ from functools import cache
 from pathlib import Path
 
 from reportgen.case import Case, open_case
-from reportgen.document.drawing_sheets import drawing_sheets
-from reportgen.figures.sheet import Part, Sheet
+from reportgen.document.drawing_sheets import sheets_of
+from reportgen.document.drawn_plates import Plates
+from reportgen.document.outline import open_report
+from reportgen.document.title_block import DEFAULT, TitleBlock, blocks, read_block
+from reportgen.figures.frame import room
+from reportgen.figures.sheet import Part, Room, Sheet
 
 ROOT = Path(__file__).parents[2]
+EVERY = sorted(path.stem for path in (ROOT / "assignments").glob("*.yaml"))
 MACHINES = (
     *("engine-twin-05", "engine-single-V", "engine-v-01", "four-bar-01", "lever-six-bar-01", "linkage-8"),
     *("linkage-slide", "scotch-yoke-01", "shaper-02", "slider-crank-01", "slotted-lever-01", "toggle-press-01"),
 )
 """One of each kind, and a linkage with a sliding driver."""
-SIZES = (*((name, "A1") for name in MACHINES), ("four-bar-02", "A0"), ("slider-crank-02", "A2"), ("four-bar-02", "A3"))
 
 
 @dataclass(frozen=True)
@@ -28,9 +32,26 @@ class Laid:
 
 
 @cache
-def laid(name: str, size: str) -> Laid:
-    case = open_case(ROOT / "assignments" / f"{name}.yaml")
-    return Laid(case, drawing_sheets(case, size))
+def drawn(name: str) -> Plates:
+    """The plates of an assignment, which sheets of all sizes share."""
+    return Plates.of(open_report(open_case(ROOT / "assignments" / f"{name}.yaml")))
+
+
+@cache
+def laid(name: str, size: str, only: str = "") -> Laid:
+    """The sheets of an assignment, or `only` those of a set."""
+    found, sets = drawn(name), [only] if only else []
+    return Laid(found.report.case, sheets_of(found, found.of_sets(sets), size, block_of(name)))
+
+
+def block_of(name: str) -> TitleBlock:
+    return read_block(blocks()[DEFAULT[drawn(name).report.case.assignment.language]])
+
+
+def space(name: str, size: str) -> Room:
+    """What frame and title block leave free."""
+    block = block_of(name)
+    return room(size, block.margins, block.size)
 
 
 def plates(sheet: Sheet) -> list[Part]:

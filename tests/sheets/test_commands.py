@@ -53,9 +53,12 @@ def test_unknown_choices_are_wrong_usage(tmp_path: Path, wrong: tuple[str, str])
     assert not (tmp_path / SMALL.stem).exists()
 
 
-def test_a_plate_larger_than_the_paper_is_named() -> None:
-    with pytest.raises(SheetError, match="Đồ thị công"):
-        api.sheet_files(ROOT / "assignments" / "engine-v-02.yaml", size="A3", formats=())
+def test_a_plate_larger_than_the_paper_is_named(tmp_path: Path) -> None:
+    """A title block that leaves a strip of 17 mm has no room for any plate."""
+    block = tmp_path / "tall.yaml"
+    block.write_text("width: 390\nheight: 260\ncells: []\n")
+    with pytest.raises(SheetError, match=r"Lược đồ cơ cấu.*A3"):
+        api.sheet_files(ROOT / "assignments" / "engine-v-02.yaml", size="A3", formats=(), block=block)
 
 
 @pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="an administrator may write anywhere")

@@ -1,0 +1,274 @@
+"""Where plates stand on drawing sheets: as many as have room, in the order of the work, then spread over the paper.
+
+Each plate goes as high up as it can and there as far to the left, as one lays cards on a table: plates of one height
+stand in rows, smaller ones below one another beside a tall one.  Boxes here have half the white around them at each
+side; a spot is (to the right, down) from where the first one stands.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import accumulate, chain
+
+from reportgen.figures.sheet import GAP, Part, Room
+
+Spot = tuple[float, float]
+
+EDGE = 1e-6
+"""Rounding of places, mm."""
+AHEAD = 4
+"""So many plates more than stand in order are tried in another order."""
+SWEEPS = 12
+"""How often plates are moved to the middle between their neighbours."""
+NEVER = 1e6
+"""How bad it is that a plate has no place on any sheet."""
+
+MOST = 0.9
+"""No sheet can be filled more than this."""
+
+ORDERS: tuple[Callable[[tuple[float, float]], float], ...] = (
+    lambda size: -size[1],
+    lambda size: -size[0],
+    lambda size: -size[0] * size[1],
+)
+"""Orders that leave less white than that of the work."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Paper:
+    """What a room offers to boxes: `wide` × `high`, and below `above` no further to the right than `beside`."""
+
+    wide: float
+    high: float
+    beside: float
+    above: float
+
+    @classmethod
+    def of(cls, room: Room) -> _Paper:
+        size = room.high - room.low
+        wide, high = size.real - GAP, size.imag - GAP
+        return cls(wide, high, wide - room.block.real, high - room.block.imag)
+
+    def floor(self, right: float) -> float:
+        """How far down a box may reach whose right edge is there."""
+        return self.high if right <= self.beside + EDGE else self.above
+
+
+def _spots(sizes: Sequence[tuple[float, float]], paper: _Paper) -> list[Spot]:
+    """The places of plates of some sizes, up to the first that has none."""
+    # What stands already ends in steps: from lefts[n] to the next left it reaches down to lows[n].
+    lefts, lows = [0.0], [0.0]
+    spots: list[Spot] = []
+    for width, height in ((width + GAP, height + GAP) for width, height in sizes):
+        best: tuple[float, int, int] | None = None
+        for step, left in enumerate(lefts):
+            right = left + width
+            if right > paper.wide + EDGE:
+                break
+            top, after = lows[step], step + 1
+            while after < len(lefts) and lefts[after] < right - EDGE:
+                top = max(top, lows[after])
+                after += 1
+            if top + height <= paper.floor(right) + EDGE and (best is None or top < best[0] - EDGE):
+                best = top, step, after
+        if best is None:
+            break
+        top, step, after = best
+        left, right = lefts[step], lefts[step] + width
+        end = lefts[after] if after < len(lefts) else paper.wide
+        rest = [(right, lows[after - 1])] if right < end - EDGE else []
+        lefts[step:after], lows[step:after] = [left, *(x for x, _ in rest)], [top + height, *(y for _, y in rest)]
+        spots.append((left, top))
+    return spots
+
+
+def _rows(sizes: Sequence[tuple[float, float]], paper: _Paper) -> list[Spot]:
+    """The places of plates in rows, up to the first that has none; below a low one may stand another in its row."""
+    spots: list[Spot] = []
+    top = height = 0.0
+    left = right = low = 0.0
+    """Of the last column in the row."""
+    for width, tall in ((width + GAP, height + GAP) for width, height in sizes):
+        if right > 0.0 and low + tall <= top + height + EDGE and _fits(left, low, width, tall, paper):
+            spots.append((left, low))
+            right, low = max(right, left + width), low + tall
+            continue
+        if not _fits(right, top, width, max(tall, height), paper):
+            top, height, right = top + height, 0.0, 0.0
+            if not _fits(0.0, top, width, tall, paper):
+                break
+        spots.append((right, top))
+        left, right, low, height = right, right + width, top + tall, max(height, tall)
+    return spots
+
+
+def _fits(left: float, top: float, width: float, tall: float, paper: _Paper) -> bool:
+    right = left + width
+    return right <= paper.wide + EDGE and top + tall <= paper.floor(right) + EDGE
+
+
+# --- parts on one sheet after another -------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Laid:
+    """The parts of one sheet with their spots."""
+
+    parts: tuple[Part, ...]
+    spots: tuple[Spot, ...]
+
+
+Size = tuple[float, float]
+
+
+@dataclass(slots=True)
+class Dividing:
+    """How parts in the order of the work are divided over sheets, each filled to a share that is `enough`.
+
+    What is found of a run of sizes is kept, for the next parts often have the same ones.
+    """
+
+    room: Room
+    enough: float
+    in_rows: bool = False
+    """Whether plates stand in rows only; else they do where that fills a sheet."""
+    paper: _Paper = field(init=False)
+    _kept: dict[tuple[Size, ...], list[Filling]] = field(default_factory=dict)
+    _turned: dict[tuple[Size, ...], list[Filling]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.paper = _Paper.of(self.room)
+
+    def of(self, parts: Sequence[Part]) -> tuple[float, list[Laid]]:
+        """The parts on sheets, and what these miss of being full enough, in hundredths.
+
+        What misses `NEVER` and more has a part that fits no sheet.
+        """
+        sizes = [(part.scene.width, part.scene.height) for part in parts]
+        area = self.room.area
+        shares = [0.0, *accumulate(width * height / area for width, height in sizes)]
+        found: Found = {len(parts): (0.0, [])}
+        missing, sheets = self._best(sizes, shares, 0, found)
+        return missing, [
+            Laid(tuple(parts[start + index] for index in order), spots) for start, (order, spots, _) in sheets
+        ]
+
+    def _best(self, sizes: list[Size], shares: list[float], start: int, found: Found) -> Best:
+        """The sheets of what begins at `start`, and what they miss."""
+        if start not in found:
+            best: Best = NEVER, []
+            end = bisect_right(shares, shares[start] + 1.0)
+            run = tuple(sizes[start:end])
+            for filling in chain(self._fillings(run), self._in_other_orders(run)):
+                missing, rest = self._best(sizes, shares, start + len(filling[0]), found)
+                missing += 100 * max(self.enough - filling[2], 0.0)
+                if missing < best[0]:
+                    best = missing, [(start, filling), *rest]
+                if missing == 0.0:
+                    break
+            found[start] = best
+        return found[start]
+
+    def _fillings(self, run: tuple[Size, ...]) -> list[Filling]:
+        """What a sheet may take of a run: all it can in this order, then fewer if these still fill it."""
+        if run not in self._kept:
+            self._kept[run] = list(self._found(run))
+        return self._kept[run]
+
+    def _found(self, run: tuple[Size, ...]) -> Iterator[Filling]:
+        shares = list(accumulate(width * height / self.room.area for width, height in run))
+        rows = tuple(_rows(run, self.paper))
+        yield from self._fewer(rows, shares, self.in_rows)
+        if not self.in_rows:
+            yield from self._fewer(tuple(_spots(run, self.paper)), shares, True)
+
+    def _fewer(self, spots: tuple[Spot, ...], shares: Sequence[float], at_least_all: bool) -> Iterator[Filling]:
+        """All plates that have spots, then fewer of them, as long as they fill the sheet."""
+        for count in range(len(spots), 0, -1):
+            if shares[count - 1] < self.enough and not (at_least_all and count == len(spots)):
+                break
+            yield tuple(range(count)), spots[:count], shares[count - 1]
+
+    def _in_other_orders(self, run: tuple[Size, ...]) -> Iterator[Filling]:
+        """More parts than stand in their order; they need not stand in rows."""
+        if self.in_rows:
+            return
+        if run not in self._turned:
+            self._turned[run] = list(self._found_in_other_orders(run))
+        yield from self._turned[run]
+
+    def _found_in_other_orders(self, run: tuple[Size, ...]) -> Iterator[Filling]:
+        count = len(_spots(run, self.paper))
+        shares = list(accumulate(width * height / self.room.area for width, height in run))
+        for more in range(min(count + AHEAD, len(run)), count, -1):
+            if not self.enough <= shares[more - 1] <= MOST:
+                continue
+            for order in ORDERS:
+                turned = tuple(sorted(range(more), key=lambda index: order(run[index])))
+                spots = tuple(_spots([run[index] for index in turned], self.paper))
+                if len(spots) == more:
+                    yield turned, spots, shares[more - 1]
+                    break
+
+
+Filling = tuple[tuple[int, ...], tuple[Spot, ...], float]
+"""Which parts one sheet takes, counted from the first, their spots, and the share they fill."""
+Best = tuple[float, list[tuple[int, Filling]]]
+"""What sheets miss of being full, and where each begins with what it takes."""
+Found = dict[int, Best]
+
+
+def too_large(parts: Sequence[Part], room: Room) -> Part | None:
+    """The first part that has no place on an empty sheet."""
+    paper = _Paper.of(room)
+    return next((part for part in parts if not _spots([(part.scene.width, part.scene.height)], paper)), None)
+
+
+# --- white shared out -----------------------------------------------------------------------------
+
+
+def spread(laid: Laid, room: Room) -> tuple[Part, ...]:
+    """The parts in their places, the white of the sheet shared out between them.
+
+    Rows, which are the parts that begin at one height, move together; then each part moves between its neighbours.
+    """
+    paper = _Paper.of(room)
+    sizes = [(part.scene.width + GAP, part.scene.height + GAP) for part in laid.parts]
+    lefts, tops = [x for x, _ in laid.spots], [y for _, y in laid.spots]
+    everyone = range(len(sizes))
+    rows = [[n for n in everyone if abs(tops[n] - top) < EDGE] for top in sorted(set(tops))]
+    above = [[m for m in everyone if tops[m] + sizes[m][1] <= tops[n] + EDGE and _abreast(lefts, sizes, 0, m, n)]
+             for n in everyone]  # fmt: skip
+    below = [[m for m in everyone if n in above[m]] for n in everyone]
+    for _ in range(SWEEPS):
+        for row in rows:
+            least = max((tops[m] + sizes[m][1] for n in row for m in above[n]), default=0.0)
+            most = min(
+                min([tops[m] for m in below[n]] + [paper.floor(lefts[n] + sizes[n][0])]) - sizes[n][1] for n in row
+            )
+            place = (least + most) / 2 if least else least
+            for n in row:
+                tops[n] = place
+    before = [[m for m in everyone if lefts[m] + sizes[m][0] <= lefts[n] + EDGE and _abreast(tops, sizes, 1, m, n)]
+              for n in everyone]  # fmt: skip
+    behind = [[m for m in everyone if n in before[m]] for n in everyone]
+    for _ in range(SWEEPS):
+        for n in sorted(everyone, key=lefts.__getitem__):
+            least = max((lefts[m] + sizes[m][0] for m in before[n]), default=0.0)
+            end = paper.wide if tops[n] + sizes[n][1] <= paper.above + EDGE else paper.beside
+            most = min([lefts[m] for m in behind[n]] + [end]) - sizes[n][0]
+            lefts[n] = (least + most) / 2
+    corner = complex(room.low.real + GAP, room.high.imag - GAP)
+    return tuple(
+        replace(part, at=corner + complex(left, -top - part.scene.height))
+        for part, left, top in zip(laid.parts, lefts, tops, strict=True)
+    )
+
+
+def _abreast(starts: Sequence[float], sizes: Sequence[tuple[float, float]], way: int, one: int, other: int) -> bool:
+    """Whether two boxes overlap across (0) or upwards (1), so that neither may pass the other."""
+    return (
+        starts[one] < starts[other] + sizes[other][way] - EDGE and starts[other] < starts[one] + sizes[one][way] - EDGE
+    )

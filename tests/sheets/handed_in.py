@@ -1,0 +1,80 @@
+"""What is asked of every drawing sheet: plates in the frame, apart, standard letters and pens, little white."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+from reportgen.figures.frame import SIZES as PAPER
+from reportgen.figures.geometry import bounds
+from reportgen.figures.lettering import CAPITAL
+from reportgen.figures.metrics import POINT, SCRIPT
+from reportgen.figures.scene import Label
+from reportgen.figures.sheet import GAP, Part, Sheet
+from tests.sheets.laid import block_of, laid, plates
+
+EDGE = 1e-6
+"""Rounding of places, mm."""
+PENS = {0.35, 0.7}
+"""Widths of lines on a sheet (ISO 128), mm."""
+LEAST = 2.49
+"""Height of capitals of the smallest letters, mm: 2.5 by ISO 3098, with the last digit of a font size."""
+FULL = 0.6
+"""What of the free area of a sheet its plates take."""
+SMALL, NEARLY_ALL = 0.4, 0.75
+"""A few plates stand on an A3 sheet: of its sheets this share is full, and none is emptier than that."""
+
+
+def check(name: str, size: str, only: str = "") -> list[float]:
+    """Check the sheets of an assignment; gives the share of each that is filled."""
+    found = laid(name, size, only).sheets
+    for number, sheet in enumerate(found, start=1):
+        plates_keep_apart(sheet, f"{size}, sheet {number}")
+        letters_and_pens_are_standard(sheet, f"{size}, sheet {number}")
+    shares = [filled(name, sheet) for sheet in found]
+    if size == "A3":
+        assert min(shares) >= SMALL, (size, shares)
+        assert sum(share >= FULL for share in shares) >= NEARLY_ALL * len(shares), (size, shares)
+    else:
+        assert min(shares) >= FULL, (size, shares)
+    return shares
+
+
+def filled(name: str, sheet: Sheet) -> float:
+    """The area of plates with their captions over that inside the frame without the title block."""
+    paper, block = PAPER[sheet.name], block_of(name).size
+    free = (paper[0] - 30) * (paper[1] - 20) - block[0] * block[1]
+    return sum(part.scene.width * part.scene.height for part in plates(sheet)) / free
+
+
+def plates_keep_apart(sheet: Sheet, where: str) -> None:
+    """From one another, from the frame and from the title block; what a plate draws stays in its box."""
+    block = next(part for part in sheet.parts if part.name == "title block")
+    width, height = PAPER[sheet.name]
+    for part in plates(sheet):
+        inside(part.box, (complex(20, 10), complex(width - 10, height - 10)), f"{where}, {part.name}")
+        inside(bounds(part.scene.items), (0j, complex(part.scene.width, part.scene.height)), f"{where}, {part.name}")
+    for one, other in combinations([*plates(sheet), block], 2):
+        assert apart(one, other) >= GAP - EDGE, (where, one.name, other.name)
+
+
+def letters_and_pens_are_standard(sheet: Sheet, where: str) -> None:
+    for part in plates(sheet):
+        sizes = [item.size for item in part.scene.items if isinstance(item, Label)]
+        assert SCRIPT * CAPITAL * POINT * min(sizes) >= LEAST, (where, part.name)
+        strokes = (getattr(item, "stroke", None) for item in part.scene.items)
+        assert {stroke.width for stroke in strokes if stroke is not None} <= PENS, (where, part.name)
+
+
+Box = tuple[complex, complex]
+
+
+def inside(box: Box, room: Box, name: str) -> None:
+    below, above = box[0] - room[0], room[1] - box[1]
+    assert min(below.real, below.imag, above.real, above.imag) >= -EDGE, name
+
+
+def apart(one: Part, other: Part) -> float:
+    """How much white lies between two parts, across or upwards; negative where they overlap."""
+    (low, high), (its_low, its_high) = one.box, other.box
+    across = max(its_low.real - high.real, low.real - its_high.real)
+    return max(across, its_low.imag - high.imag, low.imag - its_high.imag)
