@@ -8,9 +8,10 @@ from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_places import direction, unit
 from reportgen.ledger.instant.speeds import Board
 from reportgen.ledger.instant.steps import Equation, Step
-from reportgen.ledger.instant.vectors import Vector, components, parallel, solved_for
+from reportgen.ledger.instant.vectors import Vector, components, solved_for
 from reportgen.notation.expressions import Symbol, sqrt, total
 from reportgen.plane_motion.conditions import GROUND
+from reportgen.plane_motion.ways import parallel
 
 
 @dataclass
@@ -34,14 +35,14 @@ def enter_accelerations(board: Board) -> None:
     _given(parts)
     while _next(parts):
         pass
-    for asked in board.layout.exercise.asked:
+    for asked in board.layout.given.find:
         if asked.what == "a" and asked.of in parts.of and not board.knows(asked.id):
             _whole(parts, asked.of)
 
 
 def _given(parts: Parts) -> None:
     board = parts.board
-    for rate in board.layout.exercise.given.given:
+    for rate in board.layout.given.given:
         match rate:
             case file.EpsilonOf(body=body, value=value):
                 board.given(f"eps.{body}", value.si)
@@ -60,7 +61,7 @@ def _given(parts: Parts) -> None:
 
 def _held(board: Board, body: int) -> bool:
     """Whether a joint keeps a body from turning, not only at the instant."""
-    joints = board.layout.exercise.given.joints
+    joints = board.layout.given.joints
     return any(isinstance(one, file.Slider | file.Translation) and one.body == body for one in joints)
 
 
@@ -72,7 +73,7 @@ def _next(parts: Parts) -> bool:
             return True
         if _by_base(parts, body, names):
             return True
-    joints = board.layout.exercise.given.joints
+    joints = board.layout.given.joints
     return any(_slot(parts, joint) for joint in joints if isinstance(joint, file.SlotJoint) and joint.on)
 
 
@@ -227,7 +228,7 @@ def _two_unknown(parts: Parts, body: int, point: str, base: str, path: Path) -> 
 def _rolling(parts: Parts, body: int) -> bool:
     """ε = aᵗ/r of a disc that rolls on the ground: what the acceleration of its centre is along the way it rolls."""
     board, q = parts.board, parts.board.q
-    centre, disc = board.layout.centres.get(body), board.layout.exercise.given.disc(body)
+    centre, disc = board.layout.centres.get(body), board.layout.given.disc(body)
     if centre is None or disc is None or centre.rule != "contact" or board.knows(f"eps.{body}"):
         return False
     if disc.centre not in parts.of:

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from reportgen.catalogue.plane_motion import Exercise
+from reportgen.catalogue.plane_motion_centres import Layout, lay_out
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.instant.accelerations import enter_accelerations
 from reportgen.ledger.instant.base_points import by_base_point
-from reportgen.ledger.instant.centres import Layout, lay_out
 from reportgen.ledger.instant.proportion import enter_proportion
 from reportgen.ledger.instant.speeds import Board, derive, enter_given
 from reportgen.ledger.instant.steps import Step
@@ -39,7 +39,7 @@ def work_out(exercise: Exercise, units: Mapping[str, str], names: Mapping[str, s
 
     `units` and `names` are the units and the indices of symbols as a language has them.
     """
-    board = Board(Sheet(POSITIONS), lay_out(exercise))
+    board = Board(Sheet(POSITIONS), lay_out(exercise.given, exercise.motion))
     enter_given(board)
     while derive(board) or by_base_point(board) or enter_proportion(board):
         pass

@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from reportgen.catalogue import plane_motion_file as file
-from reportgen.catalogue.plane_motion import Exercise
 from reportgen.catalogue.plane_motion_places import contact_of_discs, contact_on_line, direction, unit
-from reportgen.ledger.instant.vectors import parallel, perpendicular
 from reportgen.plane_motion.conditions import GROUND
+from reportgen.plane_motion.motion import Motion
+from reportgen.plane_motion.ways import parallel, perpendicular
 
 Rule = Literal["pivot", "contact", "normals", "translation"]
 NEAR = 1e-9
@@ -37,12 +37,18 @@ class Centre:
     points: tuple[str, ...] = ()
     way: complex = 0j
 
+    @property
+    def by_joint(self) -> bool:
+        """Whether a joint makes the body turn about a fixed point or move in translation, at any instant."""
+        return self.rule == "pivot" or (self.rule == "translation" and not self.points)
+
 
 @dataclass
 class Layout:
     """Bodies with all points that move with them, the directions of their velocities, and the instant centres."""
 
-    exercise: Exercise
+    given: file.Parameters
+    motion: Motion
     points: dict[str, complex] = field(default_factory=dict)
     members: dict[int, list[str]] = field(default_factory=dict)
     ways: dict[str, complex] = field(default_factory=dict)
@@ -67,10 +73,10 @@ class Layout:
         return abs(self.arm(centre, point)) < NEAR
 
 
-def lay_out(exercise: Exercise) -> Layout:
+def lay_out(given: file.Parameters, motion: Motion) -> Layout:
     """Everything about directions and centres that the joints and the given directions tell."""
-    given, system = exercise.given, exercise.motion.system
-    found = Layout(exercise, dict(system.points), {body: [] for body in system.bodies})
+    system = motion.system
+    found = Layout(given, motion, dict(system.points), {body: [] for body in system.bodies})
     for body, names in system.bodies.items():
         found.members[body] += [name for name in names if _moves_alike(given, body, system.body_of(name), name)]
     for index, joint in enumerate(given.joints):
@@ -97,7 +103,7 @@ def _moves_alike(given: file.Parameters, body: int, owner: int, point: str) -> b
 
 
 def _enter(found: Layout, joint: file.Joint, index: int) -> None:
-    given, known = found.exercise.given, found.points
+    given, known = found.given, found.points
     match joint:
         case file.Pin(at=at, bodies=bodies) if GROUND in bodies:
             body = max(bodies)
@@ -152,7 +158,7 @@ def _by_normals(found: Layout, body: int, one: str, other: str) -> Centre | None
         return Centre(body, "translation", points=(one, other), way=u)
     n, m = 1j * u, 1j * w
     at = p + n * (((q - p).conjugate() * m).imag / (n.conjugate() * m).imag)
-    letter = next(one for one in LETTERS if not any(name[0] == one for name in found.exercise.given.points))
+    letter = next(one for one in LETTERS if not any(name[0] == one for name in found.given.points))
     name = next((name for name, place in found.points.items() if abs(place - at) < NEAR), f"{letter}{body}")
     return Centre(body, "normals", name, at, (one, other))
 
