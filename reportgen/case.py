@@ -120,9 +120,27 @@ class ExerciseCase(Opened):
         """
         from reportgen.ledger.instant.write import work_out
 
-        worked = work_out(self.exercise, self.words["units"], self.words["symbols"])
+        first = next(iter(self.exercise.given.methods), None)
+        worked = work_out(self.exercise, self.words["units"], self.words["symbols"], first)
         if worked.missing:
             raise NotOfferedError(word("no_steps", self.assignment.language, asked=", ".join(worked.missing)))
+        return self._by_its_method(worked)
+
+    @cached_property
+    def further(self) -> tuple[Worked, ...]:
+        """The velocities worked out anew by each further method that the file asks for.
+
+        Raises `NotOfferedError` for a method of which no steps are known here.
+        """
+        from reportgen.ledger.instant.write import work_out
+
+        rest = self.exercise.given.methods[1:]
+        each = (work_out(self.exercise, self.words["units"], self.words["symbols"], one, True) for one in rest)
+        return tuple(map(self._by_its_method, each))
+
+    def _by_its_method(self, worked: Worked) -> Worked:
+        if not worked.by_method:
+            raise NotOfferedError(word("no_method_steps", self.assignment.language, method=worked.method))
         return worked
 
     @property

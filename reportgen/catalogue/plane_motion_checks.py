@@ -6,6 +6,8 @@ from collections.abc import Iterable, Iterator
 
 from reportgen.assignment.common import Draft
 from reportgen.catalogue import plane_motion_file as file
+from reportgen.catalogue.plane_motion_centres import Layout, lay_out
+from reportgen.catalogue.plane_motion_methods import why_not
 from reportgen.catalogue.plane_motion_places import TOP, MisplacedError, system
 from reportgen.errors import Finding, Where
 from reportgen.plane_motion.conditions import GROUND
@@ -173,6 +175,18 @@ def _motion(given: file.Parameters) -> Iterator[Finding]:
     for index, asked in enumerate(given.find):
         if not knows[asked.what](asked.of):
             yield Finding("undetermined", (*TOP, "find", index), {"text": asked.id, "open": _open(motion, asked)})
+
+    yield from _methods(given, lay_out(given, motion))
+
+
+def _methods(given: file.Parameters, layout: Layout) -> Iterator[Finding]:
+    """Every method that is asked for can apply, and is asked for once."""
+    for index, method in enumerate(given.methods):
+        where = (*TOP, "methods", index)
+        if method in given.methods[:index]:
+            yield Finding("method-repeated", where, {"text": method})
+        elif code := why_not(method, layout):
+            yield Finding(code, where, {"text": method})
 
 
 def _place_of(name: str) -> Where:

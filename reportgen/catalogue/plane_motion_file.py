@@ -297,6 +297,9 @@ class AskedId(Reader):
         return {"type": "string", "pattern": f"^{_ASKED.pattern.replace('?P<what>', '').replace('?P<of>', '')}$"}
 
 
+Method = Literal["instant centre", "base point", "projection", "moving frame"]
+
+
 class Parameters(Part):
     """One instant of a system of bodies in plane motion."""
 
@@ -305,6 +308,7 @@ class Parameters(Part):
     joints: Annotated[tuple[Joint, ...], Field(max_length=MOST_NAMES)] = ()
     given: Annotated[tuple[GivenRate, ...], Field(min_length=1, max_length=MOST_NAMES)]
     find: Annotated[tuple[Annotated[Asked, AskedId()], ...], Field(min_length=1, max_length=MOST_NAMES)]
+    methods: Annotated[tuple[Method, ...], Field(max_length=4)] = ()
 
     def disc(self, body: int) -> Disc | None:
         return self.bodies[body].disc if body in self.bodies else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -40,6 +40,10 @@ AT = 1
 MM = 1e3
 PLACES = (25.0, 35.0, 35.0)
 """Widths (mm) of the columns of the coordinates."""
+COMPARED = (25.0, 135.0)
+"""Of the comparison of methods: its first column, and all others together."""
+AGREED = 1e-9
+"""Values that differ by less than this share are one."""
 ANSWER = (25.0, 65.0, 70.0)
 """Widths (mm) of the columns of the answers."""
 
@@ -63,7 +67,7 @@ def solution(case: ExerciseCase) -> Document:
 
 def task_names(case: ExerciseCase) -> Mapping[str, Any]:
     """What the templates of an exercise name that say what is given and asked."""
-    page = Page(case)
+    page = Page(case, case.worked)
     return {
         "title": case.title,
         "variant": case.assignment.variant,
@@ -78,9 +82,13 @@ def task_names(case: ExerciseCase) -> Mapping[str, Any]:
 
 def names(case: ExerciseCase) -> Mapping[str, Any]:
     """What the templates of its solution name."""
-    page = Page(case)
+    page = Page(case, case.worked)
+    further = [Page(case, worked) for worked in case.further]
     return {
         **task_names(case),
+        "method": page.method,
+        "further": [WayView(one.method, one.steps_beside(case.worked)) for one in further],
+        "comparison": page.comparison(further) if further else (),
         "lengths": page.lengths,
         "steps": page.steps,
         "velocity_figure": page.figure("velocity"),
@@ -117,6 +125,16 @@ class StepView:
     angles: tuple[Inlines, ...]
     sense: str
     way: str
+    contact: PointName | str
+    """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
+
+
+@dataclass(frozen=True)
+class WayView:
+    """A further solution as templates name it."""
+
+    name: str
+    steps: tuple[StepView, ...]
 
 
 @dataclass(frozen=True)
@@ -124,10 +142,7 @@ class Page:
     """An exercise as its page shows it."""
 
     case: ExerciseCase
-
-    @property
-    def worked(self) -> Worked:
-        return self.case.worked
+    worked: Worked
 
     @property
     def who(self) -> str:
@@ -222,6 +237,33 @@ class Page:
     def steps(self) -> tuple[StepView, ...]:
         return tuple(map(self._step, self.worked.steps))
 
+    def steps_beside(self, first: Worked) -> tuple[StepView, ...]:
+        """The steps without those that another solution has already."""
+        return tuple(self._step(step) for step in self.worked.steps if step not in first.steps)
+
+    @property
+    def method(self) -> str:
+        """What its method is called; "" where it is chosen for each step."""
+        return str(self.case.words["instant"]["methods"][self.worked.method]) if self.worked.method else ""
+
+    def comparison(self, further: Sequence[Page]) -> Table:
+        """What is asked of velocities, by each method that leads to it.  Raises `ValueError` if two disagree."""
+        words, pages = self.case.words["instant"], (self, *further)
+        rows: list[tuple[Cell, ...]] = []
+        for one in self.case.exercise.asked:
+            ledgers = [page.worked.ledger for page in pages]
+            found = [float(ledger[one.id].values[0]) for ledger in ledgers if one.id in ledger]
+            if one.what not in ("v", "omega"):
+                continue
+            if max(found) - min(found) > AGREED * max(found):
+                raise ValueError(f"methods disagree on {one.id}: {found}")
+            shown = [(Value(ledger.number(one.id, AT)),) if one.id in ledger else (Text("–"),) for ledger in ledgers]
+            rows.append((Cell((InlineMath(ledgers[0].symbol(one.id)),)), *map(Cell, shown)))
+        head = (words["quantity"], *(page.method for page in pages))
+        columns = (Column(COMPARED[0]), *(Column(COMPARED[1] / len(pages)) for _ in pages))
+        heads = tuple(Cell((Text(str(text)),)) for text in head)
+        return Table(columns, (heads,), tuple(rows), (Text(str(words["compared"])),), "tab.compared")
+
     def _step(self, step: Step) -> StepView:
         worked, motion = self.worked, self.case.exercise.motion
         ledger, layout = worked.ledger, worked.layout
@@ -230,6 +272,7 @@ class Page:
         rate = motion.omega(step.body) if step.body else 0.0
         if any(id.startswith("eps.") for id in shown):
             rate = motion.epsilon(step.body)
+        rolling = centre is not None and centre.rule == "contact" and centre.name in (step.point, step.base)
         others = centre.points if centre is not None and centre.points else ("", "")
         angles = dict.fromkeys(id for one in shown for id in self._angles_of(one))
         return StepView(
@@ -245,6 +288,7 @@ class Page:
             tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),
             self._sense(rate) if rate else str(self.case.words["instant"]["no_sense"]),
             self._heading(step),
+            PointName(centre.name) if rolling and centre is not None else "",
         )
 
     def _angles_of(self, id: str) -> list[str]:

@@ -131,6 +131,16 @@ EDITS = [
         "    - {type: velocity, point: B, size: 1 m/s, direction: 0 deg}\n    - {type: epsilon",
         ["16:7 contradiction"],
     ),
+    ("method of no name", BASE, "find: [v.A", "methods: [guessing]\n  find: [v.A", ["17:13 choice"]),
+    (
+        "method named twice",
+        BASE,
+        "find: [v.A",
+        "methods: [projection, projection]\n  find: [v.A",
+        ["17:25 method-repeated"],
+    ),
+    ("no moving frame", BASE, "find: [v.A", "methods: [moving frame]\n  find: [v.A", ["17:13 no-moving-frame"]),
+    ("no component", WHEELS, "find: [omega.1", "methods: [projection]\n  find: [omega.1", ["16:13 no-projection"]),
     ("disc above its line", WHEELS, "[0 m, 1 m]", "[0 m, 1.1 m]", ["11:7 no-contact"]),
     ("gears apart", WHEELS, "[0 m, 3 m]", "[0 m, 4 m]", ["13:7 no-contact-of-discs"]),
     (
@@ -175,6 +185,40 @@ def test_distances_of_what_does_not_touch_are_told(tmp_path: Path) -> None:
     message = told(tmp_path, WHEELS.replace("[0 m, 1 m]", "[0 m, 1.1 m]"))
     assert "1100 mm" in message
     assert "1000 mm" in message
+
+
+LEVER = """\
+kind: plane-motion
+parameters:
+  points:
+    O: {at: [0 m, 0 m]}
+    A: {at: [1 m, 0 m]}
+  bodies:
+    1: {points: [O, A]}
+  joints:
+    - {type: pin, at: O, bodies: [0, 1]}
+  given:
+    - {type: omega, body: 1, value: 2 rad/s}
+  find: [v.A]
+  methods: [base point]
+"""
+
+
+def test_what_turns_about_a_fixed_point_needs_no_method(tmp_path: Path) -> None:
+    assert ":13:13: " in told(tmp_path, LEVER)
+    assert "no body is in plane motion" in told(tmp_path, LEVER)
+
+
+@pytest.mark.parametrize(
+    ("method", "why"),
+    [
+        ("instant centre", "whose directions of motion are known"),
+        ("base point", "two points that move along known lines"),
+    ],
+)
+def test_a_method_that_cannot_apply_says_why(method: str, why: str, tmp_path: Path) -> None:
+    """The rods of THREE_RODS have no two guided points."""
+    assert why in told(tmp_path, THREE_RODS + f"  methods: [{method}]\n")
 
 
 @pytest.mark.parametrize("base", [BASE, WHEELS])

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 from reportgen.catalogue.plane_motion import Exercise
 from reportgen.catalogue.plane_motion_centres import Layout, lay_out
+from reportgen.catalogue.plane_motion_file import Method
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.instant.accelerations import enter_accelerations
-from reportgen.ledger.instant.base_points import by_base_point
-from reportgen.ledger.instant.proportion import enter_proportion
-from reportgen.ledger.instant.speeds import Board, derive, enter_given
+from reportgen.ledger.instant.methods import belongs, find_velocities
+from reportgen.ledger.instant.speeds import Board, enter_given
 from reportgen.ledger.instant.steps import Step
 from reportgen.notation.expressions import Symbol, refs
 from reportgen.notation.sheet import Sheet
@@ -32,18 +32,31 @@ class Worked:
     layout: Layout
     steps: tuple[Step, ...]
     missing: tuple[str, ...]
+    method: Method | None = None
+
+    @property
+    def by_method(self) -> bool:
+        """Whether a step of it is its method's own."""
+        return self.method is None or any(belongs(step, self.method) for step in self.steps)
 
 
-def work_out(exercise: Exercise, units: Mapping[str, str], names: Mapping[str, str]) -> Worked:
+def work_out(
+    exercise: Exercise,
+    units: Mapping[str, str],
+    names: Mapping[str, str],
+    method: Method | None = None,
+    velocities_alone: bool = False,
+) -> Worked:
     """The exercise worked out step by step; what nothing asked stands on is left out.
 
-    `units` and `names` are the units and the indices of symbols as a language has them.
+    `units` and `names` are the units and the indices of symbols as a language has them.  Velocities are found by the
+    `method` if one is named; where they alone are wanted, by no other.
     """
     board = Board(Sheet(POSITIONS), lay_out(exercise.given, exercise.motion))
     enter_given(board)
-    while derive(board) or by_base_point(board) or enter_proportion(board):
-        pass
-    enter_accelerations(board)
+    find_velocities(board, method, alone=velocities_alone)
+    if not velocities_alone:
+        enter_accelerations(board)
     missing = [one.id for one in exercise.asked if one.what != "centre" and one.id not in board.q]
     for asked in exercise.asked:
         if asked.what == "centre":
@@ -52,6 +65,8 @@ def work_out(exercise: Exercise, units: Mapping[str, str], names: Mapping[str, s
         _signed(board, asked.id)
     wanted = [one.id for one in exercise.asked]
     wanted += [id for id in board.q.families if id.startswith(("centre.", "turn."))]
+    if velocities_alone and not any(one.what in ("v", "omega") for one in exercise.asked):
+        wanted += [id for id in board.q.families if id.startswith(("v.", "omega."))]
     needed = _with_ancestors(board, wanted)
     steps = tuple(step for step in board.steps if _leads_on(step, needed))
     # A step that is taken is written out whole.
@@ -63,7 +78,7 @@ def work_out(exercise: Exercise, units: Mapping[str, str], names: Mapping[str, s
             q.enter(family)
     decimals, cancellations = choose_decimals(q.families, (), set(), (1,))
     ledger = Ledger(q.families, decimals, POSITIONS, cancellations, units).in_language(names)
-    return Worked(ledger, board.layout, steps, tuple(missing))
+    return Worked(ledger, board.layout, steps, tuple(missing), method)
 
 
 def _centre(board: Board, body: int) -> bool:
