@@ -148,7 +148,9 @@ def test_all_methods_that_apply_agree(tmp_path: Path, form: str, a: int, b: int,
 def test_a_file_may_ask_for_several(tmp_path: Path) -> None:
     text = (FOLDER / "01.yaml").read_text(encoding="utf-8")
     path = tmp_path / "file.yaml"
-    path.write_text(text.partition("  methods:")[0] + "  methods: [base point, projection, instant centre]\n", encoding="utf-8")
+    path.write_text(
+        text.partition("  methods:")[0] + "  methods: [base point, projection, instant centre]\n", encoding="utf-8"
+    )
     case = ExerciseCase(catalogue.load(path))
     assert case.worked.method == "base point"
     assert [one.method for one in case.further] == ["projection", "instant centre"]
