@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from reportgen.flywheel import Flywheel
     from reportgen.ledger.core import Ledger
     from reportgen.ledger.forces.polygon import Polygon
+    from reportgen.ledger.instant.literal import LiteralBoard
     from reportgen.ledger.instant.write import Worked
 
 
@@ -142,6 +143,15 @@ class ExerciseCase(Opened):
         if not worked.by_method:
             raise NotOfferedError(word("no_method_steps", self.assignment.language, method=worked.method))
         return worked
+
+    @cached_property
+    def literal(self) -> LiteralBoard | None:
+        """The quantities of the solution by symbols; None where the file has none."""
+        if not self.exercise.given.literal:
+            return None
+        from reportgen.ledger.instant.literal import LiteralBoard
+
+        return LiteralBoard(self.exercise, self.worked)
 
     @property
     def ledger(self) -> Ledger:

@@ -56,6 +56,8 @@ class Layout:
     centres: dict[int, Centre] = field(default_factory=dict)
     slots: dict[str, complex] = field(default_factory=dict)
     """Points that are guided along a straight line of the ground."""
+    contacts: dict[int, str] = field(default_factory=dict)
+    """The points in which discs touch, by the index of their joint."""
 
     def point_at(self, at: complex, letter: str) -> str:
         """The name of the point at a place, a new one if none is declared there."""
@@ -116,6 +118,7 @@ def _enter(found: Layout, joint: file.Joint, index: int) -> None:
             found.centres.setdefault(body, Centre(body, "translation"))
         case file.RollingOnLine(disc=body, on=carrier):
             touch = found.point_at(contact_on_line(joint, index, given, known), "K")
+            found.contacts[index] = touch
             disc = given.disc(body)
             if carrier == GROUND and disc is not None:
                 found.centres[body] = Centre(body, "contact", touch, known[touch])
@@ -123,6 +126,7 @@ def _enter(found: Layout, joint: file.Joint, index: int) -> None:
             _share(found, touch, body, carrier)
         case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
             touch = found.point_at(contact_of_discs(joint, index, given, known), "K")
+            found.contacts[index] = touch
             if GROUND in discs:
                 body = max(discs)
                 found.centres[body] = Centre(body, "contact", touch, known[touch])

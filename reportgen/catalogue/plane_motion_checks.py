@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from pydantic import ValidationError
 
 from reportgen.assignment.common import Draft
 from reportgen.catalogue import plane_motion_file as file
+from reportgen.catalogue import plane_motion_symbols as symbols
 from reportgen.catalogue.plane_motion_centres import Layout, lay_out
 from reportgen.catalogue.plane_motion_methods import why_not
 from reportgen.catalogue.plane_motion_places import TOP, MisplacedError, system
@@ -21,7 +25,11 @@ def check(draft: Draft) -> Iterator[Finding]:
         return
     names = _Names(given)
     found = [*names.points(), *names.bodies(), *names.joints(), *names.rates(), *names.asked()]
-    yield from found or _motion(given)
+    yield from found or _motion(given, draft.raw["parameters"])
+
+
+CHANGED = 0.0137
+"""By which share the first symbol is changed to see whether the system still moves; the next ones by more."""
 
 
 class _Names:
@@ -148,7 +156,7 @@ def _one_of(told: list[str], keys: tuple[str, ...], where: Where) -> Iterator[Fi
 # --- the motion -----------------------------------------------------------------------------------
 
 
-def _motion(given: file.Parameters) -> Iterator[Finding]:
+def _motion(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Finding]:
     """The system can move as is given, and what is asked follows from that."""
     try:
         motion = Motion(system(given))
@@ -177,6 +185,23 @@ def _motion(given: file.Parameters) -> Iterator[Finding]:
             yield Finding("undetermined", (*TOP, "find", index), {"text": asked.id, "open": _open(motion, asked)})
 
     yield from _methods(given, lay_out(given, motion))
+    yield from _by_symbols(given, raw)
+
+
+def _by_symbols(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Finding]:
+    """The system moves whatever the symbols stand for, and not only at the values that they have."""
+    if not given.symbols:
+        return
+    changes = {name: 1 + CHANGED * (index + 1) for index, name in enumerate(given.symbols)}
+    changed = {name: f"{one.given.si * changes[name]!r} {symbols.si_unit(one)}" for name, one in given.symbols.items()}
+    try:
+        other = Motion(system(file.Parameters.model_validate({**raw, "symbols": changed})))
+        moves = not (other.velocity_conflicts or other.acceleration_conflicts)
+    except (MisplacedError, ValidationError):
+        moves = False
+    if not moves:
+        shown = ", ".join(f"{name} = {text}" for name, text in changed.items())
+        yield Finding("only-at-values", (*TOP, "symbols"), {"text": shown})
 
 
 def _methods(given: file.Parameters, layout: Layout) -> Iterator[Finding]:

@@ -203,11 +203,6 @@ class VelocityOf(Part):
     def called(self) -> tuple[object, ...]:
         return ("velocity", self.point)
 
-    @property
-    def along(self) -> float | None:
-        """Its size (SI); None where only the line of action is known."""
-        return None if self.size is None else self.size.si
-
 
 class AccelerationOf(Part):
     """The acceleration of a point, by size and direction; without a size only its line of action is known."""
@@ -220,11 +215,6 @@ class AccelerationOf(Part):
     @property
     def called(self) -> tuple[object, ...]:
         return ("acceleration", self.point)
-
-    @property
-    def along(self) -> float | None:
-        """Its size (SI); None where only the line of action is known."""
-        return None if self.size is None else self.size.si
 
 
 class OmegaOf(Part):

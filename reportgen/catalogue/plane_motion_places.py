@@ -5,6 +5,8 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.linkage_file import place
@@ -12,6 +14,7 @@ from reportgen.errors import Finding, Where
 from reportgen.plane_motion import conditions as on
 from reportgen.plane_motion.conditions import Condition
 from reportgen.plane_motion.solving import System
+from reportgen.units import Given
 
 TOP: Where = ("parameters",)
 TOUCHING = 1e-6
@@ -125,14 +128,47 @@ def contact_of_discs(
     )
 
 
+class Geometry:
+    """The points and lines of a file in numbers; whoever works with symbols has another one."""
+
+    def __init__(self, given: file.Parameters, points: Mapping[str, Any]) -> None:
+        self.given = given
+        self.points = points
+
+    def size(self, told: Given) -> Any:
+        return told.si
+
+    def unit(self, angle: Given) -> Any:
+        return unit(angle.si)
+
+    def direction(self, line: file.Directed) -> Any:
+        return direction(line, self.points)
+
+    def contact_on_line(self, joint: file.RollingOnLine, index: int) -> Any:
+        return contact_on_line(joint, index, self.given, dict(self.points))
+
+    def contact_of_discs(self, joint: file.RollingOnCircle | file.Gears, index: int) -> Any:
+        return contact_of_discs(joint, index, self.given, dict(self.points))
+
+
 def system(given: file.Parameters) -> System:
     """The whole system of a file that is in order.  Raises `MisplacedError`."""
-    known = places(given)
-    carried = {number: body.carried for number, body in given.bodies.items() if number}
-    bare = System(known, carried, ())
-    joints = (one for index, joint in enumerate(given.joints) for one in _joint(joint, index, given, bare))
-    rates = (one for index, rate in enumerate(given.given) for one in _rate(rate, index, bare))
-    return System(known, carried, (*joints, *rates))
+    geometry = Geometry(given, places(given))
+    bare = System(geometry.points, carried(given), ())
+    return replace(bare, conditions=tuple(conditions(geometry, bare)))
+
+
+def carried(given: file.Parameters) -> dict[int, tuple[str, ...]]:
+    """The points that move with each body but the ground."""
+    return {number: body.carried for number, body in given.bodies.items() if number}
+
+
+def conditions(geometry: Geometry, bare: System) -> Iterator[Condition]:
+    """What the joints and the given quantities say of the rates of the bodies."""
+    for index, joint in enumerate(geometry.given.joints):
+        yield from _joint(joint, index, geometry, bare)
+    for index, rate in enumerate(geometry.given.given):
+        yield from _rate(rate, index, geometry, bare)
 
 
 def name_of(index: int, what: str, *parts: object) -> str:
@@ -140,28 +176,28 @@ def name_of(index: int, what: str, *parts: object) -> str:
     return f"{what}[{index}] ({' '.join(map(str, parts))})"
 
 
-def _joint(joint: file.Joint, index: int, given: file.Parameters, bare: System) -> tuple[Condition, ...]:
-    known = dict(bare.points)
+def _joint(joint: file.Joint, index: int, geometry: Geometry, bare: System) -> tuple[Condition, ...]:
+    given, known = geometry.given, geometry.points
     name = name_of(index, "joints", *joint.called)
     match joint:
         case file.Pin(at=at, bodies=bodies):
             one, other = bodies
             return on.pin(name, known[at], one, other)
         case file.SlotJoint(point=point, body=body, on=carrier):
-            return on.slot(name, known[point], body, carrier, direction(joint, known))
+            return on.slot(name, known[point], body, carrier, geometry.direction(joint))
         case file.Slider(body=body, on=carrier):
             some = known[bare.bodies[body][0]]
-            return (*on.slot(name, some, body, carrier, direction(joint, known)), *on.no_turning(name, body, carrier))
+            return (*on.slot(name, some, body, carrier, geometry.direction(joint)), *on.no_turning(name, body, carrier))
         case file.Translation(body=body):
             return on.no_turning(name, body)
         case file.RollingOnLine(disc=body, on=carrier):
             disc = given.disc(body)
             assert disc is not None
-            touch = contact_on_line(joint, index, given, known)
-            return on.rolling_on_line(name, body, known[disc.centre], disc.radius.si, touch, carrier)
+            touch = geometry.contact_on_line(joint, index)
+            return on.rolling_on_line(name, body, known[disc.centre], geometry.size(disc.radius), touch, carrier)
         case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
             one, other = discs
-            touch = contact_of_discs(joint, index, given, known)
+            touch = geometry.contact_of_discs(joint, index)
             first, second = given.disc(one), given.disc(other)
             assert first is not None
             assert second is not None
@@ -173,21 +209,22 @@ def _joint(joint: file.Joint, index: int, given: file.Parameters, bare: System) 
             return on.distance(name, *ends)
 
 
-def _rate(rate: file.GivenRate, index: int, bare: System) -> Iterator[Condition]:
+def _rate(rate: file.GivenRate, index: int, geometry: Geometry, bare: System) -> Iterator[Condition]:
     name = name_of(index, "given", *rate.called)
+    size, unit = geometry.size, geometry.unit
     match rate:
         case file.OmegaOf(body=body, value=value):
-            yield on.given_omega(name, body, value.si)
+            yield on.given_omega(name, body, size(value))
         case file.EpsilonOf(body=body, value=value):
-            yield on.given_epsilon(name, body, value.si)
-        case file.VelocityOf(point=point, direction=angle):
-            yield from _vector(on.given_velocity, name, bare, point, unit(angle.si), rate.along)
-        case file.AccelerationOf(point=point, direction=angle):
-            yield from _vector(on.given_acceleration, name, bare, point, unit(angle.si), rate.along)
+            yield on.given_epsilon(name, body, size(value))
+        case file.VelocityOf(point=point, direction=angle) | file.AccelerationOf(point=point, direction=angle):
+            make = on.given_velocity if isinstance(rate, file.VelocityOf) else on.given_acceleration
+            along = None if rate.size is None else size(rate.size)
+            yield from _vector(make, name, bare, point, unit(angle), along)
         case file.FromRest(point=point, acceleration=acceleration, time=time, direction=angle):
-            u = unit(angle.si)
-            yield from _vector(on.given_velocity, name, bare, point, u, acceleration.si * time.si)
-            yield from _vector(on.given_acceleration, name, bare, point, u, acceleration.si)
+            u = unit(angle)
+            yield from _vector(on.given_velocity, name, bare, point, u, size(acceleration) * size(time))
+            yield from _vector(on.given_acceleration, name, bare, point, u, size(acceleration))
 
 
 def _vector(

@@ -138,6 +138,12 @@ class Told(Reader):
         return {"anyOf": [self.by_number.schema(), {"type": "string", "pattern": r"^[-+*/(). 0-9A-Za-z]+$"}]}
 
 
+def si_unit(value: Value) -> str:
+    """The SI unit of what a symbol stands for."""
+    unit = next(unit for unit, powers in _UNITS.items() if powers == value.powers)
+    return "m" if unit == "mm" else unit
+
+
 def symbol(name: str) -> Symbol:
     """How a symbol is printed: omega1 → ω with the index 1."""
     letters = name.rstrip("0123456789")

@@ -10,6 +10,7 @@ from typing import Any
 
 from reportgen.case import ExerciseCase
 from reportgen.catalogue import plane_motion_file as file
+from reportgen.catalogue.plane_motion_symbols import Literal, symbol
 from reportgen.document.exercise_figures import FIGURES
 from reportgen.document.numbering import number
 from reportgen.document.prose import PointName, Prose
@@ -31,7 +32,18 @@ from reportgen.ledger.instant.steps import Step
 from reportgen.ledger.instant.vectors import Vector
 from reportgen.ledger.instant.write import Worked
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Chain, Number, Symbol, Term, VectorEquation, refs
+from reportgen.notation.expressions import (
+    Chain,
+    Expression,
+    Negative,
+    Number,
+    Symbol,
+    Term,
+    VectorEquation,
+    refs,
+    substitute,
+)
+from reportgen.units import Given
 
 TYPED = 6
 """Significant figures of given data; more of them are those of a root or of π."""
@@ -73,6 +85,8 @@ def task_names(case: ExerciseCase) -> Mapping[str, Any]:
         "variant": case.assignment.variant,
         "who": page.who,
         "words": case.words,
+        "symbols": page.symbols,
+        "put_in": page.put_in,
         "places": page.places,
         "given": page.given,
         "asked": page.asked,
@@ -93,6 +107,7 @@ def names(case: ExerciseCase) -> Mapping[str, Any]:
         "steps": page.steps,
         "velocity_figure": page.figure("velocity"),
         "acceleration_figure": page.figure("acceleration"),
+        "expressions": page.expressions,
         "answers": page.answers,
     }
 
@@ -164,7 +179,7 @@ class Page:
                     id = f"omega.{body}" if isinstance(rate, file.OmegaOf) else f"eps.{body}"
                     sense = Text(self._sense(value.si))
                     form = ("omega" if isinstance(rate, file.OmegaOf) else "epsilon") + ("" if value.si else "-zero")
-                    yield GivenItem(form, none, body, self._typed(id, abs(value.value), value.unit), (sense,))
+                    yield GivenItem(form, none, body, self._typed(id, value), (sense,))
                 case file.VelocityOf(point=point, size=size) | file.AccelerationOf(point=point, size=size):
                     form = "velocity" if isinstance(rate, file.VelocityOf) else "acceleration"
                     id = f"{form[0]}.{point}"
@@ -174,15 +189,63 @@ class Page:
                         )
                     else:
                         turned = rate.direction.si + (math.pi if size.si < 0 else 0.0)
-                        shown = self._typed(id, abs(size.value), size.unit)
+                        shown = self._typed(id, size)
                         yield GivenItem(form, PointName(point), 0, shown, self._angle(turned))
                 case file.FromRest(point=point, acceleration=acceleration, time=time):
-                    shown = self._typed(f"a.{point}", acceleration.value, acceleration.unit)
+                    shown = self._typed(f"a.{point}", acceleration)
                     after = (InlineMath(Chain((Symbol("t"), Number(time.value, None, time.unit)))),)
                     yield GivenItem("from-rest", PointName(point), 0, shown, after)
 
-    def _typed(self, id: str, value: float, typed_unit: str) -> Chain:
-        return Chain((vocabulary.symbol(id), Number(float(f"{value:.{TYPED}g}"), None, pretty(typed_unit))))
+    def _typed(self, id: str, given: Given) -> Chain:
+        """What is given, by its size: the formula of one that is stated by symbols."""
+        size = Number(float(f"{abs(given.value):.{TYPED}g}"), None, pretty(given.unit))
+        if not isinstance(given, Literal):
+            return Chain((vocabulary.symbol(id), size))
+        formula = lettered(given.formula)
+        shown = (formula.of if isinstance(formula, Negative) else formula,)
+        return Chain((vocabulary.symbol(id), *shown))
+
+    @property
+    def symbols(self) -> Inlines:
+        """The symbols of the file with their values."""
+        shown: list[Any] = []
+        for name, one in self.case.exercise.given.symbols.items():
+            value = Number(one.given.value, None, pretty(one.given.unit))
+            shown += [*([Text(", ")] if shown else []), InlineMath(Chain((symbol(name), value)))]
+        return tuple(shown)
+
+    @property
+    def put_in(self) -> bool:
+        """Whether numbers are put in, at the end of each line."""
+        return all(one.put_in for one in self.case.exercise.given.symbols.values())
+
+    def _literal(self, id: str) -> Expression | None:
+        """A quantity by the symbols of the file; None where it is not known so."""
+        found = self.case.literal[id] if self.case.literal is not None else None
+        return None if found is None else lettered(found)
+
+    def _chain(self, id: str) -> Chain:
+        """The worked line: with numbers, or with symbols, behind which numbers stand if they are put in."""
+        chain = self.worked.ledger.chain(id, AT)
+        if self.case.literal is None:
+            return chain
+        found = self._literal(id)
+        *formula, _ = chain.parts[:3] if len(chain.parts) > 2 else (chain.parts[0], None)
+        if self.worked.ledger[id].definition is None:
+            formula = [chain.parts[0]]
+        result = chain.parts[-1:] if self.put_in or (found is None and len(formula) == 1) else ()
+        steps = [*formula, *([] if found is None else [found]), *result]
+        return Chain(tuple(one for place, one in enumerate(steps) if place == 0 or one != steps[place - 1]))
+
+    @property
+    def expressions(self) -> tuple[Equation, ...]:
+        """What was asked, by the symbols of the file."""
+        if self.case.literal is None:
+            return ()
+        ledger = self.worked.ledger
+        found = [(one.id, self._literal(one.id)) for one in self.case.exercise.asked if one.what != "centre"]
+        rows = (Chain((ledger.symbol(id), shown)) for id, shown in found if shown is not None)
+        return (Equation(tuple(rows)),)
 
     def _angle(self, radians: float) -> Inlines:
         return (Value(Number(round(math.degrees(radians) % 360.0, 2), None, "°")),)
@@ -205,22 +268,28 @@ class Page:
         """The distances that the solution uses."""
         ledger = self.worked.ledger
         ids = [id for id in ledger.families if id.startswith("l.") and self._declared(id)]
-        return (Equation(tuple(ledger.chain(id, AT) for id in ids)),) if ids else ()
+        return (Equation(tuple(map(self._chain, ids))),) if ids else ()
 
     @property
     def places(self) -> Table:
         """The coordinates of the points."""
         words = self.case.words["instant"]
-        head = tuple(Cell((Text(str(text)),)) for text in words["place_heads"])
-        points = self.case.exercise.motion.system.points
+        head = tuple(
+            Cell((Text(str(text)),)) for text in words["literal_heads" if self.case.literal else "place_heads"]
+        )
         body = tuple(
-            (
-                Cell((InlineMath(vocabulary.point(name)),)),
-                *(Cell((Value(self._coordinate(part)),)) for part in (at.real, at.imag)),
-            )
-            for name, at in points.items()
+            (Cell((InlineMath(vocabulary.point(name)),)), *map(Cell, self._place(name)))
+            for name in self.case.exercise.motion.system.points
         )
         return Table(tuple(map(Column, PLACES)), (head,), body, (Text(str(words["places"])),), "tab.places")
+
+    def _place(self, name: str) -> tuple[Inlines, Inlines]:
+        """The coordinates of a point in mm, or by symbols."""
+        if self.case.literal is not None:
+            x, y = (lettered(one) for one in self.case.literal.place(name))
+            return (InlineMath(x),), (InlineMath(y),)
+        at = self.case.exercise.motion.system.points[name]
+        return (Value(self._coordinate(at.real)),), (Value(self._coordinate(at.imag)),)
 
     def _coordinate(self, value: float) -> Number:
         """A coordinate in mm, without the dust of floats."""
@@ -283,7 +352,7 @@ class Page:
             PointName(centre.name if centre is not None else ""),
             PointName(others[0]),
             PointName(others[1]),
-            (Equation(tuple(ledger.chain(id, AT) for id in shown)),) if shown else (),
+            (Equation(tuple(map(self._chain, shown))),) if shown else (),
             (self._equation(step),) if step.equation is not None and step.equation.left else (),
             tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),
             self._sense(rate) if rate else str(self.case.words["instant"]["no_sense"]),
@@ -332,7 +401,9 @@ class Page:
         degrees = round(math.degrees(cmath.phase(vector.way)) % 360.0, 2) % 360.0
         line = Number(degrees % 180.0, None, "°")
         symbol = ledger.symbol(vector.id) if vector.id in ledger else vocabulary.symbol(vector.id)
-        size = None if unknown or vector.id not in ledger else ledger.number(vector.id, AT)
+        size: Expression | None = None if unknown or vector.id not in ledger else ledger.number(vector.id, AT)
+        if size is not None:
+            size = self._literal(vector.id) or size
         sense = None if unknown else Number(degrees, None, "°")
         return Term(vocabulary.vector(symbol), (line, sense, size))
 
@@ -363,7 +434,8 @@ class Page:
                 yield self._centre_row(one.body)
                 continue
             symbol = (InlineMath(ledger.symbol(one.id)),)
-            size = (Value(ledger.number(one.id, AT)),)
+            number, shown = ledger.number(one.id, AT), self._literal(one.id)
+            size: Inlines = (Value(number),) if self.put_in or shown is None else (InlineMath(shown),)
             if one.of_body:
                 rate = motion.omega(one.body) if one.what == "omega" else motion.epsilon(one.body)
                 yield symbol, size, (Text(self._sense(rate)),)
@@ -380,9 +452,18 @@ class Page:
         places: list[Any] = []
         for axis in "xy":
             id = f"centre.{body}.{axis}"
-            chain = Chain((ledger.symbol(id), ledger.number(id, AT)))
+            shown = (
+                [] if self.case.literal is None else [lettered(self.case.literal.place(centre.name)["xy".index(axis)])]
+            )
+            result = [ledger.number(id, AT)] if self.put_in or not shown else []
+            chain = Chain((ledger.symbol(id), *shown, *result))
             places += [*([Text("; ")] if places else []), InlineMath(chain)]
         return (InlineMath(vocabulary.point(centre.name)),), tuple(places), ()
+
+
+def lettered(formula: Expression) -> Expression:
+    """A formula over the names of symbols with the letters that are printed for them."""
+    return substitute(formula, lambda ref: symbol(ref.id))
 
 
 def pretty(typed: str) -> str:

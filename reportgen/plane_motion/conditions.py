@@ -41,7 +41,7 @@ class Velocities:
     def at(self, body: int, point: complex) -> complex:
         """The velocity of a point that moves with a body."""
         rates = self.of(body)
-        return rates.origin + 1j * rates.turn * point
+        return rates.origin + rates.turn * (1j * point)
 
 
 Drift = Callable[[Velocities], float]

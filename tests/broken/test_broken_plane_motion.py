@@ -153,6 +153,27 @@ EDITS = [
 ]
 
 
+SYMBOLS = BASE.replace("parameters:\n", "parameters:\n  symbols: {r: 0.2 m, l: 1 m, omega: 10 rad/s}\n")
+EDITS += [
+    ("no such symbol", SYMBOLS, "distance: 0.2 m", "distance: 2*r + q", ["6:28 no-such-symbol"]),
+    ("no formula", SYMBOLS, "distance: 0.2 m", "distance: r l", ["6:28 no-formula"]),
+    ("no call", SYMBOLS, "distance: 0.2 m", "distance: exp(r)", ["6:28 no-formula"]),
+    ("unlike terms", SYMBOLS, "distance: 0.2 m", "distance: r + omega", ["6:28 unlike-terms"]),
+    ("formula of another kind", SYMBOLS, "value: 10 rad/s", "value: r*omega", ["16:37 wrong-unit"]),
+    ("formula out of range", SYMBOLS, "distance: 0.2 m", "distance: r - l", ["6:28 out-of-range"]),
+    ("symbol without unit", SYMBOLS, "r: 0.2 m", "r: 2", ["3:16 missing-unit"]),
+    ("symbol of no length", SYMBOLS, "r: 0.2 m", "r: -0.2 m", ["3:16 out-of-range"]),
+    ("name of a symbol", SYMBOLS, "{r: 0.2 m", "{r_1: 0.2 m", ["3:13 symbol-name"]),
+    (
+        "moves at these values alone",
+        WHEELS.replace("parameters:\n", "parameters:\n  symbols: {r: 1 m}\n"),
+        "2: {disc: {centre: E, radius: 1 m}}",
+        "2: {disc: {centre: E, radius: r}}",
+        ["3:12 only-at-values"],
+    ),
+]
+
+
 @pytest.mark.parametrize(("name", "base", "old", "new", "expected"), EDITS, ids=[edit[0] for edit in EDITS])
 @pytest.mark.parametrize("language", ["vi", "en"])
 def test_fault(name: str, base: str, old: str, new: str, expected: list[str], language: str, tmp_path: Path) -> None:
