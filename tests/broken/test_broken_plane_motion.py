@@ -251,6 +251,8 @@ def test_what_is_not_offered_is_told_in_one_line(tmp_path: Path) -> None:
     """Drawing sheets need a machine; a solution needs steps that are known."""
     path = tmp_path / "file.yaml"
     path.write_text(BASE, encoding="utf-8")
+    with pytest.raises(NotOfferedError, match="--positions"):
+        api.solve(load(path, "en"), 12)
     with pytest.raises(NotOfferedError, match="plane-motion"):
         api.sheet_files(path, "typst", "en")
     path.write_text(THREE_RODS, encoding="utf-8")

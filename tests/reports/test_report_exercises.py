@@ -13,8 +13,9 @@ import pytest
 from reportgen import api
 from reportgen.answers.results import print_tables
 from reportgen.case import ExerciseCase
-from reportgen.document.exercise import solution
-from reportgen.document.tree import Document, text_of
+from reportgen.document.exercise import lettered, solution
+from reportgen.document.tree import Document, Equation, text_of
+from reportgen.notation.expressions import Chain
 from reportgen.notation.numbers import write
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
@@ -37,8 +38,9 @@ def test_every_exercise_builds(path: Path, language: Any, engine: Any) -> None:
     assert 1 <= len(pages) <= MOST_PAGES
     text = "".join(page.get_text() for page in pages)
     case = ExerciseCase(api.load(path, language))
+    put_in = all(one.put_in for one in case.exercise.given.symbols.values())
     for asked in case.exercise.asked:
-        if asked.what != "centre":
+        if asked.what != "centre" and put_in:
             number = case.ledger.number(asked.id)
             assert write(number.value, number.decimals, language) in text
 
@@ -51,6 +53,30 @@ def test_no_gap_is_left_in_the_words(path: Path, language: Any) -> None:
     # What has no sense or direction has a dash of its own, in the answers alone.
     assert " –." not in text
     assert re.search(r"[^\d] [.,;]( |$)", text, re.MULTILINE) is None
+
+
+@pytest.mark.parametrize(
+    "path", [path for path in FILES if "symbols:" in path.read_text("utf-8")], ids=lambda p: p.stem
+)
+def test_a_literal_answer_is_an_expression(path: Path) -> None:
+    """The last lines of the page are what was asked, by the symbols; numbers stand behind them only if put in."""
+    case = ExerciseCase(api.load(path, "en"))
+    assert case.literal is not None
+    (rows,) = [block.rows for block in document(path, "en").blocks if isinstance(block, Equation)][-1:]
+    asked = [one.id for one in case.exercise.asked if one.what != "centre"]
+    assert len(rows) == len(asked)
+    for row, id in zip(rows, asked, strict=True):
+        assert isinstance(row, Chain)
+        expected = case.literal[id]
+        assert expected is not None
+        assert row.parts == (case.ledger.symbol(id), lettered(expected))
+
+
+def test_drawn_values_stay_out_of_the_solution() -> None:
+    """In exercise 6 no number with a unit stands behind the data but the scales of the figure."""
+    text = text_of(document(FOLDER / "06.yaml", "en"))
+    assert "rad/s" not in text.partition("Solution")[2]
+    assert "m/s" not in text.partition("Solution")[2]
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)

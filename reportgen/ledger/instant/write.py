@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from reportgen.catalogue.plane_motion import Exercise
 from reportgen.catalogue.plane_motion_centres import Layout, lay_out
-from reportgen.catalogue.plane_motion_file import Method
+from reportgen.catalogue.plane_motion_file import Asked, Method
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.instant.accelerations import enter_accelerations
@@ -17,6 +19,8 @@ from reportgen.ledger.instant.steps import Step
 from reportgen.notation.expressions import Symbol, refs
 from reportgen.notation.sheet import Sheet
 
+ROUND = 1e-9
+"""An angle this little below a whole turn (degrees) is none."""
 POSITIONS = 1
 """The instant."""
 
@@ -63,8 +67,10 @@ def work_out(
             missing += [] if _centre(board, asked.body) else [asked.id]
     for asked in exercise.asked:
         _signed(board, asked.id)
+        if asked.what in ("v", "a"):
+            _directed(board, asked)
     wanted = [one.id for one in exercise.asked]
-    wanted += [id for id in board.q.families if id.startswith(("centre.", "turn."))]
+    wanted += [id for id in board.q.families if id.startswith(("centre.", "turn.", "dir."))]
     if velocities_alone and not any(one.what in ("v", "omega") for one in exercise.asked):
         wanted += [id for id in board.q.families if id.startswith(("v.", "omega."))]
     needed = _with_ancestors(board, wanted)
@@ -100,6 +106,16 @@ def _signed(board: Board, id: str) -> None:
         motion = board.motion
         rate = motion.omega(int(body)) if what == "omega" else motion.epsilon(int(body))
         board.q.define(f"turn.{id}", board.q[id] if rate >= 0 else -board.q[id], of=id)
+
+
+def _directed(board: Board, asked: Asked) -> None:
+    """Where an asked vector goes, as its angle from +x in [0, 2π), beside its size; a vector of no length has none."""
+    motion = board.motion
+    vector = motion.v(asked.of) if asked.what == "v" else motion.a(asked.of)
+    if vector and asked.id in board.q and board.q.families[asked.id].definition is not None:
+        angle = (math.degrees(cmath.phase(vector)) + ROUND) % 360.0 - ROUND
+        way = board.q.give(f"way.{asked.id}", math.radians(angle), Symbol("α"), "angle", hidden=True)
+        board.q.define(f"dir.{asked.id}", way, scale=1.0, of=asked.id)
 
 
 def _with_ancestors(board: Board, ids: Sequence[str]) -> set[str]:
