@@ -140,6 +140,8 @@ class StepView:
     angles: tuple[Inlines, ...]
     sense: str
     way: str
+    place: Inlines
+    """The coordinates of the instant centre."""
     contact: PointName | str
     """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
 
@@ -357,6 +359,7 @@ class Page:
             tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),
             self._sense(rate) if rate else str(self.case.words["instant"]["no_sense"]),
             self._heading(step),
+            self._coordinates(step.body) if centre is not None and centre.rule == "normals" else (),
             PointName(centre.name) if rolling and centre is not None else "",
         )
 
@@ -446,19 +449,26 @@ class Page:
                 yield symbol, size, angle if vector else (Text("–"),)
 
     def _centre_row(self, body: int) -> tuple[Inlines, Inlines, Inlines]:
-        ledger, centre = self.worked.ledger, self.worked.layout.centres[body]
+        centre = self.worked.layout.centres[body]
         if centre.rule == "translation":
             return (Text(str(body)),), (Text(str(self.case.words["instant"]["far"])),), ()
-        places: list[Any] = []
-        for axis in "xy":
-            id = f"centre.{body}.{axis}"
-            shown = (
-                [] if self.case.literal is None else [lettered(self.case.literal.place(centre.name)["xy".index(axis)])]
-            )
-            result = [ledger.number(id, AT)] if self.put_in or not shown else []
-            chain = Chain((ledger.symbol(id), *shown, *result))
-            places += [*([Text("; ")] if places else []), InlineMath(chain)]
-        return (InlineMath(vocabulary.point(centre.name)),), tuple(places), ()
+        return (InlineMath(vocabulary.point(centre.name)),), self._coordinates(body), ()
+
+    def _coordinates(self, body: int) -> Inlines:
+        """Where the instant centre of a body is: x and y, in numbers as in the table of points."""
+        centre = self.worked.layout.centres[body]
+        numbers = [Number(self._coordinate(part).value, None, "mm") for part in (centre.at.real, centre.at.imag)]
+        literal = self.case.literal
+        formulas = None if literal is None else [lettered(one) for one in literal.place(centre.name)]
+        shown: list[Any] = []
+        for index, axis in enumerate("xy"):
+            parts: list[Expression] = [] if formulas is None else [formulas[index]]
+            # Nothing is 0, whatever its unit.
+            if not parts or (self.put_in and numbers[index].value):
+                parts.append(numbers[index])
+            chain = Chain((Symbol(axis, centre.name), *parts))
+            shown += [*([Text("; ")] if shown else []), InlineMath(chain)]
+        return tuple(shown)
 
 
 def lettered(formula: Expression) -> Expression:

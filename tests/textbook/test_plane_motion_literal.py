@@ -54,7 +54,7 @@ PUBLISHED = {
         "v.C": lambda omega, r, l: sqrt(3) * r * omega / 3,
         "omega.4": lambda omega, r, l: sqrt(3) * r * omega / (3 * l),
     },
-    "12": {"omega.1": lambda a1, a2, b1, b2, r1, r2, v: (b1 + b2) * r2 * v / (a1 * b2 * r2 - a2 * b1 * r1)},
+    "12": {"omega.1": lambda a1, a2, b1, b2, r1, r2, v, c, h: (b1 + b2) * r2 * v / (a1 * b2 * r2 - a2 * b1 * r1)},
     "13": {
         "omega.4": lambda v1, v2, x, y, a: (v1 * y - v2 * x) / (x**2 + y**2),
         "v.C": lambda v1, v2, x, y, a: (a * v1 * y + x * (x - a) * v2) / x**2,
