@@ -142,6 +142,8 @@ class StepView:
     way: str
     place: Inlines
     """The coordinates of the instant centre."""
+    system: tuple[Equation, ...]
+    results: tuple[Equation, ...]
     contact: PointName | str
     """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
 
@@ -360,6 +362,8 @@ class Page:
             self._sense(rate) if rate else str(self.case.words["instant"]["no_sense"]),
             self._heading(step),
             self._coordinates(step.body) if centre is not None and centre.rule == "normals" else (),
+            (Equation(step.system),) if step.system else (),
+            (Equation(step.results),) if step.results else (),
             PointName(centre.name) if rolling and centre is not None else "",
         )
 
@@ -402,7 +406,7 @@ class Page:
         """A vector with what is known of it: its line, its sense by the angle from +x, its size."""
         ledger = self.worked.ledger
         degrees = round(math.degrees(cmath.phase(vector.way)) % 360.0, 2) % 360.0
-        line = Number(degrees % 180.0, None, "°")
+        line = Number(round(degrees % 180.0, 2), None, "°")
         symbol = ledger.symbol(vector.id) if vector.id in ledger else vocabulary.symbol(vector.id)
         size: Expression | None = None if unknown or vector.id not in ledger else ledger.number(vector.id, AT)
         if size is not None:

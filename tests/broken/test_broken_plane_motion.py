@@ -79,6 +79,27 @@ parameters:
   find: [v.D]
 """
 
+OFFSET_SLOT = """\
+kind: plane-motion
+parameters:
+  points:
+    O: {at: [0 m, 0 m]}
+    C: {at: [0 m, -0.5 m]}
+    A: {from: O, distance: 0.2 m, angle: 30 deg}
+  bodies:
+    1: {points: [O, A]}
+    2: {points: [C]}
+  joints:
+    - {type: pin, at: O, bodies: [0, 1]}
+    - {type: pin, at: C, bodies: [0, 2]}
+    - {type: slot, point: A, body: 1, on: 2, angle: 20 deg}
+  given:
+    - {type: omega, body: 1, value: 2 rad/s}
+    - {type: epsilon, body: 1, value: 0 rad/s2}
+  find: [omega.2, eps.2]
+"""
+"""The line of body 2 does not pass through its pivot."""
+
 # (name, the file, what is replaced in it, by what, the faults expected)
 EDITS = [
     ("point without a place", BASE, "{at: [0 m, 0 m]}", "{}", ["4:8 missing-key"]),
@@ -255,7 +276,7 @@ def test_what_is_not_offered_is_told_in_one_line(tmp_path: Path) -> None:
         api.solve(load(path, "en"), 12)
     with pytest.raises(NotOfferedError, match="plane-motion"):
         api.sheet_files(path, "typst", "en")
-    path.write_text(THREE_RODS, encoding="utf-8")
-    with pytest.raises(NotOfferedError, match=r"v\.D"):
+    path.write_text(OFFSET_SLOT, encoding="utf-8")
+    with pytest.raises(NotOfferedError, match=r"eps\.2"):
         api.document(load(path, "en"))
-    assert api.solve(load(path))["positions"][0]["points"]["D"]["v"] is not None
+    assert api.solve(load(path))["positions"][0]["links"]["2"]["epsilon"] is not None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from reportgen.catalogue import plane_motion_file as file
@@ -29,11 +30,14 @@ class Parts:
         return tuple(one for one in vectors if self.board.knows(one.id) and self.board.q.si(one.id))
 
 
-def enter_accelerations(board: Board) -> None:
-    """Given rates first; then every rate that follows from the velocities and from them."""
+def enter_accelerations(board: Board, together: Callable[[Parts], bool]) -> None:
+    """Given rates first; then every rate that follows from the velocities and from them.
+
+    Where no vector equation gives more, `together` solves what is left as one system.
+    """
     parts = Parts(board)
     _given(parts)
-    while _next(parts):
+    while _next(parts) or together(parts):
         pass
     for asked in board.layout.given.find:
         if asked.what == "a" and asked.of in parts.of and not board.knows(asked.id):

@@ -16,6 +16,7 @@ from reportgen.ledger.instant.accelerations import enter_accelerations
 from reportgen.ledger.instant.methods import belongs, find_velocities
 from reportgen.ledger.instant.speeds import Board, enter_given
 from reportgen.ledger.instant.steps import Step
+from reportgen.ledger.instant.systems import solve_accelerations_together
 from reportgen.notation.expressions import Symbol, refs
 from reportgen.notation.sheet import Sheet
 
@@ -60,7 +61,7 @@ def work_out(
     enter_given(board)
     find_velocities(board, method, alone=velocities_alone)
     if not velocities_alone:
-        enter_accelerations(board)
+        enter_accelerations(board, solve_accelerations_together)
     missing = [one.id for one in exercise.asked if one.what != "centre" and one.id not in board.q]
     for asked in exercise.asked:
         if asked.what == "centre":
