@@ -7,12 +7,19 @@ perpendicular to the line of the points, the body is in translation at the insta
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
 from reportgen.catalogue import plane_motion_file as file
-from reportgen.catalogue.plane_motion_places import contact_of_discs, contact_on_line, direction, unit
+from reportgen.catalogue.plane_motion_places import (
+    Geometry,
+    belt_ends,
+    contact_of_discs,
+    contact_on_line,
+    direction,
+    unit,
+)
 from reportgen.plane_motion.conditions import GROUND
 from reportgen.plane_motion.motion import Motion
 from reportgen.plane_motion.ways import parallel, perpendicular
@@ -58,6 +65,8 @@ class Layout:
     """Points that are guided along a straight line of the ground."""
     contacts: dict[int, str] = field(default_factory=dict)
     """The points in which discs touch, by the index of their joint."""
+    belts: dict[int, tuple[str, str]] = field(default_factory=dict)
+    """The two ends of a straight part of each belt, by the index of its joint."""
 
     def point_at(self, at: complex, letter: str) -> str:
         """The name of the point at a place, a new one if none is declared there."""
@@ -67,6 +76,24 @@ class Layout:
         number = next(n for n in range(1, 100) if f"{letter}{n}" not in self.points)
         self.points[f"{letter}{number}"] = at
         return f"{letter}{number}"
+
+    def turn_on_ground(self, bodies: Iterable[int]) -> bool:
+        """Whether all bodies turn about fixed points."""
+        return all(body in self.centres and self.centres[body].rule == "pivot" for body in bodies)
+
+    def rims(self) -> Iterator[tuple[tuple[int, ...], tuple[str, ...]]]:
+        """Pairs of discs, each with the point of its rim in which it meets the other or the belt to it."""
+        for index, joint in enumerate(self.given.joints):
+            if isinstance(joint, file.RollingOnCircle | file.Gears):
+                yield joint.discs, (self.contacts[index], self.contacts[index])
+            elif isinstance(joint, file.Belt):
+                yield joint.discs, self.belts[index]
+
+    def own(self, body: int) -> list[str]:
+        """The points that stay on a body: not those in which it only touches another one at the instant."""
+        touching = {*self.contacts.values(), *(end for ends in self.belts.values() for end in ends)}
+        declared = self.given.bodies[body].carried
+        return [name for name in self.members[body] if name in declared or name not in touching]
 
     def arm(self, centre: Centre, point: str) -> complex:
         return self.points[point] - centre.at
@@ -131,6 +158,17 @@ def _enter(found: Layout, joint: file.Joint, index: int) -> None:
                 body = max(discs)
                 found.centres[body] = Centre(body, "contact", touch, known[touch])
             _share(found, touch, *discs)
+        case file.Belt():
+            _belt_ends(found, joint, index)
+
+
+def _belt_ends(found: Layout, joint: file.Belt, index: int) -> None:
+    """The points in which a straight part of a belt touches its discs, each a point of its disc."""
+    ends = belt_ends(Geometry(found.given, found.points), joint)
+    names = tuple(found.point_at(at, "K") for at in ends)
+    found.belts[index] = names[0], names[1]
+    for name, body in zip(names, joint.discs, strict=True):
+        _share(found, name, body)
 
 
 def _share(found: Layout, point: str, *bodies: int) -> None:

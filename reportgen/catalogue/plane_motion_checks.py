@@ -41,7 +41,7 @@ class _Names:
     def points(self) -> Iterator[Finding]:
         for name, point in self.given.points.items():
             where = (*TOP, "points", name)
-            forms = {"at": point.at, "lines": point.lines, "from": point.from_}
+            forms = {"at": point.at, "lines": point.lines, "distances": point.distances, "from": point.from_}
             told = [key for key, value in forms.items() if value is not None]
             yield from _one_of(told, tuple(forms), where)
             if told == ["from"]:
@@ -81,7 +81,7 @@ class _Names:
                     yield from self._point(through, (*where, "through"))
                     yield from self._pair((body, carrier), where, "disc", "on")
                     yield from self._disc(body, (*where, "disc"))
-                case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
+                case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs) | file.Belt(discs=discs):
                     yield from self._pair(discs, (*where, "discs"))
                     for place, body in enumerate(discs):
                         yield from self._disc(body, (*where, "discs", place))

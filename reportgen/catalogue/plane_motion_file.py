@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from reportgen.assignment.common import Part
-from reportgen.assignment.fields import Angle, Reader, Whole, fault, quantity
+from reportgen.assignment.fields import Angle, Flag, Reader, Whole, fault, quantity
 from reportgen.catalogue.linkage_file import MOST_NAMES, Name
 from reportgen.catalogue.plane_motion_symbols import MOST_SYMBOLS, SymbolName, SymbolValue, Told, Value, stated
 from reportgen.units import Given
@@ -43,10 +43,18 @@ class Through(Part):
     angle: Angle
 
 
+class Away(Part):
+    """A distance from a point that is placed already."""
+
+    from_: Name = Field(alias="from")
+    distance: Length
+
+
 class PointAt(Part):
     """Where a point is: at coordinates, at a distance and an angle from another point, or where two lines meet.
 
-    With `on` instead of the angle it lies on a line at that distance, at its far or near end.
+    With `on` instead of the angle it lies on a line at that distance, at its far or near end; with `distances` it is
+    at two distances from two points, to the left or the right of the way from the first to the second.
     """
 
     at: Place | None = None
@@ -55,6 +63,8 @@ class PointAt(Part):
     angle: Angle | None = None
     on: Through | None = None
     end: Literal["far", "near"] = "far"
+    distances: Annotated[tuple[Away, ...] | None, Field(min_length=2, max_length=2)] = None
+    side: Literal["left", "right"] = "left"
     lines: Annotated[tuple[Through, ...] | None, Field(min_length=2, max_length=2)] = None
 
 
@@ -172,6 +182,21 @@ class Gears(Part):
         return ("gears", *self.discs)
 
 
+class Belt(Part):
+    """A belt about two discs, which does not slip; a crossed one turns them in opposite senses.
+
+    Something else holds the centres of the discs at their distance.
+    """
+
+    type: Literal["belt"]
+    discs: Bodies
+    crossed: Annotated[bool, Flag()] = False
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("belt", *self.discs)
+
+
 class Cord(Part):
     """Two points keep their distance: a taut cord, or a rod of which nothing is asked."""
 
@@ -184,7 +209,8 @@ class Cord(Part):
 
 
 Joint = Annotated[
-    Pin | SlotJoint | Slider | Translation | RollingOnLine | RollingOnCircle | Gears | Cord, Field(discriminator="type")
+    Pin | SlotJoint | Slider | Translation | RollingOnLine | RollingOnCircle | Gears | Belt | Cord,
+    Field(discriminator="type"),
 ]
 
 

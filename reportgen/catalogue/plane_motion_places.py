@@ -20,6 +20,7 @@ TOP: Where = ("parameters",)
 TOUCHING = 1e-6
 """Discs and lines whose distance is off by less than this share of the radius touch."""
 PARALLEL = 1e-9
+ROUND = 1e-12
 
 Places = dict[str, complex]
 
@@ -66,6 +67,15 @@ def _place(name: str, point: file.PointAt, known: Places) -> complex:
         if abs(across) < PARALLEL:
             raise MisplacedError("lines-parallel", *where, "lines", text=name)
         return p + u * (((q - p).conjugate() * w).imag / across)
+    if point.distances is not None:
+        first, second = (at(end.from_, "distances", index, "from") for index, end in enumerate(point.distances))
+        r1, r2 = (end.distance.si for end in point.distances)
+        span = abs(second - first)
+        if span < PARALLEL or not abs(r1 - r2) <= span * (1 + ROUND) or span * (1 - ROUND) > r1 + r2:
+            raise MisplacedError("circles-apart", *where, "distances", text=name)
+        along = (r1**2 - r2**2 + span**2) / (2 * span)
+        across = math.sqrt(max(r1**2 - along**2, 0.0)) * (1 if point.side == "left" else -1)
+        return first + (second - first) / span * complex(along, across)
     assert point.from_ is not None
     assert point.distance is not None
     centre, radius = at(point.from_, "from"), point.distance.si
@@ -128,6 +138,21 @@ def contact_of_discs(
     )
 
 
+def belt_ends(geometry: Geometry, joint: file.Belt) -> tuple[Any, Any]:
+    """Where a belt leaves one disc, to the left of the way to the other, and where it comes to the other."""
+    one, other = (geometry.given.disc(body) for body in joint.discs)
+    assert one is not None
+    assert other is not None
+    first, second = geometry.points[one.centre], geometry.points[other.centre]
+    r1, r2 = geometry.size(one.radius), geometry.size(other.radius)
+    reach = -r2 if joint.crossed else r2
+    apart = abs(second - first)
+    share = (r1 - reach) / apart
+    way = (second - first) / apart
+    out = way * share + 1j * way * geometry.root(1 - share**2)
+    return first + out * r1, second + out * reach
+
+
 class Geometry:
     """The points and lines of a file in numbers; whoever works with symbols has another one."""
 
@@ -140,6 +165,9 @@ class Geometry:
 
     def unit(self, angle: Given) -> Any:
         return unit(angle.si)
+
+    def root(self, of: Any) -> Any:
+        return math.sqrt(of)
 
     def direction(self, line: file.Directed) -> Any:
         return direction(line, self.points)
@@ -203,10 +231,24 @@ def _joint(joint: file.Joint, index: int, geometry: Geometry, bare: System) -> t
             assert second is not None
             make = on.meshing if isinstance(joint, file.Gears) else on.rolling_on_circle
             return make(name, one, known[first.centre], other, known[second.centre], touch)
+        case file.Belt(discs=discs):
+            first, second = (given.disc(body) for body in discs)
+            assert first is not None
+            assert second is not None
+            if abs(bare.points[second.centre] - bare.points[first.centre]) <= _least(joint, first, second):
+                raise MisplacedError("belt-too-short", "joints", index, text=str(discs[0]), other=str(discs[1]))
+            centres = known[first.centre], known[second.centre]
+            return on.belt(name, belt_ends(geometry, joint), centres, *discs)
         case file.Cord(points=points):
             a, b = points
             ends = known[a], bare.body_of(a), known[b], bare.body_of(b)
             return on.distance(name, *ends)
+
+
+def _least(joint: file.Belt, first: file.Disc, second: file.Disc) -> float:
+    """The distance of the centres that two discs with a belt have to exceed."""
+    sum_of = first.radius.si + second.radius.si
+    return sum_of if joint.crossed else abs(first.radius.si - second.radius.si)
 
 
 def _rate(rate: file.GivenRate, index: int, geometry: Geometry, bare: System) -> Iterator[Condition]:

@@ -155,6 +155,24 @@ def meshing(
     return (_between(name, along, contact, disc, other),)
 
 
+def belt(
+    name: str, ends: tuple[complex, complex], centres: tuple[complex, complex], one: int, other: int
+) -> tuple[Condition, ...]:
+    """A belt runs straight from a point of one disc to one of another without slip, and keeps its length.
+
+    The centres stay at the same distance, so that the belt turns as their line does.
+    """
+    span, between = ends[1] - ends[0], centres[1] - centres[0]
+    line = span / abs(span)
+
+    def turning(motion: Velocities) -> float:
+        first, second = motion.at(one, centres[0]), motion.at(other, centres[1])
+        rate = _dot(1j * between, second - first) / _dot(between, between)
+        return -_dot(rate * (1j * line), first - second)
+
+    return (Condition(name, (Component(one, ends[0], line), Component(other, ends[1], -line)), drift=turning),)
+
+
 # --- given quantities -----------------------------------------------------------------------------
 
 

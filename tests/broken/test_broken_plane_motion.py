@@ -163,6 +163,20 @@ EDITS = [
     ("no moving frame", BASE, "find: [v.A", "methods: [moving frame]\n  find: [v.A", ["17:13 no-moving-frame"]),
     ("no component", WHEELS, "find: [omega.1", "methods: [projection]\n  find: [omega.1", ["16:13 no-projection"]),
     ("disc above its line", WHEELS, "[0 m, 1 m]", "[0 m, 1.1 m]", ["11:7 no-contact"]),
+    (
+        "circles apart",
+        BASE,
+        "{from: A, distance: 1 m, angle: -45 deg}",
+        "{distances: [{from: O, distance: 1 m}, {from: A, distance: 0.7 m}]}",
+        ["6:20 circles-apart"],
+    ),
+    (
+        "belt about discs in each other",
+        WHEELS,
+        "gears, discs: [1, 2]",
+        "belt, crossed: true, discs: [1, 2]",
+        ["13:7 belt-too-short"],
+    ),
     ("gears apart", WHEELS, "[0 m, 3 m]", "[0 m, 4 m]", ["13:7 no-contact-of-discs"]),
     (
         "no disc",

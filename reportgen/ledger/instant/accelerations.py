@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import permutations
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_places import direction, unit
@@ -72,11 +73,14 @@ def _held(board: Board, body: int) -> bool:
 def _next(parts: Parts) -> bool:
     """One more body whose rate, or one of whose points becomes known; whether there was one."""
     board = parts.board
-    for body, names in board.layout.members.items():
+    for body in board.layout.members:
+        names = board.layout.own(body)
         if _free(parts, body, names) or _rolling(parts, body) or _points(parts, body, names):
             return True
         if _by_base(parts, body, names):
             return True
+    if _by_rims(parts):
+        return True
     joints = board.layout.given.joints
     return any(_slot(parts, joint) for joint in joints if isinstance(joint, file.SlotJoint) and joint.on)
 
@@ -97,28 +101,25 @@ def _relative(parts: Parts, body: int, point: str, base: str) -> tuple[Vector, V
 
 def _enter_normal(parts: Parts, body: int, point: str, base: str, normal: Vector) -> tuple[str, ...]:
     """aⁿ = ω² l; no line where the body does not turn."""
-    board = parts.board
-    if board.knows(normal.id):
-        return ()
-    if board.q.si(f"omega.{body}") == 0:
-        board.q.give(normal.id, 0.0)
-        return ()
-    arm = board.length(base, point)
-    board.q.define(normal.id, board.q[f"omega.{body}"] ** 2 * arm)
-    return (arm.id, normal.id)
+    return _enter_part(parts, normal.id, f"omega.{body}", 2, base, point)
 
 
 def _enter_tangential(parts: Parts, body: int, point: str, base: str, tangential: Vector) -> tuple[str, ...]:
     """aᵗ = ε l; no line where the angular velocity does not change."""
+    return _enter_part(parts, tangential.id, f"eps.{body}", 1, base, point)
+
+
+def _enter_part(parts: Parts, id: str, rate: str, power: int, base: str, point: str) -> tuple[str, ...]:
+    """A part of an acceleration from a rate of the body; the ids of its lines, none where the part is nothing."""
     board = parts.board
-    if board.knows(tangential.id):
+    if board.knows(id):
         return ()
-    if board.q.si(f"eps.{body}") == 0:
-        board.q.give(tangential.id, 0.0)
+    if board.q.si(rate) == 0:
+        board.q.give(id, 0.0)
         return ()
     arm = board.length(base, point)
-    board.q.define(tangential.id, board.q[f"eps.{body}"] * arm)
-    return (arm.id, tangential.id)
+    board.q.define(id, (board.q[rate] if power == 1 else board.q[rate] ** power) * arm)
+    return (arm.id, id)
 
 
 def _points(parts: Parts, body: int, names: list[str]) -> bool:
@@ -194,7 +195,8 @@ def _path(parts: Parts, point: str, body: int) -> Path | None:
             normal, tangential = _relative(parts, other, point, centre.name)
             lines = _enter_normal(parts, other, point, centre.name, normal)
             return Path(parts.nonzero(normal), tangential, other, centre.name, lines)
-    for other, names in layout.members.items():
+    for other in layout.members:
+        names = layout.own(other)
         base = next((name for name in names if name in parts.of), "")
         if other != body and point in names and base and board.knows(f"omega.{other}"):
             normal, tangential = _relative(parts, other, point, base)
@@ -248,6 +250,21 @@ def _rolling(parts: Parts, body: int) -> bool:
         q.give(f"eps.{body}", 0.0)
     board.steps.append(Step("acceleration-rolling", (radius.id, f"eps.{body}"), body, disc.centre, centre.name))
     return True
+
+
+def _by_rims(parts: Parts) -> bool:
+    """ε of one more of two discs with fixed centres, whose rims move alike at any time."""
+    board, q, layout = parts.board, parts.board.q, parts.board.layout
+    for bodies, ends in layout.rims():
+        if not layout.turn_on_ground(bodies):
+            continue
+        for (known, base), (new, point) in permutations(zip(bodies, ends, strict=True)):
+            if board.knows(f"eps.{known}") and not board.knows(f"eps.{new}"):
+                r1, r2 = (board.length(layout.centres[one].name, end) for one, end in ((known, base), (new, point)))
+                q.define(f"eps.{new}", q[f"eps.{known}"] * r1 / r2)
+                board.steps.append(Step("acceleration-rims", (r1.id, r2.id, f"eps.{new}"), new, point, base))
+                return True
+    return False
 
 
 def _free(parts: Parts, body: int, names: list[str]) -> bool:

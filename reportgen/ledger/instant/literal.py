@@ -50,6 +50,9 @@ class LiteralGeometry(Geometry):
     def unit(self, angle: Given) -> Plane:
         return algebra.exact_unit(math.degrees(angle.si))
 
+    def root(self, of: Algebraic) -> Algebraic:
+        return algebra.root(of)
+
     def direction(self, line: file.Directed) -> Plane:
         if line.along is not None:
             way = self.points[line.along[1]] - self.points[line.along[0]]
@@ -84,6 +87,14 @@ class LiteralGeometry(Geometry):
             p, u = known[one.through], self.unit(one.angle)
             q, w = known[two.through], self.unit(two.angle)
             return p + Plane.of(u * (((q - p).conjugate() * w).imag / (u.conjugate() * w).imag))
+        if point.distances is not None:
+            first, second = (known[one.from_] for one in point.distances)
+            r1, r2 = (self.size(one.distance) for one in point.distances)
+            span = abs(second - first)
+            along = (r1**2 - r2**2 + span**2) / (2 * span)
+            across = algebra.root(r1**2 - along**2)
+            aside = Plane(along, across if point.side == "left" else -across)
+            return first + Plane.of((second - first) / span * aside)
         assert point.from_ is not None
         assert point.distance is not None
         centre, radius = known[point.from_], self.size(point.distance)

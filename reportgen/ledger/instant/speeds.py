@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from itertools import combinations
+from itertools import combinations, permutations
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_centres import NEAR, Centre, Layout
@@ -86,12 +86,13 @@ def enter_given(board: Board) -> None:
 
 def derive(board: Board) -> bool:
     """One more body whose rate, or whose points' velocities become known; whether there was one."""
-    return _about(board, board.layout.centres.values()) or by_parallels(board) or by_moving_frame(board)
+    known = _about(board, board.layout.centres.values()) or _by_belt(board)
+    return known or by_parallels(board) or by_moving_frame(board)
 
 
 def about_joints(board: Board) -> bool:
     """The same of a body that a joint makes turn about a fixed point or move in translation, by no method."""
-    return _about(board, (one for one in board.layout.centres.values() if one.by_joint))
+    return _about(board, (one for one in board.layout.centres.values() if one.by_joint)) or _by_belt(board)
 
 
 def by_centre(board: Board) -> bool:
@@ -107,6 +108,20 @@ def by_parallels(board: Board) -> bool:
 def by_moving_frame(board: Board) -> bool:
     """One more point along a line of a moving body."""
     return any(_slot(board, joint) for joint in board.layout.given.joints if isinstance(joint, file.SlotJoint))
+
+
+def _by_belt(board: Board) -> bool:
+    """The rim of one more disc that turns about a fixed centre moves as fast as the belt."""
+    for index, ends in board.layout.belts.items():
+        joint = board.layout.given.joints[index]
+        if not (isinstance(joint, file.Belt) and board.layout.turn_on_ground(joint.discs)):
+            continue
+        for (base, _), (point, body) in permutations(zip(ends, joint.discs, strict=True)):
+            if board.knows(f"v.{base}") and not board.knows(f"v.{point}"):
+                board.q.define(f"v.{point}", board.q[f"v.{base}"])
+                board.steps.append(Step("belt", (f"v.{point}",), body, point, base))
+                return True
+    return False
 
 
 def _about(board: Board, centres: Iterable[Centre]) -> bool:
