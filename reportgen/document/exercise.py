@@ -84,6 +84,7 @@ def task_names(case: ExerciseCase) -> Mapping[str, Any]:
         "title": case.title,
         "variant": case.assignment.variant,
         "who": page.who,
+        "whence": page.whence,
         "words": case.words,
         "symbols": page.symbols,
         "put_in": page.put_in,
@@ -167,7 +168,15 @@ class Page:
     def who(self) -> str:
         """The student's name, and what is known of the class."""
         student = self.case.assignment.report.student
-        return ", ".join(filter(None, (student.name, student.id, student.class_)))
+        return ", ".join(filter(None, (student.name, student.id, student.class_, student.section)))
+
+    @property
+    def whence(self) -> str:
+        """The school and its parts, the one who set the exercise, and when, as far as the file names them."""
+        report, labels = self.case.assignment.report, self.case.words["cover"]
+        lecturer = f"{labels['supervisor']}: {report.supervisor}" if report.supervisor else None
+        day = report.date.strftime("%d.%m.%Y") if report.date else None
+        return ", ".join(filter(None, (report.university, report.faculty, report.department, lecturer, day)))
 
     # --- given and asked
 

@@ -231,6 +231,45 @@ def test_a_contradiction_names_both_sides(tmp_path: Path) -> None:
     assert "velocity B contradicts pin O, pin A, slot B, omega 1" in message
 
 
+def test_accelerations_may_contradict_where_velocities_do_not(tmp_path: Path) -> None:
+    """The crank says what the acceleration of B is; another one is refused beside what it stands against."""
+    second = "    - {type: acceleration, point: B, size: 1 m/s2, direction: 0 deg}\n    - {type: epsilon"
+    message = told(tmp_path, BASE.replace("    - {type: epsilon", second))
+    assert "contradicts" in message
+    assert "accelerations" in message
+    assert all(name in message for name in ("pin O", "pin A", "slot B", "acceleration B"))
+
+
+def test_a_direction_may_contradict_a_guide(tmp_path: Path) -> None:
+    second = "    - {type: velocity, point: B, direction: 90 deg}\n    - {type: epsilon"
+    message = told(tmp_path, BASE.replace("    - {type: epsilon", second))
+    assert "velocity B contradicts" in message
+
+
+def test_what_is_said_twice_is_no_fault(tmp_path: Path) -> None:
+    """A second guide along the first, and a rate that follows from the others, are passive."""
+    again = "    - {type: slot, point: B, body: 2, angle: 180 deg}\n  given:\n"
+    text = BASE.replace("  given:\n", again)
+    text = text.replace(
+        "    - {type: epsilon",
+        "    - {type: velocity, point: A, size: 2 m/s, direction: 135 deg}\n    - {type: epsilon",
+    )
+    assert told(tmp_path, text) == ""
+
+
+def test_two_discs_on_one_line_turn_alike_or_contradict(tmp_path: Path) -> None:
+    """Two wheels on the ground with a rod between their centres: a second velocity for one is too much."""
+    text = WHEELS.replace("{at: [0 m, 3 m]}", "{at: [3 m, 1 m]}").replace(
+        "    - {type: pin, at: E, bodies: [0, 2]}\n    - {type: gears, discs: [1, 2]}\n",
+        "    - {type: rolling on line, disc: 2, through: D, angle: 0 deg}\n    - {type: cord, points: [C, E]}\n",
+    )
+    assert told(tmp_path, text) == ""
+    more = "    - {type: velocity, point: E, size: 1 m/s, direction: 0 deg}\n  find"
+    message = told(tmp_path, text.replace("  find", more))
+    assert "velocity E contradicts" in message
+    assert "cord C E" in message
+
+
 def test_what_stays_open_is_named(tmp_path: Path) -> None:
     message = told(tmp_path, BASE.replace("    - {type: slot, point: B, body: 2, angle: 0 deg}\n", ""))
     assert "omega.2 does not follow" in message

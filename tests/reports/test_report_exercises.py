@@ -85,6 +85,15 @@ def test_both_languages_write_the_same_steps(path: Path) -> None:
     assert vi == en
 
 
+def test_what_a_cover_would_say_stands_on_the_first_page(tmp_path: Path) -> None:
+    told = "report: {language: en, university: Polytechnic, "
+    told += "supervisor: R. Franke, date: 2026-11-22, student: {name: An}}\n"
+    path = tmp_path / "file.yaml"
+    path.write_text(told + (FOLDER / "18.yaml").read_text(encoding="utf-8"), encoding="utf-8")
+    text = text_of(document(path, "en"))
+    assert all(word in text for word in ("An", "Polytechnic", "R. Franke", "22.11.2026"))
+
+
 def test_results_are_tables_too(capsys: pytest.CaptureFixture[str]) -> None:
     """Without a crank's angle; where no velocity is known there is no table of them."""
     print_tables(api.solve(api.load(FOLDER / "17.yaml", "en")), "en")
