@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import (
     Call,
     Expression,
@@ -49,10 +50,37 @@ def exact(value: float) -> Algebraic:
 
 
 def exact_unit(degrees: float) -> Plane:
-    """The unit vector at an angle."""
+    """The unit vector at an angle; of one whose cosine has no simple root, its cosine and sine stay as they are."""
     sp = _sympy()
-    angle = sp.pi * exact(round(degrees, 9)) / 180
-    return Plane(sp.cos(angle), sp.sin(angle))
+    degrees = round(degrees, 9)
+    if degrees % 30 == 0 or degrees % 45 == 0:
+        angle = sp.pi * exact(degrees) / 180
+        return Plane(sp.cos(angle), sp.sin(angle))
+    radians = math.radians(degrees)
+    acute = round(math.degrees(math.asin(abs(math.sin(radians)))), 9)
+    cosine, sine = (symbol(f"{name} {acute:g}") for name in _NAMES)
+    return Plane(cosine if math.cos(radians) > 0 else -cosine, sine if math.sin(radians) > 0 else -sine)
+
+
+_NAMES = ("cos", "sin")
+"""Of the symbols for the cosine and the sine of an acute angle, before its degrees."""
+
+
+def _of_angle(name: str) -> Call | None:
+    """The cosine or the sine that a symbol stands for."""
+    what, _, degrees = name.partition(" ")
+    return Call(what, (Number(float(degrees), None, "°"),)) if what in _NAMES and degrees else None
+
+
+def _pythagorean(of: Algebraic) -> Algebraic:
+    """With sin² of every angle put as 1 − cos², where it does not stand under a root."""
+    sp = _sympy()
+    for sine in [one for one in of.free_symbols if one.name.startswith("sin ")]:
+        unity = sine**2 + symbol(f"cos {sine.name[4:]}") ** 2 - 1
+        parts = [sp.expand(part) for part in sp.fraction(sp.together(of))]
+        if all(part.is_polynomial(sine) for part in parts):
+            of = sp.rem(parts[0], unity, sine) / sp.rem(parts[1], unity, sine)
+    return of
 
 
 def root(of: Algebraic) -> Algebraic:
@@ -128,8 +156,7 @@ def _field(entries: Sequence[Algebraic]) -> Any:
     sp = _sympy()
     symbols = sorted({one for entry in entries for one in entry.free_symbols}, key=str)
     powers = {one for entry in entries for one in entry.atoms(sp.Pow) if one.exp.is_Rational and not one.exp.is_Integer}
-    others = any(entry.atoms(sp.sin, sp.cos) for entry in entries)
-    if others or any(not one.base.is_Integer or abs(one.exp) != sp.Rational(1, 2) for one in powers):
+    if any(not one.base.is_Integer or abs(one.exp) != sp.Rational(1, 2) for one in powers):
         return sp.EX
     primes = sorted({prime for one in powers for prime in sp.primefactors(one.base)})
     numbers = sp.QQ.algebraic_field(*(sp.sqrt(prime) for prime in primes)) if primes else sp.QQ
@@ -142,7 +169,11 @@ def size(of: Algebraic, at: Mapping[str, float]) -> Algebraic:
     if isinstance(of, Plane):
         parts = [simplified(part) for part in (of.real, of.imag)]
         nonzero = [part for part in parts if part != 0]
-        of = nonzero[0] if len(nonzero) == 1 else sp.sqrtdenest(sp.sqrt(simplified(sum(part**2 for part in parts))))
+        of = (
+            nonzero[0]
+            if len(nonzero) == 1
+            else sp.sqrtdenest(sp.sqrt(simplified(_pythagorean(sum(part**2 for part in parts)))))
+        )
     whole = simplified(of)
     whole = whole.replace(sp.Abs, lambda inner: inner if value(inner, at) >= 0 else -inner)
     return simplified(-whole) if value(whole, at) < 0 else whole
@@ -155,7 +186,8 @@ def simplified(of: Algebraic) -> Algebraic:
 
 
 def value(of: Algebraic, at: Mapping[str, float]) -> float:
-    return float(of.subs({symbol(name): one for name, one in at.items()}))
+    angles = {one: evaluate(call) for one in of.free_symbols if (call := _of_angle(one.name)) is not None}
+    return float(of.subs({symbol(name): one for name, one in at.items()} | angles))
 
 
 # --- to and from the expressions of the page ------------------------------------------------------
@@ -188,6 +220,8 @@ def algebraic(node: Expression, of: Callable[[str], Algebraic | None]) -> Algebr
             return None if (pair := each((base, exponent))) is None else pair[0] ** pair[1]
         case Root(one):
             return None if (inner := algebraic(one, of)) is None else sp.sqrt(inner)
+        case Call("cos", (Number(unit="°") as angle,)):
+            return exact_unit(angle.shown).real
         case Call("cos", (one,)):
             return None if (inner := algebraic(one, of)) is None else sp.cos(inner)
     return None
@@ -224,7 +258,7 @@ def expression(of: Algebraic, at: Mapping[str, float]) -> Expression:
 
 def _rank(factor: Algebraic, order: Sequence[str]) -> tuple[int, int]:
     """Numbers first, their roots, single symbols in the order of the file, then whatever is longer."""
-    names = sorted(order.index(one.name) for one in factor.free_symbols)
+    names = sorted(order.index(one.name) if one.name in order else len(order) for one in factor.free_symbols)
     plain = factor.is_Symbol or (factor.is_Pow and factor.base.is_Symbol)
     return (0 if factor.is_Number else 1 if not names else 2 if plain else 3), names[0] if names else 0
 
@@ -232,7 +266,7 @@ def _rank(factor: Algebraic, order: Sequence[str]) -> tuple[int, int]:
 def _factors(factors: Sequence[Algebraic], at: Mapping[str, float]) -> Iterator[Expression]:
     for one in factors:
         if one.is_Symbol:
-            yield Ref(one.name)
+            yield _of_angle(one.name) or Ref(one.name)
         elif one.is_Number:
             yield Number(float(one))
         elif one.is_Pow and one.exp == _sympy().Rational(1, 2):
@@ -243,8 +277,5 @@ def _factors(factors: Sequence[Algebraic], at: Mapping[str, float]) -> Iterator[
             yield Power(expression(one.base, at), Number(float(one.exp)))
         elif one.is_Add:
             yield expression(one, at)
-        elif one.func.__name__ in ("cos", "sin"):
-            degrees = math.degrees(float(one.args[0]))
-            yield Call(one.func.__name__, (Number(round(degrees, 6), None, "°"),))
         else:
             raise ValueError(f"no way to print {one}")
