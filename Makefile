@@ -12,7 +12,7 @@ report: setup
 	$(BIN)/reportgen build $(SAMPLE)
 
 reports: setup
-	$(BIN)/reportgen build $(wildcard assignments/*.yaml)
+	$(BIN)/reportgen build $(wildcard assignments/*.yaml assignments/*/*.yaml)
 
 # What is compiled is kept whatever the environment says: each of the many processes that tests start would do it anew.
 test: $(VENV)/.developing

@@ -17,9 +17,10 @@ from typing import TYPE_CHECKING, Any, Literal
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.case import Case, open_any, open_case, opened
-from reportgen.errors import ReportgenError
+from reportgen.errors import NotOfferedError, ReportgenError
 from reportgen.notation.numbers import Language
 from reportgen.scratch import scratch
+from reportgen.words import word
 
 if TYPE_CHECKING:
     from reportgen.analysis import Analysis
@@ -47,9 +48,14 @@ def analyse(assignment: Assignment) -> Analysis:
 
 
 def solve(assignment: Assignment, positions: int | None = None) -> dict[str, Any]:
-    """The results as the contract's JSON object (SI, unrounded); `positions` overrides the count a turn."""
+    """The results as the contract's JSON object (SI, unrounded); `positions` overrides the count a turn.
+
+    Raises `NotOfferedError` for positions of an exercise, which is one instant.
+    """
     from reportgen.answers.results import results
 
+    if positions is not None and catalogue.makes(assignment.kind) == "exercise":
+        raise NotOfferedError(word("no_positions", assignment.language, kind=assignment.kind))
     chosen = assignment if positions is None else assignment.with_positions(positions)
     found: dict[str, Any] = results(opened(chosen))
     return found

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from reportgen.flywheel import Flywheel
     from reportgen.ledger.core import Ledger
     from reportgen.ledger.forces.polygon import Polygon
+    from reportgen.ledger.instant.literal import LiteralBoard
     from reportgen.ledger.instant.write import Worked
 
 
@@ -122,10 +123,37 @@ class ExerciseCase(Opened):
         """
         from reportgen.ledger.instant.write import work_out
 
-        worked = work_out(self.exercise, self.words["units"], self.words["symbols"])
+        first = next(iter(self.exercise.given.methods), None)
+        worked = work_out(self.exercise, self.words["units"], self.words["symbols"], first)
         if worked.missing:
             raise NotOfferedError(word("no_steps", self.assignment.language, asked=", ".join(worked.missing)))
+        return self._by_its_method(worked)
+
+    @cached_property
+    def further(self) -> tuple[Worked, ...]:
+        """The velocities worked out anew by each further method that the file asks for.
+
+        Raises `NotOfferedError` for a method of which no steps are known here.
+        """
+        from reportgen.ledger.instant.write import work_out
+
+        rest = self.exercise.given.methods[1:]
+        each = (work_out(self.exercise, self.words["units"], self.words["symbols"], one, True) for one in rest)
+        return tuple(map(self._by_its_method, each))
+
+    def _by_its_method(self, worked: Worked) -> Worked:
+        if not worked.by_method:
+            raise NotOfferedError(word("no_method_steps", self.assignment.language, method=worked.method))
         return worked
+
+    @cached_property
+    def literal(self) -> LiteralBoard | None:
+        """The quantities of the solution by symbols; None where the file has none."""
+        if not self.exercise.given.literal:
+            return None
+        from reportgen.ledger.instant.literal import LiteralBoard
+
+        return LiteralBoard(self.exercise, self.worked)
 
     @property
     def ledger(self) -> Ledger:

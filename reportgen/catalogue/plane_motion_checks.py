@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from pydantic import ValidationError
 
 from reportgen.assignment.common import Draft
 from reportgen.catalogue import plane_motion_file as file
+from reportgen.catalogue import plane_motion_symbols as symbols
+from reportgen.catalogue.plane_motion_centres import Layout, lay_out
+from reportgen.catalogue.plane_motion_methods import why_not
 from reportgen.catalogue.plane_motion_places import TOP, MisplacedError, system
 from reportgen.errors import Finding, Where
 from reportgen.plane_motion.conditions import GROUND
@@ -19,7 +25,11 @@ def check(draft: Draft) -> Iterator[Finding]:
         return
     names = _Names(given)
     found = [*names.points(), *names.bodies(), *names.joints(), *names.rates(), *names.asked()]
-    yield from found or _motion(given)
+    yield from found or _motion(given, draft.raw["parameters"])
+
+
+CHANGED = 0.0137
+"""By which share the first symbol is changed to see whether the system still moves; the next ones by more."""
 
 
 class _Names:
@@ -31,7 +41,7 @@ class _Names:
     def points(self) -> Iterator[Finding]:
         for name, point in self.given.points.items():
             where = (*TOP, "points", name)
-            forms = {"at": point.at, "lines": point.lines, "from": point.from_}
+            forms = {"at": point.at, "lines": point.lines, "distances": point.distances, "from": point.from_}
             told = [key for key, value in forms.items() if value is not None]
             yield from _one_of(told, tuple(forms), where)
             if told == ["from"]:
@@ -71,7 +81,7 @@ class _Names:
                     yield from self._point(through, (*where, "through"))
                     yield from self._pair((body, carrier), where, "disc", "on")
                     yield from self._disc(body, (*where, "disc"))
-                case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
+                case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs) | file.Belt(discs=discs):
                     yield from self._pair(discs, (*where, "discs"))
                     for place, body in enumerate(discs):
                         yield from self._disc(body, (*where, "discs", place))
@@ -146,7 +156,7 @@ def _one_of(told: list[str], keys: tuple[str, ...], where: Where) -> Iterator[Fi
 # --- the motion -----------------------------------------------------------------------------------
 
 
-def _motion(given: file.Parameters) -> Iterator[Finding]:
+def _motion(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Finding]:
     """The system can move as is given, and what is asked follows from that."""
     try:
         motion = Motion(system(given))
@@ -173,6 +183,35 @@ def _motion(given: file.Parameters) -> Iterator[Finding]:
     for index, asked in enumerate(given.find):
         if not knows[asked.what](asked.of):
             yield Finding("undetermined", (*TOP, "find", index), {"text": asked.id, "open": _open(motion, asked)})
+
+    yield from _methods(given, lay_out(given, motion))
+    yield from _by_symbols(given, raw)
+
+
+def _by_symbols(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Finding]:
+    """The system moves whatever the symbols stand for, and not only at the values that they have."""
+    if not given.symbols:
+        return
+    changes = {name: 1 + CHANGED * (index + 1) for index, name in enumerate(given.symbols)}
+    changed = {name: f"{one.given.si * changes[name]!r} {symbols.si_unit(one)}" for name, one in given.symbols.items()}
+    try:
+        other = Motion(system(file.Parameters.model_validate({**raw, "symbols": changed})))
+        moves = not (other.velocity_conflicts or other.acceleration_conflicts)
+    except (MisplacedError, ValidationError):
+        moves = False
+    if not moves:
+        shown = ", ".join(f"{name} = {text}" for name, text in changed.items())
+        yield Finding("only-at-values", (*TOP, "symbols"), {"text": shown})
+
+
+def _methods(given: file.Parameters, layout: Layout) -> Iterator[Finding]:
+    """Every method that is asked for can apply, and is asked for once."""
+    for index, method in enumerate(given.methods):
+        where = (*TOP, "methods", index)
+        if method in given.methods[:index]:
+            yield Finding("method-repeated", where, {"text": method})
+        elif code := why_not(method, layout):
+            yield Finding(code, where, {"text": method})
 
 
 def _place_of(name: str) -> Where:

@@ -6,11 +6,12 @@ import re
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from reportgen.assignment.common import Part
-from reportgen.assignment.fields import Angle, Length, Reader, Whole, fault, quantity
-from reportgen.catalogue.linkage_file import MOST_NAMES, Name, Place
+from reportgen.assignment.fields import Angle, Flag, Reader, Whole, fault, quantity
+from reportgen.catalogue.linkage_file import MOST_NAMES, Name
+from reportgen.catalogue.plane_motion_symbols import MOST_SYMBOLS, SymbolName, SymbolValue, Told, Value, stated
 from reportgen.units import Given
 
 LAST_BODY = 40
@@ -20,10 +21,15 @@ Number = Annotated[int, Whole(1, LAST_BODY)]
 NumberOrGround = Annotated[int, Whole(0, LAST_BODY)]
 Bodies = Annotated[tuple[NumberOrGround, ...], Field(min_length=2, max_length=2)]
 Ends = Annotated[tuple[Name, ...], Field(min_length=2, max_length=2)]
-Speed = Annotated[Given, quantity("m/s", least=-1e4, most=1e4, tiny=1e-9)]
-Acceleration = Annotated[Given, quantity("m/s2", least=-1e6, most=1e6, tiny=1e-9)]
-Omega = Annotated[Given, quantity("rad/s", least=-1e5, most=1e5, tiny=1e-9)]
-Epsilon = Annotated[Given, quantity("rad/s2", least=-1e7, most=1e7, tiny=1e-9)]
+Length = Annotated[Given, Told(quantity("mm", least=0.1, below=1e5))]
+Coordinate = Annotated[Given, Told(quantity("mm", above=-1e5, below=1e5, tiny=1e-4))]
+Place = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=2)]
+Speed = Annotated[Given, Told(quantity("m/s", least=-1e4, most=1e4, tiny=1e-9))]
+Acceleration = Annotated[Given, Told(quantity("m/s2", least=-1e6, most=1e6, tiny=1e-9))]
+Omega = Annotated[Given, Told(quantity("rad/s", least=-1e5, most=1e5, tiny=1e-9))]
+Epsilon = Annotated[Given, Told(quantity("rad/s2", least=-1e7, most=1e7, tiny=1e-9))]
+STATED = frozenset({"at", "distance", "radius", "size", "value", "acceleration"})
+"""The keys behind which symbols may stand."""
 Time = Annotated[Given, quantity("s", above=0, most=1e5, tiny=1e-6)]
 
 
@@ -37,10 +43,18 @@ class Through(Part):
     angle: Angle
 
 
+class Away(Part):
+    """A distance from a point that is placed already."""
+
+    from_: Name = Field(alias="from")
+    distance: Length
+
+
 class PointAt(Part):
     """Where a point is: at coordinates, at a distance and an angle from another point, or where two lines meet.
 
-    With `on` instead of the angle it lies on a line at that distance, at its far or near end.
+    With `on` instead of the angle it lies on a line at that distance, at its far or near end; with `distances` it is
+    at two distances from two points, to the left or the right of the way from the first to the second.
     """
 
     at: Place | None = None
@@ -49,6 +63,8 @@ class PointAt(Part):
     angle: Angle | None = None
     on: Through | None = None
     end: Literal["far", "near"] = "far"
+    distances: Annotated[tuple[Away, ...] | None, Field(min_length=2, max_length=2)] = None
+    side: Literal["left", "right"] = "left"
     lines: Annotated[tuple[Through, ...] | None, Field(min_length=2, max_length=2)] = None
 
 
@@ -166,6 +182,21 @@ class Gears(Part):
         return ("gears", *self.discs)
 
 
+class Belt(Part):
+    """A belt about two discs, which does not slip; a crossed one turns them in opposite senses.
+
+    Something else holds the centres of the discs at their distance.
+    """
+
+    type: Literal["belt"]
+    discs: Bodies
+    crossed: Annotated[bool, Flag()] = False
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("belt", *self.discs)
+
+
 class Cord(Part):
     """Two points keep their distance: a taut cord, or a rod of which nothing is asked."""
 
@@ -178,7 +209,8 @@ class Cord(Part):
 
 
 Joint = Annotated[
-    Pin | SlotJoint | Slider | Translation | RollingOnLine | RollingOnCircle | Gears | Cord, Field(discriminator="type")
+    Pin | SlotJoint | Slider | Translation | RollingOnLine | RollingOnCircle | Gears | Belt | Cord,
+    Field(discriminator="type"),
 ]
 
 
@@ -197,11 +229,6 @@ class VelocityOf(Part):
     def called(self) -> tuple[object, ...]:
         return ("velocity", self.point)
 
-    @property
-    def along(self) -> float | None:
-        """Its size (SI); None where only the line of action is known."""
-        return None if self.size is None else self.size.si
-
 
 class AccelerationOf(Part):
     """The acceleration of a point, by size and direction; without a size only its line of action is known."""
@@ -214,11 +241,6 @@ class AccelerationOf(Part):
     @property
     def called(self) -> tuple[object, ...]:
         return ("acceleration", self.point)
-
-    @property
-    def along(self) -> float | None:
-        """Its size (SI); None where only the line of action is known."""
-        return None if self.size is None else self.size.si
 
 
 class OmegaOf(Part):
@@ -297,14 +319,46 @@ class AskedId(Reader):
         return {"type": "string", "pattern": f"^{_ASKED.pattern.replace('?P<what>', '').replace('?P<of>', '')}$"}
 
 
+Method = Literal["instant centre", "base point", "projection", "moving frame"]
+
+
+SymbolTable = Annotated[
+    dict[Annotated[str, SymbolName()], Annotated[Value, SymbolValue()]], Field(max_length=MOST_SYMBOLS)
+]
+
+
 class Parameters(Part):
     """One instant of a system of bodies in plane motion."""
 
+    symbols: SymbolTable = Field(default_factory=dict)
     points: Annotated[dict[Name, PointAt], Field(min_length=1, max_length=MOST_NAMES)]
     bodies: Annotated[dict[NumberOrGround, BodyOf], Field(min_length=1, max_length=LAST_BODY)]
     joints: Annotated[tuple[Joint, ...], Field(max_length=MOST_NAMES)] = ()
     given: Annotated[tuple[GivenRate, ...], Field(min_length=1, max_length=MOST_NAMES)]
     find: Annotated[tuple[Annotated[Asked, AskedId()], ...], Field(min_length=1, max_length=MOST_NAMES)]
+    methods: Annotated[tuple[Method, ...], Field(max_length=4)] = ()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_symbols(cls, content: Any) -> Any:
+        """What may be stated by symbols takes them along to where it is read."""
+        told = content.get("symbols") if isinstance(content, dict) else None
+        if not isinstance(told, dict):
+            return content
+        try:
+            symbols = TypeAdapter(SymbolTable).validate_python(told)
+        except ValidationError:
+            # Told where the symbols themselves are read.
+            symbols = {}
+        return {
+            key: stated(one, symbols, STATED) if key in {"points", "bodies", "given"} else one
+            for key, one in content.items()
+        }
+
+    @property
+    def literal(self) -> bool:
+        """Whether the solution is one by symbols."""
+        return bool(self.symbols)
 
     def disc(self, body: int) -> Disc | None:
         return self.bodies[body].disc if body in self.bodies else None

@@ -5,6 +5,8 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.linkage_file import place
@@ -12,11 +14,13 @@ from reportgen.errors import Finding, Where
 from reportgen.plane_motion import conditions as on
 from reportgen.plane_motion.conditions import Condition
 from reportgen.plane_motion.solving import System
+from reportgen.units import Given
 
 TOP: Where = ("parameters",)
 TOUCHING = 1e-6
 """Discs and lines whose distance is off by less than this share of the radius touch."""
 PARALLEL = 1e-9
+ROUND = 1e-12
 
 Places = dict[str, complex]
 
@@ -63,6 +67,15 @@ def _place(name: str, point: file.PointAt, known: Places) -> complex:
         if abs(across) < PARALLEL:
             raise MisplacedError("lines-parallel", *where, "lines", text=name)
         return p + u * (((q - p).conjugate() * w).imag / across)
+    if point.distances is not None:
+        first, second = (at(end.from_, "distances", index, "from") for index, end in enumerate(point.distances))
+        r1, r2 = (end.distance.si for end in point.distances)
+        span = abs(second - first)
+        if span < PARALLEL or not abs(r1 - r2) <= span * (1 + ROUND) or span * (1 - ROUND) > r1 + r2:
+            raise MisplacedError("circles-apart", *where, "distances", text=name)
+        along = (r1**2 - r2**2 + span**2) / (2 * span)
+        across = math.sqrt(max(r1**2 - along**2, 0.0)) * (1 if point.side == "left" else -1)
+        return first + (second - first) / span * complex(along, across)
     assert point.from_ is not None
     assert point.distance is not None
     centre, radius = at(point.from_, "from"), point.distance.si
@@ -125,14 +138,65 @@ def contact_of_discs(
     )
 
 
+def belt_ends(geometry: Geometry, joint: file.Belt) -> tuple[Any, Any]:
+    """Where a belt leaves one disc, to the left of the way to the other, and where it comes to the other."""
+    one, other = (geometry.given.disc(body) for body in joint.discs)
+    assert one is not None
+    assert other is not None
+    first, second = geometry.points[one.centre], geometry.points[other.centre]
+    r1, r2 = geometry.size(one.radius), geometry.size(other.radius)
+    reach = -r2 if joint.crossed else r2
+    apart = abs(second - first)
+    share = (r1 - reach) / apart
+    way = (second - first) / apart
+    out = way * share + 1j * way * geometry.root(1 - share**2)
+    return first + out * r1, second + out * reach
+
+
+class Geometry:
+    """The points and lines of a file in numbers; whoever works with symbols has another one."""
+
+    def __init__(self, given: file.Parameters, points: Mapping[str, Any]) -> None:
+        self.given = given
+        self.points = points
+
+    def size(self, told: Given) -> Any:
+        return told.si
+
+    def unit(self, angle: Given) -> Any:
+        return unit(angle.si)
+
+    def root(self, of: Any) -> Any:
+        return math.sqrt(of)
+
+    def direction(self, line: file.Directed) -> Any:
+        return direction(line, self.points)
+
+    def contact_on_line(self, joint: file.RollingOnLine, index: int) -> Any:
+        return contact_on_line(joint, index, self.given, dict(self.points))
+
+    def contact_of_discs(self, joint: file.RollingOnCircle | file.Gears, index: int) -> Any:
+        return contact_of_discs(joint, index, self.given, dict(self.points))
+
+
 def system(given: file.Parameters) -> System:
     """The whole system of a file that is in order.  Raises `MisplacedError`."""
-    known = places(given)
-    carried = {number: body.carried for number, body in given.bodies.items() if number}
-    bare = System(known, carried, ())
-    joints = (one for index, joint in enumerate(given.joints) for one in _joint(joint, index, given, bare))
-    rates = (one for index, rate in enumerate(given.given) for one in _rate(rate, index, bare))
-    return System(known, carried, (*joints, *rates))
+    geometry = Geometry(given, places(given))
+    bare = System(geometry.points, carried(given), ())
+    return replace(bare, conditions=tuple(conditions(geometry, bare)))
+
+
+def carried(given: file.Parameters) -> dict[int, tuple[str, ...]]:
+    """The points that move with each body but the ground."""
+    return {number: body.carried for number, body in given.bodies.items() if number}
+
+
+def conditions(geometry: Geometry, bare: System) -> Iterator[Condition]:
+    """What the joints and the given quantities say of the rates of the bodies."""
+    for index, joint in enumerate(geometry.given.joints):
+        yield from _joint(joint, index, geometry, bare)
+    for index, rate in enumerate(geometry.given.given):
+        yield from _rate(rate, index, geometry, bare)
 
 
 def name_of(index: int, what: str, *parts: object) -> str:
@@ -140,54 +204,69 @@ def name_of(index: int, what: str, *parts: object) -> str:
     return f"{what}[{index}] ({' '.join(map(str, parts))})"
 
 
-def _joint(joint: file.Joint, index: int, given: file.Parameters, bare: System) -> tuple[Condition, ...]:
-    known = dict(bare.points)
+def _joint(joint: file.Joint, index: int, geometry: Geometry, bare: System) -> tuple[Condition, ...]:
+    given, known = geometry.given, geometry.points
     name = name_of(index, "joints", *joint.called)
     match joint:
         case file.Pin(at=at, bodies=bodies):
             one, other = bodies
             return on.pin(name, known[at], one, other)
         case file.SlotJoint(point=point, body=body, on=carrier):
-            return on.slot(name, known[point], body, carrier, direction(joint, known))
+            return on.slot(name, known[point], body, carrier, geometry.direction(joint))
         case file.Slider(body=body, on=carrier):
             some = known[bare.bodies[body][0]]
-            return (*on.slot(name, some, body, carrier, direction(joint, known)), *on.no_turning(name, body, carrier))
+            return (*on.slot(name, some, body, carrier, geometry.direction(joint)), *on.no_turning(name, body, carrier))
         case file.Translation(body=body):
             return on.no_turning(name, body)
         case file.RollingOnLine(disc=body, on=carrier):
             disc = given.disc(body)
             assert disc is not None
-            touch = contact_on_line(joint, index, given, known)
-            return on.rolling_on_line(name, body, known[disc.centre], disc.radius.si, touch, carrier)
+            touch = geometry.contact_on_line(joint, index)
+            return on.rolling_on_line(name, body, known[disc.centre], geometry.size(disc.radius), touch, carrier)
         case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
             one, other = discs
-            touch = contact_of_discs(joint, index, given, known)
+            touch = geometry.contact_of_discs(joint, index)
             first, second = given.disc(one), given.disc(other)
             assert first is not None
             assert second is not None
             make = on.meshing if isinstance(joint, file.Gears) else on.rolling_on_circle
             return make(name, one, known[first.centre], other, known[second.centre], touch)
+        case file.Belt(discs=discs):
+            first, second = (given.disc(body) for body in discs)
+            assert first is not None
+            assert second is not None
+            if abs(bare.points[second.centre] - bare.points[first.centre]) <= _least(joint, first, second):
+                raise MisplacedError("belt-too-short", "joints", index, text=str(discs[0]), other=str(discs[1]))
+            centres = known[first.centre], known[second.centre]
+            return on.belt(name, belt_ends(geometry, joint), centres, *discs)
         case file.Cord(points=points):
             a, b = points
             ends = known[a], bare.body_of(a), known[b], bare.body_of(b)
             return on.distance(name, *ends)
 
 
-def _rate(rate: file.GivenRate, index: int, bare: System) -> Iterator[Condition]:
+def _least(joint: file.Belt, first: file.Disc, second: file.Disc) -> float:
+    """The distance of the centres that two discs with a belt have to exceed."""
+    sum_of = first.radius.si + second.radius.si
+    return sum_of if joint.crossed else abs(first.radius.si - second.radius.si)
+
+
+def _rate(rate: file.GivenRate, index: int, geometry: Geometry, bare: System) -> Iterator[Condition]:
     name = name_of(index, "given", *rate.called)
+    size, unit = geometry.size, geometry.unit
     match rate:
         case file.OmegaOf(body=body, value=value):
-            yield on.given_omega(name, body, value.si)
+            yield on.given_omega(name, body, size(value))
         case file.EpsilonOf(body=body, value=value):
-            yield on.given_epsilon(name, body, value.si)
-        case file.VelocityOf(point=point, direction=angle):
-            yield from _vector(on.given_velocity, name, bare, point, unit(angle.si), rate.along)
-        case file.AccelerationOf(point=point, direction=angle):
-            yield from _vector(on.given_acceleration, name, bare, point, unit(angle.si), rate.along)
+            yield on.given_epsilon(name, body, size(value))
+        case file.VelocityOf(point=point, direction=angle) | file.AccelerationOf(point=point, direction=angle):
+            make = on.given_velocity if isinstance(rate, file.VelocityOf) else on.given_acceleration
+            along = None if rate.size is None else size(rate.size)
+            yield from _vector(make, name, bare, point, unit(angle), along)
         case file.FromRest(point=point, acceleration=acceleration, time=time, direction=angle):
-            u = unit(angle.si)
-            yield from _vector(on.given_velocity, name, bare, point, u, acceleration.si * time.si)
-            yield from _vector(on.given_acceleration, name, bare, point, u, acceleration.si)
+            u = unit(angle)
+            yield from _vector(on.given_velocity, name, bare, point, u, size(acceleration) * size(time))
+            yield from _vector(on.given_acceleration, name, bare, point, u, size(acceleration))
 
 
 def _vector(

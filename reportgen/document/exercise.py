@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from reportgen.case import ExerciseCase
 from reportgen.catalogue import plane_motion_file as file
+from reportgen.catalogue.plane_motion_symbols import Literal, symbol
 from reportgen.document.exercise_figures import FIGURES
 from reportgen.document.numbering import number
 from reportgen.document.prose import PointName, Prose
@@ -31,7 +32,18 @@ from reportgen.ledger.instant.steps import Step
 from reportgen.ledger.instant.vectors import Vector
 from reportgen.ledger.instant.write import Worked
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Chain, Number, Symbol, Term, VectorEquation, refs
+from reportgen.notation.expressions import (
+    Chain,
+    Expression,
+    Negative,
+    Number,
+    Symbol,
+    Term,
+    VectorEquation,
+    refs,
+    substitute,
+)
+from reportgen.units import Given
 
 TYPED = 6
 """Significant figures of given data; more of them are those of a root or of π."""
@@ -40,6 +52,10 @@ AT = 1
 MM = 1e3
 PLACES = (25.0, 35.0, 35.0)
 """Widths (mm) of the columns of the coordinates."""
+COMPARED = (25.0, 135.0)
+"""Of the comparison of methods: its first column, and all others together."""
+AGREED = 1e-9
+"""Values that differ by less than this share are one."""
 ANSWER = (25.0, 65.0, 70.0)
 """Widths (mm) of the columns of the answers."""
 
@@ -63,12 +79,15 @@ def solution(case: ExerciseCase) -> Document:
 
 def task_names(case: ExerciseCase) -> Mapping[str, Any]:
     """What the templates of an exercise name that say what is given and asked."""
-    page = Page(case)
+    page = Page(case, case.worked)
     return {
         "title": case.title,
         "variant": case.assignment.variant,
         "who": page.who,
+        "whence": page.whence,
         "words": case.words,
+        "symbols": page.symbols,
+        "put_in": page.put_in,
         "places": page.places,
         "given": page.given,
         "asked": page.asked,
@@ -78,13 +97,18 @@ def task_names(case: ExerciseCase) -> Mapping[str, Any]:
 
 def names(case: ExerciseCase) -> Mapping[str, Any]:
     """What the templates of its solution name."""
-    page = Page(case)
+    page = Page(case, case.worked)
+    further = [Page(case, worked) for worked in case.further]
     return {
         **task_names(case),
+        "method": page.method,
+        "further": [WayView(one.method, one.steps_beside(case.worked)) for one in further],
+        "comparison": page.comparison(further) if further else (),
         "lengths": page.lengths,
         "steps": page.steps,
         "velocity_figure": page.figure("velocity"),
         "acceleration_figure": page.figure("acceleration"),
+        "expressions": page.expressions,
         "answers": page.answers,
     }
 
@@ -117,6 +141,20 @@ class StepView:
     angles: tuple[Inlines, ...]
     sense: str
     way: str
+    place: Inlines
+    """The coordinates of the instant centre."""
+    system: tuple[Equation, ...]
+    results: tuple[Equation, ...]
+    contact: PointName | str
+    """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
+
+
+@dataclass(frozen=True)
+class WayView:
+    """A further solution as templates name it."""
+
+    name: str
+    steps: tuple[StepView, ...]
 
 
 @dataclass(frozen=True)
@@ -124,16 +162,21 @@ class Page:
     """An exercise as its page shows it."""
 
     case: ExerciseCase
-
-    @property
-    def worked(self) -> Worked:
-        return self.case.worked
+    worked: Worked
 
     @property
     def who(self) -> str:
         """The student's name, and what is known of the class."""
         student = self.case.assignment.report.student
-        return ", ".join(filter(None, (student.name, student.id, student.class_)))
+        return ", ".join(filter(None, (student.name, student.id, student.class_, student.section)))
+
+    @property
+    def whence(self) -> str:
+        """The school and its parts, the one who set the exercise, and when, as far as the file names them."""
+        report, labels = self.case.assignment.report, self.case.words["cover"]
+        lecturer = f"{labels['supervisor']}: {report.supervisor}" if report.supervisor else None
+        day = report.date.strftime("%d.%m.%Y") if report.date else None
+        return ", ".join(filter(None, (report.university, report.faculty, report.department, lecturer, day)))
 
     # --- given and asked
 
@@ -149,7 +192,7 @@ class Page:
                     id = f"omega.{body}" if isinstance(rate, file.OmegaOf) else f"eps.{body}"
                     sense = Text(self._sense(value.si))
                     form = ("omega" if isinstance(rate, file.OmegaOf) else "epsilon") + ("" if value.si else "-zero")
-                    yield GivenItem(form, none, body, self._typed(id, abs(value.value), value.unit), (sense,))
+                    yield GivenItem(form, none, body, self._typed(id, value), (sense,))
                 case file.VelocityOf(point=point, size=size) | file.AccelerationOf(point=point, size=size):
                     form = "velocity" if isinstance(rate, file.VelocityOf) else "acceleration"
                     id = f"{form[0]}.{point}"
@@ -159,15 +202,63 @@ class Page:
                         )
                     else:
                         turned = rate.direction.si + (math.pi if size.si < 0 else 0.0)
-                        shown = self._typed(id, abs(size.value), size.unit)
+                        shown = self._typed(id, size)
                         yield GivenItem(form, PointName(point), 0, shown, self._angle(turned))
                 case file.FromRest(point=point, acceleration=acceleration, time=time):
-                    shown = self._typed(f"a.{point}", acceleration.value, acceleration.unit)
+                    shown = self._typed(f"a.{point}", acceleration)
                     after = (InlineMath(Chain((Symbol("t"), Number(time.value, None, time.unit)))),)
                     yield GivenItem("from-rest", PointName(point), 0, shown, after)
 
-    def _typed(self, id: str, value: float, typed_unit: str) -> Chain:
-        return Chain((vocabulary.symbol(id), Number(float(f"{value:.{TYPED}g}"), None, pretty(typed_unit))))
+    def _typed(self, id: str, given: Given) -> Chain:
+        """What is given, by its size: the formula of one that is stated by symbols."""
+        size = Number(float(f"{abs(given.value):.{TYPED}g}"), None, pretty(given.unit))
+        if not isinstance(given, Literal):
+            return Chain((vocabulary.symbol(id), size))
+        formula = lettered(given.formula)
+        shown = (formula.of if isinstance(formula, Negative) else formula,)
+        return Chain((vocabulary.symbol(id), *shown))
+
+    @property
+    def symbols(self) -> Inlines:
+        """The symbols of the file with their values."""
+        shown: list[Any] = []
+        for name, one in self.case.exercise.given.symbols.items():
+            value = Number(one.given.value, None, pretty(one.given.unit))
+            shown += [*([Text(", ")] if shown else []), InlineMath(Chain((symbol(name), value)))]
+        return tuple(shown)
+
+    @property
+    def put_in(self) -> bool:
+        """Whether numbers are put in, at the end of each line."""
+        return all(one.put_in for one in self.case.exercise.given.symbols.values())
+
+    def _literal(self, id: str) -> Expression | None:
+        """A quantity by the symbols of the file; None where it is not known so."""
+        found = self.case.literal[id] if self.case.literal is not None else None
+        return None if found is None else lettered(found)
+
+    def _chain(self, id: str) -> Chain:
+        """The worked line: with numbers, or with symbols, behind which numbers stand if they are put in."""
+        chain = self.worked.ledger.chain(id, AT)
+        if self.case.literal is None:
+            return chain
+        found = self._literal(id)
+        *formula, _ = chain.parts[:3] if len(chain.parts) > 2 else (chain.parts[0], None)
+        if self.worked.ledger[id].definition is None:
+            formula = [chain.parts[0]]
+        result = chain.parts[-1:] if self.put_in or (found is None and len(formula) == 1) else ()
+        steps = [*formula, *([] if found is None else [found]), *result]
+        return Chain(tuple(one for place, one in enumerate(steps) if place == 0 or one != steps[place - 1]))
+
+    @property
+    def expressions(self) -> tuple[Equation, ...]:
+        """What was asked, by the symbols of the file."""
+        if self.case.literal is None:
+            return ()
+        ledger = self.worked.ledger
+        found = [(one.id, self._literal(one.id)) for one in self.case.exercise.asked if one.what != "centre"]
+        rows = (Chain((ledger.symbol(id), shown)) for id, shown in found if shown is not None)
+        return (Equation(tuple(rows)),)
 
     def _angle(self, radians: float) -> Inlines:
         return (Value(Number(round(math.degrees(radians) % 360.0, 2), None, "°")),)
@@ -190,22 +281,28 @@ class Page:
         """The distances that the solution uses."""
         ledger = self.worked.ledger
         ids = [id for id in ledger.families if id.startswith("l.") and self._declared(id)]
-        return (Equation(tuple(ledger.chain(id, AT) for id in ids)),) if ids else ()
+        return (Equation(tuple(map(self._chain, ids))),) if ids else ()
 
     @property
     def places(self) -> Table:
         """The coordinates of the points."""
         words = self.case.words["instant"]
-        head = tuple(Cell((Text(str(text)),)) for text in words["place_heads"])
-        points = self.case.exercise.motion.system.points
+        head = tuple(
+            Cell((Text(str(text)),)) for text in words["literal_heads" if self.case.literal else "place_heads"]
+        )
         body = tuple(
-            (
-                Cell((InlineMath(vocabulary.point(name)),)),
-                *(Cell((Value(self._coordinate(part)),)) for part in (at.real, at.imag)),
-            )
-            for name, at in points.items()
+            (Cell((InlineMath(vocabulary.point(name)),)), *map(Cell, self._place(name)))
+            for name in self.case.exercise.motion.system.points
         )
         return Table(tuple(map(Column, PLACES)), (head,), body, (Text(str(words["places"])),), "tab.places")
+
+    def _place(self, name: str) -> tuple[Inlines, Inlines]:
+        """The coordinates of a point in mm, or by symbols."""
+        if self.case.literal is not None:
+            x, y = (lettered(one) for one in self.case.literal.place(name))
+            return (InlineMath(x),), (InlineMath(y),)
+        at = self.case.exercise.motion.system.points[name]
+        return (Value(self._coordinate(at.real)),), (Value(self._coordinate(at.imag)),)
 
     def _coordinate(self, value: float) -> Number:
         """A coordinate in mm, without the dust of floats."""
@@ -222,6 +319,33 @@ class Page:
     def steps(self) -> tuple[StepView, ...]:
         return tuple(map(self._step, self.worked.steps))
 
+    def steps_beside(self, first: Worked) -> tuple[StepView, ...]:
+        """The steps without those that another solution has already."""
+        return tuple(self._step(step) for step in self.worked.steps if step not in first.steps)
+
+    @property
+    def method(self) -> str:
+        """What its method is called; "" where it is chosen for each step."""
+        return str(self.case.words["instant"]["methods"][self.worked.method]) if self.worked.method else ""
+
+    def comparison(self, further: Sequence[Page]) -> Table:
+        """What is asked of velocities, by each method that leads to it.  Raises `ValueError` if two disagree."""
+        words, pages = self.case.words["instant"], (self, *further)
+        rows: list[tuple[Cell, ...]] = []
+        for one in self.case.exercise.asked:
+            ledgers = [page.worked.ledger for page in pages]
+            found = [float(ledger[one.id].values[0]) for ledger in ledgers if one.id in ledger]
+            if one.what not in ("v", "omega"):
+                continue
+            if max(found) - min(found) > AGREED * max(found):
+                raise ValueError(f"methods disagree on {one.id}: {found}")
+            shown = [(Value(ledger.number(one.id, AT)),) if one.id in ledger else (Text("–"),) for ledger in ledgers]
+            rows.append((Cell((InlineMath(ledgers[0].symbol(one.id)),)), *map(Cell, shown)))
+        head = (words["quantity"], *(page.method for page in pages))
+        columns = (Column(COMPARED[0]), *(Column(COMPARED[1] / len(pages)) for _ in pages))
+        heads = tuple(Cell((Text(str(text)),)) for text in head)
+        return Table(columns, (heads,), tuple(rows), (Text(str(words["compared"])),), "tab.compared")
+
     def _step(self, step: Step) -> StepView:
         worked, motion = self.worked, self.case.exercise.motion
         ledger, layout = worked.ledger, worked.layout
@@ -230,6 +354,7 @@ class Page:
         rate = motion.omega(step.body) if step.body else 0.0
         if any(id.startswith("eps.") for id in shown):
             rate = motion.epsilon(step.body)
+        rolling = centre is not None and centre.rule == "contact" and centre.name in (step.point, step.base)
         others = centre.points if centre is not None and centre.points else ("", "")
         angles = dict.fromkeys(id for one in shown for id in self._angles_of(one))
         return StepView(
@@ -240,11 +365,15 @@ class Page:
             PointName(centre.name if centre is not None else ""),
             PointName(others[0]),
             PointName(others[1]),
-            (Equation(tuple(ledger.chain(id, AT) for id in shown)),) if shown else (),
+            (Equation(tuple(map(self._chain, shown))),) if shown else (),
             (self._equation(step),) if step.equation is not None and step.equation.left else (),
             tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),
             self._sense(rate) if rate else str(self.case.words["instant"]["no_sense"]),
             self._heading(step),
+            self._coordinates(step.body) if centre is not None and centre.rule == "normals" else (),
+            (Equation(step.system),) if step.system else (),
+            (Equation(step.results),) if step.results else (),
+            PointName(centre.name) if rolling and centre is not None else "",
         )
 
     def _angles_of(self, id: str) -> list[str]:
@@ -286,9 +415,11 @@ class Page:
         """A vector with what is known of it: its line, its sense by the angle from +x, its size."""
         ledger = self.worked.ledger
         degrees = round(math.degrees(cmath.phase(vector.way)) % 360.0, 2) % 360.0
-        line = Number(degrees % 180.0, None, "°")
+        line = Number(round(degrees % 180.0, 2), None, "°")
         symbol = ledger.symbol(vector.id) if vector.id in ledger else vocabulary.symbol(vector.id)
-        size = None if unknown or vector.id not in ledger else ledger.number(vector.id, AT)
+        size: Expression | None = None if unknown or vector.id not in ledger else ledger.number(vector.id, AT)
+        if size is not None:
+            size = self._literal(vector.id) or size
         sense = None if unknown else Number(degrees, None, "°")
         return Term(vocabulary.vector(symbol), (line, sense, size))
 
@@ -319,7 +450,8 @@ class Page:
                 yield self._centre_row(one.body)
                 continue
             symbol = (InlineMath(ledger.symbol(one.id)),)
-            size = (Value(ledger.number(one.id, AT)),)
+            number, shown = ledger.number(one.id, AT), self._literal(one.id)
+            size: Inlines = (Value(number),) if self.put_in or shown is None else (InlineMath(shown),)
             if one.of_body:
                 rate = motion.omega(one.body) if one.what == "omega" else motion.epsilon(one.body)
                 yield symbol, size, (Text(self._sense(rate)),)
@@ -330,15 +462,31 @@ class Page:
                 yield symbol, size, angle if vector else (Text("–"),)
 
     def _centre_row(self, body: int) -> tuple[Inlines, Inlines, Inlines]:
-        ledger, centre = self.worked.ledger, self.worked.layout.centres[body]
+        centre = self.worked.layout.centres[body]
         if centre.rule == "translation":
             return (Text(str(body)),), (Text(str(self.case.words["instant"]["far"])),), ()
-        places: list[Any] = []
-        for axis in "xy":
-            id = f"centre.{body}.{axis}"
-            chain = Chain((ledger.symbol(id), ledger.number(id, AT)))
-            places += [*([Text("; ")] if places else []), InlineMath(chain)]
-        return (InlineMath(vocabulary.point(centre.name)),), tuple(places), ()
+        return (InlineMath(vocabulary.point(centre.name)),), self._coordinates(body), ()
+
+    def _coordinates(self, body: int) -> Inlines:
+        """Where the instant centre of a body is: x and y, in numbers as in the table of points."""
+        centre = self.worked.layout.centres[body]
+        numbers = [Number(self._coordinate(part).value, None, "mm") for part in (centre.at.real, centre.at.imag)]
+        literal = self.case.literal
+        formulas = None if literal is None else [lettered(one) for one in literal.place(centre.name)]
+        shown: list[Any] = []
+        for index, axis in enumerate("xy"):
+            parts: list[Expression] = [] if formulas is None else [formulas[index]]
+            # Nothing is 0, whatever its unit.
+            if not parts or (self.put_in and numbers[index].value):
+                parts.append(numbers[index])
+            chain = Chain((Symbol(axis, centre.name), *parts))
+            shown += [*([Text("; ")] if shown else []), InlineMath(chain)]
+        return tuple(shown)
+
+
+def lettered(formula: Expression) -> Expression:
+    """A formula over the names of symbols with the letters that are printed for them."""
+    return substitute(formula, lambda ref: symbol(ref.id))
 
 
 def pretty(typed: str) -> str:

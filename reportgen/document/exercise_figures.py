@@ -86,6 +86,7 @@ def _draw(
         [joint.at for joint in pins if GROUND not in joint.bodies],
         [*_rails(case, points)],
         [*_slots(case, points)],
+        [*_cords(case, points, scale)],
         [*_grounds(case, scale)],
         [(start * scale, end * scale) for start, end in normals],
         arrows,
@@ -128,6 +129,21 @@ def _slots(case: ExerciseCase, points: dict[str, complex]) -> Iterator[tuple[com
             u, at = direction(joint, system.points), points[joint.point]
             along = [(u.conjugate() * (points[name] - at)).real for name in system.bodies[joint.on]]
             yield at + (min(*along, 0.0) - instant.BEYOND) * u, at + (max(*along, 0.0) + instant.BEYOND) * u
+
+
+def _cords(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iterator[tuple[complex, complex]]:
+    """Cords, and both straight parts of each belt, mirrored in the line of its centres."""
+    given, layout = case.exercise.given, case.worked.layout
+    for index, joint in enumerate(given.joints):
+        if isinstance(joint, file.Cord):
+            yield points[joint.points[0]], points[joint.points[1]]
+        elif isinstance(joint, file.Belt):
+            first, second = (points[disc.centre] for disc in map(given.disc, joint.discs) if disc is not None)
+            way = (second - first) / abs(second - first)
+            start, end = (layout.points[name] * scale for name in layout.belts[index])
+            yield start, end
+            mirrored = [first + way * ((at - first) / way).conjugate() for at in (start, end)]
+            yield mirrored[0], mirrored[1]
 
 
 def _grounds(case: ExerciseCase, scale: float) -> Iterator[instant.Ground]:

@@ -74,6 +74,8 @@ class Drawn:
     rails: Sequence[Rail] = ()
     slots: Sequence[tuple[complex, complex]] = ()
     """Lines on bodies along which others slide."""
+    cords: Sequence[tuple[complex, complex]] = ()
+    """Taut cords, and the straight parts of belts."""
     grounds: Sequence[Ground] = ()
     normals: Sequence[tuple[complex, complex]] = ()
     vectors: Sequence[tuple[complex, complex, Content]] = ()
@@ -89,6 +91,7 @@ def instant(drawn: Drawn, notes: Sequence[Content] = ()) -> Scene:
         items += style.ground(ground.at + along, ground.at - along, 1)
     items += [Circle(disc.centre, disc.radius, style.THIN if disc.fixed else style.VISIBLE) for disc in drawn.discs]
     items += [Line(start, end, style.HEAVY) for start, end in drawn.slots]
+    items += [Line(start, end, style.VISIBLE) for start, end in drawn.cords]
     for rail in drawn.rails:
         on = rail.way * GUIDE
         if rail.on_ground:

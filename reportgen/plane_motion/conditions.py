@@ -41,7 +41,7 @@ class Velocities:
     def at(self, body: int, point: complex) -> complex:
         """The velocity of a point that moves with a body."""
         rates = self.of(body)
-        return rates.origin + 1j * rates.turn * point
+        return rates.origin + rates.turn * (1j * point)
 
 
 Drift = Callable[[Velocities], float]
@@ -153,6 +153,24 @@ def meshing(
     """Two gears whose pitch circles touch at `contact`; something else keeps their centres apart."""
     along = 1j * (centre - other_centre) / abs(centre - other_centre)
     return (_between(name, along, contact, disc, other),)
+
+
+def belt(
+    name: str, ends: tuple[complex, complex], centres: tuple[complex, complex], one: int, other: int
+) -> tuple[Condition, ...]:
+    """A belt runs straight from a point of one disc to one of another without slip, and keeps its length.
+
+    The centres stay at the same distance, so that the belt turns as their line does.
+    """
+    span, between = ends[1] - ends[0], centres[1] - centres[0]
+    line = span / abs(span)
+
+    def turning(motion: Velocities) -> float:
+        first, second = motion.at(one, centres[0]), motion.at(other, centres[1])
+        rate = _dot(1j * between, second - first) / _dot(between, between)
+        return -_dot(rate * (1j * line), first - second)
+
+    return (Condition(name, (Component(one, ends[0], line), Component(other, ends[1], -line)), drift=turning),)
 
 
 # --- given quantities -----------------------------------------------------------------------------

@@ -79,6 +79,27 @@ parameters:
   find: [v.D]
 """
 
+OFFSET_SLOT = """\
+kind: plane-motion
+parameters:
+  points:
+    O: {at: [0 m, 0 m]}
+    C: {at: [0 m, -0.5 m]}
+    A: {from: O, distance: 0.2 m, angle: 30 deg}
+  bodies:
+    1: {points: [O, A]}
+    2: {points: [C]}
+  joints:
+    - {type: pin, at: O, bodies: [0, 1]}
+    - {type: pin, at: C, bodies: [0, 2]}
+    - {type: slot, point: A, body: 1, on: 2, angle: 20 deg}
+  given:
+    - {type: omega, body: 1, value: 2 rad/s}
+    - {type: epsilon, body: 1, value: 0 rad/s2}
+  find: [omega.2, eps.2]
+"""
+"""The line of body 2 does not pass through its pivot."""
+
 # (name, the file, what is replaced in it, by what, the faults expected)
 EDITS = [
     ("point without a place", BASE, "{at: [0 m, 0 m]}", "{}", ["4:8 missing-key"]),
@@ -131,7 +152,31 @@ EDITS = [
         "    - {type: velocity, point: B, size: 1 m/s, direction: 0 deg}\n    - {type: epsilon",
         ["16:7 contradiction"],
     ),
+    ("method of no name", BASE, "find: [v.A", "methods: [guessing]\n  find: [v.A", ["17:13 choice"]),
+    (
+        "method named twice",
+        BASE,
+        "find: [v.A",
+        "methods: [projection, projection]\n  find: [v.A",
+        ["17:25 method-repeated"],
+    ),
+    ("no moving frame", BASE, "find: [v.A", "methods: [moving frame]\n  find: [v.A", ["17:13 no-moving-frame"]),
+    ("no component", WHEELS, "find: [omega.1", "methods: [projection]\n  find: [omega.1", ["16:13 no-projection"]),
     ("disc above its line", WHEELS, "[0 m, 1 m]", "[0 m, 1.1 m]", ["11:7 no-contact"]),
+    (
+        "circles apart",
+        BASE,
+        "{from: A, distance: 1 m, angle: -45 deg}",
+        "{distances: [{from: O, distance: 1 m}, {from: A, distance: 0.7 m}]}",
+        ["6:20 circles-apart"],
+    ),
+    (
+        "belt about discs in each other",
+        WHEELS,
+        "gears, discs: [1, 2]",
+        "belt, crossed: true, discs: [1, 2]",
+        ["13:7 belt-too-short"],
+    ),
     ("gears apart", WHEELS, "[0 m, 3 m]", "[0 m, 4 m]", ["13:7 no-contact-of-discs"]),
     (
         "no disc",
@@ -139,6 +184,27 @@ EDITS = [
         "1: {points: [D], disc: {centre: C, radius: 1 m}}",
         "1: {points: [D, C]}",
         ["11:37 no-disc", "13:29 no-disc"],
+    ),
+]
+
+
+SYMBOLS = BASE.replace("parameters:\n", "parameters:\n  symbols: {r: 0.2 m, l: 1 m, omega: 10 rad/s}\n")
+EDITS += [
+    ("no such symbol", SYMBOLS, "distance: 0.2 m", "distance: 2*r + q", ["6:28 no-such-symbol"]),
+    ("no formula", SYMBOLS, "distance: 0.2 m", "distance: r l", ["6:28 no-formula"]),
+    ("no call", SYMBOLS, "distance: 0.2 m", "distance: exp(r)", ["6:28 no-formula"]),
+    ("unlike terms", SYMBOLS, "distance: 0.2 m", "distance: r + omega", ["6:28 unlike-terms"]),
+    ("formula of another kind", SYMBOLS, "value: 10 rad/s", "value: r*omega", ["16:37 wrong-unit"]),
+    ("formula out of range", SYMBOLS, "distance: 0.2 m", "distance: r - l", ["6:28 out-of-range"]),
+    ("symbol without unit", SYMBOLS, "r: 0.2 m", "r: 2", ["3:16 missing-unit"]),
+    ("symbol of no length", SYMBOLS, "r: 0.2 m", "r: -0.2 m", ["3:16 out-of-range"]),
+    ("name of a symbol", SYMBOLS, "{r: 0.2 m", "{r_1: 0.2 m", ["3:13 symbol-name"]),
+    (
+        "moves at these values alone",
+        WHEELS.replace("parameters:\n", "parameters:\n  symbols: {r: 1 m}\n"),
+        "2: {disc: {centre: E, radius: 1 m}}",
+        "2: {disc: {centre: E, radius: r}}",
+        ["3:12 only-at-values"],
     ),
 ]
 
@@ -165,6 +231,45 @@ def test_a_contradiction_names_both_sides(tmp_path: Path) -> None:
     assert "velocity B contradicts pin O, pin A, slot B, omega 1" in message
 
 
+def test_accelerations_may_contradict_where_velocities_do_not(tmp_path: Path) -> None:
+    """The crank says what the acceleration of B is; another one is refused beside what it stands against."""
+    second = "    - {type: acceleration, point: B, size: 1 m/s2, direction: 0 deg}\n    - {type: epsilon"
+    message = told(tmp_path, BASE.replace("    - {type: epsilon", second))
+    assert "contradicts" in message
+    assert "accelerations" in message
+    assert all(name in message for name in ("pin O", "pin A", "slot B", "acceleration B"))
+
+
+def test_a_direction_may_contradict_a_guide(tmp_path: Path) -> None:
+    second = "    - {type: velocity, point: B, direction: 90 deg}\n    - {type: epsilon"
+    message = told(tmp_path, BASE.replace("    - {type: epsilon", second))
+    assert "velocity B contradicts" in message
+
+
+def test_what_is_said_twice_is_no_fault(tmp_path: Path) -> None:
+    """A second guide along the first, and a rate that follows from the others, are passive."""
+    again = "    - {type: slot, point: B, body: 2, angle: 180 deg}\n  given:\n"
+    text = BASE.replace("  given:\n", again)
+    text = text.replace(
+        "    - {type: epsilon",
+        "    - {type: velocity, point: A, size: 2 m/s, direction: 135 deg}\n    - {type: epsilon",
+    )
+    assert told(tmp_path, text) == ""
+
+
+def test_two_discs_on_one_line_turn_alike_or_contradict(tmp_path: Path) -> None:
+    """Two wheels on the ground with a rod between their centres: a second velocity for one is too much."""
+    text = WHEELS.replace("{at: [0 m, 3 m]}", "{at: [3 m, 1 m]}").replace(
+        "    - {type: pin, at: E, bodies: [0, 2]}\n    - {type: gears, discs: [1, 2]}\n",
+        "    - {type: rolling on line, disc: 2, through: D, angle: 0 deg}\n    - {type: cord, points: [C, E]}\n",
+    )
+    assert told(tmp_path, text) == ""
+    more = "    - {type: velocity, point: E, size: 1 m/s, direction: 0 deg}\n  find"
+    message = told(tmp_path, text.replace("  find", more))
+    assert "velocity E contradicts" in message
+    assert "cord C E" in message
+
+
 def test_what_stays_open_is_named(tmp_path: Path) -> None:
     message = told(tmp_path, BASE.replace("    - {type: slot, point: B, body: 2, angle: 0 deg}\n", ""))
     assert "omega.2 does not follow" in message
@@ -177,6 +282,40 @@ def test_distances_of_what_does_not_touch_are_told(tmp_path: Path) -> None:
     assert "1000 mm" in message
 
 
+LEVER = """\
+kind: plane-motion
+parameters:
+  points:
+    O: {at: [0 m, 0 m]}
+    A: {at: [1 m, 0 m]}
+  bodies:
+    1: {points: [O, A]}
+  joints:
+    - {type: pin, at: O, bodies: [0, 1]}
+  given:
+    - {type: omega, body: 1, value: 2 rad/s}
+  find: [v.A]
+  methods: [base point]
+"""
+
+
+def test_what_turns_about_a_fixed_point_needs_no_method(tmp_path: Path) -> None:
+    assert ":13:13: " in told(tmp_path, LEVER)
+    assert "no body is in plane motion" in told(tmp_path, LEVER)
+
+
+@pytest.mark.parametrize(
+    ("method", "why"),
+    [
+        ("instant centre", "whose directions of motion are known"),
+        ("base point", "two points that move along known lines"),
+    ],
+)
+def test_a_method_that_cannot_apply_says_why(method: str, why: str, tmp_path: Path) -> None:
+    """The rods of THREE_RODS have no two guided points."""
+    assert why in told(tmp_path, THREE_RODS + f"  methods: [{method}]\n")
+
+
 @pytest.mark.parametrize("base", [BASE, WHEELS])
 def test_the_bases_are_in_order(base: str, tmp_path: Path) -> None:
     assert told(tmp_path, base) == ""
@@ -186,9 +325,11 @@ def test_what_is_not_offered_is_told_in_one_line(tmp_path: Path) -> None:
     """Drawing sheets need a machine; a solution needs steps that are known."""
     path = tmp_path / "file.yaml"
     path.write_text(BASE, encoding="utf-8")
+    with pytest.raises(NotOfferedError, match="--positions"):
+        api.solve(load(path, "en"), 12)
     with pytest.raises(NotOfferedError, match="plane-motion"):
         api.sheet_files(path, "typst", "en")
-    path.write_text(THREE_RODS, encoding="utf-8")
-    with pytest.raises(NotOfferedError, match=r"v\.D"):
+    path.write_text(OFFSET_SLOT, encoding="utf-8")
+    with pytest.raises(NotOfferedError, match=r"eps\.2"):
         api.document(load(path, "en"))
-    assert api.solve(load(path))["positions"][0]["points"]["D"]["v"] is not None
+    assert api.solve(load(path))["positions"][0]["links"]["2"]["epsilon"] is not None

@@ -23,10 +23,7 @@ from tests.grading import demo, students
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 STUDENTS = 12
 CHOICES = {
-    "10": {
-        "value: 6 rad/s": "value: [4 rad/s, 5 rad/s, 6 rad/s, 8 rad/s]",
-        "distance: 100 mm": "distance: [80 mm, 100 mm, 120 mm]",
-    },
+    "10": {"omega: 6 rad/s": "omega: [4 rad/s, 5 rad/s, 6 rad/s, 8 rad/s]", "r: 100 mm": "r: [80 mm, 100 mm, 120 mm]"},
     "17": {
         "value: 1 rad/s": "value: [1 rad/s, 1.5 rad/s, 2 rad/s, 2.5 rad/s]",
         "B: {at: [0 mm, 100 mm]}": "B: {from: A, distance: {from: 80 mm, to: 120 mm, step: 5 mm}, angle: 90 deg}",

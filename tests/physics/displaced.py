@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -29,6 +30,25 @@ def si(text: str) -> float:
     return float(number) * UNITS[unit]
 
 
+def with_numbers(content: Any, symbols: Mapping[str, float]) -> Any:
+    """What is stated by symbols with their values, all of them SI, put in."""
+    if isinstance(content, list):
+        return [with_numbers(one, symbols) for one in content]
+    names = re.findall(r"[A-Za-z]+[0-9]*", content)
+    if not names or not {*names} <= {*symbols, "sqrt"}:
+        return content
+    return f"{eval(content, {'sqrt': math.sqrt}, dict(symbols))!r} m"
+
+
+def _put_in(content: Any, symbols: Mapping[str, float], keys: tuple[str, ...]) -> Any:
+    if isinstance(content, dict):
+        return {
+            key: with_numbers(one, symbols) if key in keys else _put_in(one, symbols, keys)
+            for key, one in content.items()
+        }
+    return [_put_in(one, symbols, keys) for one in content] if isinstance(content, list) else content
+
+
 def dot(a: complex, b: complex) -> float:
     return (a.conjugate() * b).real
 
@@ -39,6 +59,11 @@ class Displaced:
     def __init__(self, path: Path) -> None:
         # Every value stays text: to YAML itself the key `on` would be a truth value.
         given = yaml.load(path.read_text(encoding="utf-8"), yaml.BaseLoader)["parameters"]
+        told = given.get("symbols", {}).items()
+        symbols = {name: si(one["drawn"] if isinstance(one, dict) else one) for name, one in told}
+        stated = ("at", "distance", "radius", "value", "size", "acceleration")
+        for section in ("points", "bodies", "given"):
+            given[section] = _put_in(given[section], symbols, stated)
         self.points: dict[str, complex] = {}
         for name, point in given["points"].items():
             self.points[name] = self._place(point)

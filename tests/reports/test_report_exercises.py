@@ -13,8 +13,9 @@ import pytest
 from reportgen import api
 from reportgen.answers.results import print_tables
 from reportgen.case import ExerciseCase
-from reportgen.document.exercise import solution
-from reportgen.document.tree import Document, text_of
+from reportgen.document.exercise import lettered, solution
+from reportgen.document.tree import Document, Equation, text_of
+from reportgen.notation.expressions import Chain
 from reportgen.notation.numbers import write
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
@@ -37,8 +38,9 @@ def test_every_exercise_builds(path: Path, language: Any, engine: Any) -> None:
     assert 1 <= len(pages) <= MOST_PAGES
     text = "".join(page.get_text() for page in pages)
     case = ExerciseCase(api.load(path, language))
+    put_in = all(one.put_in for one in case.exercise.given.symbols.values())
     for asked in case.exercise.asked:
-        if asked.what != "centre":
+        if asked.what != "centre" and put_in:
             number = case.ledger.number(asked.id)
             assert write(number.value, number.decimals, language) in text
 
@@ -53,10 +55,43 @@ def test_no_gap_is_left_in_the_words(path: Path, language: Any) -> None:
     assert re.search(r"[^\d] [.,;]( |$)", text, re.MULTILINE) is None
 
 
+@pytest.mark.parametrize(
+    "path", [path for path in FILES if "symbols:" in path.read_text("utf-8")], ids=lambda p: p.stem
+)
+def test_a_literal_answer_is_an_expression(path: Path) -> None:
+    """The last lines of the page are what was asked, by the symbols; numbers stand behind them only if put in."""
+    case = ExerciseCase(api.load(path, "en"))
+    assert case.literal is not None
+    (rows,) = [block.rows for block in document(path, "en").blocks if isinstance(block, Equation)][-1:]
+    asked = [one.id for one in case.exercise.asked if one.what != "centre"]
+    assert len(rows) == len(asked)
+    for row, id in zip(rows, asked, strict=True):
+        assert isinstance(row, Chain)
+        expected = case.literal[id]
+        assert expected is not None
+        assert row.parts == (case.ledger.symbol(id), lettered(expected))
+
+
+def test_drawn_values_stay_out_of_the_solution() -> None:
+    """In exercise 6 no number with a unit stands behind the data but the scales of the figure."""
+    text = text_of(document(FOLDER / "06.yaml", "en"))
+    assert "rad/s" not in text.partition("Solution")[2]
+    assert "m/s" not in text.partition("Solution")[2]
+
+
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_both_languages_write_the_same_steps(path: Path) -> None:
     vi, en = ([type(block).__name__ for block in document(path, language).blocks] for language in LANGUAGES)
     assert vi == en
+
+
+def test_what_a_cover_would_say_stands_on_the_first_page(tmp_path: Path) -> None:
+    told = "report: {language: en, university: Polytechnic, "
+    told += "supervisor: R. Franke, date: 2026-11-22, student: {name: An}}\n"
+    path = tmp_path / "file.yaml"
+    path.write_text(told + (FOLDER / "18.yaml").read_text(encoding="utf-8"), encoding="utf-8")
+    text = text_of(document(path, "en"))
+    assert all(word in text for word in ("An", "Polytechnic", "R. Franke", "22.11.2026"))
 
 
 def test_results_are_tables_too(capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import permutations
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_places import direction, unit
 from reportgen.ledger.instant.speeds import Board
 from reportgen.ledger.instant.steps import Equation, Step
-from reportgen.ledger.instant.vectors import Vector, components, parallel, solved_for
+from reportgen.ledger.instant.vectors import Vector, components, solved_for
 from reportgen.notation.expressions import Symbol, sqrt, total
 from reportgen.plane_motion.conditions import GROUND
+from reportgen.plane_motion.ways import parallel
 
 
 @dataclass
@@ -28,20 +31,23 @@ class Parts:
         return tuple(one for one in vectors if self.board.knows(one.id) and self.board.q.si(one.id))
 
 
-def enter_accelerations(board: Board) -> None:
-    """Given rates first; then every rate that follows from the velocities and from them."""
+def enter_accelerations(board: Board, together: Callable[[Parts], bool]) -> None:
+    """Given rates first; then every rate that follows from the velocities and from them.
+
+    Where no vector equation gives more, `together` solves what is left as one system.
+    """
     parts = Parts(board)
     _given(parts)
-    while _next(parts):
+    while _next(parts) or together(parts):
         pass
-    for asked in board.layout.exercise.asked:
+    for asked in board.layout.given.find:
         if asked.what == "a" and asked.of in parts.of and not board.knows(asked.id):
             _whole(parts, asked.of)
 
 
 def _given(parts: Parts) -> None:
     board = parts.board
-    for rate in board.layout.exercise.given.given:
+    for rate in board.layout.given.given:
         match rate:
             case file.EpsilonOf(body=body, value=value):
                 board.given(f"eps.{body}", value.si)
@@ -60,19 +66,22 @@ def _given(parts: Parts) -> None:
 
 def _held(board: Board, body: int) -> bool:
     """Whether a joint keeps a body from turning, not only at the instant."""
-    joints = board.layout.exercise.given.joints
+    joints = board.layout.given.joints
     return any(isinstance(one, file.Slider | file.Translation) and one.body == body for one in joints)
 
 
 def _next(parts: Parts) -> bool:
     """One more body whose rate, or one of whose points becomes known; whether there was one."""
     board = parts.board
-    for body, names in board.layout.members.items():
+    for body in board.layout.members:
+        names = board.layout.own(body)
         if _free(parts, body, names) or _rolling(parts, body) or _points(parts, body, names):
             return True
         if _by_base(parts, body, names):
             return True
-    joints = board.layout.exercise.given.joints
+    if _by_rims(parts):
+        return True
+    joints = board.layout.given.joints
     return any(_slot(parts, joint) for joint in joints if isinstance(joint, file.SlotJoint) and joint.on)
 
 
@@ -92,28 +101,25 @@ def _relative(parts: Parts, body: int, point: str, base: str) -> tuple[Vector, V
 
 def _enter_normal(parts: Parts, body: int, point: str, base: str, normal: Vector) -> tuple[str, ...]:
     """aⁿ = ω² l; no line where the body does not turn."""
-    board = parts.board
-    if board.knows(normal.id):
-        return ()
-    if board.q.si(f"omega.{body}") == 0:
-        board.q.give(normal.id, 0.0)
-        return ()
-    arm = board.length(base, point)
-    board.q.define(normal.id, board.q[f"omega.{body}"] ** 2 * arm)
-    return (arm.id, normal.id)
+    return _enter_part(parts, normal.id, f"omega.{body}", 2, base, point)
 
 
 def _enter_tangential(parts: Parts, body: int, point: str, base: str, tangential: Vector) -> tuple[str, ...]:
     """aᵗ = ε l; no line where the angular velocity does not change."""
+    return _enter_part(parts, tangential.id, f"eps.{body}", 1, base, point)
+
+
+def _enter_part(parts: Parts, id: str, rate: str, power: int, base: str, point: str) -> tuple[str, ...]:
+    """A part of an acceleration from a rate of the body; the ids of its lines, none where the part is nothing."""
     board = parts.board
-    if board.knows(tangential.id):
+    if board.knows(id):
         return ()
-    if board.q.si(f"eps.{body}") == 0:
-        board.q.give(tangential.id, 0.0)
+    if board.q.si(rate) == 0:
+        board.q.give(id, 0.0)
         return ()
     arm = board.length(base, point)
-    board.q.define(tangential.id, board.q[f"eps.{body}"] * arm)
-    return (arm.id, tangential.id)
+    board.q.define(id, (board.q[rate] if power == 1 else board.q[rate] ** power) * arm)
+    return (arm.id, id)
 
 
 def _points(parts: Parts, body: int, names: list[str]) -> bool:
@@ -189,7 +195,8 @@ def _path(parts: Parts, point: str, body: int) -> Path | None:
             normal, tangential = _relative(parts, other, point, centre.name)
             lines = _enter_normal(parts, other, point, centre.name, normal)
             return Path(parts.nonzero(normal), tangential, other, centre.name, lines)
-    for other, names in layout.members.items():
+    for other in layout.members:
+        names = layout.own(other)
         base = next((name for name in names if name in parts.of), "")
         if other != body and point in names and base and board.knows(f"omega.{other}"):
             normal, tangential = _relative(parts, other, point, base)
@@ -227,7 +234,7 @@ def _two_unknown(parts: Parts, body: int, point: str, base: str, path: Path) -> 
 def _rolling(parts: Parts, body: int) -> bool:
     """ε = aᵗ/r of a disc that rolls on the ground: what the acceleration of its centre is along the way it rolls."""
     board, q = parts.board, parts.board.q
-    centre, disc = board.layout.centres.get(body), board.layout.exercise.given.disc(body)
+    centre, disc = board.layout.centres.get(body), board.layout.given.disc(body)
     if centre is None or disc is None or centre.rule != "contact" or board.knows(f"eps.{body}"):
         return False
     if disc.centre not in parts.of:
@@ -243,6 +250,21 @@ def _rolling(parts: Parts, body: int) -> bool:
         q.give(f"eps.{body}", 0.0)
     board.steps.append(Step("acceleration-rolling", (radius.id, f"eps.{body}"), body, disc.centre, centre.name))
     return True
+
+
+def _by_rims(parts: Parts) -> bool:
+    """ε of one more of two discs with fixed centres, whose rims move alike at any time."""
+    board, q, layout = parts.board, parts.board.q, parts.board.layout
+    for bodies, ends in layout.rims():
+        if not layout.turn_on_ground(bodies):
+            continue
+        for (known, base), (new, point) in permutations(zip(bodies, ends, strict=True)):
+            if board.knows(f"eps.{known}") and not board.knows(f"eps.{new}"):
+                r1, r2 = (board.length(layout.centres[one].name, end) for one, end in ((known, base), (new, point)))
+                q.define(f"eps.{new}", q[f"eps.{known}"] * r1 / r2)
+                board.steps.append(Step("acceleration-rims", (r1.id, r2.id, f"eps.{new}"), new, point, base))
+                return True
+    return False
 
 
 def _free(parts: Parts, body: int, names: list[str]) -> bool:

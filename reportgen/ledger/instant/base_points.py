@@ -6,6 +6,7 @@ from reportgen.ledger.instant.speeds import Board
 from reportgen.ledger.instant.steps import Equation, Step
 from reportgen.ledger.instant.vectors import Vector, components, solved_for
 from reportgen.notation.expressions import Symbol, sqrt, total
+from reportgen.plane_motion.ways import perpendicular
 
 
 def by_base_point(board: Board) -> bool:
@@ -22,6 +23,60 @@ def by_base_point(board: Board) -> bool:
             if body < other and shared and _between(board, body, other, shared[0]):
                 return True
     return False
+
+
+def from_base_point(board: Board) -> bool:
+    """One more body in plane motion whose ω follows from a base point, or one more point of one whose ω is known."""
+    layout = board.layout
+    for body, names in layout.members.items():
+        centre = layout.centres.get(body)
+        if centre is not None and centre.by_joint:
+            continue
+        if centre is not None and centre.rule == "contact" and not board.knows(f"v.{centre.name}"):
+            board.q.give(f"v.{centre.name}", 0.0)
+        known = [name for name in names if board.knows(f"v.{name}")]
+        new = [name for name in names if not board.knows(f"v.{name}")]
+        if board.knows(f"omega.{body}"):
+            moving = [name for name in known if board.q.si(f"v.{name}")]
+            if known and new and _point(board, body, new[0], (moving or known)[0]):
+                return True
+            continue
+        for base in sorted(known, key=lambda name: board.q.si(f"v.{name}") == 0):
+            guided = [name for name in new if name in layout.ways]
+            if any(_rate(board, body, point, base) for point in (*known, *guided) if point != base):
+                return True
+    return False
+
+
+def _rate(board: Board, body: int, point: str, base: str) -> bool:
+    """ω from v_B = v_A + v_BA, with v_B known, or its line: projected on AB, then on the perpendicular to it."""
+    q, layout = board.q, board.layout
+    arm = layout.points[point] - layout.points[base]
+    line, new = board.way(arm), not board.knows(f"v.{point}")
+    turn = board.motion.omega(body)
+    way = board.way(board.at(point)) or layout.ways.get(point, 0j)
+    if not line or (new and perpendicular(way, line)):
+        return False
+    whole, relative = Vector(f"v.{point}", way), Vector(f"v.{point}{base}", 1j * line * (1 if turn >= 0 else -1))
+    bases = (board.velocity(base),) if q.si(f"v.{base}") else ()
+    unknown = (whole.id, relative.id) if new else (relative.id,)
+    equation = Equation((whole,), (*bases, relative), unknown)
+    lines: tuple[str, ...] = ()
+    if new:
+        lines = (q.define(whole.id, solved_for(q, way, line, bases, ())).id,)
+    elif not bases and not q.si(whole.id):
+        return False
+    wholes = (whole,) if q.si(whole.id) else ()
+    if turn:
+        q.define(relative.id, solved_for(q, relative.way, relative.way, wholes, bases))
+        q.define(f"omega.{body}", q[relative.id] / board.length(base, point))
+        lines = (*lines, relative.id, f"omega.{body}")
+    else:
+        q.give(f"omega.{body}", 0.0)
+    kind = "base-rate" if turn else "base-translation"
+    kind = kind if new else "base-known"
+    board.steps.append(Step(kind, lines, body, point, base, equation))
+    return True
 
 
 def _relative(board: Board, body: int, point: str, base: str) -> Vector:

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from itertools import combinations
+from itertools import combinations, permutations
 
 from reportgen.catalogue import plane_motion_file as file
+from reportgen.catalogue.plane_motion_centres import NEAR, Centre, Layout
 from reportgen.catalogue.plane_motion_places import direction
-from reportgen.ledger.instant.centres import NEAR, Centre, Layout
 from reportgen.ledger.instant.steps import Equation, Step
-from reportgen.ledger.instant.vectors import Vector, parallel, perpendicular, solved_for
+from reportgen.ledger.instant.vectors import Vector, solved_for
 from reportgen.notation.expressions import Ref, Symbol
 from reportgen.notation.sheet import Sheet, is_short
 from reportgen.plane_motion.motion import Motion
+from reportgen.plane_motion.ways import parallel, perpendicular
 
 
 @dataclass
@@ -25,7 +27,7 @@ class Board:
 
     @property
     def motion(self) -> Motion:
-        return self.layout.exercise.motion
+        return self.layout.motion
 
     def length(self, one: str, other: str, one_at: complex | None = None) -> Ref:
         """The distance of two points, by the name l.OA."""
@@ -69,7 +71,7 @@ class Board:
 def enter_given(board: Board) -> None:
     """The rates that the file gives."""
     q = board.q
-    for rate in board.layout.exercise.given.given:
+    for rate in board.layout.given.given:
         match rate:
             case file.OmegaOf(body=body, value=value):
                 board.given(f"omega.{body}", value.si)
@@ -84,15 +86,52 @@ def enter_given(board: Board) -> None:
 
 def derive(board: Board) -> bool:
     """One more body whose rate, or whose points' velocities become known; whether there was one."""
-    for body, centre in board.layout.centres.items():
-        if centre.rule == "translation":
-            if _translation(board, body, centre):
+    known = _about(board, board.layout.centres.values()) or _by_belt(board)
+    return known or by_parallels(board) or by_moving_frame(board)
+
+
+def about_joints(board: Board) -> bool:
+    """The same of a body that a joint makes turn about a fixed point or move in translation, by no method."""
+    return _about(board, (one for one in board.layout.centres.values() if one.by_joint)) or _by_belt(board)
+
+
+def by_centre(board: Board) -> bool:
+    """The same of a body in plane motion, about its instant centre."""
+    return _about(board, (one for one in board.layout.centres.values() if not one.by_joint)) or by_parallels(board)
+
+
+def by_parallels(board: Board) -> bool:
+    """ω of one more body from two parallel velocities."""
+    return any(_parallel(board, body, names) for body, names in board.layout.members.items())
+
+
+def by_moving_frame(board: Board) -> bool:
+    """One more point along a line of a moving body."""
+    return any(_slot(board, joint) for joint in board.layout.given.joints if isinstance(joint, file.SlotJoint))
+
+
+def _by_belt(board: Board) -> bool:
+    """The rim of one more disc that turns about a fixed centre moves as fast as the belt."""
+    for index, ends in board.layout.belts.items():
+        joint = board.layout.given.joints[index]
+        if not (isinstance(joint, file.Belt) and board.layout.turn_on_ground(joint.discs)):
+            continue
+        for (base, _), (point, body) in permutations(zip(ends, joint.discs, strict=True)):
+            if board.knows(f"v.{base}") and not board.knows(f"v.{point}"):
+                board.q.define(f"v.{point}", board.q[f"v.{base}"])
+                board.steps.append(Step("belt", (f"v.{point}",), body, point, base))
                 return True
-        elif _rate(board, body, centre) or _points(board, body, centre):
+    return False
+
+
+def _about(board: Board, centres: Iterable[Centre]) -> bool:
+    for centre in centres:
+        if centre.rule == "translation":
+            if _translation(board, centre.body, centre):
+                return True
+        elif _rate(board, centre.body, centre) or _points(board, centre.body, centre):
             return True
-    if any(_parallel(board, body, names) for body, names in board.layout.members.items()):
-        return True
-    return any(_slot(board, joint) for joint in board.layout.exercise.given.joints if isinstance(joint, file.SlotJoint))
+    return False
 
 
 def _translation(board: Board, body: int, centre: Centre) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from reportgen.ledger.instant.vectors import Vector
+from reportgen.notation.expressions import Chain
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,3 +30,7 @@ class Step:
     point: str = ""
     base: str = ""
     equation: Equation | None = None
+    system: tuple[Chain, ...] = ()
+    """Equations that are solved together, with their numbers."""
+    results: tuple[Chain, ...] = ()
+    """What they come to, with signs."""

@@ -8,9 +8,7 @@ from dataclasses import dataclass
 
 from reportgen.notation.expressions import Expression, Negative, Number, Product, Ref, Symbol, cos, total
 from reportgen.notation.sheet import Sheet
-
-SAME = 1e-9
-"""Directions nearer than this (radians) are one."""
+from reportgen.plane_motion.ways import SAME, parallel
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,16 +17,6 @@ class Vector:
 
     id: str
     way: complex
-
-
-def perpendicular(one: complex, other: complex) -> bool:
-    """Whether two directions are at a right angle."""
-    return abs((one.conjugate() * other).real) < SAME
-
-
-def parallel(one: complex, other: complex) -> bool:
-    """Whether two directions are one or opposite."""
-    return abs((one.conjugate() * other).imag) < SAME
 
 
 def along(q: Sheet, vector: Vector, axis: complex) -> Expression | None:

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from reportgen.catalogue.plane_motion import Exercise
+from reportgen.catalogue.plane_motion_centres import Layout, lay_out
+from reportgen.catalogue.plane_motion_file import Asked, Method
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.instant.accelerations import enter_accelerations
-from reportgen.ledger.instant.base_points import by_base_point
-from reportgen.ledger.instant.centres import Layout, lay_out
-from reportgen.ledger.instant.proportion import enter_proportion
-from reportgen.ledger.instant.speeds import Board, derive, enter_given
+from reportgen.ledger.instant.methods import belongs, find_velocities
+from reportgen.ledger.instant.speeds import Board, enter_given
 from reportgen.ledger.instant.steps import Step
+from reportgen.ledger.instant.systems import solve_accelerations_together
 from reportgen.notation.expressions import Symbol, refs
 from reportgen.notation.sheet import Sheet
 
+ROUND = 1e-9
+"""An angle this little below a whole turn (degrees) is none."""
 POSITIONS = 1
 """The instant."""
 
@@ -32,26 +37,43 @@ class Worked:
     layout: Layout
     steps: tuple[Step, ...]
     missing: tuple[str, ...]
+    method: Method | None = None
+
+    @property
+    def by_method(self) -> bool:
+        """Whether a step of it is its method's own."""
+        return self.method is None or any(belongs(step, self.method) for step in self.steps)
 
 
-def work_out(exercise: Exercise, units: Mapping[str, str], names: Mapping[str, str]) -> Worked:
+def work_out(
+    exercise: Exercise,
+    units: Mapping[str, str],
+    names: Mapping[str, str],
+    method: Method | None = None,
+    velocities_alone: bool = False,
+) -> Worked:
     """The exercise worked out step by step; what nothing asked stands on is left out.
 
-    `units` and `names` are the units and the indices of symbols as a language has them.
+    `units` and `names` are the units and the indices of symbols as a language has them.  Velocities are found by the
+    `method` if one is named; where they alone are wanted, by no other.
     """
-    board = Board(Sheet(POSITIONS), lay_out(exercise))
+    board = Board(Sheet(POSITIONS), lay_out(exercise.given, exercise.motion))
     enter_given(board)
-    while derive(board) or by_base_point(board) or enter_proportion(board):
-        pass
-    enter_accelerations(board)
+    find_velocities(board, method, alone=velocities_alone)
+    if not velocities_alone:
+        enter_accelerations(board, solve_accelerations_together)
     missing = [one.id for one in exercise.asked if one.what != "centre" and one.id not in board.q]
     for asked in exercise.asked:
         if asked.what == "centre":
             missing += [] if _centre(board, asked.body) else [asked.id]
     for asked in exercise.asked:
         _signed(board, asked.id)
+        if asked.what in ("v", "a"):
+            _directed(board, asked)
     wanted = [one.id for one in exercise.asked]
-    wanted += [id for id in board.q.families if id.startswith(("centre.", "turn."))]
+    wanted += [id for id in board.q.families if id.startswith(("centre.", "turn.", "dir."))]
+    if velocities_alone and not any(one.what in ("v", "omega") for one in exercise.asked):
+        wanted += [id for id in board.q.families if id.startswith(("v.", "omega."))]
     needed = _with_ancestors(board, wanted)
     steps = tuple(step for step in board.steps if _leads_on(step, needed))
     # A step that is taken is written out whole.
@@ -63,7 +85,7 @@ def work_out(exercise: Exercise, units: Mapping[str, str], names: Mapping[str, s
             q.enter(family)
     decimals, cancellations = choose_decimals(q.families, (), set(), (1,))
     ledger = Ledger(q.families, decimals, POSITIONS, cancellations, units).in_language(names)
-    return Worked(ledger, board.layout, steps, tuple(missing))
+    return Worked(ledger, board.layout, steps, tuple(missing), method)
 
 
 def _centre(board: Board, body: int) -> bool:
@@ -85,6 +107,16 @@ def _signed(board: Board, id: str) -> None:
         motion = board.motion
         rate = motion.omega(int(body)) if what == "omega" else motion.epsilon(int(body))
         board.q.define(f"turn.{id}", board.q[id] if rate >= 0 else -board.q[id], of=id)
+
+
+def _directed(board: Board, asked: Asked) -> None:
+    """Where an asked vector goes, as its angle from +x in [0, 2π), beside its size; a vector of no length has none."""
+    motion = board.motion
+    vector = motion.v(asked.of) if asked.what == "v" else motion.a(asked.of)
+    if vector and asked.id in board.q and board.q.families[asked.id].definition is not None:
+        angle = (math.degrees(cmath.phase(vector)) + ROUND) % 360.0 - ROUND
+        way = board.q.give(f"way.{asked.id}", math.radians(angle), Symbol("α"), "angle", hidden=True)
+        board.q.define(f"dir.{asked.id}", way, scale=1.0, of=asked.id)
 
 
 def _with_ancestors(board: Board, ids: Sequence[str]) -> set[str]:

@@ -7,15 +7,22 @@ perpendicular to the line of the points, the body is in translation at the insta
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
 from reportgen.catalogue import plane_motion_file as file
-from reportgen.catalogue.plane_motion import Exercise
-from reportgen.catalogue.plane_motion_places import contact_of_discs, contact_on_line, direction, unit
-from reportgen.ledger.instant.vectors import parallel, perpendicular
+from reportgen.catalogue.plane_motion_places import (
+    Geometry,
+    belt_ends,
+    contact_of_discs,
+    contact_on_line,
+    direction,
+    unit,
+)
 from reportgen.plane_motion.conditions import GROUND
+from reportgen.plane_motion.motion import Motion
+from reportgen.plane_motion.ways import parallel, perpendicular
 
 Rule = Literal["pivot", "contact", "normals", "translation"]
 NEAR = 1e-9
@@ -37,12 +44,18 @@ class Centre:
     points: tuple[str, ...] = ()
     way: complex = 0j
 
+    @property
+    def by_joint(self) -> bool:
+        """Whether a joint makes the body turn about a fixed point or move in translation, at any instant."""
+        return self.rule == "pivot" or (self.rule == "translation" and not self.points)
+
 
 @dataclass
 class Layout:
     """Bodies with all points that move with them, the directions of their velocities, and the instant centres."""
 
-    exercise: Exercise
+    given: file.Parameters
+    motion: Motion
     points: dict[str, complex] = field(default_factory=dict)
     members: dict[int, list[str]] = field(default_factory=dict)
     ways: dict[str, complex] = field(default_factory=dict)
@@ -50,6 +63,10 @@ class Layout:
     centres: dict[int, Centre] = field(default_factory=dict)
     slots: dict[str, complex] = field(default_factory=dict)
     """Points that are guided along a straight line of the ground."""
+    contacts: dict[int, str] = field(default_factory=dict)
+    """The points in which discs touch, by the index of their joint."""
+    belts: dict[int, tuple[str, str]] = field(default_factory=dict)
+    """The two ends of a straight part of each belt, by the index of its joint."""
 
     def point_at(self, at: complex, letter: str) -> str:
         """The name of the point at a place, a new one if none is declared there."""
@@ -60,6 +77,24 @@ class Layout:
         self.points[f"{letter}{number}"] = at
         return f"{letter}{number}"
 
+    def turn_on_ground(self, bodies: Iterable[int]) -> bool:
+        """Whether all bodies turn about fixed points."""
+        return all(body in self.centres and self.centres[body].rule == "pivot" for body in bodies)
+
+    def rims(self) -> Iterator[tuple[tuple[int, ...], tuple[str, ...]]]:
+        """Pairs of discs, each with the point of its rim in which it meets the other or the belt to it."""
+        for index, joint in enumerate(self.given.joints):
+            if isinstance(joint, file.RollingOnCircle | file.Gears):
+                yield joint.discs, (self.contacts[index], self.contacts[index])
+            elif isinstance(joint, file.Belt):
+                yield joint.discs, self.belts[index]
+
+    def own(self, body: int) -> list[str]:
+        """The points that stay on a body: not those in which it only touches another one at the instant."""
+        touching = {*self.contacts.values(), *(end for ends in self.belts.values() for end in ends)}
+        declared = self.given.bodies[body].carried
+        return [name for name in self.members[body] if name in declared or name not in touching]
+
     def arm(self, centre: Centre, point: str) -> complex:
         return self.points[point] - centre.at
 
@@ -67,10 +102,10 @@ class Layout:
         return abs(self.arm(centre, point)) < NEAR
 
 
-def lay_out(exercise: Exercise) -> Layout:
+def lay_out(given: file.Parameters, motion: Motion) -> Layout:
     """Everything about directions and centres that the joints and the given directions tell."""
-    given, system = exercise.given, exercise.motion.system
-    found = Layout(exercise, dict(system.points), {body: [] for body in system.bodies})
+    system = motion.system
+    found = Layout(given, motion, dict(system.points), {body: [] for body in system.bodies})
     for body, names in system.bodies.items():
         found.members[body] += [name for name in names if _moves_alike(given, body, system.body_of(name), name)]
     for index, joint in enumerate(given.joints):
@@ -97,7 +132,7 @@ def _moves_alike(given: file.Parameters, body: int, owner: int, point: str) -> b
 
 
 def _enter(found: Layout, joint: file.Joint, index: int) -> None:
-    given, known = found.exercise.given, found.points
+    given, known = found.given, found.points
     match joint:
         case file.Pin(at=at, bodies=bodies) if GROUND in bodies:
             body = max(bodies)
@@ -110,6 +145,7 @@ def _enter(found: Layout, joint: file.Joint, index: int) -> None:
             found.centres.setdefault(body, Centre(body, "translation"))
         case file.RollingOnLine(disc=body, on=carrier):
             touch = found.point_at(contact_on_line(joint, index, given, known), "K")
+            found.contacts[index] = touch
             disc = given.disc(body)
             if carrier == GROUND and disc is not None:
                 found.centres[body] = Centre(body, "contact", touch, known[touch])
@@ -117,10 +153,22 @@ def _enter(found: Layout, joint: file.Joint, index: int) -> None:
             _share(found, touch, body, carrier)
         case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
             touch = found.point_at(contact_of_discs(joint, index, given, known), "K")
+            found.contacts[index] = touch
             if GROUND in discs:
                 body = max(discs)
                 found.centres[body] = Centre(body, "contact", touch, known[touch])
             _share(found, touch, *discs)
+        case file.Belt():
+            _belt_ends(found, joint, index)
+
+
+def _belt_ends(found: Layout, joint: file.Belt, index: int) -> None:
+    """The points in which a straight part of a belt touches its discs, each a point of its disc."""
+    ends = belt_ends(Geometry(found.given, found.points), joint)
+    names = tuple(found.point_at(at, "K") for at in ends)
+    found.belts[index] = names[0], names[1]
+    for name, body in zip(names, joint.discs, strict=True):
+        _share(found, name, body)
 
 
 def _share(found: Layout, point: str, *bodies: int) -> None:
@@ -152,7 +200,7 @@ def _by_normals(found: Layout, body: int, one: str, other: str) -> Centre | None
         return Centre(body, "translation", points=(one, other), way=u)
     n, m = 1j * u, 1j * w
     at = p + n * (((q - p).conjugate() * m).imag / (n.conjugate() * m).imag)
-    letter = next(one for one in LETTERS if not any(name[0] == one for name in found.exercise.given.points))
+    letter = next(one for one in LETTERS if not any(name[0] == one for name in found.given.points))
     name = next((name for name, place in found.points.items() if abs(place - at) < NEAR), f"{letter}{body}")
     return Centre(body, "normals", name, at, (one, other))
 

@@ -1,0 +1,239 @@
+"""Symbols in place of numbers: r, omega, v1 with their values, and what a file states with them, such as 3*r/2.
+
+What is stated by symbols is a quantity like any other, worked out at the symbols' values; its formula is kept for the
+literal solution.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import singledispatch
+from typing import Any
+
+from reportgen.assignment.fields import Quantity, Reader, fault
+from reportgen.notation.evaluation import evaluate
+from reportgen.notation.expressions import (
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Ref,
+    Root,
+    Sum,
+    Symbol,
+)
+from reportgen.units import Given, QuantityFault, read_quantity
+
+MOST_SYMBOLS = 20
+LONGEST = 80
+"""Of a formula, in characters."""
+LARGEST = 1e6
+"""A number in a formula."""
+_NAME = re.compile(r"[A-Za-z]{1,10}[0-9]{0,2}")
+_GREEK = {"omega": "ω", "eps": "ε", "epsilon": "ε", "rho": "ρ", "lambda": "λ", "mu": "μ"}
+_UNITS = {"mm": (1, 0), "m/s": (1, -1), "m/s2": (1, -2), "rad/s": (0, -1), "rad/s2": (0, -2)}
+"""The kinds of quantities, each by a unit and its powers of length and time; angles have none."""
+
+Powers = tuple[float, float]
+"""Powers of length and time."""
+
+
+NOTHING = Number(0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Literal(Given):
+    """A quantity stated by symbols."""
+
+    formula: Expression = NOTHING
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """What a symbol stands for; `put_in` unless the answer is to stay an expression."""
+
+    given: Given
+    powers: Powers
+    put_in: bool = True
+
+
+Symbols = Mapping[str, Value]
+
+
+@dataclass(frozen=True, slots=True)
+class SymbolValue(Reader):
+    """A quantity of any kind, or  {drawn: 100 mm}  for one that is not to be put in."""
+
+    def read(self, value: object) -> Value:
+        if isinstance(value, dict) and set(value) == {"drawn"}:
+            found = self.read(value["drawn"])
+            return Value(found.given, found.powers, put_in=False)
+        if not isinstance(value, str):
+            raise fault("wrong-type", expected="text")
+        problem: QuantityFault | None = None
+        for unit, powers in _UNITS.items():
+            try:
+                given = read_quantity(value, unit)
+            except QuantityFault as one:
+                problem = one
+                continue
+            if given.si <= 0:
+                raise fault("out-of-range", text=value, range="> 0")
+            return Value(given, powers)
+        assert problem is not None
+        raise fault(problem.code, **problem.arguments)
+
+    def schema(self) -> dict[str, Any]:
+        text = {"type": "string"}
+        drawn = {"type": "object", "properties": {"drawn": text}, "required": ["drawn"], "additionalProperties": False}
+        return {"anyOf": [text, drawn]}
+
+
+@dataclass(frozen=True, slots=True)
+class SymbolName(Reader):
+    """Letters, then at most two digits: r, v1, omega."""
+
+    def read(self, value: object) -> str:
+        if not isinstance(value, str) or not _NAME.fullmatch(value) or value == "sqrt":
+            raise fault("symbol-name", text=str(value))
+        return value
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "string", "pattern": f"^{_NAME.pattern}$"}
+
+
+@dataclass(frozen=True, slots=True)
+class Stated:
+    """What stands in a file that has symbols, before it is read."""
+
+    text: str
+    symbols: Symbols
+
+
+@dataclass(frozen=True, slots=True)
+class Told(Reader):
+    """A quantity, by a number with its unit or by symbols."""
+
+    by_number: Quantity
+
+    def read(self, value: object) -> Given:
+        if not isinstance(value, Stated):
+            return self.by_number.read(value)
+        if not any(name in value.symbols for name in _NAME.findall(value.text)):
+            return self.by_number.read(value.text)
+        formula, powers = parsed(value.text, value.symbols)
+        if powers != _UNITS[self.by_number.unit] and powers is not None:
+            raise fault("wrong-unit", given=value.text, unit=self.by_number.unit)
+        si = float(evaluate(formula, {name: one.given.si for name, one in value.symbols.items()}))
+        scale = read_quantity(f"1 {self.by_number.unit}", self.by_number.unit).si
+        self.by_number.interval.require(si / scale, value.text, self.by_number.unit)
+        return Literal(si, si / scale, self.by_number.unit, value.text, formula)
+
+    def schema(self) -> dict[str, Any]:
+        return {"anyOf": [self.by_number.schema(), {"type": "string", "pattern": r"^[-+*/(). 0-9A-Za-z]+$"}]}
+
+
+def si_unit(value: Value) -> str:
+    """The SI unit of what a symbol stands for."""
+    unit = next(unit for unit, powers in _UNITS.items() if powers == value.powers)
+    return "m" if unit == "mm" else unit
+
+
+def symbol(name: str) -> Symbol:
+    """How a symbol is printed: omega1 → ω with the index 1."""
+    letters = name.rstrip("0123456789")
+    return Symbol(_GREEK.get(letters, letters), name[len(letters) :])
+
+
+# --- formulas as a file has them ------------------------------------------------------------------
+
+Parsed = tuple[Expression, Powers | None]
+"""An expression over the names of symbols with its dimension; None for 0, which is of any."""
+
+
+def parsed(text: str, symbols: Symbols) -> Parsed:
+    """Raises the fault of text that is no formula, names no symbol, or adds what cannot be added."""
+    if len(text) > LONGEST:
+        raise fault("no-formula", text=text)
+    try:
+        tree = ast.parse(text.strip().replace("−", "-"), mode="eval").body
+    except (SyntaxError, ValueError, MemoryError, RecursionError):
+        raise fault("no-formula", text=text) from None
+    return _parsed(tree, text, symbols)
+
+
+@singledispatch
+def _parsed(node: ast.AST, text: str, symbols: Symbols) -> Parsed:
+    raise fault("no-formula", text=text)
+
+
+@_parsed.register
+def _(node: ast.Constant, text: str, symbols: Symbols) -> Parsed:
+    value = node.value
+    if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > LARGEST:
+        raise fault("no-formula", text=text)
+    return Number(float(value)), (0, 0) if value else None
+
+
+@_parsed.register
+def _(node: ast.Name, text: str, symbols: Symbols) -> Parsed:
+    if node.id not in symbols:
+        raise fault("no-such-symbol", text=node.id, known=", ".join(symbols) or "–")
+    return Ref(node.id), symbols[node.id].powers
+
+
+@_parsed.register
+def _(node: ast.UnaryOp, text: str, symbols: Symbols) -> Parsed:
+    of, powers = _parsed(node.operand, text, symbols)
+    if not isinstance(node.op, ast.USub):
+        raise fault("no-formula", text=text)
+    return Negative(of), powers
+
+
+@_parsed.register
+def _(node: ast.Call, text: str, symbols: Symbols) -> Parsed:
+    if not isinstance(node.func, ast.Name) or node.func.id != "sqrt" or len(node.args) != 1 or node.keywords:
+        raise fault("no-formula", text=text)
+    of, powers = _parsed(node.args[0], text, symbols)
+    return Root(of), None if powers is None else (powers[0] / 2, powers[1] / 2)
+
+
+@_parsed.register
+def _(node: ast.BinOp, text: str, symbols: Symbols) -> Parsed:
+    (left, first), (right, second) = (_parsed(one, text, symbols) for one in (node.left, node.right))
+    match node.op:
+        case ast.Add() | ast.Sub():
+            if first is not None and second is not None and first != second:
+                raise fault("unlike-terms", text=text)
+            added = right if isinstance(node.op, ast.Add) else Negative(right)
+            return Sum((left, added)), second if first is None else first
+        case ast.Mult():
+            whole = None if first is None or second is None else (first[0] + second[0], first[1] + second[1])
+            return Product((left, right)), whole
+        case ast.Div():
+            powers = second or (0.0, 0.0)
+            return Fraction(left, right), None if first is None else (first[0] - powers[0], first[1] - powers[1])
+        case ast.Pow() if isinstance(right, Number) and right.value in (2, 3):
+            size = right.value
+            return Power(left, right), None if first is None else (first[0] * size, first[1] * size)
+    raise fault("no-formula", text=text)
+
+
+def stated(content: Any, symbols: Symbols, keys: frozenset[str]) -> Any:
+    """The content of a file with the text behind those keys kept together with the symbols."""
+    if isinstance(content, dict):
+        return {
+            key: _marked(one, symbols) if key in keys else stated(one, symbols, keys) for key, one in content.items()
+        }
+    return [stated(one, symbols, keys) for one in content] if isinstance(content, list) else content
+
+
+def _marked(content: Any, symbols: Symbols) -> Any:
+    if isinstance(content, list):
+        return [_marked(one, symbols) for one in content]
+    return Stated(content, symbols) if isinstance(content, str) else content

@@ -1,0 +1,281 @@
+"""Algebra with symbols, by sympy, which is imported when a file has some.
+
+Vectors of the plane are `Plane`, which does with symbols what a complex number does with floats: so places, lines and
+the conditions of joints are written once, for both.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from reportgen.notation.evaluation import evaluate
+from reportgen.notation.expressions import (
+    Call,
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Ref,
+    Root,
+    Sum,
+    total,
+)
+
+Algebraic = Any
+"""An expression of sympy."""
+
+
+@cache
+def _sympy() -> Any:
+    import sympy
+
+    return sympy
+
+
+def symbol(name: str) -> Algebraic:
+    """A symbol; all of them stand for positive quantities."""
+    return _sympy().Symbol(name, positive=True)
+
+
+def exact(value: float) -> Algebraic:
+    """A number as the fraction that it was typed as."""
+    sp = _sympy()
+    return sp.Rational(repr(value)).limit_denominator(10**12) if isinstance(value, float) else sp.sympify(value)
+
+
+def exact_unit(degrees: float) -> Plane:
+    """The unit vector at an angle; of one whose cosine has no simple root, its cosine and sine stay as they are."""
+    sp = _sympy()
+    degrees = round(degrees, 9)
+    if degrees % 30 == 0 or degrees % 45 == 0:
+        angle = sp.pi * exact(degrees) / 180
+        return Plane(sp.cos(angle), sp.sin(angle))
+    radians = math.radians(degrees)
+    acute = round(math.degrees(math.asin(abs(math.sin(radians)))), 9)
+    cosine, sine = (symbol(f"{name} {acute:g}") for name in _NAMES)
+    return Plane(cosine if math.cos(radians) > 0 else -cosine, sine if math.sin(radians) > 0 else -sine)
+
+
+_NAMES = ("cos", "sin")
+"""Of the symbols for the cosine and the sine of an acute angle, before its degrees."""
+
+
+def _of_angle(name: str) -> Call | None:
+    """The cosine or the sine that a symbol stands for."""
+    what, _, degrees = name.partition(" ")
+    return Call(what, (Number(float(degrees), None, "°"),)) if what in _NAMES and degrees else None
+
+
+def _pythagorean(of: Algebraic) -> Algebraic:
+    """With sin² of every angle put as 1 − cos², where it does not stand under a root."""
+    sp = _sympy()
+    for sine in [one for one in of.free_symbols if one.name.startswith("sin ")]:
+        unity = sine**2 + symbol(f"cos {sine.name[4:]}") ** 2 - 1
+        parts = [sp.expand(part) for part in sp.fraction(sp.together(of))]
+        if all(part.is_polynomial(sine) for part in parts):
+            of = sp.rem(parts[0], unity, sine) / sp.rem(parts[1], unity, sine)
+    return of
+
+
+def root(of: Algebraic) -> Algebraic:
+    return _sympy().sqrt(of)
+
+
+@dataclass(frozen=True, slots=True)
+class Plane:
+    """A vector of the plane, by its components; it multiplies as a complex number."""
+
+    real: Algebraic
+    imag: Algebraic
+
+    @staticmethod
+    def of(value: Any) -> Plane:
+        if isinstance(value, Plane):
+            return value
+        if isinstance(value, complex):
+            return Plane(exact(value.real), exact(value.imag))
+        return Plane(exact(value), exact(0))
+
+    def __add__(self, other: Any) -> Plane:
+        more = Plane.of(other)
+        return Plane(self.real + more.real, self.imag + more.imag)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Plane:
+        return Plane(-self.real, -self.imag)
+
+    def __sub__(self, other: Any) -> Plane:
+        return self + -Plane.of(other)
+
+    def __mul__(self, other: Any) -> Plane:
+        by = Plane.of(other)
+        return Plane(self.real * by.real - self.imag * by.imag, self.real * by.imag + self.imag * by.real)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Algebraic) -> Plane:
+        return Plane(self.real / other, self.imag / other)
+
+    def __abs__(self) -> Algebraic:
+        return root(_sympy().factor(self.real**2 + self.imag**2))
+
+    def conjugate(self) -> Plane:
+        return Plane(self.real, -self.imag)
+
+
+def solve(rows: Sequence[Sequence[Algebraic]], values: Sequence[Algebraic]) -> list[Algebraic]:
+    """The unknowns of linear equations; what they leave open is 0.
+
+    Raises `ValueError` where they contradict each other for some values of the symbols.
+    """
+    sp = _sympy()
+    from sympy.polys.matrices import DomainMatrix
+
+    width = len(rows[0])
+    whole = [[sp.nsimplify(one) for one in (*row, value)] for row, value in zip(rows, values, strict=True)]
+    field = _field([one for row in whole for one in row])
+    matrix = DomainMatrix([[field.from_sympy(one) for one in row] for row in whole], (len(whole), width + 1), field)
+    reduced, pivots = matrix.rref()
+    if width in pivots:
+        raise ValueError("the equations contradict each other")
+    found = [sp.Integer(0)] * width
+    for index, pivot in enumerate(pivots):
+        found[pivot] = field.to_sympy(reduced[index, width].element)
+    return found
+
+
+def _field(entries: Sequence[Algebraic]) -> Any:
+    """The field of fractions in the symbols over the rationals and the square roots that stand in the entries."""
+    sp = _sympy()
+    symbols = sorted({one for entry in entries for one in entry.free_symbols}, key=str)
+    powers = {one for entry in entries for one in entry.atoms(sp.Pow) if one.exp.is_Rational and not one.exp.is_Integer}
+    if any(not one.base.is_Integer or abs(one.exp) != sp.Rational(1, 2) for one in powers):
+        return sp.EX
+    primes = sorted({prime for one in powers for prime in sp.primefactors(one.base)})
+    numbers = sp.QQ.algebraic_field(*(sp.sqrt(prime) for prime in primes)) if primes else sp.QQ
+    return numbers.frac_field(*symbols) if symbols else numbers
+
+
+def size(of: Algebraic, at: Mapping[str, float]) -> Algebraic:
+    """The size of a number or a vector, simplified; `at` are values of the symbols, which tell signs."""
+    sp = _sympy()
+    if isinstance(of, Plane):
+        parts = [simplified(part) for part in (of.real, of.imag)]
+        nonzero = [part for part in parts if part != 0]
+        of = (
+            nonzero[0]
+            if len(nonzero) == 1
+            else sp.sqrtdenest(sp.sqrt(simplified(_pythagorean(sum(part**2 for part in parts)))))
+        )
+    whole = simplified(of)
+    whole = whole.replace(sp.Abs, lambda inner: inner if value(inner, at) >= 0 else -inner)
+    return simplified(-whole) if value(whole, at) < 0 else whole
+
+
+def simplified(of: Algebraic) -> Algebraic:
+    sp = _sympy()
+    whole = sp.radsimp(sp.factor(sp.radsimp(sp.together(sp.expand(of)))))
+    return min((whole, sp.factor(whole), sp.factor_terms(whole)), key=sp.count_ops)
+
+
+def value(of: Algebraic, at: Mapping[str, float]) -> float:
+    angles = {one: evaluate(call) for one in of.free_symbols if (call := _of_angle(one.name)) is not None}
+    return float(of.subs({symbol(name): one for name, one in at.items()} | angles))
+
+
+# --- to and from the expressions of the page ------------------------------------------------------
+
+
+def algebraic(node: Expression, of: Callable[[str], Algebraic | None]) -> Algebraic | None:
+    """An expression of the page with what its quantities are; None where one of them is not known by symbols."""
+    sp = _sympy()
+
+    def each(nodes: Sequence[Expression]) -> list[Algebraic] | None:
+        found = [algebraic(one, of) for one in nodes]
+        return None if any(one is None for one in found) else found
+
+    match node:
+        case Number(unit="°"):
+            return sp.pi * exact(node.shown) / 180
+        case Number():
+            return exact(node.shown)
+        case Ref(id):
+            return of(id)
+        case Sum(nodes):
+            return None if (terms := each(nodes)) is None else sp.Add(*terms)
+        case Product(nodes):
+            return None if (factors := each(nodes)) is None else sp.Mul(*factors)
+        case Negative(one):
+            return None if (inner := algebraic(one, of)) is None else -inner
+        case Fraction(top, bottom):
+            return None if (pair := each((top, bottom))) is None else pair[0] / pair[1]
+        case Power(base, exponent):
+            return None if (pair := each((base, exponent))) is None else pair[0] ** pair[1]
+        case Root(one):
+            return None if (inner := algebraic(one, of)) is None else sp.sqrt(inner)
+        case Call("cos", (Number(unit="°") as angle,)):
+            return exact_unit(angle.shown).real
+        case Call("cos", (one,)):
+            return None if (inner := algebraic(one, of)) is None else sp.cos(inner)
+    return None
+
+
+def expression(of: Algebraic, at: Mapping[str, float]) -> Expression:
+    """An expression for the page, over the names of symbols, factors in the order of `at`.
+
+    Differences are written so that they are positive at those values of the symbols.
+    """
+    if of == 0:
+        return Number(0.0)
+    top, bottom = of.as_numer_denom()
+    if bottom != 1:
+        inner, below = expression(top, at), expression(bottom, at)
+        negative = isinstance(inner, Negative) != isinstance(below, Negative)
+        quotient = Fraction(*(one.of if isinstance(one, Negative) else one for one in (inner, below)))
+        return Negative(quotient) if negative else quotient
+    if of.is_Add:
+        terms = [expression(one, at) for one in (of if value(of, at) >= 0 else -of).as_ordered_terms()]
+        ordered = total(sorted(terms, key=lambda one: isinstance(one, Negative)))
+        return ordered if value(of, at) >= 0 else Negative(ordered)
+    sign, factors, order = 1, [], list(at)
+    for one in of.as_ordered_factors():
+        if (one.is_Number or one.is_Add) and value(one, at) < 0:
+            sign, one = -sign, -one
+        if one != 1:
+            factors.append(one)
+    factors.sort(key=lambda one: _rank(one, order))
+    nodes = [*_factors(factors, at)] or [Number(1.0)]
+    whole = nodes[0] if len(nodes) == 1 else Product(tuple(nodes))
+    return Negative(whole) if sign < 0 else whole
+
+
+def _rank(factor: Algebraic, order: Sequence[str]) -> tuple[int, int]:
+    """Numbers first, their roots, single symbols in the order of the file, then whatever is longer."""
+    names = sorted(order.index(one.name) if one.name in order else len(order) for one in factor.free_symbols)
+    plain = factor.is_Symbol or (factor.is_Pow and factor.base.is_Symbol)
+    return (0 if factor.is_Number else 1 if not names else 2 if plain else 3), names[0] if names else 0
+
+
+def _factors(factors: Sequence[Algebraic], at: Mapping[str, float]) -> Iterator[Expression]:
+    for one in factors:
+        if one.is_Symbol:
+            yield _of_angle(one.name) or Ref(one.name)
+        elif one.is_Number:
+            yield Number(float(one))
+        elif one.is_Pow and one.exp == _sympy().Rational(1, 2):
+            yield Root(expression(one.base, at))
+        elif one.is_Pow and one.exp.is_Rational and one.exp.q == 2:
+            yield Root(Power(expression(one.base, at), Number(float(one.exp.p))))
+        elif one.is_Pow and one.exp.is_Number:
+            yield Power(expression(one.base, at), Number(float(one.exp)))
+        elif one.is_Add:
+            yield expression(one, at)
+        else:
+            raise ValueError(f"no way to print {one}")

@@ -1,0 +1,236 @@
+"""The literal solution: every quantity of the board as an expression of the symbols that the file has.
+
+The same conditions as those of the numbers are solved with symbols; sizes, senses and which of two places a point has
+are those at the symbols' values.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
+
+from reportgen.catalogue import plane_motion_file as file
+from reportgen.catalogue.plane_motion import Exercise
+from reportgen.catalogue.plane_motion_places import Geometry, carried, conditions, contact_of_discs
+from reportgen.catalogue.plane_motion_symbols import Literal
+from reportgen.ledger.instant import algebra
+from reportgen.ledger.instant.algebra import Algebraic, Plane
+from reportgen.ledger.instant.write import Worked
+from reportgen.notation.expressions import Expression
+from reportgen.plane_motion.conditions import GROUND, Condition, Rates, Velocities
+from reportgen.plane_motion.solving import System
+from reportgen.units import Given
+
+ZERO = Plane(0, 0)
+
+
+def told(given: Given) -> Algebraic:
+    """A quantity of the file, by its formula or as the number that was typed."""
+    if isinstance(given, Literal):
+        return algebra.algebraic(given.formula, algebra.symbol)
+    return algebra.exact(float(f"{given.si:.15g}"))
+
+
+class LiteralGeometry(Geometry):
+    """The points and lines of a file by symbols."""
+
+    def __init__(self, exercise: Exercise) -> None:
+        super().__init__(exercise.given, {})
+        self.numbers = dict(exercise.motion.system.points)
+        places: dict[str, Plane] = {}
+        for name, point in exercise.given.points.items():
+            places[name] = self._place(name, point, places)
+        self.points = places
+
+    def size(self, told_of: Given) -> Algebraic:
+        return told(told_of)
+
+    def unit(self, angle: Given) -> Plane:
+        return algebra.exact_unit(math.degrees(angle.si))
+
+    def root(self, of: Algebraic) -> Algebraic:
+        return algebra.root(of)
+
+    def direction(self, line: file.Directed) -> Plane:
+        if line.along is not None:
+            way = self.points[line.along[1]] - self.points[line.along[0]]
+            return Plane.of(way / abs(way))
+        assert line.angle is not None
+        return self.unit(line.angle)
+
+    def contact_on_line(self, joint: file.RollingOnLine, index: int) -> Plane:
+        disc = self.given.disc(joint.disc)
+        assert disc is not None
+        return self._foot(self.points[disc.centre], self.points[joint.through], self.direction(joint))
+
+    def contact_of_discs(self, joint: file.RollingOnCircle | file.Gears, index: int) -> Plane:
+        one, other = (self.given.disc(body) for body in joint.discs)
+        assert one is not None
+        assert other is not None
+        touch = contact_of_discs(joint, index, self.given, self.numbers)
+        start, way = self.points[one.centre], self.points[other.centre] - self.points[one.centre]
+        numbers = self.numbers[other.centre] - self.numbers[one.centre]
+        beyond = (numbers.conjugate() * (touch - self.numbers[one.centre])).real > 0
+        reach = self.size(one.radius) if beyond else -self.size(one.radius)
+        return Plane.of(start + way / abs(way) * reach)
+
+    def _foot(self, point: Plane, start: Plane, u: Plane) -> Plane:
+        return start + u * Plane.of((u.conjugate() * (point - start)).real)
+
+    def _place(self, name: str, point: file.PointAt, known: Mapping[str, Plane]) -> Plane:
+        if point.at is not None:
+            return Plane(self.size(point.at[0]), self.size(point.at[1]))
+        if point.lines is not None:
+            one, two = point.lines
+            p, u = known[one.through], self.unit(one.angle)
+            q, w = known[two.through], self.unit(two.angle)
+            return p + Plane.of(u * (((q - p).conjugate() * w).imag / (u.conjugate() * w).imag))
+        if point.distances is not None:
+            first, second = (known[one.from_] for one in point.distances)
+            r1, r2 = (self.size(one.distance) for one in point.distances)
+            span = abs(second - first)
+            along = (r1**2 - r2**2 + span**2) / (2 * span)
+            across = algebra.root(r1**2 - along**2)
+            aside = Plane(along, across if point.side == "left" else -across)
+            return first + Plane.of((second - first) / span * aside)
+        assert point.from_ is not None
+        assert point.distance is not None
+        centre, radius = known[point.from_], self.size(point.distance)
+        if point.angle is not None:
+            return centre + Plane.of(self.unit(point.angle) * radius)
+        assert point.on is not None
+        u = self.unit(point.on.angle)
+        foot = self._foot(centre, known[point.on.through], u)
+        off = centre - foot
+        reach = algebra.root(radius**2 - off.real**2 - off.imag**2)
+        return foot + Plane.of(u * (reach if point.end == "far" else -reach))
+
+
+class LiteralMotion:
+    """The velocities and accelerations of an exercise by symbols."""
+
+    def __init__(self, exercise: Exercise) -> None:
+        self.geometry = LiteralGeometry(exercise)
+        self.bare = System(self.geometry.points, carried(exercise.given), ())
+        self.bodies = tuple(self.bare.bodies)
+        self.conditions = tuple(conditions(self.geometry, self.bare))
+
+    @cached_property
+    def velocities(self) -> Velocities:
+        return Velocities(self._solve([(one, one.velocity) for one in self.conditions if one.velocity is not None]))
+
+    @cached_property
+    def accelerations(self) -> Mapping[int, Rates]:
+        motion, equations = self.velocities, []
+        for one in self.conditions:
+            if one.drift is not None:
+                inward = (motion.omega(part.body) ** 2 * _dot(part.direction, part.point) for part in one.components)
+                equations.append((one, one.drift(motion) + sum(inward)))
+        return self._solve(equations)
+
+    def v(self, point: str) -> Plane:
+        return self.at(point, self.bare.body_of(point))
+
+    def at(self, point: str, body: int) -> Plane:
+        return Plane.of(self.velocities.at(body, self.geometry.points[point]))
+
+    def a(self, point: str) -> Plane:
+        body, place = self.bare.body_of(point), self.geometry.points[point]
+        rates, omega = self.accelerations[body], self.velocities.omega(body)
+        return Plane.of(rates.origin + rates.turn * (1j * place) - omega**2 * place)
+
+    def _solve(self, equations: list[tuple[Condition, Any]]) -> dict[int, Rates]:
+        unknowns = algebra.solve([self._row(one) for one, _ in equations], [value for _, value in equations])
+        found = {}
+        for index, body in enumerate(self.bodies):
+            turn, x, y = unknowns[3 * index : 3 * index + 3]
+            found[body] = Rates(turn, Plane(x, y))  # type: ignore[arg-type]
+        return found
+
+    def _row(self, condition: Condition) -> list[Algebraic]:
+        row: list[Algebraic] = [0] * (3 * len(self.bodies))
+        for part in condition.components:
+            if part.body != GROUND:
+                at, way = 3 * self.bodies.index(part.body), Plane.of(part.direction)
+                row[at] += _dot(way, 1j * part.point)
+                row[at + 1] += way.real
+                row[at + 2] += way.imag
+        for body, factor in condition.turns:
+            if body != GROUND:
+                row[3 * self.bodies.index(body)] += algebra.exact(factor)
+        return row
+
+
+def _dot(one: Any, other: Any) -> Algebraic:
+    return (Plane.of(one).conjugate() * other).real
+
+
+class LiteralBoard:
+    """What the quantities of a board are by symbols, each worked out when it is asked for."""
+
+    def __init__(self, exercise: Exercise, worked: Worked) -> None:
+        self.exercise, self.worked = exercise, worked
+        self.motion = LiteralMotion(exercise)
+        self.at = {name: one.given.si for name, one in exercise.given.symbols.items()}
+        self._found: dict[str, Algebraic | None] = {}
+
+    def __getitem__(self, id: str) -> Expression | None:
+        """The expression of a quantity over the names of symbols; None where there is none."""
+        found = self.algebraic(id)
+        return None if found is None else algebra.expression(found, self.at)
+
+    def place(self, point: str) -> tuple[Expression, Expression]:
+        """The coordinates of a point, instant centres among them; lengths in numbers are metres."""
+        at = {**self._centres, **self.motion.geometry.points}[point]
+        x, y = (algebra.expression(algebra.simplified(part), self.at) for part in (at.real, at.imag))
+        return x, y
+
+    def algebraic(self, id: str) -> Algebraic | None:
+        if id not in self._found:
+            whole = self._of(id)
+            self._found[id] = None if whole is None else algebra.size(whole, self.at)
+        return self._found[id]
+
+    def _of(self, id: str) -> Any:
+        """A number or a vector whose size the quantity is: from the motion, else by the formula of its line."""
+        what, _, of = id.partition(".")
+        points = self.motion.geometry.points
+        match what:
+            case "omega":
+                return self.motion.velocities.omega(int(of))
+            case "eps":
+                return self.motion.accelerations[int(of)].turn
+            case "v" if of in points:
+                return self.motion.v(of)
+            case "a" if of in points:
+                return self.motion.a(of)
+            case "l":
+                return self._length(of)
+        definition = self.worked.ledger[id].definition
+        return None if definition is None else algebra.algebraic(definition, self.algebraic)
+
+    def _length(self, of: str) -> Any:
+        names = {**self.motion.geometry.points, **self._centres}
+        for cut in range(1, len(of)):
+            one, other = of[:cut], of[cut:]
+            if one in names and other in names:
+                return names[one] - names[other]
+        return None
+
+    @cached_property
+    def _centres(self) -> dict[str, Plane]:
+        """Instant centres, where a body's velocity is zero, and the points in which discs touch."""
+        found, geometry, layout = {}, self.motion.geometry, self.worked.layout
+        for index, joint in enumerate(self.exercise.given.joints):
+            match joint:
+                case file.RollingOnLine():
+                    found[layout.contacts[index]] = geometry.contact_on_line(joint, index)
+                case file.RollingOnCircle() | file.Gears():
+                    found[layout.contacts[index]] = geometry.contact_of_discs(joint, index)
+        for body, centre in self.worked.layout.centres.items():
+            if centre.rule in ("normals", "contact") and self.motion.velocities.omega(body) != 0:
+                rates = self.motion.velocities.of(body)
+                found[centre.name] = Plane.of((1j * rates.origin) / rates.turn)
+        return found
