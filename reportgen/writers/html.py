@@ -1,0 +1,136 @@
+"""Document → one page for a browser, which needs no other file and loads none.
+
+The frame `templates/frames/html/` holds the looks and the few scripts; this module puts the parts together and
+states, by their hashes, which styles and scripts the page may use: nothing else runs on it, whatever it says.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from reportgen.document import tree
+from reportgen.errors import TypesetterError
+from reportgen.words import templates
+from reportgen.writers.html_blocks import Blocks
+from reportgen.writers.svg import Pens
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+STYLES, SCRIPTS = ("page.css",), ("page.js",)
+"""Files of the frame that every page has."""
+HEADER = 41.0
+"""What the margins of a plate's page and its caption take of its height (mm)."""
+
+
+@dataclass(frozen=True)
+class Report:
+    """The report as elements, with the style sheet's rules for its pens and papers."""
+
+    body: str
+    rules: str
+
+
+@dataclass(frozen=True)
+class Panel:
+    """What moves on a page: its elements, their rules, the samples as JSON; the frame's files that serve it."""
+
+    body: str
+    rules: str
+    data: str
+    styles: Sequence[str] = ("moving.css",)
+    scripts: Sequence[str] = ("moving.js",)
+
+
+@dataclass(frozen=True)
+class Live:
+    """What a page has that is renewed while it is read: the frame's files for that, where it asks for news."""
+
+    scripts: Sequence[str] = ("live.js",)
+    styles: Sequence[str] = ("live.css",)
+
+
+def report(document: tree.Document) -> Report:
+    """The elements of a document; raises `TypesetterError` for a formula that cannot be set."""
+    pens = Pens()
+    blocks = Blocks(document, pens)
+    body = blocks.write(document.blocks)
+    papers = (
+        f"@page {name}{{size:{width:g}mm {height:g}mm;margin:12mm}}.{name}{{page:{name}}}"
+        for name, (width, height) in blocks.papers.items()
+    )
+    return Report(body, "\n".join((pens.rules(), *papers)))
+
+
+def write(
+    document: tree.Document,
+    words: Mapping[str, Any],
+    panel: Panel | None = None,
+    live: Live | None = None,
+    written: Report | None = None,
+) -> str:
+    """The whole page; `words` are those of its buttons (`page` in `words.yaml`).
+
+    Raises `TypesetterError` if a file of the frame is missing.
+    """
+    written = written or report(document)
+    parts = [part for part in (panel, live) if part is not None]
+    styles = [read(name) for name in (*STYLES, *(name for part in parts for name in part.styles))]
+    styles += [part.rules for part in (written, panel) if part is not None]
+    scripts = [read(name) for name in (*SCRIPTS, *(name for part in parts for name in part.scripts))]
+    style, script = "\n".join(styles), "\n".join(scripts)
+    policy = [
+        "default-src 'none'",
+        f"script-src {_hash(script)}",
+        f"style-src {_hash(style)}",
+        "img-src data:",
+        *(["connect-src 'self'"] if live else []),
+        "base-uri 'none'",
+        "form-action 'none'",
+    ]
+    frame = _environment().get_template("page.html.j2")
+    return frame.render(
+        language=document.language,
+        title=document.title,
+        author=document.author,
+        policy="; ".join(policy),
+        style=style,
+        script=script,
+        words=words,
+        panel=panel,
+        data=panel.data if panel else "",
+        live=live is not None,
+        body=written.body,
+    )
+
+
+@cache
+def _environment() -> Environment:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    return Environment(
+        loader=FileSystemLoader(templates() / "frames" / "html"),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=StrictUndefined,
+    )
+
+
+def read(name: str) -> str:
+    """A file of the frame: from the installed package, or beside it in a checkout."""
+    path = templates() / "frames" / "html" / name
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise TypesetterError(f"{path}: {error.strerror}") from error
+
+
+def _hash(text: str) -> str:
+    """A source expression of a security policy that allows this text alone."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
