@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from reportgen import flywheel
 from reportgen.analysis import FULL_TURN, Analysis
 from reportgen.catalogue.loads import TableLaw
+from reportgen.catalogue.machine import no_formulas
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.forces import enter_forces
@@ -33,24 +34,9 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, wor
     The plans of the `worked` positions fill their paper, of all positions if none is named.
     """
     machine = analysis.machine
-    q = Sheet(machine.positions)
-    if machine.span:
-        q.give("s.1", machine.angles(analysis.cycle_angle), exact=False)
-    else:
-        q.give("phi.1", machine.angles(analysis.cycle_angle))
-    q.extend(machine.sheet)
-    enter_kinematics(q, machine.linkage, machine.turn, worked)
-    with q.within(Chapter.formulas):
-        machine.formulas(q)
-    polygons: tuple[Polygon, ...] = ()
+    q, polygons = enter_plans(analysis, worked, machine.formulas)
     regulated: flywheel.Flywheel | None = None
     if analysis.loads:
-        _masses(q, analysis)
-        _gas(q, analysis)
-        _applied(q, analysis)
-        applied = {one.name: (one.link, one.point, one.direction) for one in machine.applied}
-        torques = {one.name: one.link for one in machine.torques}
-        polygons = enter_forces(q, machine.linkage, machine.turn, applied, torques)
         with q.within(Chapter.cycle):
             _cycle(q, analysis)
             if machine.unevenness is not None:
@@ -59,6 +45,33 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, wor
     checks = {id for id in q.families if id.startswith(centres.PREFIX)}
     decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
     return Ledger(q.families, decimals, machine.positions, cancellations, units or {}, polygons, regulated, q.lines)
+
+
+def enter_plans(
+    analysis: Analysis, worked: Sequence[int] = (), formulas: Callable[[Sheet], None] = no_formulas
+) -> tuple[Sheet, tuple[Polygon, ...]]:
+    """The sheet of an analysis at whatever positions it has, and its force plans: given data, plans, `formulas`, forces.
+
+    The plans of the `worked` positions, counted from 1, fill their paper.
+    """
+    machine = analysis.machine
+    q = Sheet(len(analysis.cycle_angle))
+    if machine.span:
+        q.give("s.1", machine.angles(analysis.cycle_angle), exact=False)
+    else:
+        q.give("phi.1", machine.angles(analysis.cycle_angle))
+    q.extend(machine.sheet)
+    enter_kinematics(q, machine.linkage, machine.turn, worked)
+    with q.within(Chapter.formulas):
+        formulas(q)
+    if not analysis.loads:
+        return q, ()
+    _masses(q, analysis)
+    _gas(q, analysis)
+    _applied(q, analysis)
+    applied = {one.name: (one.link, one.point, one.direction) for one in machine.applied}
+    torques = {one.name: one.link for one in machine.torques}
+    return q, enter_forces(q, machine.linkage, machine.turn, applied, torques)
 
 
 def _masses(q: Sheet, analysis: Analysis) -> None:
