@@ -166,15 +166,17 @@ class _Samples:
     # --- drawings
 
     def stages(self) -> Iterator[Stage]:
-        words = self.report.words["page"]
+        report, words = self.report, self.report.words["page"]
         yield self.mechanism()
         for what, name in (("v", "velocity_plan"), ("a", "acceleration_plan")):
             plan, tracks = self._plan_of_motion(what)
             yield _stage(what, words[name], plan, tracks)
+        titles = {group.polygon.name: f"{group.i}, {group.j}" for group in report.groups if group.polygon is not None}
         for polygon in self.case.polygons:
             plan, tracks = self._plan_of_forces(polygon)
-            about = words["force_plan"].format(name=polygon.name) if polygon.name else words["driver_plan"]
-            yield _stage(f"R{polygon.name}", about, plan, tracks)
+            of = titles.get(polygon.name)
+            title = words["force_plan"].format(name=of) if of else words["driver_plan"]
+            yield _stage(f"R{polygon.name}", title, plan, tracks)
 
     def mechanism(self) -> Stage:
         """The machine itself, true to shape."""

@@ -267,11 +267,11 @@ def extent(items: Iterable[MovingItem]) -> tuple[complex, complex]:
         match item:
             case Still(still) if still:
                 points += bounds(still)
-            case Carried(carried, at) if not item.layer:
+            case Carried(carried, at, angle) if not item.layer:
                 low, high = bounds(carried)
-                # Whichever way it is turned.
-                reach = max(abs(low), abs(high), abs(complex(low.real, high.imag)))
-                points += [p + way * reach for p in _corners(at) for way in (1 + 1j, -1 - 1j)]
+                turned = np.exp(1j * angle.values) if angle is not None else np.array([1.0])
+                box = (low, high, complex(low.real, high.imag), complex(high.real, low.imag))
+                points += [p for corner in box for p in _corners(Track(at.values + corner * turned))]
             case Vector(start, end) if not item.layer:
                 points += [*_corners(start), *_corners(end)]
             case _:

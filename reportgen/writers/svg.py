@@ -65,19 +65,20 @@ class Run:
 
 
 class Pens:
-    """The classes of a page's pens and fills, in the order in which drawings first use them."""
+    """The classes of pens and fills, in the order in which drawings first use them; all begin with the same letter."""
 
-    def __init__(self) -> None:
+    def __init__(self, letter: str = "p") -> None:
+        self._letter = letter
         self._names: dict[tuple[Stroke | None, str | None], str] = {}
         self._sizes: dict[float, str] = {}
 
     def name(self, stroke: Stroke | None, fill: str | None = None) -> str:
         """The class of a pen with a fill."""
-        return self._names.setdefault((stroke, fill), f"p{len(self._names)}")
+        return self._names.setdefault((stroke, fill), f"{self._letter}{len(self._names)}")
 
     def size(self, points: float) -> str:
         """The class of a font size."""
-        return self._sizes.setdefault(points, f"s{len(self._sizes)}")
+        return self._sizes.setdefault(points, f"{self._letter}s{len(self._sizes)}")
 
     def rules(self) -> str:
         """The style sheet's rules for all of them."""
