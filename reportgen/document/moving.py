@@ -148,8 +148,7 @@ class _Samples:
             machine.turns,
             machine.span * MM,
             tuple(
-                (str(machine.position(k + 1)), float(angle))
-                for k, angle in enumerate(np.degrees(machine.cycle_angles))
+                (str(machine.position(k + 1)), float(angle)) for k, angle in enumerate(np.degrees(machine.cycle_angles))
             ),
             self.case.assignment.worked_positions[0] - 1,
             stages,
@@ -168,7 +167,8 @@ class _Samples:
     def stages(self) -> Iterator[Stage]:
         report, words = self.report, self.report.words["page"]
         yield self.mechanism()
-        for what, name in (("v", "velocity_plan"), ("a", "acceleration_plan")):
+        names: tuple[tuple[What, str], ...] = (("v", "velocity_plan"), ("a", "acceleration_plan"))
+        for what, name in names:
             plan, tracks = self._plan_of_motion(what)
             yield _stage(what, words[name], plan, tracks)
         titles = {group.polygon.name: f"{group.i}, {group.j}" for group in report.groups if group.polygon is not None}
@@ -332,10 +332,7 @@ class _Samples:
         for base, kind in (("v", "velocity"), ("a", "acceleration")):
             for name in moving:
                 yield _value(Symbol(base, name), kind, np.abs(getattr(motion.points[name], base)))
-        for base, attribute, kind in (
-            ("ω", "omega", "angular velocity"),
-            ("ε", "epsilon", "angular acceleration"),
-        ):
+        for base, attribute, kind in (("ω", "omega", "angular velocity"), ("ε", "epsilon", "angular acceleration")):
             for link in self.machine.linkage.links:
                 rates = getattr(motion.links[link], attribute)
                 if np.nanmax(np.abs(rates)) > 0:
@@ -431,4 +428,3 @@ def _pair(name: str) -> tuple[str, ...]:
         return (name,)
     digits = name[1:]
     return tuple(sorted(digits.split(",") if "," in digits else digits))
-

@@ -293,7 +293,7 @@ def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
 
 
 def force_plan_through(report: Report, polygon: Polygon, place: Place) -> Plan:
-    """A force plan with these corners: known edges one by one, then what closing it gives, then what is read from it."""
+    """A force plan with these corners: known edges one by one, what closing it gives, what is read from it."""
 
     def corner(letter: str) -> complex:
         return place(f"plan.R{polygon.name}.{letter}")

@@ -183,9 +183,7 @@ def linkage_items(linkage: Linkage, motion: Motion, at: int, scale: float, looks
     """A linkage in the order in which figures paint it, drawn as at the sample `at`, `scale` mm of paper per m."""
     bones = skeleton(linkage, motion, at, scale)
     places = {name: Track(point.p * scale) for name, point in motion.points.items()}
-    frames = {
-        link: (Track(motion.origins[link].p * scale), Track(motion.links[link].angle)) for link in linkage.links
-    }
+    frames = {link: (Track(motion.origins[link].p * scale), Track(motion.links[link].angle)) for link in linkage.links}
     parts = {
         link: parts_of(
             bones, link, looks, complex(motion.origins[link].p[at]) * scale, float(motion.links[link].angle[at])

@@ -50,7 +50,7 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, wor
 def enter_plans(
     analysis: Analysis, worked: Sequence[int] = (), formulas: Callable[[Sheet], None] = no_formulas
 ) -> tuple[Sheet, tuple[Polygon, ...]]:
-    """The sheet of an analysis at whatever positions it has, and its force plans: given data, plans, `formulas`, forces.
+    """The sheet of an analysis at whatever positions it has: given data, plans, `formulas`, forces; its force plans.
 
     The plans of the `worked` positions, counted from 1, fill their paper.
     """

@@ -20,12 +20,10 @@ from reportgen.writers.html_blocks import Blocks
 from reportgen.writers.svg import Pens
 
 if TYPE_CHECKING:
-    from jinja2 import Environment
+    from jinja2 import Environment, Template
 
 STYLES, SCRIPTS = ("page.css",), ("page.js",)
 """Files of the frame that every page has."""
-HEADER = 41.0
-"""What the margins of a plate's page and its caption take of its height (mm)."""
 
 
 @dataclass(frozen=True)
@@ -93,8 +91,7 @@ def write(
         "base-uri 'none'",
         "form-action 'none'",
     ]
-    frame = _environment().get_template("page.html.j2")
-    return frame.render(
+    return template("page.html.j2").render(
         language=document.language,
         title=document.title,
         author=document.author,
@@ -107,6 +104,12 @@ def write(
         live=live is not None,
         body=written.body,
     )
+
+
+def template(name: str) -> Template:
+    """A template of the frame; raises `TypesetterError` if it is missing."""
+    read(name)
+    return _environment().get_template(name)
 
 
 @cache

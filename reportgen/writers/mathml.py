@@ -103,7 +103,9 @@ class MathmlFormulas(Formulas):
         return _pieces([(self.upright(part), number) for part, number in numbered(text)])
 
     def italic(self, text: str) -> str:
-        return "".join(f"<mi>{escape(char)}</mi>" if char.isalpha() else f"<mtext>{escape(char)}</mtext>" for char in text)
+        return "".join(
+            f"<mi>{escape(char)}</mi>" if char.isalpha() else f"<mtext>{escape(char)}</mtext>" for char in text
+        )
 
     def upright(self, text: str) -> str:
         return f"<mtext>{escape(text)}</mtext>"
@@ -203,6 +205,6 @@ def _scripted(base: str, below: str, above: str) -> str:
 def _pieces(parts: Sequence[tuple[str, str]]) -> str:
     """Letters with the digits that stand below the last of them."""
     return "".join(
-        f"<msub>{row(letters)}<mtext>{escape(number)}</mtext></msub>" if number else letters for letters, number in parts
+        f"<msub>{row(letters)}<mtext>{escape(number)}</mtext></msub>" if number else letters
+        for letters, number in parts
     )
-

@@ -184,15 +184,15 @@ class Painter:
             base = complex(centre.real + across, centre.imag - half.imag + extent.depth)
         x, y = decimal(base.real), decimal(height - base.imag)
         turn = f' transform="rotate(-90 {x} {y})"' if turned else ""
-        text = f'<text class="{side} {self.pens.size(label.size)}" x="{x}" y="{y}"{turn}>{self.text(label.content)}</text>'
+        text = (
+            f'<text class="{side} {self.pens.size(label.size)}" x="{x}" y="{y}"{turn}>{self.text(label.content)}</text>'
+        )
         left = base.real - {"s": 0.0, "e": extent.width, "m": extent.width / 2}[side]
         text += self._accent(label.content, label.size, complex(left, base.imag), height)
         if label.background:
-            corner = complex(centre.real - half.real, height - centre.imag - half.imag)
-            text = (
-                f'<rect class="{self.pens.name(None, style.PAPER)}" x="{decimal(corner.real)}" y="{decimal(corner.imag)}" '
-                f'width="{decimal(2 * half.real)}" height="{decimal(2 * half.imag)}"/>{text}'
-            )
+            low, high = centre - half, centre + half
+            corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
+            text = self.items((Polyline(corners, None, closed=True, fill=style.PAPER),), height) + text
         return text
 
     def _accent(self, content: Content, size: float, base: complex, height: float) -> str:
@@ -212,7 +212,7 @@ class Painter:
     def text(self, content: Content) -> str:
         """What a label says as the content of a text element."""
         parts = [Run(content)] if isinstance(content, str) else list(label_runs(content, self.language))
-        shown, drop, size = [], 0.0, 1.0
+        shown, drop = [], 0.0
         for run in parts:
             # A shift counts in the font size of the run that it moves.
             shift = (run.drop - drop) / run.size
@@ -221,12 +221,12 @@ class Painter:
             attributes += f' class="{names.strip()}"' if names else ""
             text = escape(run.text)
             shown.append(f"<tspan{attributes}>{text}</tspan>" if attributes else text)
-            drop, size = run.drop, run.size
+            drop = run.drop
         return "".join(shown)
 
 
 def label_runs(node: Expression, language: Language) -> Iterator[Run]:
-    """An expression in one line, as labels have it: fractions with a stroke, indices and powers beside their letters."""
+    """An expression in one line, as labels have it: fractions with a stroke, indices beside their letters."""
     match node:
         case Symbol(base, sub, sup):
             for letters, digits in runs(base):
