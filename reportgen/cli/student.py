@@ -89,6 +89,21 @@ def sheet(
 
 
 @app.command()
+def watch(
+    file: File,
+    no_open: Annotated[bool, typer.Option("--no-open", help="Open no browser; the address is printed anyway.")] = False,
+    pdf: Annotated[bool, typer.Option("--pdf", help="Renew DIR/<id>/report.pdf, too.")] = False,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the PDF.")] = Path("out"),
+    lang: LangOption = None,
+) -> None:
+    """Show the report of FILE in a browser, renewed whenever FILE changes; Ctrl-C ends it."""
+    from reportgen.watch.session import watch as serve
+
+    with ending(lang):
+        serve(file, lang, out, pdf, browser=not no_open)
+
+
+@app.command()
 def solve(
     file: File,
     positions: Annotated[

@@ -8,7 +8,7 @@ are one.  Motion repeats from turn to turn; forces go on through the cycle.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -71,7 +71,7 @@ DIGITS, MOST_DECIMALS = 5, 5
 
 def film(case: Case) -> Film:
     """All that moves on the page of a case."""
-    return _Samples(case).film()
+    return _Samples(case.drawn).film()
 
 
 @dataclass(frozen=True)
@@ -292,7 +292,8 @@ class _Samples:
         """The plan of velocities or accelerations, and the tracks of its corners."""
         numbers = _Numbers()
         plan = motion_plan_through(self.report, what, numbers)
-        return plan, [self.turn(self.corners[id] * MM) if id else Track(np.array([0j])) for id in numbers.ids]
+        tracks = [self.turn(self.corners[id] * MM) if id else Track(np.array([0j])) for id in numbers.ids]
+        return replace(plan, scale=self._scale(f"mu.{what}")), tracks
 
     def _plan_of_forces(self, polygon: Polygon) -> tuple[Plan, list[Track]]:
         """A force plan at the scale that serves all numbered positions, and the tracks of its corners."""
@@ -303,8 +304,14 @@ class _Samples:
         common = max(report.plates, key=lambda k: float(report.ledger[id].at(k)))
         share = own / float(report.ledger[id].at(common))
         tracks = [Track(self.corners[one] * share * MM) if one else Track(np.array([0j])) for one in numbers.ids]
-        scale = Chain((report.ledger.symbol(id), report.ledger.number(id, common)))
-        return Plan(plan.vectors, plan.points, plan.lines, scale, plan.pole), tracks
+        return replace(plan, scale=self._scale(id, common)), tracks
+
+    def _scale(self, id: str, k: int | None = None) -> Chain:
+        """A scale with the figures of its kind: no decimals are chosen for drawings."""
+        family = self.report.ledger[id]
+        how = family.how
+        value = float(f"{float(family.at(k)) / how.scale:.{how.digits}g}")
+        return Chain((self.report.ledger.symbol(id), Number(value, None, how.unit)))
 
     # --- curves and numbers
 

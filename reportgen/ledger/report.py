@@ -28,10 +28,13 @@ TERMS = 4
 """More terms than these are no longer one line of a page."""
 
 
-def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = ()) -> Ledger:
+def write_ledger(
+    analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = (), printed: bool = True
+) -> Ledger:
     """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
 
-    The plans of the `worked` positions fill their paper, of all positions if none is named.
+    The plans of the `worked` positions fill their paper, of all positions if none is named.  For numbers that are
+    drawn and not `printed` no decimals are chosen.
     """
     machine = analysis.machine
     q, polygons = enter_plans(analysis, worked, machine.formulas)
@@ -43,7 +46,10 @@ def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, wor
                 regulated = flywheel.flywheel(machine, machine.unevenness)
                 _flywheel(q, analysis, regulated)
     checks = {id for id in q.families if id.startswith(centres.PREFIX)}
-    decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
+    decimals: Mapping[str, int | None] = dict.fromkeys(q.families)
+    cancellations: tuple[str, ...] = ()
+    if printed:
+        decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
     return Ledger(q.families, decimals, machine.positions, cancellations, units or {}, polygons, regulated, q.lines)
 
 

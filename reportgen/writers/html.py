@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -47,8 +48,11 @@ class Panel:
 
 @dataclass(frozen=True)
 class Live:
-    """What a page has that is renewed while it is read: the frame's files for that, where it asks for news."""
+    """What a page has that is renewed while it is read: words of its own (`live` in `words.yaml`), its editions."""
 
+    words: Mapping[str, str]
+    moving: int
+    report: int
     scripts: Sequence[str] = ("live.js",)
     styles: Sequence[str] = ("live.css",)
 
@@ -79,7 +83,9 @@ def write(
     written = written or report(document)
     parts = [part for part in (panel, live) if part is not None]
     styles = [read(name) for name in (*STYLES, *(name for part in parts for name in part.styles))]
-    styles += [part.rules for part in (written, panel) if part is not None]
+    rules = {"moving": panel.rules if panel else "", "report": written.rules}
+    # Rules that change while the page is read are the script's to put in.
+    styles += [] if live else rules.values()
     scripts = [read(name) for name in (*SCRIPTS, *(name for part in parts for name in part.scripts))]
     style, script = "\n".join(styles), "\n".join(scripts)
     policy = [
@@ -100,8 +106,11 @@ def write(
         script=script,
         words=words,
         panel=panel,
-        data=panel.data if panel else "",
-        live=live is not None,
+        samples=panel.data if panel else "",
+        live=live,
+        editions=data(
+            {"moving": live.moving, "report": live.report, "rules": rules, "words": live.words} if live else {}
+        ),
         body=written.body,
     )
 
@@ -132,6 +141,11 @@ def read(name: str) -> str:
         return path.read_text(encoding="utf-8")
     except OSError as error:
         raise TypesetterError(f"{path}: {error.strerror}") from error
+
+
+def data(content: Mapping[str, Any]) -> str:
+    """Data as the content of a script element, which no text in it can end."""
+    return json.dumps(content, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def _hash(text: str) -> str:

@@ -7,7 +7,6 @@ each number which tracks it follows.  The script of the frame does nothing but r
 from __future__ import annotations
 
 import base64
-import json
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -23,7 +22,7 @@ from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import Language, write
 from reportgen.notation.vocabulary import KINDS
 from reportgen.writers.drawing import HEAD_SLENDERNESS, decimal
-from reportgen.writers.html import Panel, template
+from reportgen.writers.html import Panel, data, template
 from reportgen.writers.mathml import MathmlFormulas
 from reportgen.writers.svg import Painter, Pens
 
@@ -123,9 +122,7 @@ class _Writer:
             charts=list(map(self.chart, film.charts)),
             accuracy=self.accuracy(),
         )
-        packed = json.dumps(self.data(), ensure_ascii=False, separators=(",", ":"))
-        # In a script element "<" could end it, whatever it stands in.
-        return Panel(body, self.pens.rules(), packed.replace("<", "\\u003c"))
+        return Panel(body, self.pens.rules(), data(self.data()))
 
     def data(self) -> Mapping[str, Any]:
         """What the script reads; numbers are those of tracks."""
