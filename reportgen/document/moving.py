@@ -292,7 +292,7 @@ class _Samples:
         """The plan of velocities or accelerations, and the tracks of its corners."""
         numbers = _Numbers()
         plan = motion_plan_through(self.report, what, numbers)
-        tracks = [self.turn(self.corners[id] * MM) if id else Track(np.array([0j])) for id in numbers.ids]
+        tracks = [self.turn(_places(self.corners[id])) if id else Track(np.array([0j])) for id in numbers.ids]
         return replace(plan, scale=self._scale(f"mu.{what}")), tracks
 
     def _plan_of_forces(self, polygon: Polygon) -> tuple[Plan, list[Track]]:
@@ -303,7 +303,7 @@ class _Samples:
         own = self.corners[id]
         common = max(report.plates, key=lambda k: float(report.ledger[id].at(k)))
         share = own / float(report.ledger[id].at(common))
-        tracks = [Track(self.corners[one] * share * MM) if one else Track(np.array([0j])) for one in numbers.ids]
+        tracks = [Track(_places(self.corners[one]) * share) if one else Track(np.array([0j])) for one in numbers.ids]
         return replace(plan, scale=self._scale(id, common)), tracks
 
     def _scale(self, id: str, k: int | None = None) -> Chain:
@@ -401,6 +401,11 @@ class _Numbers:
         if id not in self.ids:
             self.ids.append(id)
         return complex(self.ids.index(id))
+
+
+def _places(corner: np.ndarray) -> np.ndarray:
+    """A corner of a plan in mm; one that stays at 0 is a place, too."""
+    return np.asarray(corner * MM, dtype=np.complex128)
 
 
 def _stage(key: str, title: str, plan: Plan, tracks: Sequence[Track]) -> Stage:

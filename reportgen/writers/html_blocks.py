@@ -208,10 +208,19 @@ class Blocks:
             span = f' colspan="{cell.span}"' if cell.span > 1 else ""
             side = "c" if cell.span > 1 or name == "th" else aligns[column]
             # A head without words is the head of nothing.
-            kind = name if cell.inlines else "td"
-            scope = ' scope="colgroup"' if cell.span > 1 else ' scope="col"'
-            yield f'<{kind} class="{side}"{span}{scope if kind == "th" else ""}>{self.inlines(cell.inlines)}</{kind}>'
+            if name == "th" and cell.inlines:
+                scope = "colgroup" if cell.span > 1 else "col"
+                yield f'<th class="{side}"{span} scope="{scope}">{self.named(cell.inlines)}</th>'
+            else:
+                yield f'<td class="{side}"{span}>{self.inlines(cell.inlines)}</td>'
             column += cell.span
+
+    def named(self, inlines: tree.Inlines) -> str:
+        """Inlines that say in letters, too, what they are if they are a formula alone: a cell needs a name."""
+        shown = self.inlines(inlines)
+        if any(not isinstance(inline, tree.InlineMath) for inline in inlines):
+            return shown
+        return shown.replace("<math>", f'<math aria-label="{escape(tree.plain(inlines, self.language))}">', 1)
 
     # --- figures ------------------------------------------------------------------------------------
 

@@ -31,7 +31,7 @@ class MathmlFormulas(Formulas):
     """Expressions as MathML, in one language."""
 
     PLUS, MINUS, NEGATIVE = '<mo form="infix">+</mo>', '<mo form="infix">−</mo>', '<mo form="prefix">−</mo>'
-    TIMES, DOT, CROSS = '<mo form="infix">⋅</mo>', '<mo form="infix">⋅</mo>', '<mo form="infix">×</mo>'
+    TIMES, DOT, CROSS = '<mo form="infix">·</mo>', '<mo form="infix">·</mo>', '<mo form="infix">×</mo>'
     FRACTION = "<mfrac><mrow>%s</mrow><mrow>%s</mrow></mfrac>"
     RAISED = "%s"
     ROOT = "<msqrt>%s</msqrt>"

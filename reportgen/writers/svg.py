@@ -246,7 +246,7 @@ def label_runs(node: Expression, language: Language) -> Iterator[Run]:
                 yield from [Run(" − " if negative else " + ")] if index else [Run("−")] if negative else []
                 yield from _tight(term.of if isinstance(term, Negative) else term, language)
         case Product(factors):
-            yield from _joined(factors, "⋅", language)
+            yield from _joined(factors, "·", language)
         case Negative(of):
             yield Run("−")
             yield from _tight(of, language)
