@@ -22,7 +22,8 @@ AXE = "axe-core"
 DRAWN = """
 moving.pause();
 const items = JSON.parse(document.getElementById("samples").textContent).items;
-const parts = (path) => [...path.matchAll(/[ML]([-\\d.e]+) ([-\\d.e]+)/g)].map((found) => [Number(found[1]), Number(found[2])]);
+const corner = /[ML]([-\\d.e]+) ([-\\d.e]+)/g;
+const parts = (path) => [...path.matchAll(corner)].map((found) => [Number(found[1]), Number(found[2])]);
 const found = [];
 for (const angle of arguments[0]) {
   moving.seek(angle);
