@@ -66,7 +66,7 @@ def test_the_page_follows_the_file(file: Path, browser: Browser) -> None:
         browser.run("moving.seek(77); document.querySelector('[data-panel=values]').open = false; scrollTo(0, 6000);")
         place, drawn = (
             browser.run("return scrollY"),
-            "return document.querySelector('[data-spot]').getAttribute('transform')",
+            "return document.querySelectorAll('[data-spot]')[1].getAttribute('transform')",
         )
         before = browser.run(drawn)
         # Another number: the moving part first, then the report; what the reader chose stays.
