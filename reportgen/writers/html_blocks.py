@@ -200,7 +200,7 @@ class Blocks:
         head = "".join(f"<tr>{''.join(self.cells(row, aligns, 'th'))}</tr>" for row in table.head)
         rows = "\n".join(f"<tr>{''.join(self.cells(row, aligns, 'td'))}</tr>" for row in table.rows)
         body = f"{f'<thead>{head}</thead>' if head else ''}<tbody>{rows}</tbody>"
-        return f'<div class="scroll"{_id(table.key)}><table class="ruled">{shown}{body}</table></div>'
+        return f'<div class="scroll tabled"{_id(table.key)}><table class="ruled">{shown}{body}</table></div>'
 
     def cells(self, row: Sequence[tree.Cell], aligns: Sequence[str], name: str) -> Iterator[str]:
         column = 0

@@ -2,9 +2,9 @@
 // The machine in motion.  Nothing is computed here but straight lines between two samples of the solver:
 // a track is an array over the samples, an item names the tracks that it follows.
 const moving = (() => {
-  const TURN_SECONDS = 7, ARROW_SHARE = 0.75, SHORT = 3, NOTHING = 0.02;
+  const TURN_SECONDS = 7, ARROW_SHARE = 0.75, SHORT = 3, NOTHING = 0.02, READABLE = 120, SLOW = 22;
   const root = document.getElementById("moving");
-  const state = { angle: 0, playing: false, last: 0, rate: 1, inView: true };
+  const state = { angle: 0, playing: false, last: 0, rate: 1, told: 0, pace: 16 };
   let film, values, starts, drawing, now;
 
   // --- samples
@@ -39,11 +39,15 @@ const moving = (() => {
   // --- drawing
 
   const short = (number) => Math.round(number * 1000) / 1000;
+  const hidden = new WeakSet();
   const show = (element, shown) => {
-    const display = shown ? "" : "none";
-    if (element.dataset.shown !== display) {
-      element.dataset.shown = display;
-      if (shown) element.removeAttribute("display"); else element.setAttribute("display", "none");
+    if (shown !== hidden.has(element)) return;
+    if (shown) {
+      hidden.delete(element);
+      element.removeAttribute("display");
+    } else {
+      hidden.add(element);
+      element.setAttribute("display", "none");
     }
   };
 
@@ -122,6 +126,11 @@ const moving = (() => {
     return film.language === "vi" ? text.replace(".", ",") : text;
   };
 
+  // Another text in the same node: nothing is put in or taken out.
+  const say = (element, text) => {
+    if (!element.firstChild) element.append(text); else if (element.firstChild.data !== text) element.firstChild.data = text;
+  };
+
   const decimalsFor = (greatest) => Math.min(Math.max(4 - Math.floor(Math.log10(greatest || 1)), 0), 5);
 
   const chart = (element) => {
@@ -130,49 +139,62 @@ const moving = (() => {
     const outputs = element.querySelectorAll("output"), width = about.x[1] - about.x[0];
     const oneTurn = !film.span && width < 360 * film.turns - 1;
     const decimals = decimalsFor(Math.max(...about.y.map(Math.abs)));
-    const svg = element.querySelector("svg");
+    const svg = element.querySelector(".over");
     svg.addEventListener("pointerdown", (event) => {
       const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
       const x = about.x[0] + (at.x - left) / (right - left) * width;
       pause();
       seek(film.span ? x / film.span * 360 : x + (oneTurn ? 360 * Math.floor(state.angle / 360) : 0));
     });
-    return () => {
+    return (readable) => {
       const along = film.span ? state.angle / 360 * film.span : oneTurn ? state.angle % 360 : state.angle;
       const x = short(left + (along - about.x[0]) / width * (right - left));
       cursor.setAttribute("d", `M${x} ${bottom}V${top}`);
       about.curves.forEach((track, index) => {
         const here = value(track), y = bottom + (here - about.y[0]) / (about.y[1] - about.y[0]) * (top - bottom);
         dots[index].setAttribute("transform", `translate(${x} ${short(y)})`);
-        outputs[index].textContent = written(here, decimals);
+        if (readable) say(outputs[index], written(here, decimals));
       });
     };
   };
 
   // --- the moment shown
 
-  const panelOf = (element) => element.closest("details");
-  const visible = (element) => { const panel = panelOf(element); return !panel || panel.open; };
+  // Only what is on the screen is drawn; the rest when it comes there.  A folded panel is not on the screen.
+  const seen = new WeakSet();
+  const watcher = new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) if (isIntersecting) seen.add(target); else seen.delete(target);
+    if (now) draw();
+  }, { rootMargin: "100px" });
+  const visible = (element) => !state.playing || seen.has(element);
 
   const draw = () => {
     now = place(state.angle);
-    for (const part of drawing.parts) {
+    const time = performance.now(), readable = !state.playing || time - state.told > READABLE;
+    drawing.count += 1;
+    for (const [index, part] of drawing.parts.entries()) {
       if (!visible(part.element)) continue;
+      // Where frames take long the machine goes on smoothly, and plans follow in turns.
+      if (state.playing && state.pace > SLOW && index && (index + drawing.count) % 2) continue;
       part.names = [];
       for (const { element, update, layer } of part.followers) if (!layer || drawing.layers[layer]) update();
     }
-    if (visible(drawing.numbers)) {
+    // Figures that change faster than this cannot be read.
+    if (readable && visible(drawing.numbers)) {
       drawing.outputs.forEach((output, index) => {
         const [track, decimals] = film.values[index];
-        output.textContent = written(value(track), decimals);
+        say(output, written(value(track), decimals));
       });
     }
-    for (const { element, update } of drawing.charts) if (visible(element)) update();
-    tell();
+    for (const { element, update } of drawing.charts) if (visible(element)) update(readable);
+    if (readable) {
+      state.told = time;
+      tell();
+    }
     const told = film.span ? `${written(state.angle / 360 * film.span, 1)} mm` : `${written(state.angle, 1)}°`;
     drawing.slider.value = state.angle;
-    drawing.slider.setAttribute("aria-valuetext", told);
-    drawing.told.textContent = told;
+    say(drawing.told, told);
+    if (readable) drawing.slider.setAttribute("aria-valuetext", told);
     const near = film.positions.findIndex(([, at]) => Math.abs(at - state.angle) < 1e-4);
     if (near !== drawing.near) {
       drawing.near = near;
@@ -191,10 +213,11 @@ const moving = (() => {
   const frame = (time) => {
     if (!state.playing) return;
     const passed = Math.min(time - state.last, 100) / 1000;
+    state.pace += (time - state.last - state.pace) / 8;
     state.last = time;
     const whole = 360 * film.turns, next = state.angle + passed * state.rate * 360 / TURN_SECONDS;
     state.angle = next >= whole ? next % whole : next;
-    if (state.inView) draw();
+    draw();
     requestAnimationFrame(frame);
   };
 
@@ -209,7 +232,7 @@ const moving = (() => {
     mark();
     requestAnimationFrame(frame);
   };
-  const pause = () => { state.playing = false; mark(); };
+  const pause = () => { state.playing = false; mark(); draw(); };
 
   // The next numbered position on either side.
   const step = (sense) => {
@@ -243,7 +266,7 @@ const moving = (() => {
     if (!spot) return;
     for (const rate of ["v", "a"]) {
       const size = Math.hypot(value(spot[rate]), value(spot[rate] + 1));
-      drawing.rates[rate].textContent = written(size, decimalsFor(size));
+      say(drawing.rates[rate], written(size, decimalsFor(size)));
     }
   };
   const table = (spot, between) => {
@@ -288,7 +311,7 @@ const moving = (() => {
     film.lengths.reduce((start, length) => { starts.push(start); return start + length; }, 0);
     const find = (query) => root.querySelector(query), all = (query) => [...root.querySelectorAll(query)];
     drawing = {
-      layers: {}, near: -1, slider: find("#angle"), told: find("#told"), play: find("#play"), numbers: find(".numbers"),
+      layers: {}, near: -1, count: 0, slider: find("#angle"), told: find("#told"), play: find("#play"), numbers: find(".numbers"),
       outputs: all("[data-value]"), buttons: all("[data-position]"), point: find("#point"), motion: find("#motion"),
       tools: find("#tools"), copied: find("#copied"), pointed: null,
       rates: { v: find('[data-of="v"]'), a: find('[data-of="a"]') },
@@ -343,7 +366,8 @@ const moving = (() => {
     };
     keep.addEventListener("click", () => kept(!document.body.classList.contains("kept")));
     kept(document.body.classList.contains("kept"));
-    all("details").forEach((panel) => panel.addEventListener("toggle", () => panel.open && draw()));
+    watcher.disconnect();
+    for (const element of [drawing.numbers, ...all("[data-stage], [data-chart]")]) watcher.observe(element);
     mark();
   };
 
@@ -368,7 +392,6 @@ const moving = (() => {
 
   mount(JSON.parse(document.getElementById("samples").textContent));
   seek(film.positions[film.shown][1]);
-  new IntersectionObserver(([entry]) => { state.inView = entry.isIntersecting; }).observe(root);
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();
   return { seek, play, pause, renew, angle: () => state.angle, playing: () => state.playing };
 })();
