@@ -65,7 +65,7 @@ JUMP = 1e-3
 ARROW = 34.0
 """The longest arrow of a force or a rate on the machine at most (mm)."""
 FAR = 2.5
-"""A centre farther off than so many heights of the drawing is not drawn."""
+"""A centre farther off than so many diagonals of the drawing is not drawn."""
 DIGITS, MOST_DECIMALS = 5, 5
 
 
@@ -107,9 +107,7 @@ class _Samples:
         for before, after in zip(sides[0].applied, sides[1].applied, strict=True):
             for one, other in ((before.force, after.force), (before.couple, after.couple)):
                 jumping |= np.abs(one - other) > JUMP * max(float(np.nanmax(np.abs(one))), 1e-300)
-        at = np.mod(corners[jumping], FULL_TURN)
-        both = np.concatenate((at - BESIDE, at + BESIDE))
-        return both[(both > SAME) & (both < FULL_TURN - SAME)]
+        return np.mod(np.concatenate((corners[jumping] - BESIDE, corners[jumping] + BESIDE)), FULL_TURN)
 
     @cached_property
     def angles(self) -> np.ndarray:
