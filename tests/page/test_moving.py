@@ -115,11 +115,15 @@ def test_at_numbered_positions_plans_are_the_report_s_figures(page: Made, browse
 def test_between_samples_the_error_is_below_the_one_stated(page: Made) -> None:
     chance = random.Random(page.file.stem)
     at = np.array([chance.uniform(0.0, 360.0) for _ in range(400)])
-    motion = page.solved(np.sort(at)).motion
+    at.sort()
+    motion = page.solved(at).motion
     worst = 0.0
     for spot in page.film.stages[0].spots:
-        off = np.abs(page.between(spot.on_stage, np.sort(at)) - motion.points[spot.name].p * page.scale)
-        worst = max(worst, float(off.max()))
+        true = motion.points[spot.name]
+        worst = max(worst, float(np.abs(page.between(spot.on_stage, at) - true.p * page.scale).max()))
+        for shown, rate in ((spot.velocity, true.v), (spot.acceleration, true.a)):
+            off = np.abs(page.between(shown, at) - rate).max()
+            assert off <= 1.05 * page.film.errors.share * np.abs(rate).max() + 1e-12, spot.name
     assert worst <= page.film.errors.place
     # It is no idle bound: somewhere a curve is so much bent.
     assert worst > page.film.errors.place / 4
