@@ -33,10 +33,10 @@ SLIDE = built.ROOT / "assignments" / "linkage-slide.yaml"
 )
 def test_axe_finds_no_violation(file: Path, width: int, dark: bool, exercise: Path, browser: Browser) -> None:
     source = axe()
-    for page in (made.made(file, built.own_language(file)).file, exercise):
-        browser.show(page, width, dark=dark, still=True)
+    for shown in (made.made(file, built.own_language(file)).file, exercise):
+        browser.show(shown, width, dark=dark, still=True)
         browser.run("document.querySelectorAll('[data-layer]').forEach((box) => { if (!box.checked) box.click(); });")
-        assert browser.violations(source) == [], page.name
+        assert browser.violations(source) == [], shown.name
         assert browser.messages() == []
 
 
