@@ -27,6 +27,7 @@ lint: $(VENV)/.developing
 bench: $(VENV)/.developing
 	$(BIN)/python -m tests.bench
 	$(BIN)/python -m tests.bench.batch
+	$(BIN)/python -m tests.bench.page
 
 # The seed of the day: another ten thousand files each time.
 fuzz: $(VENV)/.developing

@@ -1,11 +1,16 @@
-"""Draw the pictures of the README: a page of a report with a plan, a drawing sheet, the scheme of each kind of machine.
+"""Draw the pictures of the README: a page with a plan, a sheet, a machine in motion, the scheme of each kind.
 
-`make pictures` runs this in the project's folder; the pictures go to `docs/`.
+`make pictures` runs this in the project's folder; the pictures go to `docs/`.  The machine in motion is drawn by
+chromium, and left as it is where there is none.
 """
 
 from __future__ import annotations
 
+import shutil
+import sys
+import tempfile
 from dataclasses import replace
+from io import BytesIO
 from pathlib import Path
 
 import pymupdf
@@ -23,6 +28,10 @@ CAPTION = ". Velocity plan at"
 SHOWN = ROOT / "assignments" / "plane-motion" / "17.yaml"
 """The exercise that the README shows."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"
+MOVING = ROOT / "assignments" / "shaper-01.yaml"
+"""The machine that the README shows in motion."""
+WINDOW, FRAME_WIDTH, STEP, FRAME_MS, FRAME_COLOURS = (1180, 900), 760, 8, 100, 48
+"""Of that picture: the window and the width of a frame (pixels), degrees and time (ms) from one to the next."""
 PAGE_DPI, SHEET_DPI, SCHEME_DPI = 100, 38, 60
 COLOURS = 96
 """Few enough that a picture is small, and enough that thin lines stay smooth."""
@@ -78,11 +87,49 @@ def save(page: pymupdf.Page, name: str, dpi: int, clip: pymupdf.Rect | None = No
     few_colours.save(ROOT / "docs" / f"{name}.png", optimize=True)
 
 
+def moving() -> None:
+    """Save what a page shows of a machine over one turn as `docs/moving.gif`."""
+    chromium, chromedriver = shutil.which("chromium"), shutil.which("chromedriver")
+    if chromium is None or chromedriver is None:
+        print("docs/moving.gif is left as it is: chromium and chromedriver are not installed", file=sys.stderr)
+        return
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+
+    options = webdriver.ChromeOptions()
+    options.binary_location = chromium
+    for argument in (
+        "headless=new",
+        "no-sandbox",
+        "disable-gpu",
+        "hide-scrollbars",
+        "window-size={},{}".format(*WINDOW),
+    ):
+        options.add_argument(f"--{argument}")
+    driver = webdriver.Chrome(options=options, service=Service(chromedriver))
+    frames = []
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            driver.get(api.build(MOVING, folder, language="en", formats=["html"]).as_uri())
+            driver.execute_script("moving.pause(); document.querySelector('[data-layer=velocities]').click();")
+            shown = driver.find_element("css selector", "#moving .theatre")
+            for angle in range(0, 360, STEP):
+                driver.execute_script("moving.seek(arguments[0])", angle)
+                picture = Image.open(BytesIO(shown.screenshot_as_png)).convert("RGB")
+                smaller = picture.resize((FRAME_WIDTH, picture.height * FRAME_WIDTH // picture.width))
+                frames.append(smaller.quantize(FRAME_COLOURS, Image.Quantize.FASTOCTREE))
+    finally:
+        driver.quit()
+    first, *others = frames
+    first.save(ROOT / "docs" / "moving.gif", save_all=True, append_images=others, duration=FRAME_MS, loop=0)
+
+
 def main() -> None:
     """Draw the page of the sample and a sheet, then the scheme of each kind from its first assignment file."""
     save(page_with(CAPTION, typeset(document(SAMPLE))), "page", PAGE_DPI)
     sheets = api.sheet_files(LAID_OUT, language="en", size="A1", sets=("kinematics",), formats=("pdf",))
     save(pymupdf.open(stream=sheets["sheet-1.pdf"])[0], "sheet", SHEET_DPI)
+    moving()
     for kind in kinds():
         file = next(iter(sorted(SAMPLE.parent.glob(f"{kind}-*.yaml"))), SHOWN)
         page = typeset(scheme_alone(document(file)))[0]

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.case import Case, open_any, open_case, opened
+from reportgen.case import Case, ExerciseCase, open_any, open_case, opened
 from reportgen.errors import NotOfferedError, ReportgenError
 from reportgen.notation.numbers import Language
 from reportgen.scratch import scratch
@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 Engine = Literal["typst", "latex"]
 SUFFIX = {"typst": ".typ", "latex": ".tex"}
+FORMATS = ("pdf", "html")
+"""What a report can be written as."""
 
 
 class OutputError(ReportgenError):
@@ -61,11 +63,26 @@ def solve(assignment: Assignment, positions: int | None = None) -> dict[str, Any
     return found
 
 
+RESULT_FORMATS = ("csv", "xlsx", "json")
+FULL_TURN = 360
+"""Positions of the table of a full turn."""
+
+
+def result_files(
+    path: Path | str, formats: Sequence[str], positions: int | None = None, language: Language | None = None
+) -> Mapping[str, bytes]:
+    """The results of a full turn, by degrees unless `positions` says otherwise, in some of `RESULT_FORMATS`."""
+    from reportgen.answers.result_files import result_file
+
+    assignment = load(path, language)
+    wanted = positions or (FULL_TURN if catalogue.makes(assignment.kind) == "machine" else None)
+    found = solve(assignment, wanted)
+    return {f"results.{name}": result_file(found, name) for name in formats}
+
+
 def document(assignment: Assignment) -> Document:
     """The report as a numbered tree, ready for any writer."""
-    from reportgen.document.outline import compose
-
-    return compose(opened(assignment))
+    return _composed(opened(assignment))
 
 
 def build(
@@ -74,17 +91,49 @@ def build(
     engine: Engine = "typst",
     language: Language | None = None,
     keep_source: bool = False,
+    formats: Sequence[str] = ("pdf",),
 ) -> Path:
-    """Write the complete report to `out`/<id>/report.pdf and return that path.
+    """Write the complete report to `out`/<id>/report.pdf and return that path; of several formats that of the first.
 
     Files appear whole or not at all.  Raises `AssignmentError`, `TemplateError`, `TypesetterError`,
     `OutputError`.
     """
+    return build_each(path, out, engine, language, keep_source, formats)[0]
+
+
+def build_each(
+    path: Path | str,
+    out: Path | str,
+    engine: Engine,
+    language: Language | None,
+    keep_source: bool,
+    formats: Sequence[str],
+) -> list[Path]:
+    """Write the complete report in some of `FORMATS`; gives their paths in that order."""
     assignment = load(path, language)
+    files: dict[str, bytes] = {}
     with reported(), scratch(Path(out)):
-        source, pdf = typeset(document(assignment), engine)
-    files = {f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}
-    return put(Path(out) / assignment.id, {**files, "report.pdf": pdf})[-1]
+        case = opened(assignment)
+        tree = _composed(case)
+        if "pdf" in formats:
+            source, pdf = typeset(tree, engine)
+            files = {**({f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}), "report.pdf": pdf}
+        if "html" in formats:
+            files["report.html"] = _page(case, tree)
+    put(Path(out) / assignment.id, files)
+    return [Path(out) / assignment.id / f"report.{name}" for name in formats]
+
+
+def _composed(case: Case | ExerciseCase) -> Document:
+    from reportgen.document.outline import compose
+
+    return compose(case)
+
+
+def _page(case: Case | ExerciseCase, tree: Document) -> bytes:
+    from reportgen.pages import page
+
+    return page(case, tree).encode()
 
 
 def typeset(tree: Document, engine: Engine) -> tuple[str, bytes]:
@@ -115,6 +164,12 @@ KEY_FORMATS = ("pdf", "xlsx", "csv", "json")
 def report_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
     """The complete report."""
     return {"report.pdf": typeset(document(load(path, language)), engine)[1]}
+
+
+def page_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
+    """The complete report as a page for a browser, whatever the engine."""
+    case = open_any(path, language)
+    return {"report.html": _page(case, _composed(case))}
 
 
 def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
@@ -198,7 +253,13 @@ def put_sheets(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
     return written
 
 
-MAKERS: Mapping[str, Maker] = {"task": task_files, "report": report_files, "key": key_files, "sheet": sheet_files}
+MAKERS: Mapping[str, Maker] = {
+    "task": task_files,
+    "report": report_files,
+    "page": page_files,
+    "key": key_files,
+    "sheet": sheet_files,
+}
 """The products by the names that `--make` takes."""
 USUAL = ("task", "report", "key")
 """What a batch makes unless it is told."""

@@ -83,10 +83,22 @@ class Case(Opened):
     @cached_property
     def ledger(self) -> Ledger:
         """Every number by its id, with the symbols and the units of the assignment's language."""
+        return self._written(printed=True)
+
+    def _written(self, printed: bool) -> Ledger:
         from reportgen.ledger.report import write_ledger
 
-        written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions)
+        written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions, printed)
         return written.in_language(self.words["symbols"])
+
+    @cached_property
+    def drawn(self) -> Case:
+        """The same case for drawings alone: sooner there, as no decimals are chosen for its numbers."""
+        if "ledger" in vars(self):
+            return self
+        case = Case(self.assignment)
+        vars(case).update(analysis=self.analysis, words=self.words, ledger=self._written(printed=False))
+        return case
 
     def redrawn(self, scales: Mapping[str, float | np.ndarray]) -> Case:
         """The same case with drawings to other scales (SI, by id), one or [N]."""

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bench import batch, measure, plain
+from bench import batch, measure, page, plain
 from bench.__main__ import Bench, Row, table
 from bench.closed_form import solve
 from bench.size import Size, size_of
@@ -173,3 +173,11 @@ def test_bytecode_is_kept_whatever_the_surroundings_say(tmp_path: Path, monkeypa
     bench = Bench(SAMPLE, tmp_path, ("typst",))
     measure.run((sys.executable, "-c", "import reportgen.errors"), tmp_path, bench.installed())
     assert list((tmp_path / "bytecode").rglob("reportgen/errors.*.pyc"))
+
+
+def test_pages_are_told_as_the_documents_have_them() -> None:
+    head, rule, row = page.table([page.Page("engine-twin-05", 1.41, 0.62, 37.4)])
+    assert row == "| `engine-twin-05` | 37 | 0.62 s | 1.41 MB |"
+    assert f"{head}\n{rule}\n| `engine-twin-05` |" in (SAMPLE.parents[1] / "docs" / "speed.md").read_text(
+        encoding="utf-8"
+    )

@@ -27,7 +27,7 @@ from reportgen.batch.roster import read_roster
 from reportgen.batch.spec import Spec, assembled, read_spec
 from reportgen.case import Case, opened
 from reportgen.errors import Fault, Mark, Where
-from reportgen.ledger.report import enter_positions
+from reportgen.ledger.report import enter_plans
 from reportgen.notation.numbers import Language
 from reportgen.source import Node, Scalar, Source, Table, read_source
 from reportgen.words import as_error, version, word
@@ -223,7 +223,7 @@ def effort(assignment: Assignment) -> Effort:
     """The figures of an assignment, from what is derived at each of its positions."""
     case = opened(assignment)
     analysis = case.analysis if isinstance(case, Case) else None
-    families = (enter_positions(analysis)[0] if analysis else case.ledger).families.values()
+    families = (enter_plans(analysis, (), analysis.machine.formulas)[0] if analysis else case.ledger).families.values()
     derived = [one for one in families if one.definition is not None and not one.hidden and not one.is_plane]
     zeros = sum(one.at(position) == 0 for one in derived if one.scale for position in range(1, len(one.values) + 1))
     balance = np.real(analysis.torque) if analysis and analysis.loads else None

@@ -31,12 +31,15 @@ def build(
     engine: EngineOption = "typst",
     lang: LangOption = None,
     keep_source: Annotated[bool, typer.Option("--keep-source", help="Also leave the source with its figures.")] = False,
+    format: Annotated[str, typer.Option("--format", metavar="LIST", help="Of pdf, html; parted by commas.")] = "pdf",
 ) -> None:
-    """Write the complete report of each FILE to DIR/<id>/report.pdf."""
+    """Write the complete report of each FILE to DIR/<id>/report.pdf, or as a page for a browser, report.html."""
     from reportgen import api
 
+    formats = listed(format, api.FORMATS, "--format", "no_format", lang)
+
     def work(file: Path) -> None:
-        print(api.build(file, out, engine, lang, keep_source), flush=True)
+        print(*api.build_each(file, out, engine, lang, keep_source, formats), sep="\n", flush=True)
 
     for_each(files, lang, work)
 
@@ -86,6 +89,21 @@ def sheet(
 
 
 @app.command()
+def watch(
+    file: File,
+    no_open: Annotated[bool, typer.Option("--no-open", help="Open no browser; the address is printed anyway.")] = False,
+    pdf: Annotated[bool, typer.Option("--pdf", help="Renew DIR/<id>/report.pdf, too.")] = False,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the PDF.")] = Path("out"),
+    lang: LangOption = None,
+) -> None:
+    """Show the report of FILE in a browser, renewed whenever FILE changes; Ctrl-C ends it."""
+    from reportgen.watch.session import watch as serve
+
+    with ending(lang):
+        serve(file, lang, out, pdf, browser=not no_open)
+
+
+@app.command()
 def solve(
     file: File,
     positions: Annotated[
@@ -95,13 +113,27 @@ def solve(
     json_file: Annotated[
         Path | None, typer.Option("--json", metavar="FILE|-", help="Write the results as JSON.", show_default=False)
     ] = None,
+    format: Annotated[
+        str | None,
+        typer.Option(
+            "--format", metavar="LIST", help="Write the table of a full turn: csv, xlsx, json.", show_default=False
+        ),
+    ] = None,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of these tables.")] = Path("out"),
     lang: LangOption = None,
 ) -> None:
-    """Compute motion, forces and torque; print readable tables, or JSON in SI units."""
+    """Compute motion, forces and torque; print readable tables, or write them in SI units."""
     from reportgen import api
     from reportgen.answers.results import print_tables
 
+    formats = listed(format, api.RESULT_FORMATS, "--format", "no_format", lang) if format is not None else ()
+
     with ending(lang):
+        if formats:
+            files = api.result_files(file, formats, positions, lang)
+            print(*api.put(out / file.stem, files), sep="\n", flush=True)
+        if formats and json_file is None:
+            return
         assignment = api.load(file, lang)
         results = api.solve(assignment, positions)
         if json_file is None:

@@ -50,19 +50,29 @@ def _driver_axis(report: Report, angle: str = "cycle_angle") -> Chain:
 # --- motion over a turn
 
 
+Shown = tuple[Symbol, np.ndarray]
+"""A curve: its symbol and its values in the unit of its axis."""
+
+
 @figure("motion")
 def motion(report: Report) -> Drawn:
     """Displacement, velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
+    shown = curves_of_motion(report)
+    return Drawn(tuple(over_a_turn(report, curves, title, half=len(shown) > 1).scene for curves, title in shown))
+
+
+def curves_of_motion(report: Report) -> list[tuple[list[Shown], Chain]]:
+    """The curves of each chart of the motion, with the name of its axis."""
     moved = report.dense_cycle.motion
     along = report.slider_senses
     spins = scheme(report.machine.linkage).spins
     turning = [link for link, other in spins.items() if link == other > DRIVER]
 
-    def of_points(base: str) -> list[tuple[Symbol, np.ndarray]]:
+    def of_points(base: str) -> list[Shown]:
         vectors = {name: getattr(moved.points[name], base) for name in along}
         return [(Symbol(base, name), np.real(np.conj(u) * vectors[name])) for name, u in along.items()]
 
-    def of_links(base: str, quantity: str) -> list[tuple[Symbol, np.ndarray]]:
+    def of_links(base: str, quantity: str) -> list[Shown]:
         return [(Symbol(base, str(link)), getattr(moved.links[link], quantity)) for link in turning]
 
     one_way = headings(report, along.values())
@@ -75,8 +85,7 @@ def motion(report: Report) -> Drawn:
         (of_links("ω", "omega"), _positive(report, axis(Symbol("ω"), "angular velocity"), rotation)),
         (of_links("ε", "epsilon"), _positive(report, axis(Symbol("ε"), "angular acceleration"), rotation)),
     )
-    shown = [(curves, title) for curves, title in drawings if curves]
-    return Drawn(tuple(_over_a_turn(report, curves, title, half=len(shown) > 1) for curves, title in shown))
+    return [(curves, title) for curves, title in drawings if curves]
 
 
 def headings(report: Report, ways: Iterable[complex]) -> list[str]:
@@ -90,7 +99,7 @@ def _positive(report: Report, title: Chain, sense: str) -> Chain:
     return replace(title, note=told) if sense else title
 
 
-def _displacements(report: Report) -> list[tuple[Symbol, np.ndarray]]:
+def _displacements(report: Report) -> list[Shown]:
     """How far (mm) each slider is from its dead centre, the one at the far end of its guide if it has no first."""
     courses = {course.link: course for course in report.machine.sliders}
     moved, found = report.dense_cycle.motion, []
@@ -115,15 +124,20 @@ def _across(report: Report) -> np.ndarray:
     return angle * (span * MM / FULL_TURN) if span else np.degrees(angle)
 
 
-def _over_a_turn(
-    report: Report, curves: Sequence[tuple[Symbol, np.ndarray]], title: Chain, half: bool = False
-) -> Scene:
+def over_a_turn(report: Report, curves: Sequence[Shown], title: Chain, half: bool = False) -> charts.Plotted:
     """Curves over one turn of the driver, the numbered positions marked."""
     count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME))
     slides = bool(report.machine.span)
     x, marks = _across(report)[:count], _marks(report)[: len(report.positions)]
     series = [charts.Series(shown, x, values[:count], marks) for shown, values in curves]
-    return charts.chart(series, _driver_axis(report, "angle"), title, turn=not slides, half=half, area=report.area)
+    return charts.plotted(series, _driver_axis(report, "angle"), title, turn=not slides, half=half, area=report.area)
+
+
+def over_the_cycle(report: Report, curves: Sequence[Shown], title: Chain, half: bool = False) -> charts.Plotted:
+    """Curves over the whole cycle, the numbered positions marked."""
+    series = [charts.Series(shown, _across(report), values, _marks(report)) for shown, values in curves]
+    turn = not report.machine.span
+    return charts.plotted(series, _driver_axis(report), title, turn=turn, half=half, area=report.area)
 
 
 # --- torque and forces over the cycle
@@ -132,14 +146,19 @@ def _over_a_turn(
 @figure("torque", "fig.M")
 def torque(report: Report) -> Drawn:
     """What balances the driver: a torque over the angle of a crank, a force over the way of a slider."""
+    return Drawn((torque_chart(report).scene,))
+
+
+def torque_chart(report: Report, half: bool = False) -> charts.Plotted:
+    """The curve of what balances the driver, with its mean."""
     ledger, slides = report.ledger, bool(report.machine.span)
     curve = charts.Series(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
     levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),)
     driver = report.machine.linkage.driver
     sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
     title = _positive(report, _axis_of(report, "M.eq"), sense)
-    drawn = charts.chart((curve,), _driver_axis(report), title, levels=levels, turn=not slides, area=report.area)
-    return Drawn((drawn,))
+    across = _driver_axis(report)
+    return charts.plotted((curve,), across, title, levels=levels, turn=not slides, half=half, area=report.area)
 
 
 @figure("polar")

@@ -102,9 +102,23 @@ _register("velocity", "v")
 _register("acceleration", "a")
 
 
+Place = Callable[[str], complex]
+"""Where a corner of a plan lies on paper (mm), by the id of its place in the ledger."""
+
+
+def _places(report: Report, k: int) -> Place:
+    """The corners of plans at a position."""
+    return lambda id: complex(report.ledger[id].at(k)) * MM
+
+
 def motion_plan(report: Report, what: What, k: int) -> Plan:
-    """The plan of velocities (v) or accelerations (a) at a position, in mm, its stages in the order of construction."""
-    sketch = _Sketch(report, what, k)
+    """The plan of velocities (v) or accelerations (a) at a position, in mm."""
+    return motion_plan_through(report, what, _places(report, k))
+
+
+def motion_plan_through(report: Report, what: What, place: Place) -> Plan:
+    """The plan of velocities (v) or accelerations (a) with these corners, its stages in the order of construction."""
+    sketch = _Sketch(report, what, place)
     stage = 0
     drawn: set[str] = set()
     for group in report.groups:
@@ -175,14 +189,14 @@ def _plates(
 class _Sketch:
     """A velocity or acceleration plan while its vectors are collected."""
 
-    def __init__(self, report: Report, what: What, position: int) -> None:
-        self.ledger, self.what, self.k, self.named = report.ledger, what, position, report.named
+    def __init__(self, report: Report, what: What, place: Place) -> None:
+        self.what, self.place, self.named = what, place, report.named
         self.vectors: list[PlanVector] = []
         self.points: list[PlanPoint] = []
         self.lines: list[PlanLine] = []
 
     def at(self, name: str) -> complex:
-        return complex(self.ledger[f"plan.{self.what}.{name}"].at(self.k)) * MM
+        return self.place(f"plan.{self.what}.{name}")
 
     def absolute(self, name: str, style: Style, stage: int) -> None:
         """Enter the vector of a point's own velocity or acceleration, from the pole, with its end."""
@@ -273,10 +287,16 @@ def force_plates(report: Report, group: GroupView) -> Drawn:
 
 
 def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
-    """A force plan in mm: known edges one by one, then what closing it gives, then what is read from it."""
+    """A force plan at a position, in mm."""
+    drawing = force_plan_through(report, polygon, _places(report, k))
+    return replace(drawing, scale=_scale(report, f"mu.R{polygon.name}", k))
+
+
+def force_plan_through(report: Report, polygon: Polygon, place: Place) -> Plan:
+    """A force plan with these corners: known edges one by one, what closing it gives, what is read from it."""
 
     def corner(letter: str) -> complex:
-        return complex(report.ledger[f"plan.R{polygon.name}.{letter}"].at(k)) * MM
+        return place(f"plan.R{polygon.name}.{letter}")
 
     known = sum(not edge.unknown for edge in polygon.edges)
     drawn: list[tuple[Edge, int, Style]] = [
@@ -290,4 +310,4 @@ def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
         vectors.append(PlanVector(edge.start + edge.end, start, end, style, label, stage))
         stage_of.setdefault(edge.end, stage)
     points = tuple(PlanPoint(Symbol(letter), corner(letter), stage) for letter, stage in stage_of.items())
-    return Plan(tuple(vectors), points, (), _scale(report, f"mu.R{polygon.name}", k), pole=False)
+    return Plan(tuple(vectors), points, (), pole=False)

@@ -110,6 +110,17 @@ class _Window:
         return complex(across, up)
 
 
+@dataclass(frozen=True, slots=True)
+class Plotted:
+    """A chart with what places on it mean: the corners of its axes on the scene (mm), and what they stand for."""
+
+    scene: Scene
+    low: complex
+    high: complex
+    x: tuple[float, float]
+    y: tuple[float, float]
+
+
 def chart(
     series: Sequence[Series],
     x_label: Content,
@@ -120,6 +131,20 @@ def chart(
     half: bool = False,
     area: Area | None = None,
 ) -> Scene:
+    """Curves in one frame, see `plotted`."""
+    return plotted(series, x_label, y_label, turn=turn, levels=levels, half=half, area=area).scene
+
+
+def plotted(
+    series: Sequence[Series],
+    x_label: Content,
+    y_label: Content,
+    *,
+    turn: bool = True,
+    levels: Sequence[tuple[float, Content]] = (),
+    half: bool = False,
+    area: Area | None = None,
+) -> Plotted:
     """Curves in one frame.  With `turn` x is an angle in degrees with ticks at multiples of 45, 90 or 180.
 
     `levels` are horizontal lines with a name, e.g. a mean; with `half` two charts stand side by side; with an `area`
@@ -143,7 +168,10 @@ def chart(
     items += _titles(window, x_label, y_label, items)
     scales = _scale(x_label, window.x, window.width, turn), _scale(y_label, window.y, window.height)
     notes = scales if area is not None else ()
-    return finish(Draft(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN)
+    scene = finish(Draft(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN)
+    # The frame is the first closed line; finishing moves all items alike.
+    frame = next(item for item in scene.items if isinstance(item, Polyline) and item.closed)
+    return Plotted(scene, frame.points[0], frame.points[2], window.x, window.y)
 
 
 def polar(

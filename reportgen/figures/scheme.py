@@ -6,7 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 import numpy as np
@@ -243,6 +243,41 @@ def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Draft:
     marks += [style.point(bones.points[name]) for name in marked]
     requests += _names([*names, *centres, *marked], bones)
     return Draft((*rails, *bars, *blocks, *pins, *marks), tuple(requests))
+
+
+@dataclass(frozen=True, slots=True)
+class Parts:
+    """A link drawn in its own frame, in mm: the guide it carries, its bars, its block, in the order of painting."""
+
+    rails: tuple[Item, ...]
+    bars: tuple[Item, ...]
+    blocks: tuple[Item, ...]
+
+
+def parts_of(bones: Skeleton, link: int, looks: Looks, origin: complex, angle: float) -> Parts:
+    """What of a link moves with it, seen from its frame, which lies at `origin` (mm) under `angle`."""
+    u = polar(angle)
+    slides = tuple(
+        replace(
+            slide,
+            at=(slide.at - origin) / u,
+            angle=slide.angle - angle,
+            low=(slide.low - origin) / u,
+            high=(slide.high - origin) / u,
+        )
+        for slide in bones.slides
+    )
+    own = replace(bones, points={name: (at - origin) / u for name, at in bones.points.items()}, slides=slides)
+    rails = [item for slide in slides if slide.on == link for item in _rail(slide, looks.block(slide.link), ())]
+    bars = style.body([*_body_points(own, link), *(own.points[name] for name in _marked(own, link, looks))])
+    blocks = [style.block(slide.at, slide.angle, looks.block(link)) for slide in slides if slide.link == link]
+    return Parts(tuple(rails), bars, tuple(blocks))
+
+
+def ground_guides(bones: Skeleton, looks: Looks) -> tuple[Item, ...]:
+    """The guides on the ground along the whole way of their blocks, whatever crosses them."""
+    found = [_rail(slide, looks.block(slide.link), ()) for slide in bones.slides if slide.on == GROUND]
+    return tuple(item for items in found for item in items)
 
 
 def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton) -> Draft:

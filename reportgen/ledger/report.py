@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from reportgen import flywheel
 from reportgen.analysis import FULL_TURN, Analysis
 from reportgen.catalogue.loads import TableLaw
+from reportgen.catalogue.machine import no_formulas
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.forces import enter_forces
@@ -27,28 +28,40 @@ TERMS = 4
 """More terms than these are no longer one line of a page."""
 
 
-def write_ledger(analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = ()) -> Ledger:
+def write_ledger(
+    analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = (), printed: bool = True
+) -> Ledger:
     """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
 
-    The plans of the `worked` positions fill their paper, of all positions if none is named.
+    The plans of the `worked` positions fill their paper, of all positions if none is named.  For numbers that are
+    drawn and not `printed` no decimals are chosen.
     """
-    q, polygons = enter_positions(analysis, worked)
+    machine = analysis.machine
+    q, polygons = enter_plans(analysis, worked, machine.formulas)
     regulated: flywheel.Flywheel | None = None
     if analysis.loads:
         with q.within(Chapter.cycle):
             _cycle(q, analysis)
-            if analysis.machine.unevenness is not None:
-                regulated = flywheel.flywheel(analysis.machine, analysis.machine.unevenness)
+            if machine.unevenness is not None:
+                regulated = flywheel.flywheel(machine, machine.unevenness)
                 _flywheel(q, analysis, regulated)
     checks = {id for id in q.families if id.startswith(centres.PREFIX)}
-    decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
-    return Ledger(q.families, decimals, q.positions, cancellations, units or {}, polygons, regulated, q.lines)
+    decimals: Mapping[str, int | None] = dict.fromkeys(q.families)
+    cancellations: tuple[str, ...] = ()
+    if printed:
+        decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
+    return Ledger(q.families, decimals, machine.positions, cancellations, units or {}, polygons, regulated, q.lines)
 
 
-def enter_positions(analysis: Analysis, worked: Sequence[int] = ()) -> tuple[Sheet, tuple[Polygon, ...]]:
-    """What is derived at each position, without the cycle's figures and without decimals; the force plans with it."""
+def enter_plans(
+    analysis: Analysis, worked: Sequence[int] = (), formulas: Callable[[Sheet], None] = no_formulas
+) -> tuple[Sheet, tuple[Polygon, ...]]:
+    """The sheet of an analysis at whatever positions it has: given data, plans, `formulas`, forces; its force plans.
+
+    The plans of the `worked` positions, counted from 1, fill their paper.
+    """
     machine = analysis.machine
-    q = Sheet(machine.positions)
+    q = Sheet(len(analysis.cycle_angle))
     if machine.span:
         q.give("s.1", machine.angles(analysis.cycle_angle), exact=False)
     else:
@@ -56,16 +69,15 @@ def enter_positions(analysis: Analysis, worked: Sequence[int] = ()) -> tuple[She
     q.extend(machine.sheet)
     enter_kinematics(q, machine.linkage, machine.turn, worked)
     with q.within(Chapter.formulas):
-        machine.formulas(q)
-    polygons: tuple[Polygon, ...] = ()
-    if analysis.loads:
-        _masses(q, analysis)
-        _gas(q, analysis)
-        _applied(q, analysis)
-        applied = {one.name: (one.link, one.point, one.direction) for one in machine.applied}
-        torques = {one.name: one.link for one in machine.torques}
-        polygons = enter_forces(q, machine.linkage, machine.turn, applied, torques)
-    return q, polygons
+        formulas(q)
+    if not analysis.loads:
+        return q, ()
+    _masses(q, analysis)
+    _gas(q, analysis)
+    _applied(q, analysis)
+    applied = {one.name: (one.link, one.point, one.direction) for one in machine.applied}
+    torques = {one.name: one.link for one in machine.torques}
+    return q, enter_forces(q, machine.linkage, machine.turn, applied, torques)
 
 
 def _masses(q: Sheet, analysis: Analysis) -> None:

@@ -1,0 +1,182 @@
+"""What a reader of a watched file sees: the latest editions of the moving part, of the report, and of a fault.
+
+The moving part is made first and stands at once; the report follows, made of the same case in another thread.  A
+change meanwhile is taken up as soon as it comes: what is made of an older file is dropped.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from reportgen import api
+from reportgen.assignment import Assignment
+from reportgen.case import Case, ExerciseCase, opened
+from reportgen.document import tree
+from reportgen.document.outline import compose
+from reportgen.errors import AssignmentError, ReportgenError
+from reportgen.notation.numbers import Language
+from reportgen.pages import panel
+from reportgen.words import load_words, search_path, unexpected
+from reportgen.writers import html
+from reportgen.writers.html import Live, Panel, Report
+
+NOBODY = "–"
+"""What stands on the page of a file that was never right."""
+AHEAD = 0.2
+"""The time (s) that the moving part has to itself before the report is begun."""
+
+
+@dataclass(frozen=True)
+class Edition:
+    """What is to be shown; `moving` and `report` count how often each of them has changed."""
+
+    language: Language
+    words: Mapping[str, Any]
+    panel: Panel | None = None
+    report: Report | None = None
+    document: tree.Document | None = None
+    fault: str = ""
+    moving: int = 0
+    reports: int = 0
+    busy: bool = False
+    """Whether a report of the file as it stands is still to come."""
+
+    @property
+    def news(self) -> Mapping[str, Any]:
+        """What a page is told at once; it asks for the rest where it has an older one."""
+        return {
+            "moving": self.moving,
+            "report": self.reports,
+            "fault": self.fault,
+            "busy": self.busy,
+            "language": self.language,
+            "moves": self.panel is not None,
+        }
+
+
+@dataclass
+class Desk:
+    """Makes the editions of one file.  `told` is called with each finished report's case and document."""
+
+    path: Path
+    language: Language | None = None
+    told: Callable[[Case | ExerciseCase, tree.Document], None] = lambda case, document: None
+    changed: threading.Condition = field(default_factory=threading.Condition)
+    closed: bool = False
+
+    def __post_init__(self) -> None:
+        first = self.language or "vi"
+        self.edition = Edition(first, load_words(search_path(first)))
+        self._asked = 0
+        self._worker = threading.Thread(target=self._write_reports, daemon=True)
+        self._to_write: tuple[int, Case | ExerciseCase] | None = None
+
+    def open(self) -> None:
+        """Make the first edition."""
+        self._worker.start()
+        self.renew()
+
+    def close(self) -> None:
+        """Let everybody go who waits for news."""
+        with self.changed:
+            self.closed = True
+            self.changed.notify_all()
+
+    def next_edition(self, known: Edition | None, patience: float) -> Edition:
+        """The edition after the `known` one as soon as it is there, or what there is after so many seconds."""
+        with self.changed:
+            self.changed.wait_for(lambda: self.closed or self.edition is not known, patience)
+            return self.edition
+
+    def renew(self) -> None:
+        """Make the moving part of the file as it stands, and leave the report to its thread."""
+        self._asked += 1
+        number = self._asked
+        try:
+            case = opened(self._assignment())
+            moving = panel(case)
+            language, words = case.assignment.language, case.words
+        except Exception as error:
+            self._to_write = None
+            self._publish(fault=self._in_words(error), busy=False)
+            return
+        count = self.edition.moving + 1
+        self._publish(language=language, words=words, panel=moving, moving=count, fault="", busy=True)
+        with self.changed:
+            self._to_write = number, case
+            self.changed.notify_all()
+
+    def _assignment(self) -> Assignment:
+        return api.load(self.path, self.language)
+
+    def _write_reports(self) -> None:
+        """Write the report of the latest case, again and again."""
+        while True:
+            with self.changed:
+                self.changed.wait_for(lambda: self.closed or self._to_write is not None)
+                if self.closed or self._to_write is None:
+                    return
+                wanted = self._to_write
+                # The moving part goes to the page first.
+                if self.changed.wait_for(partial(self._overtaken, wanted), AHEAD):
+                    continue
+                self._to_write = None
+            number, case = wanted
+            try:
+                document = compose(case)
+                if number != self._asked:
+                    continue
+                written = html.report(document)
+                count = self.edition.reports + 1
+                self._publish(report=written, document=document, reports=count, busy=False)
+                self.told(case, document)
+            except Exception as error:
+                if number == self._asked:
+                    self._publish(fault=self._in_words(error), busy=False)
+
+    def _overtaken(self, wanted: tuple[int, Case | ExerciseCase]) -> bool:
+        """Whether another report is to be written than this one, or none."""
+        return self.closed or self._to_write is not wanted
+
+    def _publish(self, **news: Any) -> None:
+        with self.changed:
+            self.edition = replace(self.edition, **news)
+            self.changed.notify_all()
+
+    def _in_words(self, error: Exception) -> str:
+        if isinstance(error, AssignmentError):
+            return "\n".join(map(str, error.problems))
+        if isinstance(error, (ReportgenError, OSError)):
+            return str(error)
+        return unexpected(error, self.language or self.edition.language)
+
+    # --- what is served
+
+    def page(self) -> str:
+        """The whole page as it stands; where no report is finished yet, an empty one."""
+        now = self.edition
+        document = now.document or _nothing(now)
+        live = Live(now.words["live"], now.moving, now.reports)
+        return html.write(document, now.words["page"], now.panel, live, now.report)
+
+    def moving(self) -> Mapping[str, Any]:
+        """The moving part for a page that has an older one."""
+        now = self.edition.panel
+        return {} if now is None else {"body": now.body, "rules": now.rules, "data": now.data}
+
+    def report(self) -> Mapping[str, Any]:
+        """The report for a page that has an older one."""
+        now = self.edition
+        if now.report is None or now.document is None:
+            return {}
+        return {"body": now.report.body, "rules": now.report.rules, "title": now.document.title}
+
+
+def _nothing(edition: Edition) -> tree.Document:
+    words = tree.Words(**edition.words["document"])
+    return tree.Document(edition.language, NOBODY, "", ("", ""), ("", ""), words)

@@ -1,0 +1,86 @@
+"use strict";
+// A page that follows its file: it is told of each edition, and asks for what is newer than what it shows.
+(() => {
+  const given = JSON.parse(document.getElementById("live").textContent);
+  const fault = document.getElementById("fault"), state = document.getElementById("state");
+  const report = document.getElementById("report");
+  const shown = { moving: given.moving, report: given.report, language: document.documentElement.lang };
+  const looks = { moving: new CSSStyleSheet(), report: new CSSStyleSheet() };
+  const moves = document.getElementById("samples") !== null;
+  document.adoptedStyleSheets = Object.values(looks);
+  for (const [part, rules] of Object.entries(given.rules)) looks[part].replaceSync(rules);
+
+  // After a page is loaded anew it goes on where it was.
+  const KEEP = "reportgen" + location.pathname;
+  const leave = () => {
+    try { sessionStorage.setItem(KEEP, JSON.stringify({ scroll: scrollY, angle: moves ? moving.angle() : null })); } catch { /* no memory */ }
+    location.reload();
+  };
+  try {
+    const kept = JSON.parse(sessionStorage.getItem(KEEP) || "null");
+    sessionStorage.removeItem(KEEP);
+    if (kept) {
+      if (moves && kept.angle !== null) moving.seek(kept.angle);
+      scrollTo(0, kept.scroll);
+    }
+  } catch { /* no memory */ }
+
+  const ask = async (name) => (await fetch(name, { cache: "no-store" })).json();
+
+  // The first place with a name that is in view, and how far below the upper edge it is.
+  const anchor = () => {
+    const places = [...report.querySelectorAll("[id]")];
+    const place = places.find((one) => one.getBoundingClientRect().bottom > 0) || places.at(-1);
+    return place && { id: place.id, top: place.getBoundingClientRect().top };
+  };
+
+  const renewMoving = async () => {
+    const news = await ask("moving.json");
+    if (!news.data) return;
+    looks.moving.replaceSync(news.rules);
+    const place = anchor();
+    moving.renew(news.body, JSON.parse(news.data));
+    stay(place);
+  };
+  const renewReport = async () => {
+    const news = await ask("report.json");
+    if (!news.body) return;
+    const place = anchor(), folded = [...report.querySelectorAll("details")].map((one) => one.open);
+    looks.report.replaceSync(news.rules);
+    report.innerHTML = news.body;
+    document.title = news.title;
+    report.querySelectorAll("details").forEach((one, index) => { if (index in folded) one.open = folded[index]; });
+    stay(place);
+  };
+  const stay = (place) => {
+    const now = place && document.getElementById(place.id);
+    if (now) scrollBy({ top: now.getBoundingClientRect().top - place.top, behavior: "instant" });
+    document.dispatchEvent(new Event("renewed"));
+  };
+
+  // One after the other: an edition that comes meanwhile is looked at when this one is shown.
+  let news = null, working = false;
+  const follow = async () => {
+    if (working) return;
+    working = true;
+    try {
+      while (news) {
+        const now = news;
+        news = null;
+        fault.hidden = !now.fault;
+        fault.lastElementChild.textContent = now.fault;
+        if (now.language !== shown.language && !now.fault || now.moves !== moves && !now.fault) { leave(); return; }
+        if (now.moving !== shown.moving && moves) await renewMoving();
+        shown.moving = now.moving;
+        if (now.report !== shown.report) await renewReport();
+        shown.report = now.report;
+        state.textContent = now.busy ? given.words.waiting : now.fault ? "" : given.words.ready;
+      }
+    } finally {
+      working = false;
+    }
+  };
+  const channel = new EventSource("news");
+  channel.addEventListener("message", (event) => { news = JSON.parse(event.data); follow(); });
+  channel.addEventListener("error", () => { state.textContent = given.words.lost; });
+})();

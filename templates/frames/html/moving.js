@@ -1,0 +1,397 @@
+"use strict";
+// The machine in motion.  Nothing is computed here but straight lines between two samples of the solver:
+// a track is an array over the samples, an item names the tracks that it follows.
+const moving = (() => {
+  const TURN_SECONDS = 7, ARROW_SHARE = 0.75, SHORT = 3, NOTHING = 0.02, READABLE = 120, SLOW = 22;
+  const root = document.getElementById("moving");
+  const state = { angle: 0, playing: false, last: 0, rate: 1, told: 0, pace: 16 };
+  let film, values, starts, drawing, now;
+
+  // --- samples
+
+  const unpack = (text) => {
+    const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+    return new Float32Array(bytes.buffer);
+  };
+
+  // The sample before an angle (degrees), of the turn and of the cycle, and how far on to the next it is.
+  const place = (angle) => {
+    const knots = film.knots, last = knots.length - 1;
+    const turn = Math.min(Math.floor(angle / 360), film.turns - 1), local = angle - 360 * turn;
+    let low = 0, high = last;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (knots[middle] <= local) low = middle; else high = middle;
+    }
+    const share = Math.min(Math.max((local - knots[low]) / (knots[high] - knots[low]), 0), 1);
+    return { turn: low, cycle: turn * last + low, share, ofTurn: last + 1 };
+  };
+
+  const value = (track) => {
+    const length = film.lengths[track], start = starts[track];
+    if (length === 1) return values[start];
+    const index = start + (length === now.ofTurn ? now.turn : now.cycle), one = values[index];
+    return now.share === 0 ? one : one + now.share * (values[index + 1] - one);
+  };
+
+  const sample = (track, index) => values[starts[track] + (film.lengths[track] === 1 ? 0 : index)];
+
+  // --- drawing
+
+  const short = (number) => Math.round(number * 1000) / 1000;
+  const hidden = new WeakSet();
+  const show = (element, shown) => {
+    if (shown !== hidden.has(element)) return;
+    if (shown) {
+      hidden.delete(element);
+      element.removeAttribute("display");
+    } else {
+      hidden.add(element);
+      element.setAttribute("display", "none");
+    }
+  };
+
+  const carried = (element, item) => () => {
+    const x = value(item.at), y = -value(item.at + 1), there = isFinite(x + y);
+    show(element, there);
+    if (!there) return;
+    const turn = item.turn === undefined ? "" : ` rotate(${short(-value(item.turn) * 180 / Math.PI)})`;
+    element.setAttribute("transform", `translate(${short(x)} ${short(y)})${turn}`);
+  };
+
+  // Whether a label of half the size (w, h) stands clear of those placed before it.
+  const free = (stage, x, y, w, h) => !stage.names.some(([a, b, c, d]) => Math.abs(x - a) < w + c && Math.abs(y - b) < h + d);
+  const SHARES = [0.5, 0.36, 0.64, 0.24, 0.76];
+
+  const vector = (element, item, stage) => {
+    const [shaft, ...others] = element.children;
+    const head = item.head ? others[0] : null, label = item.size ? others[others.length - 1] : null;
+    return () => {
+      const x1 = value(item.from), y1 = -value(item.from + 1), x2 = value(item.to), y2 = -value(item.to + 1);
+      const dx = x2 - x1, dy = y2 - y1, length = Math.hypot(dx, dy), there = length > NOTHING;
+      show(element, there);
+      if (!there) return;
+      const ux = dx / length, uy = dy / length;
+      let end = length + (item.beyond || 0);
+      if (head) {
+        const size = Math.min(item.head, ARROW_SHARE * length), side = 0.5 * item.slender * size;
+        const bx = x2 - ux * size, by = y2 - uy * size;
+        head.setAttribute("d", `M${short(x2)} ${short(y2)}L${short(bx - uy * side)} ${short(by + ux * side)}` +
+          `L${short(bx + uy * side)} ${short(by - ux * side)}Z`);
+        end = length - 0.7 * size;
+      }
+      shaft.setAttribute("d", `M${short(x1)} ${short(y1)}L${short(x1 + ux * end)} ${short(y1 + uy * end)}`);
+      if (!label) return;
+      show(label, length > SHORT);
+      // Beside its middle or, where another label stands there, elsewhere along it or on its other side.
+      const [w, h] = item.size, off = Math.abs(uy) * w + Math.abs(ux) * h + 0.9;
+      const places = SHARES.flatMap((share) => [off, -off].map((side) => [x1 + dx * share + uy * side, y1 + dy * share - ux * side]));
+      const at = places.find(([x, y]) => free(stage, x, y, w, h)) || places[0];
+      if (length > SHORT) stage.names.push([...at, w, h]);
+      label.setAttribute("transform", `translate(${short(at[0])} ${short(at[1])})`);
+    };
+  };
+
+  // A name stands on the side away from what its point is joined to, or opposite where another name stands.
+  const name = (element, item, stage) => () => {
+    const x = value(item.label), y = -value(item.label + 1), there = isFinite(x + y);
+    show(element, there);
+    if (!there) return;
+    let ux = 0, uy = 0, px = 0, py = 0;
+    for (const other of item.off) {
+      const dx = x - value(other), dy = y + value(other + 1), length = Math.hypot(dx, dy);
+      if (length > 0.5) { ux += dx / length; uy += dy / length; px = -dy / length; py = dx / length; }
+    }
+    let size = Math.hypot(ux, uy);
+    if (size < 0.35) { ux = ux + (px || 0.8); uy = uy + (py || -0.6); size = Math.hypot(ux, uy); }
+    ux /= size; uy /= size;
+    const [w, h] = item.size, off = item.gap + Math.abs(ux) * w + Math.abs(uy) * h;
+    const places = [[ux, uy], [-ux, -uy], [-uy, ux], [uy, -ux]].map(([a, b]) => [x + a * off, y + b * off]);
+    const at = places.find(([a, b]) => free(stage, a, b, w, h)) || places[0];
+    stage.names.push([...at, w, h]);
+    element.setAttribute("transform", `translate(${short(at[0])} ${short(at[1])})`);
+  };
+
+  const follower = (element, stage) => {
+    const item = film.items[element.dataset.i];
+    if (item.from !== undefined) return vector(element, item, stage);
+    return item.label === undefined ? carried(element, item) : name(element, item, stage);
+  };
+
+  const written = (number, decimals) => {
+    if (!isFinite(number)) return "–";
+    let text = number.toFixed(decimals);
+    if (Number(text) === 0) text = text.replace("-", "");
+    text = text.replace("-", "−");
+    return film.language === "vi" ? text.replace(".", ",") : text;
+  };
+
+  // Another text in the same node: nothing is put in or taken out.
+  const say = (element, text) => {
+    if (!element.firstChild) element.append(text); else if (element.firstChild.data !== text) element.firstChild.data = text;
+  };
+
+  const decimalsFor = (greatest) => Math.min(Math.max(4 - Math.floor(Math.log10(greatest || 1)), 0), 5);
+
+  const chart = (element) => {
+    const about = film.charts[element.dataset.chart], [left, bottom, right, top] = about.box;
+    const cursor = element.querySelector(".cursor"), dots = element.querySelectorAll(".dot");
+    const outputs = element.querySelectorAll("output"), width = about.x[1] - about.x[0];
+    const oneTurn = !film.span && width < 360 * film.turns - 1;
+    const decimals = decimalsFor(Math.max(...about.y.map(Math.abs)));
+    const svg = element.querySelector(".over");
+    svg.addEventListener("pointerdown", (event) => {
+      const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
+      const x = about.x[0] + (at.x - left) / (right - left) * width;
+      pause();
+      seek(film.span ? x / film.span * 360 : x + (oneTurn ? 360 * Math.floor(state.angle / 360) : 0));
+    });
+    return (readable) => {
+      const along = film.span ? state.angle / 360 * film.span : oneTurn ? state.angle % 360 : state.angle;
+      const x = short(left + (along - about.x[0]) / width * (right - left));
+      cursor.setAttribute("d", `M${x} ${bottom}V${top}`);
+      about.curves.forEach((track, index) => {
+        const here = value(track), y = bottom + (here - about.y[0]) / (about.y[1] - about.y[0]) * (top - bottom);
+        dots[index].setAttribute("transform", `translate(${x} ${short(y)})`);
+        if (readable) say(outputs[index], written(here, decimals));
+      });
+    };
+  };
+
+  // --- the moment shown
+
+  // Only what is on the screen is drawn; the rest when it comes there.  A folded panel is not on the screen.
+  const seen = new WeakSet();
+  const watcher = new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) if (isIntersecting) seen.add(target); else seen.delete(target);
+    if (now) draw();
+  }, { rootMargin: "100px" });
+  const visible = (element) => !state.playing || seen.has(element);
+
+  const draw = () => {
+    now = place(state.angle);
+    const time = performance.now(), readable = !state.playing || time - state.told > READABLE;
+    drawing.count += 1;
+    for (const [index, part] of drawing.parts.entries()) {
+      if (!visible(part.element)) continue;
+      // Where frames take long the machine goes on smoothly, and plans follow in turns.
+      if (state.playing && state.pace > SLOW && index && (index + drawing.count) % 2) continue;
+      part.names = [];
+      for (const { element, update, layer } of part.followers) if (!layer || drawing.layers[layer]) update();
+    }
+    // Figures that change faster than this cannot be read.
+    if (readable && visible(drawing.numbers)) {
+      drawing.outputs.forEach((output, index) => {
+        const [track, decimals] = film.values[index];
+        say(output, written(value(track), decimals));
+      });
+    }
+    for (const { element, update } of drawing.charts) if (visible(element)) update(readable);
+    if (readable) {
+      state.told = time;
+      tell();
+    }
+    const told = film.span ? `${written(state.angle / 360 * film.span, 1)} mm` : `${written(state.angle, 1)}°`;
+    drawing.slider.value = state.angle;
+    say(drawing.told, told);
+    if (readable) drawing.slider.setAttribute("aria-valuetext", told);
+    const near = film.positions.findIndex(([, at]) => Math.abs(at - state.angle) < 1e-4);
+    if (near !== drawing.near) {
+      drawing.near = near;
+      drawing.buttons.forEach((button, index) => {
+        if (index === near) button.setAttribute("aria-current", "true"); else button.removeAttribute("aria-current");
+      });
+    }
+  };
+
+  const seek = (angle) => {
+    const whole = 360 * film.turns;
+    state.angle = film.span ? Math.min(Math.max(angle, 0), whole) : ((angle % whole) + whole) % whole;
+    draw();
+  };
+
+  const frame = (time) => {
+    if (!state.playing) return;
+    const passed = Math.min(time - state.last, 100) / 1000;
+    state.pace += (time - state.last - state.pace) / 8;
+    state.last = time;
+    const whole = 360 * film.turns, next = state.angle + passed * state.rate * 360 / TURN_SECONDS;
+    state.angle = next >= whole ? next % whole : next;
+    draw();
+    requestAnimationFrame(frame);
+  };
+
+  const mark = () => {
+    drawing.play.textContent = state.playing ? film.words.pause : film.words.play;
+    drawing.play.setAttribute("aria-pressed", String(state.playing));
+  };
+  const play = () => {
+    if (state.playing) return;
+    state.playing = true;
+    state.last = performance.now();
+    mark();
+    requestAnimationFrame(frame);
+  };
+  const pause = () => { state.playing = false; mark(); draw(); };
+
+  // The next numbered position on either side.
+  const step = (sense) => {
+    const at = film.positions.map(([, angle]) => angle);
+    const on = sense > 0 ? at.find((angle) => angle > state.angle + 1e-3) : at.findLast((angle) => angle < state.angle - 1e-3);
+    pause();
+    seek(on === undefined ? at[sense > 0 ? 0 : at.length - 1] : on);
+  };
+
+  const keys = {
+    ArrowRight: () => seek(Math.round(state.angle) + 1), ArrowUp: () => seek(Math.round(state.angle) + 1),
+    ArrowLeft: () => seek(Math.round(state.angle) - 1), ArrowDown: () => seek(Math.round(state.angle) - 1),
+    PageUp: () => step(1), PageDown: () => step(-1), Home: () => seek(0), End: () => seek(360 * film.turns - 1e-6),
+  };
+  const key = (event) => {
+    if (!keys[event.key] || event.altKey || event.ctrlKey || event.metaKey) return;
+    event.preventDefault();
+    if (event.key.startsWith("Arrow")) pause();
+    keys[event.key]();
+  };
+
+  // --- one point: its motion now, its values over the turn
+
+  const told = () => {
+    const index = drawing.pointed ?? (drawing.point.value === "" ? null : Number(drawing.point.value));
+    return index === null ? null : film.spots[index];
+  };
+  const tell = () => {
+    const spot = told();
+    drawing.motion.hidden = drawing.tools.hidden = !spot;
+    if (!spot) return;
+    for (const rate of ["v", "a"]) {
+      const size = Math.hypot(value(spot[rate]), value(spot[rate] + 1));
+      say(drawing.rates[rate], written(size, decimalsFor(size)));
+    }
+  };
+  const table = (spot, between) => {
+    const rows = [film.heads.join(between)];
+    film.knots.forEach((knot, index) => {
+      const [x, y, vx, vy, ax, ay] = ["p", "v", "a"].flatMap((what) => [sample(spot[what], index), sample(spot[what] + 1, index)]);
+      const driver = film.span ? knot / 360 * film.span : knot;
+      const row = [driver, x, y, vx, vy, Math.hypot(vx, vy), ax, ay, Math.hypot(ax, ay)];
+      rows.push(row.map((number) => isFinite(number) ? String(Number(number.toPrecision(7))) : "").join(between));
+    });
+    return rows.join("\r\n") + "\r\n";
+  };
+  const copy = async () => {
+    const text = table(told(), "\t");
+    try {
+      await navigator.clipboard.writeText(text);
+    } catch {
+      const area = document.createElement("textarea");
+      area.value = text;
+      root.append(area);
+      area.select();
+      document.execCommand("copy");
+      area.remove();
+    }
+    drawing.copied.textContent = film.words.copied;
+    setTimeout(() => { drawing.copied.textContent = ""; }, 2000);
+  };
+  const save = () => {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(new Blob(["\ufeff" + table(told(), ",")], { type: "text/csv" }));
+    link.download = `${told().name}.csv`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  };
+
+  // --- setting up, and anew when the page is renewed
+
+  const mount = (data) => {
+    film = data;
+    values = unpack(film.tracks);
+    starts = [];
+    film.lengths.reduce((start, length) => { starts.push(start); return start + length; }, 0);
+    const find = (query) => root.querySelector(query), all = (query) => [...root.querySelectorAll(query)];
+    drawing = {
+      layers: {}, near: -1, count: 0, slider: find("#angle"), told: find("#told"), play: find("#play"), numbers: find(".numbers"),
+      outputs: all("[data-value]"), buttons: all("[data-position]"), point: find("#point"), motion: find("#motion"),
+      tools: find("#tools"), copied: find("#copied"), pointed: null,
+      rates: { v: find('[data-of="v"]'), a: find('[data-of="a"]') },
+    };
+    drawing.parts = all("[data-stage]").map((element) => {
+      const part = { element, names: [], followers: [] };
+      part.followers = [...element.querySelectorAll("[data-i]")].map((one) => (
+        { element: one, update: follower(one, part), layer: one.dataset.ofLayer }));
+      element.querySelectorAll(".spot").forEach((one) => {
+        const spot = film.spots[one.dataset.spot];
+        part.followers.push({ element: one, update: carried(one, { at: spot.at }) });
+        const point = (index) => () => { drawing.pointed = index; tell(); };
+        one.addEventListener("pointerenter", point(Number(one.dataset.spot)));
+        one.addEventListener("pointerleave", point(null));
+        one.addEventListener("focus", point(Number(one.dataset.spot)));
+        one.addEventListener("blur", point(null));
+        const choose = () => { drawing.point.value = one.dataset.spot; tell(); };
+        one.addEventListener("click", choose);
+        one.addEventListener("keydown", (event) => {
+          if (event.key === "Enter" || event.key === " ") { event.preventDefault(); choose(); } else key(event);
+        });
+      });
+      return part;
+    });
+    drawing.charts = all("[data-chart]").map((element) => ({ element, update: chart(element) }));
+    all("[data-layer]").forEach((box) => {
+      const layer = box.dataset.layer;
+      const switched = () => {
+        drawing.layers[layer] = box.checked;
+        all(`[data-of-layer="${layer}"]`).forEach((element) => element.toggleAttribute("hidden", !box.checked));
+        if (now) draw();
+      };
+      box.addEventListener("change", switched);
+      switched();
+    });
+    drawing.play.addEventListener("click", () => (state.playing ? pause() : play()));
+    drawing.slider.addEventListener("input", () => { pause(); seek(Number(drawing.slider.value)); });
+    drawing.slider.addEventListener("keydown", key);
+    drawing.point.addEventListener("change", tell);
+    find("#speed").addEventListener("change", (event) => { state.rate = Number(event.target.value); });
+    find("#copy").addEventListener("click", copy);
+    find("#save").addEventListener("click", save);
+    drawing.buttons.forEach((button, index) => button.addEventListener("click", () => {
+      pause();
+      seek(film.positions[index][1]);
+    }));
+    const keep = find("#keep");
+    const kept = (on) => {
+      document.body.classList.toggle("kept", on);
+      keep.textContent = on ? film.words.release : film.words.keep;
+      keep.setAttribute("aria-pressed", String(on));
+    };
+    keep.addEventListener("click", () => kept(!document.body.classList.contains("kept")));
+    kept(document.body.classList.contains("kept"));
+    watcher.disconnect();
+    for (const element of [drawing.numbers, ...all("[data-stage], [data-chart]")]) watcher.observe(element);
+    mark();
+  };
+
+  // What a reader has chosen stays when the machine changes: angle, open panels, layers, point, speed.
+  const renew = (body, data) => {
+    const panels = Object.fromEntries([...root.querySelectorAll("[data-panel]")].map((one) => [one.dataset.panel, one.open]));
+    const layers = { ...drawing.layers }, chosen = told()?.name, rate = root.querySelector("#speed").value;
+    const focused = root.contains(document.activeElement) ? document.activeElement.id : "";
+    root.innerHTML = body;
+    for (const one of root.querySelectorAll("[data-panel]")) {
+      if (one.dataset.panel in panels) one.open = panels[one.dataset.panel];
+    }
+    for (const box of root.querySelectorAll("[data-layer]")) box.checked = layers[box.dataset.layer] ?? box.checked;
+    root.querySelector("#speed").value = rate;
+    now = undefined;
+    mount(data);
+    const index = film.spots.findIndex((spot) => spot.name === chosen);
+    drawing.point.value = index < 0 ? "" : String(index);
+    if (focused) document.getElementById(focused)?.focus();
+    seek(state.angle);
+  };
+
+  mount(JSON.parse(document.getElementById("samples").textContent));
+  seek(film.positions[film.shown][1]);
+  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();
+  return { seek, play, pause, renew, angle: () => state.angle, playing: () => state.playing };
+})();

@@ -1,0 +1,22 @@
+"""One browser for all tests of a process; the pages that they look at."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from tests.page import made
+from tests.page.browser import Browser, opened
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    with opened() as found:
+        yield found
+
+
+@pytest.fixture(params=made.CASES)
+def page(request: pytest.FixtureRequest) -> made.Made:
+    """The page of each kind of machine."""
+    return made.made(*request.param)

@@ -1,0 +1,83 @@
+"""The page of one assignment file a kind, each made once a run."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from reportgen.analysis import Analysis, analyse
+from reportgen.case import Case
+from reportgen.document.moving import film
+from reportgen.document.report import Report
+from reportgen.figures.moving import Film, Stage, Track
+from reportgen.notation.numbers import Language
+from reportgen.pages import page
+from tests.reports import built
+
+SLIDE = built.ROOT / "assignments" / "linkage-slide.yaml"
+MACHINES = [*built.PRINTED, (SLIDE, built.own_language(SLIDE))]
+"""Every kind in its file's language, the sample in both, and a machine that a slider drives."""
+CASES = [pytest.param((path, language), id=f"{path.stem}-{language}") for path, language in MACHINES]
+MM = 1e3
+
+
+@dataclass(frozen=True)
+class Made:
+    """A page with what it was made of."""
+
+    case: Case
+    text: str
+    file: Path
+
+    @cached_property
+    def report(self) -> Report:
+        return Report(self.case)
+
+    @cached_property
+    def film(self) -> Film:
+        return film(self.case)
+
+    @property
+    def scale(self) -> float:
+        """mm of paper for a metre."""
+        return MM / float(self.case.ledger["mu.l"].values[0])
+
+    @property
+    def crank(self) -> float:
+        """The drawn crank, or way of a sliding driver (mm)."""
+        return self.film.errors.crank
+
+    def stage(self, key: str) -> Stage:
+        return next(stage for stage in self.film.stages if stage.key == key)
+
+    def solved(self, degrees: Any) -> Analysis:
+        """The solver's own answer at cycle angles."""
+        return analyse(self.case.analysis.machine, np.radians(degrees))
+
+    def between(self, track: Track, degrees: np.ndarray) -> np.ndarray:
+        """What a page draws of a track at angles of a turn: straight lines between the samples."""
+        values = track.values
+        if values.size == 1:
+            return np.full(degrees.shape, values[0])
+        return np.interp(degrees, self.film.knots, values.real) + 1j * np.interp(degrees, self.film.knots, values.imag)
+
+
+@cache
+def folder() -> Path:
+    return Path(tempfile.mkdtemp(prefix="pages-"))
+
+
+@cache
+def made(path: Path, language: Language) -> Made:
+    """The page of a file of the repository."""
+    written = built.written(path, language)
+    text = page(written.case, written.document)
+    file = folder() / f"{path.stem}-{language}.html"
+    file.write_text(text, encoding="utf-8")
+    return Made(written.case, text, file)

@@ -1,0 +1,176 @@
+"""`reportgen watch` as a user meets it: the page follows the file, a fault is shown and goes, Ctrl-C ends it."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import threading
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from reportgen.watch.edition import Desk
+from reportgen.watch.server import Server
+from tests.page.browser import Browser
+from tests.reports import built
+
+FILE = built.ROOT / "assignments" / "slider-crank-02.yaml"
+PATIENCE = 20.0
+
+
+def until(condition: Callable[[], object], patience: float = PATIENCE) -> None:
+    end = time.monotonic() + patience
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    copy = tmp_path / "given.yaml"
+    copy.write_text(FILE.read_text(encoding="utf-8"), encoding="utf-8")
+    return copy
+
+
+@contextmanager
+def watching(file: Path, *options: str) -> Iterator[tuple[str, subprocess.Popen[str]]]:
+    """The command on a file: the address that it prints, its process."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "reportgen.cli", "watch", str(file), "--no-open", *options],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert process.stdout is not None
+        yield process.stdout.readline().strip(), process
+    finally:
+        process.kill()
+        process.wait()
+
+
+def test_the_page_follows_the_file(file: Path, browser: Browser) -> None:
+    given = FILE.read_text(encoding="utf-8")
+    typed = "  r: 0.2 m"
+    with watching(file) as (address, process):
+        browser.show(address, still=True)
+        report = "return document.getElementById('report').textContent"
+        until(lambda: "30" in browser.run(report) and len(browser.run(report)) > 5000)
+        browser.run("moving.seek(77); document.querySelector('[data-panel=values]').open = false; scrollTo(0, 6000);")
+        place, drawn = (
+            browser.run("return scrollY"),
+            "return document.querySelectorAll('[data-spot]')[1].getAttribute('transform')",
+        )
+        before = browser.run(drawn)
+        # Another number: the moving part first, then the report; what the reader chose stays.
+        file.write_text(given.replace(typed, "  r: 0.21 m"), encoding="utf-8")
+        until(lambda: browser.run(drawn) != before)
+        state = "return document.getElementById('state').textContent"
+        until(lambda: browser.run(state) and "…" not in browser.run(state))
+        assert browser.run("return [moving.angle(), document.querySelector('[data-panel=values]').open]") == [77, False]
+        assert browser.run("return scrollY") == pytest.approx(place, abs=300)
+        # A fault: line, column and hint over the last good page, until it is mended.
+        file.write_text(given.replace(typed, "  r: 0.2 kg"), encoding="utf-8")
+        until(lambda: not browser.run("return document.getElementById('fault').hidden"))
+        line = 1 + given.splitlines().index(typed)
+        shown = browser.run("return document.getElementById('fault').textContent")
+        assert f"given.yaml:{line}:" in shown
+        assert "error[wrong-unit]" in shown
+        assert "hint" in shown
+        assert len(browser.run(report)) > 5000
+        file.write_text(given, encoding="utf-8")
+        until(lambda: browser.run("return document.getElementById('fault').hidden"))
+        until(lambda: browser.run(drawn) == before)
+        assert browser.messages() == []
+        process.send_signal(signal.SIGINT)
+        assert process.wait(PATIENCE) == 0
+        assert process.stderr is not None
+        assert process.stderr.read() == ""
+
+
+def test_a_faulty_file_has_a_page_that_comes_when_it_is_mended(file: Path, browser: Browser) -> None:
+    given = file.read_text(encoding="utf-8")
+    file.write_text("kind: slider-crank\nnonsense: 1\n", encoding="utf-8")
+    with watching(file) as (address, _):
+        browser.show(address, still=True)
+        until(lambda: "given.yaml:2:" in browser.run("return document.getElementById('fault').textContent"))
+        file.write_text(given, encoding="utf-8")
+        until(lambda: browser.run("return document.getElementById('moving') !== null"))
+        assert browser.run("return document.getElementById('fault').hidden")
+
+
+def test_the_pdf_is_renewed_too(file: Path, tmp_path: Path) -> None:
+    with watching(file, "--pdf", "--out", str(tmp_path / "out")) as (_, process):
+        target = tmp_path / "out" / "given" / "report.pdf"
+        until(target.exists)
+        first = target.read_bytes()
+        assert process.stdout is not None
+        assert process.stdout.readline().strip() == str(target)
+        file.write_text(file.read_text(encoding="utf-8").replace("variant:", "variant: 9 #"), encoding="utf-8")
+        assert process.stdout.readline().strip() == str(target)
+        assert target.read_bytes() != first
+        assert [path.name for path in target.parent.iterdir()] == ["report.pdf"]
+
+
+# --- the server -----------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def served(file: Path) -> Iterator[Server]:
+    desk = Desk(file)
+    server = Server(desk)
+    threading.Thread(target=server.serve_forever, args=(0.05,), daemon=True).start()
+    desk.open()
+    yield server
+    desk.close()
+    server.shutdown()
+    server.server_close()
+
+
+def status(address: str, **headers: str) -> int:
+    try:
+        with urllib.request.urlopen(urllib.request.Request(address, headers=headers)) as answer:
+            return int(answer.status)
+    except urllib.error.HTTPError as error:
+        return int(error.code)
+
+
+def test_only_this_machine_and_only_its_own_page_are_served(served: Server) -> None:
+    assert served.server_address[0] == "127.0.0.1"
+    address, root = served.address, f"http://127.0.0.1:{served.server_port}"
+    assert status(address) == 200
+    assert status(address + "moving.json") == 200
+    # No token, a wrong one, a path outside, another name of this machine, another site's page.
+    for path in ("/", "/x/", f"/{served.token}x/", "/../etc/passwd", "/%2e%2e/etc/passwd", "/favicon.ico"):
+        assert status(root + path) == 404, path
+    for path in ("../given.yaml", "given.yaml", "..%2f..%2fetc%2fpasswd", "news/../x"):
+        assert status(address + path) == 404, path
+    assert status(address, Host="evil.example") == 403
+    assert status(address, Origin="https://evil.example") == 403
+    assert status(address, Host=f"localhost:{served.server_port}", Origin=root) == 200
+
+
+def test_each_edition_is_told_and_a_late_one_dropped(file: Path, served: Server) -> None:
+    desk = served.desk
+    until(lambda: desk.edition.reports == 1)
+    given = file.read_text(encoding="utf-8")
+    for number in range(3):
+        file.write_text(given.replace("variant:", f"variant: {number} #"), encoding="utf-8")
+        desk.renew()
+    until(lambda: not desk.edition.busy)
+    # Of three changes in a moment each has its moving part, but only the last its report.
+    assert (desk.edition.moving, desk.edition.reports) == (4, 2)
+    with urllib.request.urlopen(served.address + "news") as news:
+        told = json.loads(news.readline().decode().removeprefix("data: "))
+    assert told == {"moving": 4, "report": 2, "fault": "", "busy": False, "language": "en", "moves": True}
+    file.unlink()
+    desk.renew()
+    assert "given.yaml" in desk.edition.fault
+    assert desk.edition.panel is not None
