@@ -78,7 +78,7 @@ class Page:
     @cached_property
     def body(self) -> list[Glyph]:
         """The glyphs without header and footer."""
-        above, below = (13.5 * MM, 13.5 * MM) if self.is_plate else (BODY, FOOT)
+        above, below = (15 * MM, 13.5 * MM) if self.is_plate else (BODY, FOOT)
         return [glyph for glyph in self.glyphs if above < glyph.origin[1] < self.rect.height - below]
 
     @cached_property
