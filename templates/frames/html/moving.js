@@ -226,7 +226,6 @@ const moving = (() => {
 
   const mark = () => {
     drawing.play.textContent = state.playing ? film.words.pause : film.words.play;
-    drawing.play.setAttribute("aria-pressed", String(state.playing));
   };
   const play = () => {
     if (state.playing) return;
@@ -365,7 +364,6 @@ const moving = (() => {
     const kept = (on) => {
       document.body.classList.toggle("kept", on);
       keep.textContent = on ? film.words.release : film.words.keep;
-      keep.setAttribute("aria-pressed", String(on));
     };
     keep.addEventListener("click", () => kept(!document.body.classList.contains("kept")));
     kept(document.body.classList.contains("kept"));
