@@ -14,6 +14,8 @@ from reportgen.writers.svg import Painter, Pens
 
 CONTENTS_LEVEL = 3
 """The deepest level of heading that the contents list."""
+BREAK = "<wbr>"
+"""Between two pieces of a formula: a line may end there."""
 ALIGNS = {"left": "l", "center": "c", "right": "r"}
 """The classes of cells."""
 
@@ -153,8 +155,8 @@ class Blocks:
     def formula(self, expression: Expression) -> str:
         """A formula in a line, which may break before "=" and between the terms of a sum only."""
         if isinstance(expression, Sum):
-            return " ".join(map(self.formulas.inline, self.formulas.pieces(expression)))
-        return " ".join(map(self.formulas.inline, self.formulas.broken(expression)))
+            return BREAK.join(map(self.formulas.inline, self.formulas.pieces(expression)))
+        return BREAK.join(map(self.formulas.inline, self.formulas.broken(expression)))
 
     # --- formulas, lists and tables -----------------------------------------------------------------
 
@@ -177,7 +179,7 @@ class Blocks:
         lines = []
         for one in rows:
             left, rest = self.formulas.row(one)
-            pieces = " ".join(map(self.formulas.displayed, rest))
+            pieces = BREAK.join(map(self.formulas.displayed, rest))
             lead = f'<span class="left">{self.formulas.displayed(left)}</span> ' if left else ""
             wide = "" if left else ' class="whole"'
             lines.append(f"<div{wide}>{lead}<span>{pieces}</span></div>")

@@ -35,12 +35,8 @@ def vectors(stage: dict[str, list[list[float]]]) -> dict[str, list[tuple[complex
 
 
 def test_it_opens_in_silence_asks_for_nothing_and_plays(page: Made, browser: Browser) -> None:
-    begun = time.perf_counter()
     browser.show(page.file)
     assert browser.run("return moving.playing()")
-    assert time.perf_counter() - begun < 5
-    ready = browser.run("return performance.getEntriesByType('navigation')[0].loadEventEnd")
-    assert 0 < ready < 3000
     before = browser.run("return moving.angle()")
     time.sleep(0.3)
     after = browser.run("return moving.angle()")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html.parser import HTMLParser
 
-VOID = frozenset({"br", "mspace", "path", "circle", "rect", "input", "meta", "link"})
+VOID = frozenset({"br", "mspace", "path", "circle", "rect", "input", "meta", "link", "wbr"})
 APPLIED = "\N{FUNCTION APPLICATION}"
 
 

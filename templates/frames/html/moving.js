@@ -172,10 +172,11 @@ const moving = (() => {
     now = place(state.angle);
     const time = performance.now(), readable = !state.playing || time - state.told > READABLE;
     drawing.count += 1;
+    const turns = state.playing && state.pace > SLOW ? Math.min(Math.round(state.pace / 10), 4) : 1;
     for (const [index, part] of drawing.parts.entries()) {
       if (!visible(part.element)) continue;
       // Where frames take long the machine goes on smoothly, and plans follow in turns.
-      if (state.playing && state.pace > SLOW && index && (index + drawing.count) % 2) continue;
+      if (index && (index + drawing.count) % turns) continue;
       part.names = [];
       for (const { element, update, layer } of part.followers) if (!layer || drawing.layers[layer]) update();
     }
@@ -192,9 +193,11 @@ const moving = (() => {
       tell();
     }
     const told = film.span ? `${written(state.angle / 360 * film.span, 1)} mm` : `${written(state.angle, 1)}°`;
-    drawing.slider.value = state.angle;
-    say(drawing.told, told);
-    if (readable) drawing.slider.setAttribute("aria-valuetext", told);
+    if (!state.playing || drawing.count % 3 === 0) drawing.slider.value = state.angle;
+    if (readable) {
+      say(drawing.told, told);
+      drawing.slider.setAttribute("aria-valuetext", told);
+    }
     const near = film.positions.findIndex(([, at]) => Math.abs(at - state.angle) < 1e-4);
     if (near !== drawing.near) {
       drawing.near = near;
@@ -223,7 +226,6 @@ const moving = (() => {
 
   const mark = () => {
     drawing.play.textContent = state.playing ? film.words.pause : film.words.play;
-    drawing.play.setAttribute("aria-pressed", String(state.playing));
   };
   const play = () => {
     if (state.playing) return;
@@ -362,7 +364,6 @@ const moving = (() => {
     const kept = (on) => {
       document.body.classList.toggle("kept", on);
       keep.textContent = on ? film.words.release : film.words.keep;
-      keep.setAttribute("aria-pressed", String(on));
     };
     keep.addEventListener("click", () => kept(!document.body.classList.contains("kept")));
     kept(document.body.classList.contains("kept"));
