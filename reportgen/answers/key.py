@@ -1,14 +1,6 @@
 """The answer key: every quantity of a report at every position, with the bands within which it is right.
 
 Its rows are the ledger's own families, so key, report and marker cannot disagree.
-
-Bands are errors of drawing and of rounding, carried through the ledger.  Each error is a small change of one
-quantity; the ledger evaluates all of them at once, [errors, positions], and gives how far every later
-quantity moves.  An error that may lie anywhere within ±e has the standard deviation e/√3; independent ones
-add by their squares, and the band reaches to three of their sum's deviations.  A quantity's own error,
-which nothing evens out, is added whole:
-
-    band = e_own + 3 √(Σᵢ (∂f/∂xᵢ eᵢ/√3)²)
 """
 
 from __future__ import annotations
@@ -21,194 +13,18 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.answers.bands import computed_bands, drawn_bands, is_chosen_length, is_round_scale
 from reportgen.answers.trapezoid import is_workable, trapezoid_errors
 from reportgen.answers.wording import MAGNITUDE, capitalised, is_open, phrase, positive_sense
 from reportgen.case import Case, ExerciseCase, Opened
 from reportgen.document.outline import open_report
 from reportgen.document.tree import formula
 from reportgen.ledger.core import Ledger
-from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Call, Number, Ref, Symbol, refs
+from reportgen.notation.expressions import Number, Symbol, refs
 from reportgen.notation.numbers import Language, significant_decimals
 from reportgen.notation.sheet import Family, is_short
 from reportgen.notation.vocabulary import MAX_DIGITS, Chapter
 from reportgen.words import load_words, search_path
-
-PAPER_ERROR = 0.5e-3
-"""How far off a drawn point may lie (m on paper), at each end of a measured length."""
-
-DIGITS = 3
-"""Significant figures that a value is computed with."""
-
-WHOLE_DEGREE = np.pi / 180
-
-REACH = 3 / np.sqrt(3)
-"""Three standard deviations of errors that are spread evenly over ±1."""
-
-DIAGRAM = 0.1
-"""How high an indicator diagram is plotted (m on paper)."""
-
-SMALL = 0.05
-"""The share of a pressure that reading it from such a diagram may be off by."""
-
-SHARE = 1e-4
-"""A change of this share of an error stands for its slope."""
-
-
-def drawn_bands(
-    ledger: Ledger, error: float = PAPER_ERROR, scales: Mapping[str, np.ndarray] | None = None
-) -> dict[str, np.ndarray]:
-    """Half widths (SI) [N] when every length on paper is off by `error` (m) at each of its ends.
-
-    `scales` are those of plans drawn at others than the report's, as multiples of these, by id: a larger drawing is
-    read more finely.
-    What is read or worked out from the drawing is also written down with so many figures only.
-    """
-    bands = _carried_through(ledger, measuring_errors(ledger, error, scales))
-    for id, band in bands.items():
-        # A direction is written down in whole degrees.
-        last = WHOLE_DEGREE / 2 if is_direction(id) else half_unit(ledger[id].values, DIGITS)
-        bands[id] = band + np.where(band > 0, last, 0.0)
-    return bands
-
-
-def computed_bands(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
-    """Half widths (SI) [N] when every value that is not given is rounded to `digits` significant figures.
-
-    What stands on integrals over the cycle is worked out by the trapezoid rule.
-    """
-    errors = {
-        id: half_unit(family.values, digits)
-        for id, family in ledger.families.items()
-        if not (family.hidden or family.is_plane or family.exact or family.definition is None)
-    }
-    bands = _carried_through(ledger, errors)
-    return bands | {id: bands[id] + error for id, error in trapezoid_errors(ledger).items()}
-
-
-def measuring_errors(
-    ledger: Ledger, error: float = PAPER_ERROR, scales: Mapping[str, np.ndarray] | None = None
-) -> dict[str, np.ndarray]:
-    """The own errors (SI) of what is measured: two ends of a length; of a direction, two ends over its length.
-
-    Other angles are measured between lines as long as the drawn crank.
-    """
-    errors: dict[str, np.ndarray] = {}
-    drawn_at = scales or {}
-    lengths = (float(one.values[0]) for one in ledger.families.values() if is_chosen_length(ledger, one))
-    crank = min(lengths, default=np.inf)
-    for id, family in ledger.families.items():
-        if family.hidden or family.is_plane or not (family.constructed or _may_be_measured(family)):
-            continue
-        if family.kind == "segment":
-            errors[id] = np.full(len(family.values), 2 * error * drawn_at.get(vocabulary.plan(id), 1.0))
-        elif is_direction(id):
-            side = _on_paper(ledger, id)
-            length = np.abs(side.values) / drawn_at.get(vocabulary.plan(side.id), 1.0)
-            with np.errstate(all="ignore"):
-                errors[id] = np.minimum(np.where(length > 0, 2 * error / length, np.pi), np.pi)
-        elif family.kind == "angle":
-            errors[id] = np.full(len(family.values), 2 * error * drawn_at.get("mu.l", 1.0) / crank)
-        elif family.kind == "length" and isinstance(family.definition, Call) and family.definition.name == "abs":
-            # Measured on the drawing of the mechanism, as a slider's way is.
-            scale = ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
-            errors[id] = np.full(len(family.values), 2 * error * scale)
-    for link, slope in _pressure_slopes(ledger).items():
-        pressure = np.abs(ledger[f"p.{link}"].values)
-        # Read from a diagram that the student has plotted; what is small stands in the table.
-        height = np.minimum(error / DIAGRAM * np.nanmax(pressure), SMALL * pressure)
-        errors[f"p.{link}"] = slope * 2 * error * ledger["mu.l"].values * drawn_at.get("mu.l", 1.0) + height
-    return errors
-
-
-def _may_be_measured(family: Family) -> bool:
-    """Whether a length from a plan's pole, worked out by similarity from another, can be read from the plan as well."""
-    plan = vocabulary.plan(family.id)
-    from_pole = plan and family.kind == "segment" and family.id.startswith((f"seg.{plan[3:]}.p",))
-    return bool(from_pole and family.definition and any(vocabulary.plan(id) == plan for id in refs(family.definition)))
-
-
-def _pressure_slopes(ledger: Ledger) -> dict[str, np.ndarray]:
-    """How steeply the pressure on each piston changes over its way [N], from the flatter side of each position."""
-    slopes: dict[str, np.ndarray] = {}
-    for id, family in ledger.families.items():
-        link = id.removeprefix("p.")
-        if family.kind == "pressure" and f"s.{link}" in ledger:
-            way = ledger[f"s.{link}"].values
-            with np.errstate(all="ignore"):
-                sides = [np.abs((np.roll(family.values, k) - family.values) / (np.roll(way, k) - way)) for k in (1, -1)]
-            slopes[link] = np.nan_to_num(np.min(np.where(np.isfinite(sides), sides, np.inf), axis=0), posinf=0.0)
-    return slopes
-
-
-def is_direction(id: str) -> bool:
-    """Whether a quantity is the direction of a vector."""
-    return vocabulary.row(id).around
-
-
-def is_chosen_length(ledger: Ledger, family: Family) -> bool:
-    """Whether a length on paper was chosen, as that of the drawn crank is, itself or by a round scale."""
-    if family.kind != "segment":
-        return False
-    return family.definition is None or any(is_round_scale(ledger[id]) for id in refs(family.definition))
-
-
-def is_round_scale(family: Family) -> bool:
-    """Whether it is a scale that the crank is drawn to, which the scale of the drawing, `mu.l`, says again."""
-    return family.kind == "length scale" and family.id != "mu.l"
-
-
-def half_unit(values: np.ndarray, digits: int) -> np.ndarray:
-    """Half a unit of the last of `digits` significant figures; 0 for 0."""
-    sizes = np.abs(values)
-    with np.errstate(all="ignore"):
-        unit = 10.0 ** (np.floor(np.log10(sizes) + 1e-12) - digits + 1)
-    return np.where(np.isfinite(unit) & (sizes > 0), unit / 2, 0.0)
-
-
-def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Half widths (SI) [N] of every printed quantity from own errors of some."""
-    rows = {id: row for row, id in enumerate(errors)}
-    shown = [id for id, family in ledger.families.items() if not (family.hidden or family.is_plane)]
-    if not rows:
-        return {id: np.zeros(len(ledger[id].values)) for id in shown}
-
-    def moved(id: str) -> object:
-        def move(value: np.ndarray, _: Mapping[str, np.ndarray]) -> np.ndarray:
-            step = np.zeros((len(rows), errors[id].shape[-1]))
-            step[rows[id]] = SHARE * np.nan_to_num(errors[id])
-            return value + step
-
-        return move
-
-    values = ledger.evaluate({id: moved(id) for id in errors})
-    bands: dict[str, np.ndarray] = {}
-    for id in shown:
-        family = ledger[id]
-        change = np.atleast_2d(values[id] - family.values)
-        if family.how.unit == "°":
-            change = np.mod(change + np.pi, 2 * np.pi) - np.pi
-        own = np.nan_to_num(np.broadcast_to(errors.get(id, 0.0), family.values.shape))
-        if id in rows:
-            change[rows[id]] = 0.0
-        inherited = REACH * np.sqrt((np.nan_to_num(change) ** 2).sum(axis=0)) / SHARE
-        # A single value depends on the errors at all positions.
-        band = own + (inherited.max(keepdims=True) if len(own) == 1 else inherited)
-        # Near a dead centre a very short vector may have any direction.
-        bands[id] = np.minimum(band, np.pi) if family.how.unit == "°" else band
-    return bands
-
-
-def _on_paper(ledger: Ledger, id: str) -> Family:
-    """The drawn length (m) of the vector whose direction `dir.…` is measured, or the vector itself on paper."""
-    definition = ledger[id].definition
-    assert isinstance(definition, Call), f"{id} is no direction of a vector"
-    (vector,) = definition.arguments
-    assert isinstance(vector, Ref), f"{id} is no direction of a vector"
-    # The side of a force plan that is drawn for a force; on other plans the vector itself lies on paper.
-    measured = Call("abs", (vector,))
-    sides = (one for one in ledger.families.values() if one.kind == "segment")
-    return next((one for one in sides if one.of == vector.id or one.definition == measured), ledger[vector.id])
 
 
 class Role(StrEnum):

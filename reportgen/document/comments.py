@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.document.phrases import say
-from reportgen.document.report import Report, function, listed
-from reportgen.document.tree import InlineMath, Inlines, Text, Value
+from reportgen.document.report import Report, function
+from reportgen.document.tree import InlineMath, Inlines, Text, Value, listed
 from reportgen.mechanism.structure import DRIVER, GROUND
 
 RUN = 3

@@ -11,8 +11,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from reportgen.document.groups import Contact, GroupView
-from reportgen.document.report import FUNCTIONS, Report, function, listed, lower_digits
-from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Text, Value
+from reportgen.document.report import FUNCTIONS, Report, function, lower_digits
+from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.ledger.forces.polygon import Edge, Polygon
 from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.structure import mobility

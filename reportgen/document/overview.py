@@ -7,9 +7,9 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from reportgen.document.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
-from reportgen.document.report import Report, function, listed
+from reportgen.document.report import Report, function
 from reportgen.document.tables import rows, table
-from reportgen.document.tree import Cell, Column, Inline, InlineMath, Inlines, Table, Text, Value
+from reportgen.document.tree import Cell, Column, Inline, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.notation.vocabulary import on_plan
 

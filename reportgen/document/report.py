@@ -20,7 +20,6 @@ from reportgen.catalogue.loads import Applied, Piston, Torque
 from reportgen.catalogue.machine import Machine, Position
 from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
 from reportgen.document.prose import Prose
-from reportgen.document.tree import Inlines, Text
 from reportgen.figures.charts import Area
 from reportgen.figures.grid import USUAL_FORM, Form
 from reportgen.flywheel import Flywheel
@@ -449,8 +448,3 @@ class Report:
 def lower_digits(text: str) -> str:
     """Digits of point names as lowered digits: O1A → O₁A."""
     return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
-
-
-def listed(parts: Iterable[Any]) -> Inlines:
-    """Inlines side by side with commas."""
-    return tuple(one for index, part in enumerate(parts) for one in ((Text(", "), part) if index else (part,)))

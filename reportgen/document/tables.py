@@ -14,7 +14,7 @@ from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.catalogue.loads import AngleLaw, Applied, TableLaw, Torque, WayLaw
 from reportgen.catalogue.machine import Position
 from reportgen.cycle import StrokeIndicator
-from reportgen.document.report import FUNCTIONS, Function, Report, function, listed, lower_digits
+from reportgen.document.report import FUNCTIONS, Function, Report, function, lower_digits
 from reportgen.document.tree import (
     FIRST_COLUMN,
     TEXT_WIDTH,
@@ -26,6 +26,7 @@ from reportgen.document.tree import (
     Table,
     Text,
     Value,
+    listed,
 )
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Symbol, refs, size

@@ -10,7 +10,7 @@ base_sub^sup, numbers as printed in the document's language, drawings by their c
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -287,6 +287,11 @@ def _caption(block: tree.Table | tree.Figure | tree.Plate, words: tree.Words, la
 
 def _row(cells: tuple[tree.Cell, ...], language: Language) -> str:
     return " | ".join(plain(cell.inlines, language) for cell in cells)
+
+
+def listed(parts: Iterable[Inline]) -> Inlines:
+    """Inlines side by side with commas."""
+    return tuple(one for index, part in enumerate(parts) for one in ((Text(", "), part) if index else (part,)))
 
 
 def plain(inlines: tree.Inlines, language: Language) -> str:

@@ -19,7 +19,8 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.answers.key import Key, Role, Row, is_direction
+from reportgen.answers.bands import is_direction
+from reportgen.answers.key import Key, Role, Row
 from reportgen.grading.marks import Cells, Flag, Marked, Place, Submission, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM
 from reportgen.grading.working import Guide, last_half_unit

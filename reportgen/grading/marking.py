@@ -16,8 +16,10 @@ from pathlib import Path
 import numpy as np
 
 from reportgen.answers.asking import Ask
-from reportgen.answers.key import Row, half_unit, symbol_text, words_of
+from reportgen.answers.bands import half_unit
+from reportgen.answers.key import Row, symbol_text, words_of
 from reportgen.catalogue import load
+from reportgen.grading.drawn_scales import Values
 from reportgen.grading.guard import Classmate, guard
 from reportgen.grading.marks import Cells, Flag, Marked, Marking, Place, Policy, Submission, Verdict
 from reportgen.grading.misread import misread_by_many, misread_data
@@ -26,7 +28,7 @@ from reportgen.grading.naming import mistakes_of_working, slips_of_writing
 from reportgen.grading.plans import mistakes_of_plans
 from reportgen.grading.remarks import not_from_own
 from reportgen.grading.submission import read_submission
-from reportgen.grading.working import Guide, Values, Working, lay_out, open_guide
+from reportgen.grading.working import Guide, Working, lay_out, open_guide
 from reportgen.ledger.core import Ledger
 from reportgen.notation.numbers import Language
 

@@ -13,7 +13,8 @@ from typing import Annotated
 from pydantic import Field
 
 from reportgen.answers.asking import Ask
-from reportgen.answers.key import DIGITS, PAPER_ERROR, Key
+from reportgen.answers.bands import DIGITS, PAPER_ERROR
+from reportgen.answers.key import Key
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Interval, Text, Whole, quantity
 from reportgen.assignment.fields import Flag as TrueOrFalse

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.answers.key import half_unit, is_direction
+from reportgen.answers.bands import half_unit, is_direction
 from reportgen.grading.marks import Cells, Marked, Place, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM, Mistake
 from reportgen.grading.naming import unseen_mistakes

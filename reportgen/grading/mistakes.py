@@ -12,8 +12,9 @@ from itertools import takewhile
 
 import numpy as np
 
-from reportgen.answers.key import is_direction
-from reportgen.grading.working import Change, Guide, Values
+from reportgen.answers.bands import is_direction
+from reportgen.grading.drawn_scales import Values
+from reportgen.grading.working import Change, Guide
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Call, Expression, Negative, Sum, rebuild, refs, walk
 from reportgen.notation.sheet import Family

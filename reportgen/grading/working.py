@@ -2,33 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from reportgen.analysis import Analysis
-from reportgen.answers.key import (
-    Key,
-    Role,
-    Row,
-    computed_bands,
-    drawn_bands,
-    half_unit,
-    is_chosen_length,
-    is_direction,
-    make_key,
-)
+from reportgen.answers.bands import computed_bands, drawn_bands, half_unit, is_direction
+from reportgen.answers.key import Key, Role, Row, make_key
 from reportgen.assignment import Assignment
 from reportgen.case import Case, opened
+from reportgen.grading.drawn_scales import CONFIRMED, Values, drawn_at, in_use, makes_scale
 from reportgen.grading.marks import Place, Policy, Submission
 from reportgen.ledger.core import Ledger, follow, standing_on
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Product, Ref
-
-Values = Mapping[str, np.ndarray]
-"""Values (SI) by id, [N] or [1]."""
 
 Change = Callable[[np.ndarray, Values], np.ndarray]
 """A quantity's value (SI) from what it comes to and all values before it."""
@@ -36,20 +25,8 @@ Change = Callable[[np.ndarray, Values], np.ndarray]
 ALMOST = 1e-12
 """Room for rounding in a comparison with a band."""
 
-LARGEST_SCALE = 1e6
-"""A student's own scale that differs more than this from the report's is no scale."""
-
-MANY = 3
-"""So many forces over their lengths show the scale that a plan was drawn at."""
-
 LEAST_FIGURES = 3
 """Figures that a number has been written with, though noughts at its end do not show them."""
-
-READ_TO = 0.05e-3
-"""Half of the last figure of a length on paper (m), which is read to a tenth of a millimetre."""
-
-CONFIRMED = 0.02
-"""Two scales nearer than this are one: a millimetre in the length of a drawn crank."""
 
 
 @dataclass(frozen=True)
@@ -155,7 +132,7 @@ class Guide:
         found: dict[str, tuple[str, str]] = {}
         for row in self.judged:
             scale = vocabulary.plan(row.id)
-            if row.single and scale in self.ledger and scale not in found and _makes_scale(self, row.id, scale):
+            if row.single and scale in self.ledger and scale not in found and makes_scale(self, row.id, scale):
                 value = self.ledger[scale].values[0] * self.ledger[row.id].values[0]
                 sizes = (one.id for one in self.judged if one.single and one.kind in ("velocity", "acceleration"))
                 size = next((id for id in sizes if np.isclose(self.ledger[id].values[0], value, rtol=1e-9)), "")
@@ -361,20 +338,20 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
     for scale in asked:
         usual = guide.ledger[scale].values
         plan = [id for id in values if vocabulary.plan(id) == scale]
-        first = next((id for id in plan if _makes_scale(guide, id, scale)), None)
+        first = next((id for id in plan if makes_scale(guide, id, scale)), None)
         stated = values.get(scale, np.full(len(usual), np.nan))
         factor, shown[scale] = np.ones(len(usual)), np.zeros(len(usual), dtype=bool)
         for place in range(len(usual)):
             # A scale for all positions is judged by all lengths, a position's own by those of its plan.
             own = slice(None) if len(usual) == 1 else slice(place, place + 1)
             tried = [float(one) for one in (stated[place] / usual[place], 1.0)]
-            if (in_use := _in_use(guide, values, scale, own, float(stated[place]))) is not None:
-                tried.insert(0, float(in_use / usual[place]))
+            if (found := in_use(guide, values, scale, own, float(stated[place]))) is not None:
+                tried.insert(0, float(found / usual[place]))
             if first is not None:
                 with np.errstate(divide="ignore"):
                     tried.insert(0, float(guide.ledger[first].values[0] / values[first][0]))
             plan_of_place = [id for id in plan if id != first]
-            factor[place], shown[scale][place] = _drawn_at(guide, values, plan_of_place, tried, own)
+            factor[place], shown[scale][place] = drawn_at(guide, values, plan_of_place, tried, own)
         scales[scale] = factor * usual
         values |= {id: values[id] * factor for id in plan}
         if scale in values:
@@ -393,63 +370,3 @@ def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:
         places = range(position - 1, len(column), guide.count) if guide.repeats(row) else [row.at(position)]
         column[list(places)] = given.value * scale
     return column
-
-
-def _in_use(guide: Guide, values: Values, scale: str, place: slice, stated: float) -> float | None:
-    """The scale (SI) that a plan was drawn at by what was read from it: most sizes over their lengths, if these agree.
-
-    Only a scale that is chosen freely shows so; `place` is the part of the columns that is drawn at it.  Where they
-    agree with the one that is `stated`, few are enough: the plan of a crank has two lengths.
-    """
-    if guide.ledger[scale].definition is not None or scale == "mu.l":
-        return None
-    found: list[np.ndarray] = []
-    for length in (id for id in values if vocabulary.plan(id) == scale):
-        for size in guide.sizes[length] & values.keys():
-            with np.errstate(all="ignore"):
-                # A short length may be rounded by more than scales differ.
-                rounding = READ_TO / np.abs(values[length])
-                found.append(np.array([np.abs(values[size] / values[length]), rounding])[:, place])
-    ratios, rounding = np.concatenate(found, axis=1) if found else np.zeros((2, 0))
-    known = np.isfinite(ratios) & (ratios > 0)
-    ratios, rounding = ratios[known], rounding[known]
-    if not ratios.size:
-        return None
-    middle = float(np.median(ratios))
-    if (np.abs(ratios / stated - 1) < CONFIRMED + rounding).mean() > 1 / 2:
-        return stated
-    agree = np.abs(ratios / middle - 1) < CONFIRMED
-    return middle if agree.sum() >= MANY and agree.mean() > 1 / 2 else None
-
-
-def _makes_scale(guide: Guide, id: str, scale: str) -> bool:
-    """Whether a length on paper is the one that a scale was made from: the drawn crank, pa."""
-    ledger = guide.ledger
-    if scale == "mu.l":
-        return is_chosen_length(ledger, ledger[id])
-    definition = ledger[id].definition
-    return isinstance(definition, Ref) and ledger[definition.id].definition is None
-
-
-def _drawn_at(
-    guide: Guide, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice
-) -> tuple[float, bool]:
-    """The scale of a plan over the report's: of those `tried` the first that another confirms, else the best.
-
-    Only the lengths of the plan at a `place` of their columns count.  The second is whether the scale is shown: by
-    another, or by half of the lengths.
-    """
-
-    def right(factor: float) -> int:
-        """How many lengths of the plan are right at that scale."""
-        return sum(
-            int((np.abs(np.abs(values[id]) * factor - np.abs(guide.ledger[id].values)) <= guide.bands[id])[place].sum())
-            for id in plan
-        )
-
-    possible = [one for one in tried if np.isfinite(one) and 1 / LARGEST_SCALE < one < LARGEST_SCALE]
-    first, *others = possible
-    if any(abs(first / other - 1) < CONFIRMED for other in others):
-        return first, True
-    best = max(possible, key=right)
-    return best, 2 * right(best) >= sum(int(np.isfinite(values[id][place]).sum()) for id in plan)

@@ -15,7 +15,8 @@ import numpy as np
 import yaml
 
 from reportgen import api
-from reportgen.answers.key import PAPER_ERROR, Key, Row, measuring_errors, words_of
+from reportgen.answers.bands import PAPER_ERROR, measuring_errors
+from reportgen.answers.key import Key, Row, words_of
 from reportgen.answers.sheet import asked_positions, grid, info_page, page, rows_shown
 from reportgen.assignment import Assignment
 from reportgen.errors import AssignmentError, Mark

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reportgen.answers.key import is_direction
+from reportgen.answers.bands import is_direction
 from reportgen.grading.working import Guide
 from reportgen.ledger.core import follow
 from reportgen.notation.expressions import Ref, refs
