@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from reportgen.document.plates import CURVE, Series, all_series
 from reportgen.document.report import Report
 from reportgen.figures.geometry import bounds
-from reportgen.figures.grid import Form
+from reportgen.figures.grid import USUAL_FORM, Form
 from reportgen.figures.lettering import lettered
 from reportgen.figures.scene import Label, Scene
 from reportgen.ledger.scales import PER_MM
@@ -81,11 +81,18 @@ class Plates:
         """The numbers of the series of some sets, of all if none is named."""
         return [index for index, one in enumerate(self.series) if not sets or one.belongs in sets]
 
+    def _form(self, index: int, form: Form) -> Form:
+        """What of a form matters to a series, so that what does not is not drawn anew for it."""
+        one = self.series[index]
+        if one.layer == "tables":
+            return form
+        return Form(shape=form.shape) if one.scale == CURVE else USUAL_FORM
+
     def draw(self, index: int, scale: float, form: Form) -> list[_Plate]:
         """The plates of a series at a scale, tables in a form."""
+        one, form = self.series[index], self._form(index, form)
         drawn = self._drawn.setdefault((index, form), {})
         if scale not in drawn:
-            one = self.series[index]
             report = one.to_scale(replace(self.report, form=form), scale)
             drawn[scale] = [_Plate.of(place, scene) for place, scene in one.draw(report)]
             for key in [key for key in self._estimated if key[0] == index]:
@@ -94,9 +101,9 @@ class Plates:
 
     def estimate(self, index: int, scale: float, form: Form) -> list[tuple[str, Scene]]:
         """Places and plates about as large as they will be, from those drawn at the next scale."""
+        one, form = self.series[index], self._form(index, form)
         key = index, form, scale
         if key not in self._estimated:
-            one = self.series[index]
             drawn = self._drawn.get((index, form)) or {scale: self.draw(index, scale, form)}
             at = min(drawn, key=lambda other: abs(math.log(other / scale)) if scale else 0.0)
             self._estimated[key] = [(plate.place, _estimated(plate, one, at, scale, form.shape)) for plate in drawn[at]]
