@@ -293,7 +293,7 @@ def _table(*listed: Callable[[Report], Sequence[str]], cycle: bool = False) -> C
         while shown:
             count = _columns(report, shown, at)
             for some in report.form.broken(at):
-                yield "", grid(*_quantities(report, shown[:count], some), report.form.loose)
+                yield "", grid(*_quantities(report, shown[:count], some))
             shown = shown[count:]
 
     return drawings
@@ -302,7 +302,7 @@ def _table(*listed: Callable[[Report], Sequence[str]], cycle: bool = False) -> C
 def _columns(report: Report, ids: Sequence[str], positions: Sequence[int]) -> int:
     """How many of the quantities a table has room for, beside the column of positions."""
     head, rows = _quantities(report, ids, positions)
-    right = accumulate(widths([*head, *rows], report.form.loose))
+    right = accumulate(widths([*head, *rows]))
     return max(sum(ENLARGED * one <= report.form.widest for one in right) - 1, 1)
 
 

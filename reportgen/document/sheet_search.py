@@ -14,11 +14,11 @@ from itertools import combinations, islice
 
 from reportgen.document.drawn_plates import Plates
 from reportgen.document.plates import CURVE, Series
-from reportgen.figures.grid import ROW, Form
+from reportgen.figures.grid import ROW, Form, stretched
 from reportgen.figures.lettering import ENLARGED, headed
 from reportgen.figures.packing import NEVER, Dividing, Laid, spread, too_large
 from reportgen.figures.scene import Scene
-from reportgen.figures.sheet import GAP, Part, Room, TooLargeError, filled
+from reportgen.figures.sheet import GAP, Part, Room, TooLargeError
 from reportgen.ledger.scales import PER_MM
 from reportgen.notation.numbers import nice_down, nice_up
 
@@ -54,8 +54,6 @@ HEADING = 16.0
 HEAD_ROWS = 2
 WIDEST = 180.0
 """A table is so wide (mm) if it is to stand beside the title block of any sheet."""
-LOOSE = (1.0, 1.2, 1.4)
-"""How high the rows of a table may be, in heights of usual ones."""
 SHAPES = (1.4, 2.8)
 """Width over height of curves, beside the usual one."""
 STEPS = 3
@@ -96,10 +94,9 @@ class Search:
             key: usual * (WHOLE_MACHINE if one.is_whole_machine else 1.0) for key, one in self.largest.items()
         }
         usual_form, *others = (
-            Form(wide, int((size.imag - 2 * GAP - HEADING) / (ENLARGED * ROW * loose)) - HEAD_ROWS, parts, loose)
+            Form(wide, int((size.imag - 2 * GAP - HEADING) / (ENLARGED * ROW)) - HEAD_ROWS, parts)
             for wide in (WIDEST, size.real - 2 * GAP)
             for parts in (1, 2, 3)
-            for loose in LOOSE
         )
         self.usual_form = usual_form
         self.forms: dict[int, list[Form]] = {}
@@ -125,14 +122,20 @@ class Search:
             self.tried.clear()
             self.tries = TRIES_IN_ROWS if in_rows else TRIES
             for choice in islice(self._promising(), attempts):
+                if in_rows and self._missing(choice):
+                    continue
                 parts = self._drawn(choice)
                 found.append(drawing.of(parts))
                 if found[-1][0] == 0.0:
-                    return [spread(one, self.space) for one in found[-1][1]]
+                    return self._spread(found[-1][1])
         missing, sheets = min(found, key=lambda one: one[0])
         if missing >= NEVER:
             raise TooLargeError(too_large(parts, self.space) or parts[0])
-        return [spread(one, self.space) for one in sheets]
+        return self._spread(sheets)
+
+    def _spread(self, sheets: Iterable[Laid]) -> list[tuple[Part, ...]]:
+        """The sheets with tables stretched and the white shared out."""
+        return [spread(one.with_parts(_stretched(part, one.stretch) for part in one.parts), self.space) for one in sheets]
 
     @property
     def is_large(self) -> bool:
@@ -209,7 +212,7 @@ class Search:
         self._missing(choice)
         sheets = self.tried[choice.key][1]
         names = [{int(part.name) for part in one.parts} for one in sheets]
-        empty = [filled(one.parts, self.space) < ENOUGH + SPARE for one in sheets]
+        empty = [one.share < ENOUGH + SPARE for one in sheets]
         here = {index for n, some in enumerate(names) if empty[n] for index in some}
         before = {index for n, some in enumerate(names[:-1]) if empty[n + 1] for index in some}
         near = dict.fromkeys(self.plates.series[index].scaled for some in (here, before) for index in some)
@@ -262,7 +265,9 @@ class Search:
         title = self.plates.report.words["plates"][one.name]
         for name, place, scene in _numbered(number, plates):
             width, height = _head(f"{name}. {title}", place)
-            yield Part(str(index), one.layer, Scene(max(scene.width, width), scene.height + height))
+            yield Part(
+                str(index), one.layer, Scene(max(scene.width, width), scene.height + height), table=_table(one, scene)
+            )
 
     def _drawn(self, choice: Choice) -> list[Part]:
         """All plates in order, numbered."""
@@ -273,7 +278,8 @@ class Search:
             drawn = self.plates.draw(index, scale, choice.forms.get(index, self.usual_form))
             title = self.plates.report.words["plates"][one.name]
             for name, place, scene in _numbered(number, [(plate.place, plate.scene) for plate in drawn]):
-                parts.append(Part(name, one.layer, headed(scene, f"{name}. {title}", place)))
+                whole = headed(scene, f"{name}. {title}", place)
+                parts.append(Part(name, one.layer, whole, table=_table(one, scene)))
         return parts
 
 
@@ -281,6 +287,15 @@ def _numbered(series: int, plates: Sequence[tuple[str, Scene]]) -> Iterator[tupl
     """Plates with their numbers."""
     for number, (place, scene) in enumerate(plates, start=1):
         yield f"{series}.{number}" if len(plates) > 1 else f"{series}", place, scene
+
+
+def _stretched(part: Part, stretch: complex) -> Part:
+    return replace(part, scene=stretched(part.scene, part.table, stretch)) if part.table else part
+
+
+def _table(one: Series, scene: Scene) -> complex:
+    """What of a plate may be stretched."""
+    return complex(scene.width, scene.height) if one.layer == "tables" else 0j
 
 
 def _readable(one: Series) -> float:
