@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import combinations, islice
 
-from reportgen.document.drawn_plates import Plates
+from reportgen.document.drawn_plates import Estimates, Plates
 from reportgen.document.plates import CURVE, Series
 from reportgen.figures.grid import ROW, Form, stretched
 from reportgen.figures.lettering import ENLARGED, headed
@@ -54,7 +54,7 @@ HEADING = 16.0
 HEAD_ROWS = 2
 WIDEST = 180.0
 """A table is so wide (mm) if it is to stand beside the title block of any sheet."""
-SHAPES = (1.4, 2.8)
+SHAPES = (1.0, 1.4, 2.8, 4.0)
 """Width over height of curves, beside the usual one."""
 STEPS = 3
 """So many steps finer or coarser are tried at once."""
@@ -81,6 +81,7 @@ class Search:
 
     def __init__(self, plates: Plates, chosen: Sequence[int], space: Room) -> None:
         self.plates, self.chosen, self.space = plates, chosen, space
+        self.estimates = Estimates(plates)
         self.series = [plates.series[index] for index in chosen]
         self.tried: dict[tuple[object, ...], tuple[float, list[Laid]]] = {}
         self.named: dict[tuple[int, float, Form], list[Part]] = {}
@@ -255,7 +256,7 @@ class Search:
             form = choice.forms.get(index, self.usual_form)
             key = index, scale, form
             if key not in self.named:
-                some = self.plates.estimate(index, scale * PER_MM, form)
+                some = self.estimates.estimate(index, scale * PER_MM, form)
                 self.named[key] = list(self._with_headings(number, index, some))
             parts += self.named[key]
         return parts
@@ -275,7 +276,7 @@ class Search:
         for number, index in enumerate(self.chosen, start=1):
             one = self.plates.series[index]
             scale = choice.scales.get(one.scaled, 0.0) * PER_MM
-            drawn = self.plates.draw(index, scale, choice.forms.get(index, self.usual_form))
+            drawn = self.estimates.draw(index, scale, choice.forms.get(index, self.usual_form))
             title = self.plates.report.words["plates"][one.name]
             for name, place, scene in _numbered(number, [(plate.place, plate.scene) for plate in drawn]):
                 whole = headed(scene, f"{name}. {title}", place)
