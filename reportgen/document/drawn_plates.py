@@ -99,7 +99,7 @@ class Plates:
 
 @dataclass
 class Estimates:
-    """About how large plates are, from those that one search has seen drawn, so that no other one changes its result."""
+    """About how large plates are, from those that one search has seen drawn: no other one changes its result."""
 
     plates: Plates
     _seen: dict[tuple[int, Form], dict[float, list[_Plate]]] = field(default_factory=dict)

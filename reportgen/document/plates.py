@@ -108,11 +108,6 @@ class Series:
         """Whether its plates share a size on paper, from which each has a scale of its own."""
         return self.scale == CURVE or bool(self.sizes)
 
-    @property
-    def is_whole_machine(self) -> bool:
-        """Whether it shows all of the machine at all positions."""
-        return self.name in ("positions", "indicator")
-
 
 def all_series(report: Report) -> list[Series]:
     """The series of a report's plates in the order of the work."""

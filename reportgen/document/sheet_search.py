@@ -26,15 +26,15 @@ USUAL = 0.16
 """The largest side of a plan, as a share of the height that a sheet has for plates."""
 LEAST = 60.0
 """Plans are usually not smaller than this (mm), whatever the sheet."""
-WHOLE_MACHINE = 2.2
-"""How many times larger plates of the whole machine are."""
-SMALLER, LARGER = 0.4, 3.0
-"""How many times as large as usual plates may become."""
-READABLE = 42.0
-"""The largest plan of a series is not drawn smaller than this (mm) unless it has no room else."""
+LARGER_PLATES = {"positions": 2.2, "indicator": 2.2, "scheme": 1.5}
+"""How many times larger plates are that show the whole machine."""
+SMALLER, LARGER = 0.6, 3.0
+"""How many times as large as usual the largest plate of a series may become."""
+READABLE = 38.0
+"""It is not drawn smaller than this (mm) either unless it has no room else."""
 ENOUGH = 0.6
 """A sheet is filled to this share at least."""
-SPARE = 0.015
+SPARE = 0.008
 """What estimates may be off."""
 BEGINNINGS = (1.0, 0.85, 1.15, 0.7, 1.3, 0.6, 1.5)
 """With plates so many times as large as usual the search begins."""
@@ -91,9 +91,7 @@ class Search:
         for one in self.series:
             if one.scale and one.size > (self.largest[one.scaled].size if one.scaled in self.largest else 0.0):
                 self.largest[one.scaled] = one
-        self.usual = {
-            key: usual * (WHOLE_MACHINE if one.is_whole_machine else 1.0) for key, one in self.largest.items()
-        }
+        self.usual = {key: usual * LARGER_PLATES.get(one.name, 1.0) for key, one in self.largest.items()}
         usual_form, *others = (
             Form(wide, int((size.imag - 2 * GAP - HEADING) / (ENLARGED * ROW)) - HEAD_ROWS, parts)
             for wide in (WIDEST, size.real - 2 * GAP)
@@ -136,7 +134,9 @@ class Search:
 
     def _spread(self, sheets: Iterable[Laid]) -> list[tuple[Part, ...]]:
         """The sheets with tables stretched and the white shared out."""
-        return [spread(one.with_parts(_stretched(part, one.stretch) for part in one.parts), self.space) for one in sheets]
+        return [
+            spread(one.with_parts(_stretched(part, one.stretch) for part in one.parts), self.space) for one in sheets
+        ]
 
     @property
     def is_large(self) -> bool:
@@ -164,7 +164,7 @@ class Search:
         for key, one in self.largest.items():
             scale = nice_up(one.size / (share * self.usual[key]), one.steps)
             # A round scale may leave a plan much smaller than meant.
-            least = _readable(one)
+            least = self._readable(key)
             scales[key] = scale if one.size / scale >= least else nice_down(one.size / least, one.steps)
         return Choice(scales, dict.fromkeys(self.forms, self.usual_form))
 
@@ -238,8 +238,12 @@ class Search:
         for _ in range(STEPS):
             finer, coarser = nice_down(0.99 * finer, one.steps), nice_up(1.01 * coarser, one.steps)
             for other in (finer, coarser):
-                if max(SMALLER * box, _readable(one)) <= one.size / other <= LARGER * box:
+                if self._readable(key) <= one.size / other <= LARGER * box:
                     yield other
+
+    def _readable(self, key: Key) -> float:
+        """What the largest plate at a scale is at least (mm)."""
+        return max(SMALLER * self.usual[key], READABLE * LARGER_PLATES.get(self.largest[key].name, 1.0))
 
     def _missing(self, choice: Choice) -> float:
         """What sheets miss of being full, as far as can be told without drawing them."""
@@ -297,11 +301,6 @@ def _stretched(part: Part, stretch: complex) -> Part:
 def _table(one: Series, scene: Scene) -> complex:
     """What of a plate may be stretched."""
     return complex(scene.width, scene.height) if one.layer == "tables" else 0j
-
-
-def _readable(one: Series) -> float:
-    """What the largest plate of a series is at least (mm)."""
-    return READABLE * (WHOLE_MACHINE if one.is_whole_machine else 1.0)
 
 
 @lru_cache(maxsize=4096)

@@ -19,7 +19,7 @@ Spot = tuple[float, float]
 
 EDGE = 1e-6
 """Rounding of places, mm."""
-AHEAD = 4
+AHEAD = 8
 """So many plates more than stand in order are tried in another order."""
 SWEEPS = 12
 """How often plates are moved to the middle between their neighbours."""
@@ -27,13 +27,23 @@ NEVER = 1e6
 """How bad it is that a plate has no place on any sheet."""
 
 UNSTRETCHED = 1 + 1j
-STRETCHES = (1 + 1.2j, 1.2 + 1j, 1.15 + 1.15j, 1.3 + 1j, 1 + 1.4j, 1.2 + 1.4j, 1.5 + 1j, 1.4 + 1.2j, 1.4 + 1.5j, 1.6 + 1.6j)
+STRETCHES = (
+    1 + 1.2j,
+    1.2 + 1j,
+    1.15 + 1.15j,
+    1.3 + 1j,
+    1 + 1.4j,
+    1.2 + 1.4j,
+    1.5 + 1j,
+    1.4 + 1.2j,
+    1.4 + 1.5j,
+    1.6 + 1.6j,
+)
 """How much wider and higher than usual the tables of a sheet may be."""
-LEAVING = 3
+LEAVING = 8
 """So many plates fewer than a sheet has room for are tried with tables stretched."""
 MOST = 0.9
 """No sheet can be filled more than this."""
-
 
 
 class Size(NamedTuple):
