@@ -1,6 +1,6 @@
 """All assignments on all sizes, checked, with the least share that is filled and the sheets that are emptier.
 
-    python -m tests.sheets [--set kinematics|forces] [A1 …]
+python -m tests.sheets [--set kinematics|forces] [A1 …]
 """
 
 from __future__ import annotations
