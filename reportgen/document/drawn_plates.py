@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from reportgen.document.plates import CURVE, Series, all_series
 from reportgen.document.report import Report
 from reportgen.figures.geometry import bounds
-from reportgen.figures.grid import Form
+from reportgen.figures.grid import USUAL_FORM, Form
 from reportgen.figures.lettering import lettered
 from reportgen.figures.scene import Label, Scene
 from reportgen.ledger.scales import PER_MM
@@ -70,8 +70,7 @@ class Plates:
 
     report: Report
     series: Sequence[Series]
-    _drawn: dict[tuple[int, Form], dict[float, list[_Plate]]] = field(default_factory=dict)
-    _estimated: dict[tuple[int, Form, float], list[tuple[str, Scene]]] = field(default_factory=dict)
+    _drawn: dict[tuple[int, Form, float], list[_Plate]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, report: Report) -> Plates:
@@ -81,25 +80,48 @@ class Plates:
         """The numbers of the series of some sets, of all if none is named."""
         return [index for index, one in enumerate(self.series) if not sets or one.belongs in sets]
 
+    def form(self, index: int, form: Form) -> Form:
+        """What of a form matters to a series, so that what does not is not drawn anew for it."""
+        one = self.series[index]
+        if one.layer == "tables":
+            return form
+        return Form(shape=form.shape) if one.scale == CURVE else USUAL_FORM
+
     def draw(self, index: int, scale: float, form: Form) -> list[_Plate]:
         """The plates of a series at a scale, tables in a form."""
-        drawn = self._drawn.setdefault((index, form), {})
-        if scale not in drawn:
-            one = self.series[index]
+        one, form = self.series[index], self.form(index, form)
+        key = index, form, scale
+        if key not in self._drawn:
             report = one.to_scale(replace(self.report, form=form), scale)
-            drawn[scale] = [_Plate.of(place, scene) for place, scene in one.draw(report)]
+            self._drawn[key] = [_Plate.of(place, scene) for place, scene in one.draw(report)]
+        return self._drawn[key]
+
+
+@dataclass
+class Estimates:
+    """About how large plates are, from those that one search has seen drawn: no other one changes its result."""
+
+    plates: Plates
+    _seen: dict[tuple[int, Form], dict[float, list[_Plate]]] = field(default_factory=dict)
+    _estimated: dict[tuple[int, Form, float], list[tuple[str, Scene]]] = field(default_factory=dict)
+
+    def draw(self, index: int, scale: float, form: Form) -> list[_Plate]:
+        """The plates of a series as they are; the next estimates are made from them."""
+        seen = self._seen.setdefault((index, self.plates.form(index, form)), {})
+        if scale not in seen:
+            seen[scale] = self.plates.draw(index, scale, form)
             for key in [key for key in self._estimated if key[0] == index]:
                 del self._estimated[key]
-        return drawn[scale]
+        return seen[scale]
 
     def estimate(self, index: int, scale: float, form: Form) -> list[tuple[str, Scene]]:
         """Places and plates about as large as they will be, from those drawn at the next scale."""
+        one, form = self.plates.series[index], self.plates.form(index, form)
         key = index, form, scale
         if key not in self._estimated:
-            one = self.series[index]
-            drawn = self._drawn.get((index, form)) or {scale: self.draw(index, scale, form)}
-            at = min(drawn, key=lambda other: abs(math.log(other / scale)) if scale else 0.0)
-            self._estimated[key] = [(plate.place, _estimated(plate, one, at, scale, form.shape)) for plate in drawn[at]]
+            seen = self._seen.get((index, form)) or {scale: self.draw(index, scale, form)}
+            at = min(seen, key=lambda other: abs(math.log(other / scale)) if scale else 0.0)
+            self._estimated[key] = [(plate.place, _estimated(plate, one, at, scale, form.shape)) for plate in seen[at]]
         return self._estimated[key]
 
 

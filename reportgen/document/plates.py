@@ -108,11 +108,6 @@ class Series:
         """Whether its plates share a size on paper, from which each has a scale of its own."""
         return self.scale == CURVE or bool(self.sizes)
 
-    @property
-    def is_whole_machine(self) -> bool:
-        """Whether it shows all of the machine at all positions."""
-        return self.name in ("positions", "indicator")
-
 
 def all_series(report: Report) -> list[Series]:
     """The series of a report's plates in the order of the work."""
@@ -293,7 +288,7 @@ def _table(*listed: Callable[[Report], Sequence[str]], cycle: bool = False) -> C
         while shown:
             count = _columns(report, shown, at)
             for some in report.form.broken(at):
-                yield "", grid(*_quantities(report, shown[:count], some), report.form.loose)
+                yield "", grid(*_quantities(report, shown[:count], some))
             shown = shown[count:]
 
     return drawings
@@ -302,7 +297,7 @@ def _table(*listed: Callable[[Report], Sequence[str]], cycle: bool = False) -> C
 def _columns(report: Report, ids: Sequence[str], positions: Sequence[int]) -> int:
     """How many of the quantities a table has room for, beside the column of positions."""
     head, rows = _quantities(report, ids, positions)
-    right = accumulate(widths([*head, *rows], report.form.loose))
+    right = accumulate(widths([*head, *rows]))
     return max(sum(ENLARGED * one <= report.form.widest for one in right) - 1, 1)
 
 

@@ -12,13 +12,13 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import combinations, islice
 
-from reportgen.document.drawn_plates import Plates
+from reportgen.document.drawn_plates import Estimates, Plates
 from reportgen.document.plates import CURVE, Series
-from reportgen.figures.grid import ROW, Form
+from reportgen.figures.grid import ROW, Form, stretched
 from reportgen.figures.lettering import ENLARGED, headed
 from reportgen.figures.packing import NEVER, Dividing, Laid, spread, too_large
 from reportgen.figures.scene import Scene
-from reportgen.figures.sheet import GAP, Part, Room, TooLargeError, filled
+from reportgen.figures.sheet import GAP, Part, Room, TooLargeError
 from reportgen.ledger.scales import PER_MM
 from reportgen.notation.numbers import nice_down, nice_up
 
@@ -26,15 +26,15 @@ USUAL = 0.16
 """The largest side of a plan, as a share of the height that a sheet has for plates."""
 LEAST = 60.0
 """Plans are usually not smaller than this (mm), whatever the sheet."""
-WHOLE_MACHINE = 2.2
-"""How many times larger plates of the whole machine are."""
-SMALLER, LARGER = 0.4, 3.0
-"""How many times as large as usual plates may become."""
-READABLE = 42.0
-"""The largest plan of a series is not drawn smaller than this (mm) unless it has no room else."""
+LARGER_PLATES = {"positions": 2.2, "indicator": 2.2, "scheme": 1.5}
+"""How many times larger plates are that show the whole machine."""
+SMALLER, LARGER = 0.6, 3.0
+"""How many times as large as usual the largest plate of a series may become."""
+READABLE = 38.0
+"""It is not drawn smaller than this (mm) either unless it has no room else."""
 ENOUGH = 0.6
 """A sheet is filled to this share at least."""
-SPARE = 0.015
+SPARE = 0.008
 """What estimates may be off."""
 BEGINNINGS = (1.0, 0.85, 1.15, 0.7, 1.3, 0.6, 1.5)
 """With plates so many times as large as usual the search begins."""
@@ -54,9 +54,7 @@ HEADING = 16.0
 HEAD_ROWS = 2
 WIDEST = 180.0
 """A table is so wide (mm) if it is to stand beside the title block of any sheet."""
-LOOSE = (1.0, 1.2, 1.4)
-"""How high the rows of a table may be, in heights of usual ones."""
-SHAPES = (1.4, 2.8)
+SHAPES = (1.0, 1.4, 2.8, 4.0)
 """Width over height of curves, beside the usual one."""
 STEPS = 3
 """So many steps finer or coarser are tried at once."""
@@ -83,6 +81,7 @@ class Search:
 
     def __init__(self, plates: Plates, chosen: Sequence[int], space: Room) -> None:
         self.plates, self.chosen, self.space = plates, chosen, space
+        self.estimates = Estimates(plates)
         self.series = [plates.series[index] for index in chosen]
         self.tried: dict[tuple[object, ...], tuple[float, list[Laid]]] = {}
         self.named: dict[tuple[int, float, Form], list[Part]] = {}
@@ -92,14 +91,11 @@ class Search:
         for one in self.series:
             if one.scale and one.size > (self.largest[one.scaled].size if one.scaled in self.largest else 0.0):
                 self.largest[one.scaled] = one
-        self.usual = {
-            key: usual * (WHOLE_MACHINE if one.is_whole_machine else 1.0) for key, one in self.largest.items()
-        }
+        self.usual = {key: usual * LARGER_PLATES.get(one.name, 1.0) for key, one in self.largest.items()}
         usual_form, *others = (
-            Form(wide, int((size.imag - 2 * GAP - HEADING) / (ENLARGED * ROW * loose)) - HEAD_ROWS, parts, loose)
+            Form(wide, int((size.imag - 2 * GAP - HEADING) / (ENLARGED * ROW)) - HEAD_ROWS, parts)
             for wide in (WIDEST, size.real - 2 * GAP)
             for parts in (1, 2, 3)
-            for loose in LOOSE
         )
         self.usual_form = usual_form
         self.forms: dict[int, list[Form]] = {}
@@ -125,14 +121,22 @@ class Search:
             self.tried.clear()
             self.tries = TRIES_IN_ROWS if in_rows else TRIES
             for choice in islice(self._promising(), attempts):
+                if in_rows and self._missing(choice):
+                    continue
                 parts = self._drawn(choice)
                 found.append(drawing.of(parts))
                 if found[-1][0] == 0.0:
-                    return [spread(one, self.space) for one in found[-1][1]]
+                    return self._spread(found[-1][1])
         missing, sheets = min(found, key=lambda one: one[0])
         if missing >= NEVER:
             raise TooLargeError(too_large(parts, self.space) or parts[0])
-        return [spread(one, self.space) for one in sheets]
+        return self._spread(sheets)
+
+    def _spread(self, sheets: Iterable[Laid]) -> list[tuple[Part, ...]]:
+        """The sheets with tables stretched and the white shared out."""
+        return [
+            spread(one.with_parts(_stretched(part, one.stretch) for part in one.parts), self.space) for one in sheets
+        ]
 
     @property
     def is_large(self) -> bool:
@@ -160,7 +164,7 @@ class Search:
         for key, one in self.largest.items():
             scale = nice_up(one.size / (share * self.usual[key]), one.steps)
             # A round scale may leave a plan much smaller than meant.
-            least = _readable(one)
+            least = self._readable(key)
             scales[key] = scale if one.size / scale >= least else nice_down(one.size / least, one.steps)
         return Choice(scales, dict.fromkeys(self.forms, self.usual_form))
 
@@ -209,7 +213,7 @@ class Search:
         self._missing(choice)
         sheets = self.tried[choice.key][1]
         names = [{int(part.name) for part in one.parts} for one in sheets]
-        empty = [filled(one.parts, self.space) < ENOUGH + SPARE for one in sheets]
+        empty = [one.share < ENOUGH + SPARE for one in sheets]
         here = {index for n, some in enumerate(names) if empty[n] for index in some}
         before = {index for n, some in enumerate(names[:-1]) if empty[n + 1] for index in some}
         near = dict.fromkeys(self.plates.series[index].scaled for some in (here, before) for index in some)
@@ -234,8 +238,12 @@ class Search:
         for _ in range(STEPS):
             finer, coarser = nice_down(0.99 * finer, one.steps), nice_up(1.01 * coarser, one.steps)
             for other in (finer, coarser):
-                if max(SMALLER * box, _readable(one)) <= one.size / other <= LARGER * box:
+                if self._readable(key) <= one.size / other <= LARGER * box:
                     yield other
+
+    def _readable(self, key: Key) -> float:
+        """What the largest plate at a scale is at least (mm)."""
+        return max(SMALLER * self.usual[key], READABLE * LARGER_PLATES.get(self.largest[key].name, 1.0))
 
     def _missing(self, choice: Choice) -> float:
         """What sheets miss of being full, as far as can be told without drawing them."""
@@ -252,7 +260,7 @@ class Search:
             form = choice.forms.get(index, self.usual_form)
             key = index, scale, form
             if key not in self.named:
-                some = self.plates.estimate(index, scale * PER_MM, form)
+                some = self.estimates.estimate(index, scale * PER_MM, form)
                 self.named[key] = list(self._with_headings(number, index, some))
             parts += self.named[key]
         return parts
@@ -262,7 +270,9 @@ class Search:
         title = self.plates.report.words["plates"][one.name]
         for name, place, scene in _numbered(number, plates):
             width, height = _head(f"{name}. {title}", place)
-            yield Part(str(index), one.layer, Scene(max(scene.width, width), scene.height + height))
+            yield Part(
+                str(index), one.layer, Scene(max(scene.width, width), scene.height + height), table=_table(one, scene)
+            )
 
     def _drawn(self, choice: Choice) -> list[Part]:
         """All plates in order, numbered."""
@@ -270,10 +280,11 @@ class Search:
         for number, index in enumerate(self.chosen, start=1):
             one = self.plates.series[index]
             scale = choice.scales.get(one.scaled, 0.0) * PER_MM
-            drawn = self.plates.draw(index, scale, choice.forms.get(index, self.usual_form))
+            drawn = self.estimates.draw(index, scale, choice.forms.get(index, self.usual_form))
             title = self.plates.report.words["plates"][one.name]
             for name, place, scene in _numbered(number, [(plate.place, plate.scene) for plate in drawn]):
-                parts.append(Part(name, one.layer, headed(scene, f"{name}. {title}", place)))
+                whole = headed(scene, f"{name}. {title}", place)
+                parts.append(Part(name, one.layer, whole, table=_table(one, scene)))
         return parts
 
 
@@ -283,9 +294,13 @@ def _numbered(series: int, plates: Sequence[tuple[str, Scene]]) -> Iterator[tupl
         yield f"{series}.{number}" if len(plates) > 1 else f"{series}", place, scene
 
 
-def _readable(one: Series) -> float:
-    """What the largest plate of a series is at least (mm)."""
-    return READABLE * (WHOLE_MACHINE if one.is_whole_machine else 1.0)
+def _stretched(part: Part, stretch: complex) -> Part:
+    return replace(part, scene=stretched(part.scene, part.table, stretch)) if part.table else part
+
+
+def _table(one: Series, scene: Scene) -> complex:
+    """What of a plate may be stretched."""
+    return complex(scene.width, scene.height) if one.layer == "tables" else 0j
 
 
 @lru_cache(maxsize=4096)

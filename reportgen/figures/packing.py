@@ -8,9 +8,10 @@ side; a spot is (to the right, down) from where the first one stands.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import accumulate, chain
+from typing import NamedTuple
 
 from reportgen.figures.sheet import GAP, Part, Room
 
@@ -18,20 +19,54 @@ Spot = tuple[float, float]
 
 EDGE = 1e-6
 """Rounding of places, mm."""
-AHEAD = 4
+AHEAD = 8
 """So many plates more than stand in order are tried in another order."""
 SWEEPS = 12
 """How often plates are moved to the middle between their neighbours."""
 NEVER = 1e6
 """How bad it is that a plate has no place on any sheet."""
 
+UNSTRETCHED = 1 + 1j
+STRETCHES = (
+    1 + 1.2j,
+    1.2 + 1j,
+    1.15 + 1.15j,
+    1.3 + 1j,
+    1 + 1.4j,
+    1.2 + 1.4j,
+    1.5 + 1j,
+    1.4 + 1.2j,
+    1.4 + 1.5j,
+    1.6 + 1.6j,
+)
+"""How much wider and higher than usual the tables of a sheet may be."""
+LEAVING = 8
+"""So many plates fewer than a sheet has room for are tried with tables stretched."""
 MOST = 0.9
 """No sheet can be filled more than this."""
 
-ORDERS: tuple[Callable[[tuple[float, float]], float], ...] = (
-    lambda size: -size[1],
-    lambda size: -size[0],
-    lambda size: -size[0] * size[1],
+
+class Size(NamedTuple):
+    """Of a part, and of the table in it, mm."""
+
+    width: float
+    height: float
+    wide: float = 0.0
+    tall: float = 0.0
+
+    @classmethod
+    def of(cls, part: Part) -> Size:
+        return cls(part.scene.width, part.scene.height, part.table.real, part.table.imag)
+
+    def stretched(self, stretch: complex) -> Size:
+        """With the table so many times as wide and as high; what stands above it stays."""
+        return Size(max(self.width, self.wide * stretch.real), self.height + self.tall * (stretch.imag - 1))
+
+
+ORDERS: tuple[Callable[[Size], float], ...] = (
+    lambda size: -size.height,
+    lambda size: -size.width,
+    lambda size: -size.width * size.height,
 )
 """Orders that leave less white than that of the work."""
 
@@ -56,12 +91,12 @@ class _Paper:
         return self.high if right <= self.beside + EDGE else self.above
 
 
-def _spots(sizes: Sequence[tuple[float, float]], paper: _Paper) -> list[Spot]:
+def _spots(sizes: Sequence[Size], paper: _Paper) -> list[Spot]:
     """The places of plates of some sizes, up to the first that has none."""
     # What stands already ends in steps: from lefts[n] to the next left it reaches down to lows[n].
     lefts, lows = [0.0], [0.0]
     spots: list[Spot] = []
-    for width, height in ((width + GAP, height + GAP) for width, height in sizes):
+    for width, height in ((width + GAP, height + GAP) for width, height, *_ in sizes):
         best: tuple[float, int, int] | None = None
         for step, left in enumerate(lefts):
             right = left + width
@@ -84,13 +119,13 @@ def _spots(sizes: Sequence[tuple[float, float]], paper: _Paper) -> list[Spot]:
     return spots
 
 
-def _rows(sizes: Sequence[tuple[float, float]], paper: _Paper) -> list[Spot]:
+def _rows(sizes: Sequence[Size], paper: _Paper) -> list[Spot]:
     """The places of plates in rows, up to the first that has none; below a low one may stand another in its row."""
     spots: list[Spot] = []
     top = height = 0.0
     left = right = low = 0.0
     """Of the last column in the row."""
-    for width, tall in ((width + GAP, height + GAP) for width, height in sizes):
+    for width, tall in ((width + GAP, height + GAP) for width, height, *_ in sizes):
         if right > 0.0 and low + tall <= top + height + EDGE and _fits(left, low, width, tall, paper):
             spots.append((left, low))
             right, low = max(right, left + width), low + tall
@@ -114,13 +149,15 @@ def _fits(left: float, top: float, width: float, tall: float, paper: _Paper) -> 
 
 @dataclass(frozen=True, slots=True)
 class Laid:
-    """The parts of one sheet with their spots."""
+    """The parts of one sheet with their spots and the share they fill, if its tables are stretched."""
 
     parts: tuple[Part, ...]
     spots: tuple[Spot, ...]
+    share: float
+    stretch: complex = UNSTRETCHED
 
-
-Size = tuple[float, float]
+    def with_parts(self, parts: Iterable[Part]) -> Laid:
+        return replace(self, parts=tuple(parts))
 
 
 @dataclass(slots=True)
@@ -146,13 +183,14 @@ class Dividing:
 
         What misses `NEVER` and more has a part that fits no sheet.
         """
-        sizes = [(part.scene.width, part.scene.height) for part in parts]
+        sizes = [Size.of(part) for part in parts]
         area = self.room.area
-        shares = [0.0, *accumulate(width * height / area for width, height in sizes)]
+        shares = [0.0, *accumulate(size.width * size.height / area for size in sizes)]
         found: Found = {len(parts): (0.0, [])}
         missing, sheets = self._best(sizes, shares, 0, found)
         return missing, [
-            Laid(tuple(parts[start + index] for index in order), spots) for start, (order, spots, _) in sheets
+            Laid(tuple(parts[start + index] for index in order), spots, share, stretch)
+            for start, (order, spots, share, stretch) in sheets
         ]
 
     def _best(self, sizes: list[Size], shares: list[float], start: int, found: Found) -> Best:
@@ -178,18 +216,33 @@ class Dividing:
         return self._kept[run]
 
     def _found(self, run: tuple[Size, ...]) -> Iterator[Filling]:
-        shares = list(accumulate(width * height / self.room.area for width, height in run))
+        shares = list(accumulate(size.width * size.height / self.room.area for size in run))
         rows = tuple(_rows(run, self.paper))
         yield from self._fewer(rows, shares, self.in_rows)
         if not self.in_rows:
             yield from self._fewer(tuple(_spots(run, self.paper)), shares, True)
+            rows = max(rows, tuple(_spots(run, self.paper)), key=len)
+        yield from self._stretched(run[: len(rows)])
+
+    def _stretched(self, run: tuple[Size, ...]) -> Iterator[Filling]:
+        """Plates that do not fill the sheet, its tables wider or higher so that they do."""
+        place = _rows if self.in_rows else _spots
+        for count in range(len(run), max(len(run) - LEAVING, 0), -1):
+            for stretch in STRETCHES if any(size.tall for size in run[:count]) else ():
+                sizes = [size.stretched(stretch) for size in run[:count]]
+                share = sum(size.width * size.height for size in sizes) / self.room.area
+                if self.enough <= share <= MOST:
+                    spots = place(sizes, self.paper)
+                    if len(spots) == count:
+                        yield tuple(range(count)), tuple(spots), share, stretch
+                        break
 
     def _fewer(self, spots: tuple[Spot, ...], shares: Sequence[float], at_least_all: bool) -> Iterator[Filling]:
         """All plates that have spots, then fewer of them, as long as they fill the sheet."""
         for count in range(len(spots), 0, -1):
             if shares[count - 1] < self.enough and not (at_least_all and count == len(spots)):
                 break
-            yield tuple(range(count)), spots[:count], shares[count - 1]
+            yield tuple(range(count)), spots[:count], shares[count - 1], UNSTRETCHED
 
     def _in_other_orders(self, run: tuple[Size, ...]) -> Iterator[Filling]:
         """More parts than stand in their order; they need not stand in rows."""
@@ -201,7 +254,7 @@ class Dividing:
 
     def _found_in_other_orders(self, run: tuple[Size, ...]) -> Iterator[Filling]:
         count = len(_spots(run, self.paper))
-        shares = list(accumulate(width * height / self.room.area for width, height in run))
+        shares = list(accumulate(size.width * size.height / self.room.area for size in run))
         for more in range(min(count + AHEAD, len(run)), count, -1):
             if not self.enough <= shares[more - 1] <= MOST:
                 continue
@@ -209,12 +262,12 @@ class Dividing:
                 turned = tuple(sorted(range(more), key=lambda index: order(run[index])))
                 spots = tuple(_spots([run[index] for index in turned], self.paper))
                 if len(spots) == more:
-                    yield turned, spots, shares[more - 1]
+                    yield turned, spots, shares[more - 1], UNSTRETCHED
                     break
 
 
-Filling = tuple[tuple[int, ...], tuple[Spot, ...], float]
-"""Which parts one sheet takes, counted from the first, their spots, and the share they fill."""
+Filling = tuple[tuple[int, ...], tuple[Spot, ...], float, complex]
+"""Which parts one sheet takes, counted from the first, their spots, the share they fill, and how tables stretch."""
 Best = tuple[float, list[tuple[int, Filling]]]
 """What sheets miss of being full, and where each begins with what it takes."""
 Found = dict[int, Best]
@@ -223,7 +276,7 @@ Found = dict[int, Best]
 def too_large(parts: Sequence[Part], room: Room) -> Part | None:
     """The first part that has no place on an empty sheet."""
     paper = _Paper.of(room)
-    return next((part for part in parts if not _spots([(part.scene.width, part.scene.height)], paper)), None)
+    return next((part for part in parts if not _spots([Size.of(part)], paper)), None)
 
 
 # --- white shared out -----------------------------------------------------------------------------

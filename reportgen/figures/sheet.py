@@ -16,12 +16,16 @@ GAP = 5.0
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A scene on a sheet with its lower left corner `at`; `name` groups its items, `layer` says what it shows."""
+    """A scene on a sheet with its lower left corner `at`; `name` groups its items, `layer` says what it shows.
+
+    `table` is the width and height of what of it may be stretched, nothing if it is no table.
+    """
 
     name: str
     layer: str
     scene: Scene
     at: complex = 0j
+    table: complex = 0j
 
     @property
     def box(self) -> tuple[complex, complex]:

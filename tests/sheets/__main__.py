@@ -1,16 +1,24 @@
-"""All assignments on all sizes, checked, with the least share that is filled: `python -m tests.sheets [A1 …]`."""
+"""All assignments on all sizes, checked, with the least share that is filled and the sheets that are emptier.
+
+python -m tests.sheets [--set kinematics|forces] [A1 …]
+"""
 
 from __future__ import annotations
 
-import sys
+import argparse
 
+from reportgen.document.plates import SETS
 from reportgen.figures.frame import SIZES
-from tests.sheets.handed_in import FULL, check
-from tests.sheets.laid import EVERY
+from tests.sheets.handed_in import FULL, check_but_filling
+from tests.sheets.laid import EVERY, drawn
 
-for size in sys.argv[1:] or SIZES:
-    shares = {name: check(name, size) for name in EVERY}
+parser = argparse.ArgumentParser(prog="python -m tests.sheets")
+parser.add_argument("sizes", nargs="*", default=list(SIZES))
+parser.add_argument("--set", choices=SETS, default="")
+options = parser.parse_args()
+names = [name for name in EVERY if drawn(name).of_sets([options.set] if options.set else [])]
+for size in options.sizes:
+    shares = {name: check_but_filling(name, size, options.set) for name in names}
     every = [share for some in shares.values() for share in some]
-    name = min(shares, key=lambda name: min(shares[name]))
-    below = sum(share < FULL for share in every)
-    print(f"{size}: {len(every)} sheets, {below} below {FULL:.0%}, least {min(every):.0%} ({name})")
+    below = {name: [n for n, share in enumerate(some, start=1) if share < FULL] for name, some in shares.items()}
+    print(f"{size}: {len(every)} sheets, least {min(every):.0%}", {name: some for name, some in below.items() if some})

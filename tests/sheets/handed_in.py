@@ -20,23 +20,51 @@ LEAST = 2.49
 """Height of capitals of the smallest letters, mm: 2.5 by ISO 3098, with the last digit of a font size."""
 FULL = 0.6
 """What of the free area of a sheet its plates take."""
-SMALL, NEARLY_ALL = 0.4, 0.75
-"""A few plates stand on an A3 sheet: of its sheets this share is full, and none is emptier than that."""
+WIDE_CAPTIONS: dict[str, dict[str, set[int]]] = {
+    "": {"engine-single-VII": {1}, "four-bar-01": {3}, "linkage-8": {3, 4, 5}, "scotch-yoke-01": {1}, "shaper-02": {2}},
+    "kinematics": {
+        "engine-single-VII": {1},
+        "four-bar-01": {3},
+        "linkage-8": {3, 4},
+        "scotch-yoke-01": {1},
+        "shaper-01": {4},
+        "shaper-02": {2},
+    },
+}
+"""By set, sheets A3 with plans of motion: of the next finer round scale fewer have room, at a coarser one they cannot
+be read, or a scheme and a position plan stand alone as no row of plans has room below them."""
+TALL: dict[str, dict[str, set[int]]] = {
+    "": {"engine-v-02": {9, 21}},
+    "forces": {
+        **{f"engine-single-{one}": {1} for one in ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")},
+        "engine-twin-05": {1},
+        "engine-v-02": {1, 13, 14},
+    },
+}
+"""By set, sheets A3 with an indicator diagram or polar diagrams, beside which the title block leaves little height."""
+
+
+def emptier(name: str, size: str, only: str) -> set[int]:
+    """The numbers of the sheets that no round scale was found to fill, for the reasons that docs/sheets.md tells."""
+    if size != "A3":
+        return set()
+    return {number for known in (WIDE_CAPTIONS, TALL) for number in known.get(only, {}).get(name, ())}
 
 
 def check(name: str, size: str, only: str = "") -> list[float]:
     """Check the sheets of an assignment; gives the share of each that is filled."""
+    shares = check_but_filling(name, size, only)
+    below = {number for number, share in enumerate(shares, start=1) if share < FULL}
+    assert below == emptier(name, size, only), (name, size, only, shares)
+    return shares
+
+
+def check_but_filling(name: str, size: str, only: str = "") -> list[float]:
     found = laid(name, size, only).sheets
     for number, sheet in enumerate(found, start=1):
         plates_keep_apart(sheet, f"{size}, sheet {number}")
         letters_and_pens_are_standard(sheet, f"{size}, sheet {number}")
-    shares = [filled(name, sheet) for sheet in found]
-    if size == "A3":
-        assert min(shares) >= SMALL, (size, shares)
-        assert sum(share >= FULL for share in shares) >= NEARLY_ALL * len(shares), (size, shares)
-    else:
-        assert min(shares) >= FULL, (size, shares)
-    return shares
+    return [filled(name, sheet) for sheet in found]
 
 
 def filled(name: str, sheet: Sheet) -> float:

@@ -44,6 +44,7 @@ def laid(name: str, size: str, only: str = "") -> Laid:
     return Laid(found.report.case, sheets_of(found, found.of_sets(sets), size, block_of(name)))
 
 
+@cache
 def block_of(name: str) -> TitleBlock:
     return read_block(blocks()[DEFAULT[drawn(name).report.case.assignment.language]])
 
