@@ -441,7 +441,7 @@ class Page:
         rows = tuple(tuple(map(Cell, row)) for row in self._answer_rows())
         columns = tuple(map(Column, ANSWER))
         head = (tuple(Cell((Text(str(text)),)) for text in words["answer_heads"]),)
-        return Table(columns, head, rows, (Text(str(words["answers"])),), "tab.answers")
+        return Table(columns, head, rows, (Text(str(words["answers"])),), "tab.answers", framed=True)
 
     def _answer_rows(self) -> Iterator[tuple[Inlines, Inlines, Inlines]]:
         ledger, motion = self.worked.ledger, self.case.exercise.motion

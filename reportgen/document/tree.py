@@ -135,7 +135,7 @@ class Cell:
 class Table:
     """A ruled table; where it continues on the next page, its number and its `head` rows repeat.
 
-    A cell spans columns only.
+    A cell spans columns only.  One that is `framed` has a frame around its head and rows, as a boxed answer has.
     """
 
     columns: tuple[Column, ...]
@@ -144,6 +144,7 @@ class Table:
     caption: Inlines = ()
     key: str = ""
     number: str = ""
+    framed: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -335,7 +335,8 @@ class _Blocks:
         rows = ",\n".join(_array(self.cell(cell, "X") for cell in row) for row in table.rows)
         whole = "0" if len(table.rows) <= layout.WHOLE_TABLE else str(layout.TOGETHER)
         again = self.again(self.words.table, table) if table.number else "none"
-        return f"#R({label},{again},{columns},{aligns},{head},{whole},\n{rows})" + _label(table.key)
+        framed = "framed:true," if table.framed else ""
+        return f"#R({framed}{label},{again},{columns},{aligns},{head},{whole},\n{rows})" + _label(table.key)
 
     def cell(self, cell: tree.Cell, spanned: str) -> str:
         body = self.content(cell.inlines)
