@@ -12,6 +12,7 @@ from reportgen.case import ExerciseCase
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_symbols import Literal, symbol
 from reportgen.document.exercise_figures import FIGURES
+from reportgen.document.exercise_views import GivenItem, StepView, WayView, lettered, pretty
 from reportgen.document.numbering import number
 from reportgen.document.prose import PointName, Prose
 from reportgen.document.tree import (
@@ -32,17 +33,7 @@ from reportgen.ledger.instant.steps import Step
 from reportgen.ledger.instant.vectors import Vector
 from reportgen.ledger.instant.write import Worked
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import (
-    Chain,
-    Expression,
-    Negative,
-    Number,
-    Symbol,
-    Term,
-    VectorEquation,
-    refs,
-    substitute,
-)
+from reportgen.notation.expressions import Chain, Expression, Negative, Number, Symbol, Term, VectorEquation, refs
 from reportgen.units import Given
 
 TYPED = 6
@@ -111,50 +102,6 @@ def names(case: ExerciseCase) -> Mapping[str, Any]:
         "expressions": page.expressions,
         "answers": page.answers,
     }
-
-
-@dataclass(frozen=True)
-class GivenItem:
-    """A given quantity: the key of its words, and what they name."""
-
-    form: str
-    point: PointName
-    body: int
-    value: Chain | Symbol
-    way: Inlines = ()
-
-
-@dataclass(frozen=True)
-class StepView:
-    """A step as templates name it."""
-
-    kind: str
-    body: int
-    point: PointName
-    base: PointName
-    centre: PointName
-    one: PointName
-    other: PointName
-    """The points whose normals meet in the centre."""
-    lines: tuple[Equation, ...]
-    equation: tuple[Equation, ...]
-    angles: tuple[Inlines, ...]
-    sense: str
-    way: str
-    place: Inlines
-    """The coordinates of the instant centre."""
-    system: tuple[Equation, ...]
-    results: tuple[Equation, ...]
-    contact: PointName | str
-    """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
-
-
-@dataclass(frozen=True)
-class WayView:
-    """A further solution as templates name it."""
-
-    name: str
-    steps: tuple[StepView, ...]
 
 
 @dataclass(frozen=True)
@@ -300,7 +247,7 @@ class Page:
         """The coordinates of a point in mm, or by symbols."""
         if self.case.literal is not None:
             x, y = (lettered(one) for one in self.case.literal.place(name))
-            return (InlineMath(x),), (InlineMath(y),)
+            return (InlineMath(x, slashed=True),), (InlineMath(y, slashed=True),)
         at = self.case.exercise.motion.system.points[name]
         return (Value(self._coordinate(at.real)),), (Value(self._coordinate(at.imag)),)
 
@@ -451,7 +398,7 @@ class Page:
                 continue
             symbol = (InlineMath(ledger.symbol(one.id)),)
             number, shown = ledger.number(one.id, AT), self._literal(one.id)
-            size: Inlines = (Value(number),) if self.put_in or shown is None else (InlineMath(shown),)
+            size: Inlines = (Value(number),) if self.put_in or shown is None else (InlineMath(shown, slashed=True),)
             if one.of_body:
                 rate = motion.omega(one.body) if one.what == "omega" else motion.epsilon(one.body)
                 yield symbol, size, (Text(self._sense(rate)),)
@@ -480,15 +427,5 @@ class Page:
             if not parts or (self.put_in and numbers[index].value):
                 parts.append(numbers[index])
             chain = Chain((Symbol(axis, centre.name), *parts))
-            shown += [*([Text("; ")] if shown else []), InlineMath(chain)]
+            shown += [*([Text("; ")] if shown else []), InlineMath(chain, slashed=True)]
         return tuple(shown)
-
-
-def lettered(formula: Expression) -> Expression:
-    """A formula over the names of symbols with the letters that are printed for them."""
-    return substitute(formula, lambda ref: symbol(ref.id))
-
-
-def pretty(typed: str) -> str:
-    """A unit as typed, with its powers raised: mm/s2 → mm/s²."""
-    return typed.replace("s2", "s²").replace("^", "")

@@ -40,9 +40,10 @@ class Strong:
 
 @dataclass(frozen=True, slots=True)
 class InlineMath:
-    """A symbol or a short formula inside a line."""
+    """A symbol or a short formula inside a line; `slashed` fractions keep the height of the line: 3 l/2."""
 
     expression: Expression
+    slashed: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -156,6 +156,8 @@ class _Writer:
                 return rf"\emph{{{self.inlines(of)}}}"
             case tree.Strong(of):
                 return rf"\textbf{{{self.inlines(of)}}}"
+            case tree.InlineMath(expression, True):
+                return LatexFormulas(self.language, slashed=True).content(expression)
             case tree.InlineMath(expression) | tree.Value(expression):
                 return self.formulas.content(expression)
             case tree.Reference(key, text):
