@@ -223,7 +223,7 @@ class Page(Solution):
         """The coordinates of a point in mm, or by symbols."""
         if self.case.literal is not None:
             x, y = (lettered(one) for one in self.case.literal.place(name))
-            return (InlineMath(x),), (InlineMath(y),)
+            return (InlineMath(x, slashed=True),), (InlineMath(y, slashed=True),)
         at = self.case.exercise.motion.system.points[name]
         return (Value(self._coordinate(at.real)),), (Value(self._coordinate(at.imag)),)
 
@@ -263,7 +263,7 @@ class Page(Solution):
         rows = tuple(tuple(map(Cell, row)) for row in self._answer_rows())
         columns = tuple(map(Column, ANSWER))
         head = (tuple(Cell((Text(str(text)),)) for text in words["answer_heads"]),)
-        return Table(columns, head, rows, (Text(str(words["answers"])),), "tab.answers")
+        return Table(columns, head, rows, (Text(str(words["answers"])),), "tab.answers", framed=True)
 
     def _answer_rows(self) -> Iterator[tuple[Inlines, Inlines, Inlines]]:
         ledger, motion = self.worked.ledger, self.case.exercise.motion
@@ -273,7 +273,7 @@ class Page(Solution):
                 continue
             symbol = (InlineMath(ledger.symbol(one.id)),)
             number, shown = ledger.number(one.id, AT), self._literal(one.id)
-            size: Inlines = (Value(number),) if self.put_in or shown is None else (InlineMath(shown),)
+            size: Inlines = (Value(number),) if self.put_in or shown is None else (InlineMath(shown, slashed=True),)
             if one.of_body:
                 rate = motion.omega(one.body) if one.what == "omega" else motion.epsilon(one.body)
                 yield symbol, size, (Text(self._sense(rate)),)

@@ -203,7 +203,7 @@ class Solution:
             if not parts or (self.put_in and numbers[index].value):
                 parts.append(numbers[index])
             chain = Chain((Symbol(axis, centre.name), *parts))
-            shown += [*([Text("; ")] if shown else []), InlineMath(chain)]
+            shown += [*([Text("; ")] if shown else []), InlineMath(chain, slashed=True)]
         return tuple(shown)
 
 

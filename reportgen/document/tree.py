@@ -40,9 +40,10 @@ class Strong:
 
 @dataclass(frozen=True, slots=True)
 class InlineMath:
-    """A symbol or a short formula inside a line."""
+    """A symbol or a short formula inside a line; `slashed` fractions keep the height of the line: 3 l/2."""
 
     expression: Expression
+    slashed: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +136,7 @@ class Cell:
 class Table:
     """A ruled table; where it continues on the next page, its number and its `head` rows repeat.
 
-    A cell spans columns only.
+    A cell spans columns only.  One that is `framed` has a frame around its head and rows, as a boxed answer has.
     """
 
     columns: tuple[Column, ...]
@@ -144,6 +145,7 @@ class Table:
     caption: Inlines = ()
     key: str = ""
     number: str = ""
+    framed: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -143,6 +143,8 @@ class Blocks:
                 return f"<em>{self.inlines(of)}</em>"
             case tree.Strong(of):
                 return f"<strong>{self.inlines(of)}</strong>"
+            case tree.InlineMath(expression, True):
+                return MathmlFormulas(self.language, slashed=True).content(expression)
             case tree.InlineMath(expression):
                 return self.formula(expression)
             case tree.Value(number):
@@ -201,8 +203,9 @@ class Blocks:
         aligns = [ALIGNS[column.align] for column in table.columns]
         head = "".join(f"<tr>{''.join(self.cells(row, aligns, 'th'))}</tr>" for row in table.head)
         rows = "\n".join(f"<tr>{''.join(self.cells(row, aligns, 'td'))}</tr>" for row in table.rows)
+        look = "ruled framed" if table.framed else "ruled"
         body = f"{f'<thead>{head}</thead>' if head else ''}<tbody>{rows}</tbody>"
-        return f'<div class="scroll tabled"{_id(table.key)}><table class="ruled">{shown}{body}</table></div>'
+        return f'<div class="scroll tabled"{_id(table.key)}><table class="{look}">{shown}{body}</table></div>'
 
     def cells(self, row: Sequence[tree.Cell], aligns: Sequence[str], name: str) -> Iterator[str]:
         column = 0

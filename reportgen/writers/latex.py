@@ -31,6 +31,8 @@ CAPTION = 15.0
 """About what a figure's caption takes, with the white around it (mm)."""
 OPENING, TITLE, ROW = 20, 14, 5.0
 """Approximate heights in mm: of the words before a table, of its caption, and of a row."""
+FRAME = r"\vrule width\heavyrulewidth"
+"""The side of a framed table."""
 LONG, SHORT = 42, 18
 """Of words with what they lead to: a vector equation in two storeys or the first step of a list, any other row."""
 
@@ -154,6 +156,8 @@ class _Writer:
                 return rf"\emph{{{self.inlines(of)}}}"
             case tree.Strong(of):
                 return rf"\textbf{{{self.inlines(of)}}}"
+            case tree.InlineMath(expression, True):
+                return LatexFormulas(self.language, slashed=True).content(expression)
             case tree.InlineMath(expression) | tree.Value(expression):
                 return self.formulas.content(expression)
             case tree.Reference(key, text):
@@ -279,6 +283,8 @@ class _Writer:
         from pylatex import LongTable, NoEscape
 
         columns = "".join(_column(column.width, column.align) for column in block.columns)
+        if block.framed:
+            columns = f"!{{{FRAME}}}{columns}!{{{FRAME}}}"
         environment = LongTable(NoEscape(columns), width=len(block.columns))
         head = self.head(block)
         if caption := self.caption(self.document.words.table, block):
@@ -294,13 +300,15 @@ class _Writer:
         unbroken = len(block.rows) <= layout.WHOLE_TABLE
         for index, row in enumerate(block.rows):
             end = r"\\*[0pt]"
-            if index < len(block.rows) - 1:
+            # A rule between rows would leave gaps in the sides of a frame.
+            if index < len(block.rows) - 1 and not block.framed:
                 # The first and the last rows never stand alone on a page.
                 together = unbroken or not layout.TOGETHER - 1 <= index < len(block.rows) - layout.TOGETHER
                 end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if together else 0}}}"
             environment.append(NoEscape(self.row(row, block.columns) + end))
+        framed = r"\framedtable" if block.framed else ""
         room = _command("tableroom", f"{_whole(block):g}mm") + _command("needed", f"{_height(block):g}mm")
-        return f"{room}\\begin{{belowfigures}}\\tablesize\n{environment.dumps()}\n\\end{{belowfigures}}"
+        return f"{room}\\begin{{belowfigures}}\\tablesize{framed}\n{environment.dumps()}\n\\end{{belowfigures}}"
 
     def head(self, block: tree.Table) -> str:
         # Every option is written out: a cell's text may begin with a bracket.

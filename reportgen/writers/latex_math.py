@@ -86,6 +86,7 @@ class LatexFormulas(Formulas):
 
     PLUS, MINUS, NEGATIVE = r"\binbreak+", r"\binbreak-", "-"
     TIMES, DOT, CROSS = r"\dotbreak\cdot", r"\cdot", r"\times"
+    SLASH = "/"
     FRACTION, RAISED, ROOT, ABSOLUTE = r"\frac{%s}{%s}", "^{%s}", r"\sqrt{%s}", r"\lvert %s\rvert "
 
     def text(self, text: str) -> str:

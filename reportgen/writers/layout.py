@@ -81,12 +81,15 @@ class Formulas(ABC):
     DOT: ClassVar[str]
     CROSS: ClassVar[str]
     FRACTION: ClassVar[str]
+    SLASH: ClassVar[str]
     RAISED: ClassVar[str]
     ROOT: ClassVar[str]
     ABSOLUTE: ClassVar[str]
 
-    def __init__(self, language: Language) -> None:
+    def __init__(self, language: Language, slashed: bool = False) -> None:
         self.language: Language = language
+        self.slashed = slashed
+        """Whether fractions are written in the line, a/b."""
 
     def content(self, content: Expression | str) -> str:
         """A formula in dollar signs, or a plain text."""
@@ -108,6 +111,8 @@ class Formulas(ABC):
                 return " ".join(self.pieces(node))
             case Negative(of):
                 return self.NEGATIVE + self.tight(of, PRODUCT)
+            case Fraction(top, bottom) if self.slashed:
+                return f"{self.tight(top, PRODUCT)}{self.SLASH}{self.tight(bottom, ATOM)}"
             case Fraction(top, bottom):
                 return self.FRACTION % (self.math(top), self.math(bottom))
             case Power(Call(name) as base, exponent) if name in NAMED:

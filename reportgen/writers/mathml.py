@@ -32,6 +32,7 @@ class MathmlFormulas(Formulas):
 
     PLUS, MINUS, NEGATIVE = '<mo form="infix">+</mo>', '<mo form="infix">−</mo>', '<mo form="prefix">−</mo>'
     TIMES, DOT, CROSS = '<mo form="infix">·</mo>', '<mo form="infix">·</mo>', '<mo form="infix">×</mo>'
+    SLASH = "<mo>/</mo>"
     FRACTION = "<mfrac><mrow>%s</mrow><mrow>%s</mrow></mfrac>"
     RAISED = "%s"
     ROOT = "<msqrt>%s</msqrt>"

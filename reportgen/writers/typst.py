@@ -36,6 +36,7 @@ def literal(text: str) -> str:
 class TypstFormulas(Formulas):
     PLUS, MINUS, NEGATIVE = "+", "−", "−"
     TIMES, DOT, CROSS = "dot.c", "dot.c", "times"
+    SLASH = '"/"'
     FRACTION, RAISED, ROOT, ABSOLUTE = "frac(%s, %s)", "^(%s)", "sqrt(%s)", "abs(%s)"
 
     def text(self, text: str) -> str:
@@ -264,8 +265,8 @@ class _Blocks:
                 return f"#emph{self.content(of)}"
             case tree.Strong(of):
                 return f"#strong{self.content(of)}"
-            case tree.InlineMath(expression):
-                return self.formula(expression)
+            case tree.InlineMath(expression, slashed):
+                return self.formula(expression, TypstFormulas(self.language, slashed))
             case tree.Value(number):
                 shown = literal(self.formulas.quantity(number))
                 return f"#box({shown})" if "/" in number.unit else f"#{shown}"
@@ -274,13 +275,13 @@ class _Blocks:
             case tree.LineBreak():
                 return "#linebreak()"
 
-    def formula(self, expression: Expression) -> str:
+    def formula(self, expression: Expression, formulas: TypstFormulas) -> str:
         """A formula in a line, which may break before "=" and between the terms of a sum only."""
         if not any(isinstance(node, Product) for node in walk(expression)) or isinstance(expression, Sum):
-            return self.formulas.content(expression)
+            return formulas.content(expression)
         parts = expression.parts if isinstance(expression, Chain) else (expression,)
-        printed = [self.formulas.math(part) for part in parts]
-        printed[-1] += self.formulas.note(expression)
+        printed = [formulas.math(part) for part in parts]
+        printed[-1] += formulas.note(expression)
         return " ".join(f"#box(${'= ' if index else ''}{part}$)" for index, part in enumerate(printed))
 
     def run_in(self, section: tree.Section) -> str:
@@ -335,7 +336,8 @@ class _Blocks:
         rows = ",\n".join(_array(self.cell(cell, "X") for cell in row) for row in table.rows)
         whole = "0" if len(table.rows) <= layout.WHOLE_TABLE else str(layout.TOGETHER)
         again = self.again(self.words.table, table) if table.number else "none"
-        return f"#R({label},{again},{columns},{aligns},{head},{whole},\n{rows})" + _label(table.key)
+        framed = "framed:true," if table.framed else ""
+        return f"#R({framed}{label},{again},{columns},{aligns},{head},{whole},\n{rows})" + _label(table.key)
 
     def cell(self, cell: tree.Cell, spanned: str) -> str:
         body = self.content(cell.inlines)

@@ -37,7 +37,7 @@ parameters:
 """
 
 
-@settings(max_examples=6, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=3, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.integers(-179, 180), st.integers(-179, 180))
 def test_expressions_come_to_the_numbers(tmp_path: Path, a: int, b: int) -> None:
     path = tmp_path / "file.yaml"

@@ -202,7 +202,11 @@ def built_words(language: str, kind: str, file: str) -> set[tuple[Any, ...]]:
 
 def test_every_word_is_used() -> None:
     """Where the code reads a table by a computed key, the table's keys are those that can be computed."""
-    sources = [*(built.ROOT / "reportgen").rglob("*.py"), *TEMPLATES.rglob("*.md")]
+    sources = [
+        *(built.ROOT / "reportgen").rglob("*.py"),
+        *TEMPLATES.rglob("*.md"),
+        *(TEMPLATES / "frames" / "html").iterdir(),
+    ]
     code = "\n".join(path.read_text(encoding="utf-8") for path in sources)
     words = load_words(search_path("en"))
     assert words["document"].keys() == {field.name for field in fields(Words)}

@@ -52,3 +52,26 @@ def body_of(page: Any) -> Any:
 def text_of(*blocks: Block) -> str:
     """The text of the pages that Typst makes of these blocks, without header and footer."""
     return plain("\n".join(page.get_text(clip=body_of(page)) for page in by_typst(*blocks)))
+
+
+def sides(pages: pymupdf.Document) -> list[float]:
+    """Where upright lines stand that reach from the top of what is ruled to its foot (mm from the left), one each."""
+    lines: dict[float, list[tuple[float, float]]] = {}
+    level: list[float] = []
+    for drawing in (drawing for page in pages for drawing in page.get_drawings()):
+        rect = drawing["rect"]
+        if rect.y0 < 20 * MM:
+            continue  # the rule of the header
+        if rect.width < 1 < rect.height:
+            lines.setdefault(round(rect.x0 / MM, 1), []).append((rect.y0, rect.y1))
+        elif rect.height < 1 < rect.width:
+            level.append(rect.y0)
+    top, foot = min(level), max(level)
+    whole = []
+    for x, pieces in lines.items():
+        pieces.sort()
+        ends = [top, *(end for _, end in pieces)]
+        # A rule may stand between two pieces.
+        if all(start - end < 1 for (start, _), end in zip(pieces, ends, strict=False)) and foot - ends[-1] < 1:
+            whole.append(x)
+    return sorted(whole)

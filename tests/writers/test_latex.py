@@ -27,7 +27,7 @@ from reportgen.notation.expressions import Chain, Expression, Number, Product, S
 from reportgen.writers import latex, pdflatex
 from reportgen.writers.latex_math import MATHEMATICAL, TEXTUAL, escape
 from tests.writers import sample
-from tests.writers.pages import MM, by_latex, document, needs_tex, opened
+from tests.writers.pages import MM, by_latex, document, needs_tex, opened, sides
 
 
 def folded(text: str) -> str:
@@ -165,6 +165,14 @@ def test_blocks_inside_a_list_and_texts_that_look_like_options() -> None:
     text = folded(opened(done.pdf)[0].get_text())
     for words in ("[f] xem (9.9)", "[g]", "*[h]", "[2mm]", "[k] dưới"):
         assert folded(words) in text
+
+
+@needs_tex
+def test_a_framed_table_has_sides_that_reach_from_rule_to_rule() -> None:
+    table = Table((Column(30), Column(30)), (sample.cells("a", "b"),), (sample.cells("1", "2"),) * 3)
+    assert sides(opened(pdflatex.compile(latex.write(document(table))).pdf)) == []
+    left, right = sides(opened(pdflatex.compile(latex.write(document(replace(table, framed=True)))).pdf))
+    assert right - left == pytest.approx(60, abs=1)
 
 
 @needs_tex

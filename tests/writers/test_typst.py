@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -31,7 +32,7 @@ from reportgen.writers import typst, typst_run
 from reportgen.writers.layout import in_rows
 from reportgen.writers.typst import literal
 from tests.writers import sample
-from tests.writers.pages import MM, body_of, by_typst, opened, plain, text_of
+from tests.writers.pages import MM, body_of, by_typst, opened, plain, sides, text_of
 
 
 @cache
@@ -132,6 +133,13 @@ def test_the_cover_says_everything_as_typed() -> None:
     (page,) = by_typst(Cover((text,) * 2, (text,) * 2, (text,), ((text, text),), text))
     assert plain(page.get_text()).count(plain(text)) == 8
     assert "Trang" not in page.get_text()
+
+
+def test_a_framed_table_has_sides_that_reach_from_rule_to_rule() -> None:
+    table = Table((Column(30), Column(30)), (sample.cells("a", "b"),), (sample.cells("1", "2"),) * 3)
+    assert sides(by_typst(table)) == []
+    left, right = sides(by_typst(replace(table, framed=True)))
+    assert right - left == pytest.approx(60, abs=1)
 
 
 def test_what_is_empty_stays_quiet() -> None:

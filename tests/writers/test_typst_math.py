@@ -29,6 +29,7 @@ from reportgen.notation.expressions import (
     Term,
     VectorEquation,
 )
+from reportgen.writers.latex_math import LatexFormulas
 from reportgen.writers.typst import TypstFormulas
 from tests.writers import sample
 from tests.writers.pages import MM, body_of, by_typst, plain, text_of
@@ -150,3 +151,11 @@ def test_unknowns_of_a_vector_equation_stand_under_their_terms() -> None:
     assert len(marks) == 4
     relation = next(x for word, x, _ in words if "=" in word)
     assert sum(x < relation for _, x in marks) == 2
+
+
+def test_slashed_fractions_keep_what_they_divide_by_together() -> None:
+    a, b, c = Symbol("a"), Symbol("b"), Symbol("c")
+    for writer, mark in ((TypstFormulas("en", slashed=True), '"/"'), (LatexFormulas("en", slashed=True), "/")):
+        assert writer.math(Fraction(a, b)) == f"{writer.math(a)}{mark}{writer.math(b)}"
+        assert writer.math(Fraction(a, Product((b, c)))).endswith(f"{mark}({writer.math(Product((b, c)))})")
+        assert writer.math(Fraction(Sum((a, b)), c)) == f"({writer.math(Sum((a, b)))}){mark}{writer.math(c)}"
