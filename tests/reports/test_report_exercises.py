@@ -18,6 +18,7 @@ from reportgen.document.exercise_steps import lettered
 from reportgen.document.tree import Document, Equation, text_of
 from reportgen.notation.expressions import Chain
 from reportgen.notation.numbers import write
+from tests.reports import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 FILES = sorted(FOLDER.glob("*.yaml"))
@@ -30,7 +31,7 @@ def document(path: Path, language: Any) -> Document:
     return solution(ExerciseCase(api.load(path, language)))
 
 
-@pytest.mark.parametrize("engine", ["typst", "latex"])
+@pytest.mark.parametrize("engine", built.ENGINE_CASES)
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_every_exercise_builds(path: Path, language: Any, engine: Any) -> None:
