@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import pytest
 
 from reportgen.document.tree import Plate
 from reportgen.figures.scene import Arrow, Scene
+from reportgen.notation.numbers import Language
 from reportgen.writers.drawing import arrow_head
 from tests.page.browser import Browser
 from tests.page.made import made
@@ -32,7 +34,7 @@ def shafts(scene: Scene) -> list[complex]:
 
 
 @pytest.mark.parametrize(("path", "language"), CASES)
-def test_segments_are_printed_in_their_length(path, language, browser: Browser) -> None:  # type: ignore[no-untyped-def]
+def test_segments_are_printed_in_their_length(path: Path, language: Language, browser: Browser) -> None:
     pymupdf = pytest.importorskip("pymupdf")
     browser.show(made(path, language).file)
     with pymupdf.open(stream=browser.printed(), filetype="pdf") as printed:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Any
+from typing import Any, cast
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion import Exercise
@@ -146,7 +146,8 @@ class LiteralMotion:
         found = {}
         for index, body in enumerate(self.bodies):
             turn, x, y = unknowns[3 * index : 3 * index + 3]
-            found[body] = Rates(turn, Plane(x, y))  # type: ignore[arg-type]
+            # A `Plane` is added and multiplied as the complex number whose place it takes.
+            found[body] = Rates(cast("float", turn), cast("complex", Plane(x, y)))
         return found
 
     def _row(self, condition: Condition) -> list[Algebraic]:
