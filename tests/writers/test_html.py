@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from reportgen.document.tree import Equation, InlineMath, Paragraph, Section, Text, formula
+from reportgen.figures.metrics import POINT, SCRIPT, SMALL_CUT, box
 from reportgen.figures.scene import Arrow, Circle, Label, Line, Scene
 from reportgen.notation.expressions import Expression, Number, Power, Product, Sum, Symbol, VectorEquation, walk
 from reportgen.notation.numbers import Language
@@ -161,6 +162,24 @@ def test_labels_are_text_and_stand_at_their_anchors() -> None:
     # The base line of a label that stands on its anchor is at most its depth above it.
     assert 0 <= 60 - 30 - float(str(texts[2].get("y"))) < 1.5
     assert str(texts[3].get("transform")).startswith("rotate(-90")
+
+
+@pytest.mark.parametrize(("below", "above", "first"), [("CB", "n", "n"), ("1", "τqt", "1"), ("CB", "", "CB")])
+def test_an_index_stands_under_an_exponent(below: str, above: str, first: str) -> None:
+    """The wider one comes last and begins where the narrower did, so that what follows stands behind both."""
+    label = Label(0j, Symbol("a", below, above), size=10.0)
+    text = ElementTree.fromstring(Painter("vi", Pens()).label(label))
+    letter, *scripts = text.iter("tspan")
+    assert letter.text == "a"
+    assert scripts[0].text == first
+    assert {script.text for script in scripts} == {below, above} - {""}
+    assert scripts[0].get("dx") is None
+    for script in scripts[1:]:
+        # Attributes count in the font size of the script itself.
+        narrower = box(Symbol("", first), 10.0).width / SMALL_CUT
+        assert float(str(script.get("dx")).removesuffix("em")) * SCRIPT * 10.0 * POINT == pytest.approx(
+            -narrower, abs=1e-3 * 10.0
+        )
 
 
 def test_pens_are_classes_that_follow_light_and_dark() -> None:
