@@ -13,7 +13,18 @@ import pytest
 from reportgen.document.tree import Equation, InlineMath, Paragraph, Section, Text, formula
 from reportgen.figures.metrics import POINT, SCRIPT, SMALL_CUT, box
 from reportgen.figures.scene import Arrow, Circle, Label, Line, Scene
-from reportgen.notation.expressions import Expression, Number, Power, Product, Sum, Symbol, VectorEquation, walk
+from reportgen.notation.expressions import (
+    Expression,
+    Fraction,
+    Number,
+    Power,
+    Product,
+    Sum,
+    Symbol,
+    VectorEquation,
+    cos,
+    walk,
+)
 from reportgen.notation.numbers import Language
 from reportgen.writers import html
 from reportgen.writers.mathml import MathmlFormulas
@@ -57,6 +68,19 @@ def test_parentheses_stand_where_a_line_would_be_misread() -> None:
     assert said(parsed(Power(Sum((a, b)), Number(2.0)))) == "(a+b)2"
     assert said(parsed(Product((a, Number(-1.5))))) == "a·(−1,5)"
     assert said(parsed(Product((a, Number(-1.5))), "en")) == "a·(−1.5)"
+
+
+def test_parentheses_stretch_only_about_what_is_high() -> None:
+    low, high = Sum((Symbol("x"), Symbol("y"))), Sum((Symbol("x"), Fraction(Symbol("a"), Symbol("b"))))
+    for inner, stretched in ((low, False), (high, True)):
+        marks = [one for one in parsed(Product((Symbol("k"), inner))).iter("mo") if one.text in ("(", ")")]
+        assert len(marks) == 2
+        assert all((mark.get("stretchy") != "false") is stretched for mark in marks)
+
+
+def test_a_function_stands_apart_from_its_letter() -> None:
+    assert [one.get("width") for one in parsed(cos(Symbol("α", "2"))).iter("mspace")] == ["0.17em"]
+    assert not list(parsed(cos(Sum((Symbol("α"), Symbol("β"))))).iter("mspace"))
 
 
 def test_displayed_rows_break_where_the_tree_breaks_them() -> None:
