@@ -180,7 +180,7 @@ class LatexFormulas(Formulas):
         lines = ["&" + "&".join(f"{sign}&{shown}" for sign, shown, _ in terms)]
         for row, name in enumerate(rows):
             entries = (known[row] if row < len(known) else "" for _, _, known in terms)
-            known = "&".join(rf"&\known{{{self.content('?' if e is None else e)}}}" for e in entries)
+            known = "&".join(rf"&\known{{{self.known(e)}}}" for e in entries)
             lines.append(rf"\rowname{{{escape(name)}}}&{known}")
         if rows:
             lines[1] = rf"\cline{{2-{2 * len(terms) + 1}}}{lines[1]}"

@@ -324,7 +324,7 @@ class _Blocks:
         terms = []
         for sign, shown, known in self.formulas.columns(equation):
             known = (*known, *("",) * (len(equation.rows) - len(known)))
-            entries = (self.formulas.content("?" if e is None else e) for e in known[: len(equation.rows)])
+            entries = map(self.formulas.known, known[: len(equation.rows)])
             terms.append(_array((f"${sign}$", f"${shown}$", *entries)))
         return ",".join((_array(map(literal, equation.rows)), *terms))
 
