@@ -180,6 +180,8 @@ class Solution:
         if self.worked.ledger[id].definition is None:
             formula = [chain.parts[0]]
         result = chain.parts[-1:] if self.put_in or (found is None and len(formula) == 1) else ()
+        if isinstance(found, Number) and found.value == 0 and result:
+            found = None
         steps = [*formula, *([] if found is None else [found]), *result]
         return Chain(tuple(one for place, one in enumerate(steps) if place == 0 or one != steps[place - 1]))
 

@@ -145,7 +145,9 @@ class LatexFormulas(Formulas):
         return opening + inner + closing
 
     def chain(self, node: Chain) -> str:
-        return "".join(self.aligned(node))
+        """In a line it may break before a second "=", not before the first."""
+        left, rest = self.aligned(node)
+        return left + rest.replace(r" \relbreak= ", " = ", 1)
 
     def aligned(self, node: Expression) -> tuple[str, str]:
         """A displayed line cut at its first relation: what stands left of it, and the rest.

@@ -310,15 +310,17 @@ def _flat(node: Expression) -> Expression:
 def leads(block: Block, following: Block | None, language: Language) -> bool:
     """Whether a block must stay with the next one: a text that ends in a colon or whose sentence goes on there.
 
-    A vector equation stays with the text that says how it is solved.
+    A vector equation stays with the text that says how it is solved, and any equation with a table that sums it up.
     """
     if following is None or isinstance(following, (PageBreak, Plate)):
         return False
     match block:
         case List(items=(*_, (*_, Paragraph(inlines)))):
             return isinstance(following, Equation) and plain(inlines, language).endswith(":")
-        case Equation(rows=(VectorEquation(), *_)):
+        case Equation(rows=(VectorEquation(), *_)) if isinstance(following, Paragraph):
             return leads(following, block, language)
+        case Equation():
+            return isinstance(following, Table)
         case Paragraph(inlines):
             text = plain(inlines, language).rstrip()
             goes_on = isinstance(following, (Equation, List, Table))
