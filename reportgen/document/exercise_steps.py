@@ -46,6 +46,8 @@ class StepView:
     way: str
     place: Inlines
     """The coordinates of the instant centre."""
+    frame: int
+    """The body that the motion is seen from."""
     system: tuple[Equation, ...]
     results: tuple[Equation, ...]
     along: Symbol
@@ -116,6 +118,7 @@ class Solution:
             self._sense(rate) if rate else str(self.case.words["instant"]["no_sense"]),
             self._heading(step),
             self._coordinates(step.body) if centre is not None and centre.rule == "normals" else (),
+            step.frame,
             (Equation(step.system),) if step.system else (),
             (Equation(step.results),) if step.results else (),
             self.axes.symbol(step, "ξ"),

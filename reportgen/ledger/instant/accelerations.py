@@ -10,6 +10,7 @@ from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_places import direction, unit
 from reportgen.ledger.instant.speeds import Board
 from reportgen.ledger.instant.steps import COORDINATES, Axis, Equation, Step
+from reportgen.ledger.instant.trains import by_train
 from reportgen.ledger.instant.vectors import Vector, components, solved_for, towards
 from reportgen.notation.expressions import Symbol, sqrt, total
 from reportgen.plane_motion.conditions import GROUND
@@ -79,7 +80,7 @@ def _next(parts: Parts) -> bool:
             return True
         if _by_base(parts, body, names):
             return True
-    if _by_rims(parts):
+    if _by_rims(parts) or by_train(board, "eps"):
         return True
     joints = board.layout.given.joints
     return any(_slot(parts, joint) for joint in joints if isinstance(joint, file.SlotJoint) and joint.on)
@@ -186,12 +187,7 @@ def _path(parts: Parts, point: str, body: int) -> Path | None:
         u = layout.slots[point]
         return Path((), Vector(f"a.{point}", u if (u.conjugate() * actual).real >= 0 else -u))
     for other, centre in layout.centres.items():
-        if (
-            other != body
-            and centre.rule == "pivot"
-            and point in layout.members[other]
-            and board.knows(f"omega.{other}")
-        ):
+        if other != body and centre.rule == "pivot" and point in layout.own(other) and board.knows(f"omega.{other}"):
             normal, tangential = _relative(parts, other, point, centre.name)
             lines = _enter_normal(parts, other, point, centre.name, normal)
             return Path(parts.nonzero(normal), tangential, other, centre.name, lines)

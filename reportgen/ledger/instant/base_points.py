@@ -101,7 +101,8 @@ def _point(board: Board, body: int, point: str, base: str) -> bool:
             axes.append(Axis(name, axis, point))
             lines = (*lines, one.id)
     if not squares:
-        return False
+        q.give(f"v.{point}", 0.0)
+        return True
     q.define(f"v.{point}", sqrt(total(squares)))
     whole = board.velocity(point)
     equation = Equation((whole,), tuple(parts), (whole.id,))

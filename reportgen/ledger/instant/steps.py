@@ -55,6 +55,8 @@ class Step:
     equation: Equation | None = None
     axes: tuple[Axis, ...] = ()
     """What the equation is projected on, in the order of the lines."""
+    frame: int = 0
+    """The moving body that the motion is seen from."""
     system: tuple[Chain, ...] = ()
     """Equations that are solved together, with their numbers."""
     results: tuple[Chain, ...] = ()
@@ -62,4 +64,4 @@ class Step:
 
     @property
     def of_accelerations(self) -> bool:
-        return self.kind.startswith(("acceleration", "system-eps"))
+        return self.kind.startswith(("acceleration", "system-eps", "train-eps"))

@@ -75,7 +75,9 @@ class Loops:
 
     def bodies(self) -> Iterator[tuple[int, list[str]]]:
         layout = self.board.layout
-        for body, names in layout.members.items():
+        for body in layout.members:
+            # Points of contact move alike at the instant; their accelerations differ.
+            names = layout.members[body] if self.what == "omega" else layout.own(body)
             centre = layout.centres.get(body)
             pivot = [centre.name] if centre is not None and centre.rule == "pivot" else []
             guided = centre is not None and centre.by_joint and not pivot
