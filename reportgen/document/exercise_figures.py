@@ -128,11 +128,10 @@ def _rails(case: ExerciseCase, points: dict[str, complex]) -> Iterator[instant.R
 def _slots(case: ExerciseCase, points: dict[str, complex]) -> Iterator[tuple[complex, complex]]:
     """The lines of moving bodies along which points slide, from the body's own point on to beyond the block."""
     given, system = case.exercise.given, case.exercise.motion.system
-    for joint in given.joints:
-        if isinstance(joint, file.SlotJoint) and joint.on != GROUND:
-            u, at = direction(joint, system.points), points[joint.point]
-            along = [(u.conjugate() * (points[name] - at)).real for name in system.bodies[joint.on]]
-            yield at + (min(*along, 0.0) - instant.BEYOND) * u, at + (max(*along, 0.0) + instant.BEYOND) * u
+    for joint in given.slots:
+        u, at = direction(joint, system.points), points[joint.point]
+        along = [0.0, *((u.conjugate() * (points[name] - at)).real for name in system.bodies[joint.on])]
+        yield at + (min(along) - instant.BEYOND) * u, at + (max(along) + instant.BEYOND) * u
 
 
 def _cords(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iterator[tuple[complex, complex]]:

@@ -29,6 +29,8 @@ BEFORE, AFTER = 5.0, 14.0
 AXIS_HEAD = 2.0
 DRIVER_ARROW = 7.0
 """Radius (mm) of the arrow of an angular velocity."""
+ARROWS_APART = 3.2
+"""Between the arrows of several bodies about one point."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,13 +140,13 @@ def instant(drawn: Drawn, notes: Sequence[Content] = ()) -> Scene:
     for axis in drawn.axes:
         tip, across = axis.end + AFTER * axis.way, cmath.phase(1j * axis.way)
         requests.append(label((tip, tip - 2 * axis.way), axis.symbol, prefer=(across, across + cmath.pi), gap=0.8))
-    for rotation in drawn.rotations:
+    for index, rotation in enumerate(drawn.rotations):
         start = 0.6 if rotation.sense > 0 else 2.5
         stop = start + rotation.sense * 1.9
-        items.append(Arc(rotation.at, DRIVER_ARROW, start, stop, Stroke(0.25), style.HEAD))
-        ends = [
-            rotation.at + DRIVER_ARROW * cmath.exp(1j * (start + (stop - start) * share)) for share in (0.5, 0.8, 0.2)
-        ]
+        inner = sum(abs(other.at - rotation.at) < TOGETHER for other in drawn.rotations[:index])
+        radius = DRIVER_ARROW + inner * ARROWS_APART
+        items.append(Arc(rotation.at, radius, start, stop, Stroke(0.25), style.HEAD))
+        ends = [rotation.at + radius * cmath.exp(1j * (start + (stop - start) * share)) for share in (0.5, 0.8, 0.2)]
         requests.append(label(ends, rotation.symbol, prefer=((start + stop) / 2,)))
     draft = settle(Draft(tuple(items), tuple(requests)))
     if drawn.coordinates:

@@ -8,7 +8,7 @@ from itertools import permutations
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_places import direction, unit
-from reportgen.ledger.instant.speeds import Board
+from reportgen.ledger.instant.speeds import Board, enter_blocks
 from reportgen.ledger.instant.steps import COORDINATES, Axis, Equation, Step
 from reportgen.ledger.instant.trains import by_train
 from reportgen.ledger.instant.vectors import Vector, components, solved_for, towards
@@ -68,7 +68,11 @@ def _given(parts: Parts) -> None:
 def _held(board: Board, body: int) -> bool:
     """Whether a joint keeps a body from turning, not only at the instant."""
     joints = board.layout.given.joints
-    return any(isinstance(one, file.Slider | file.Translation) and one.body == body for one in joints)
+    return any(
+        one.body == body and (isinstance(one, file.Translation) or one.on == GROUND)
+        for one in joints
+        if isinstance(one, file.Slider | file.Translation)
+    )
 
 
 def _next(parts: Parts) -> bool:
@@ -82,8 +86,7 @@ def _next(parts: Parts) -> bool:
             return True
     if _by_rims(parts) or by_train(board, "eps"):
         return True
-    joints = board.layout.given.joints
-    return any(_slot(parts, joint) for joint in joints if isinstance(joint, file.SlotJoint) and joint.on)
+    return any(_slot(parts, joint) for joint in board.layout.given.slots) or enter_blocks(board, "eps")
 
 
 # --- about a known point --------------------------------------------------------------------------

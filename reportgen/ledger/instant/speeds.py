@@ -107,7 +107,20 @@ def by_parallels(board: Board) -> bool:
 
 def by_moving_frame(board: Board) -> bool:
     """One more point along a line of a moving body."""
-    return any(_slot(board, joint) for joint in board.layout.given.joints if isinstance(joint, file.SlotJoint))
+    given = board.layout.given
+    return any(_slot(board, joint) for joint in given.slots) or enter_blocks(board, "omega")
+
+
+def enter_blocks(board: Board, what: str) -> bool:
+    """One more body that turns as the one does along whose guide it slides; `what` is omega or eps."""
+    for joint in board.layout.given.joints:
+        if isinstance(joint, file.Slider) and joint.on:
+            for known, new in permutations((joint.body, joint.on)):
+                if board.knows(f"{what}.{known}") and not board.knows(f"{what}.{new}"):
+                    id = board.q.define(f"{what}.{new}", board.q[f"{what}.{known}"]).id
+                    board.steps.append(Step(f"block-{what}", (id,), new, frame=known))
+                    return True
+    return False
 
 
 def _by_belt(board: Board) -> bool:
@@ -219,7 +232,7 @@ def _parallel(board: Board, body: int, names: list[str]) -> bool:
 def _slot(board: Board, joint: file.SlotJoint) -> bool:
     """v_P = v_X + v_PX + v_r for a point P on a line of a body with a known point X, with two unknown sizes."""
     body, point, q, layout = joint.on, joint.point, board.q, board.layout
-    if not body or board.knows(f"v.{point}.r"):
+    if board.knows(f"v.{point}.r"):
         return False
     base = _base(board, body)
     if base is None or not (board.knows(f"v.{point}") or board.knows(f"omega.{body}")):

@@ -64,4 +64,4 @@ class Step:
 
     @property
     def of_accelerations(self) -> bool:
-        return self.kind.startswith(("acceleration", "system-eps", "train-eps"))
+        return self.kind.startswith(("acceleration", "system-eps", "train-eps", "block-eps"))

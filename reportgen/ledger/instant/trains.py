@@ -103,10 +103,13 @@ def _relation(what: str, pair: Pair, radii: list[Ref]) -> Chain:
     """(ω₁ − ω_c) r₁ = −(ω₂ − ω_c) r₂."""
     sides: list[Expression] = []
     for body, radius in zip(pair.discs, radii, strict=True):
-        arm = Negative(_symbol(what, pair.arm))
-        against: Expression = arm if body == GROUND else Sum((_symbol(what, body), arm))
-        sides.append(Product((against, vocabulary.symbol(radius.id))))
-    return Chain((sides[0], sides[1] if pair.alike else Negative(sides[1])))
+        arm, r = _symbol(what, pair.arm), vocabulary.symbol(radius.id)
+        against = Sum((_symbol(what, body), Negative(arm)))
+        sides.append(Negative(Product((arm, r))) if body == GROUND else Product((against, r)))
+    first, second = sides
+    if not pair.alike:
+        second = second.of if isinstance(second, Negative) else Negative(second)
+    return Chain((first, second))
 
 
 def _symbol(what: str, body: int) -> Symbol:
