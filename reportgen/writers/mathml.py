@@ -193,7 +193,7 @@ class MathmlFormulas(Formulas):
             # Of a last "= 0" the sign stands as a plain letter between two terms.
             term = self.sign(sign) + shown.replace("> =", f">{EQUALS}")
             entries = [*known, *("",) * (len(equation.rows) - len(known))][: len(equation.rows)]
-            found.append((term, [self.content("?" if entry is None else entry) for entry in entries]))
+            found.append((term, [self.known(entry) for entry in entries]))
         return found
 
     def sign(self, sign: str) -> str:
