@@ -26,9 +26,9 @@ USUAL = 0.16
 """The largest side of a plan, as a share of the height that a sheet has for plates."""
 LEAST = 60.0
 """Plans are usually not smaller than this (mm), whatever the sheet."""
-LARGER_PLATES = {"positions": 2.2, "indicator": 2.2, "scheme": 1.5}
-"""How many times larger plates are that show the whole machine."""
-SMALLER, LARGER = 0.6, 3.0
+LARGER_PLATES = {"positions": 2.2, "indicator": 2.2, "scheme": 1.2, "polar": 1.5}
+"""How many times larger plates are that show the whole machine, or so much that they need it."""
+SMALLER, LARGER = 0.6, 1.7
 """How many times as large as usual the largest plate of a series may become."""
 READABLE = 38.0
 """It is not drawn smaller than this (mm) either unless it has no room else."""
@@ -40,8 +40,8 @@ BEGINNINGS = (1.0, 0.85, 1.15, 0.7, 1.3, 0.6, 1.5)
 """With plates so many times as large as usual the search begins."""
 ATTEMPTS = 25
 """How often sheets are drawn and, where they came out emptier than estimated, estimated anew."""
-ATTEMPTS_IN_ROWS = 3
-TRIES_IN_ROWS, TRIES = 250, 2500
+ATTEMPTS_IN_ROWS = 8
+TRIES_IN_ROWS, TRIES = 800, 2500
 """So many scales are tried at most."""
 LARGE = 300.0
 """A sheet with more height than this (mm) for plates takes some rows of them."""
@@ -116,8 +116,8 @@ class Search:
             raise TooLargeError(replace(large, name=str(self.chosen.index(int(large.name)) + 1)))
         found: list[tuple[float, list[Laid]]] = []
         for in_rows, attempts in ((True, ATTEMPTS_IN_ROWS if self.is_large else 0), (False, ATTEMPTS)):
-            self.estimating = Dividing(self.space, ENOUGH + SPARE, in_rows)
-            drawing = Dividing(self.space, ENOUGH, in_rows)
+            self.estimating = Dividing(self.space, ENOUGH + SPARE, in_rows, not self.is_large)
+            drawing = Dividing(self.space, ENOUGH, in_rows, not self.is_large)
             self.tried.clear()
             self.tries = TRIES_IN_ROWS if in_rows else TRIES
             for choice in islice(self._promising(), attempts):
