@@ -226,7 +226,8 @@ def sheet_files(
     """The drawing sheets, `sheet-1.pdf`, `sheet-1.dxf`, …, whatever the engine of the report.
 
     Without a `size` they are A1, or A0 where a plate needs it; without `sets` they show all; the title `block` is that
-    of the language unless a file of one is given.  Raises `SheetError` for a plate that has no place on the size.
+    of the language unless a file of one is given.  Raises `SheetError` where there is nothing
+    to draw or a plate has no place on the size.
     """
     from reportgen.document.drawing_sheets import drawing_sheets
     from reportgen.writers import dxf, typst, typst_run

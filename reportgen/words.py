@@ -143,7 +143,8 @@ def unexpected(error: BaseException, language: Language | None) -> str:
 def as_problem(fault: Fault, language: Language | None) -> Problem:
     """The fault in words; its hint is given when the arguments it speaks of are known."""
     table = messages(language or DEFAULT_LANGUAGE)
-    arguments = {name: _shown(text) for name, text in fault.arguments.items()}
+    # What is known is the program's own, and told in full.
+    arguments = {name: text if name == "known" else _shown(text) for name, text in fault.arguments.items()}
     for name in arguments.keys() & {"expected", "reason"}:
         arguments[name] = str(table["words"].get(fault.arguments[name], arguments[name]))
     message = str(table["faults"][fault.code]).format_map(arguments)

@@ -22,11 +22,13 @@ def drawing_sheets(case: Case, size: str = "", sets: Collection[str] = (), block
     """The finished drawing sheets of a case: of one `size`, else as the file says, else A1, or A0 if a plate needs it.
 
     `sets` are some of `SETS`, all if none is named; the title `block` is a file, else that of the language.  Raises
-    `SheetError` for a plate that is larger than the size, `AssignmentError` for a faulty block.
+    `SheetError` where there is nothing to draw or a plate is larger than the size, `AssignmentError` for a faulty block.
     """
     report, language = open_report(case), case.assignment.language
     plates = Plates.of(report)
     chosen = plates.of_sets(sets)
+    if not chosen:
+        raise SheetError(word("no_plates", language, sets=", ".join(sets)))
     frame_block = read_block(block or blocks(case.assignment.report.school or "")[DEFAULT[language]], language)
     size = size or case.assignment.report.sheets or ""
     for paper in (size,) if size else USUAL_SIZES:

@@ -119,8 +119,8 @@ def all_series(report: Report) -> list[Series]:
 
 def _kinematics(report: Report) -> Iterator[Series]:
     one = partial(Series, belongs="kinematics")
-    whole, at_once = _extent(report), _extent(report, slice(SHOWN_AT, SHOWN_AT + 1))
-    yield one("scheme", layer="scheme", draw=_scheme, scale="mu.l", key="scheme", size=at_once)
+    whole = _extent(report)
+    yield one("scheme", layer="scheme", draw=_scheme, scale="mu.l", key="scheme", size=whole)
     yield one("positions", layer="positions", draw=_positions, scale="mu.l", size=whole)
     for what, name in NAMES.items():
         size = _on_plan(report, f"plan.{what}.", f"mu.{what}")

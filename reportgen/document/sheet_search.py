@@ -26,12 +26,12 @@ USUAL = 0.16
 """The largest side of a plan, as a share of the height that a sheet has for plates."""
 LEAST = 60.0
 """Plans are usually not smaller than this (mm), whatever the sheet."""
-LARGER_PLATES = {"positions": 2.2, "indicator": 2.2, "scheme": 1.5}
-"""How many times larger plates are that show the whole machine."""
-SMALLER, LARGER = 0.6, 3.0
+LARGER_PLATES = {"positions": 2.2, "indicator": 2.2, "scheme": 1.2, "polar": 1.5}
+"""How many times larger plates are that show the whole machine, or so much that they need it."""
+SMALLER, LARGER = 0.6, 1.7
 """How many times as large as usual the largest plate of a series may become."""
-READABLE = 38.0
-"""It is not drawn smaller than this (mm) either unless it has no room else."""
+READABLE, LARGEST = 38.0, 160.0
+"""Nor is it drawn smaller than the first (mm) unless it has no room else; up to the second it may grow on any sheet."""
 ENOUGH = 0.6
 """A sheet is filled to this share at least."""
 SPARE = 0.008
@@ -40,8 +40,8 @@ BEGINNINGS = (1.0, 0.85, 1.15, 0.7, 1.3, 0.6, 1.5)
 """With plates so many times as large as usual the search begins."""
 ATTEMPTS = 25
 """How often sheets are drawn and, where they came out emptier than estimated, estimated anew."""
-ATTEMPTS_IN_ROWS = 3
-TRIES_IN_ROWS, TRIES = 250, 2500
+ATTEMPTS_IN_ROWS = 8
+TRIES_IN_ROWS, TRIES = 800, 2500
 """So many scales are tried at most."""
 LARGE = 300.0
 """A sheet with more height than this (mm) for plates takes some rows of them."""
@@ -116,8 +116,8 @@ class Search:
             raise TooLargeError(replace(large, name=str(self.chosen.index(int(large.name)) + 1)))
         found: list[tuple[float, list[Laid]]] = []
         for in_rows, attempts in ((True, ATTEMPTS_IN_ROWS if self.is_large else 0), (False, ATTEMPTS)):
-            self.estimating = Dividing(self.space, ENOUGH + SPARE, in_rows)
-            drawing = Dividing(self.space, ENOUGH, in_rows)
+            self.estimating = Dividing(self.space, ENOUGH + SPARE, in_rows, not self.is_large)
+            drawing = Dividing(self.space, ENOUGH, in_rows, not self.is_large)
             self.tried.clear()
             self.tries = TRIES_IN_ROWS if in_rows else TRIES
             for choice in islice(self._promising(), attempts):
@@ -164,7 +164,7 @@ class Search:
         for key, one in self.largest.items():
             scale = nice_up(one.size / (share * self.usual[key]), one.steps)
             # A round scale may leave a plan much smaller than meant.
-            least = self._readable(key)
+            least = self._at_least(key, SMALLER, READABLE)
             scales[key] = scale if one.size / scale >= least else nice_down(one.size / least, one.steps)
         return Choice(scales, dict.fromkeys(self.forms, self.usual_form))
 
@@ -233,17 +233,17 @@ class Search:
 
     def _steps(self, key: Key, scale: float) -> Iterator[float]:
         """Some finer scales and some coarser ones at which plates are still of usual size."""
-        one, box = self.largest[key], self.usual[key]
+        one = self.largest[key]
         finer = coarser = scale
         for _ in range(STEPS):
             finer, coarser = nice_down(0.99 * finer, one.steps), nice_up(1.01 * coarser, one.steps)
             for other in (finer, coarser):
-                if self._readable(key) <= one.size / other <= LARGER * box:
+                if self._at_least(key, SMALLER, READABLE) <= one.size / other <= self._at_least(key, LARGER, LARGEST):
                     yield other
 
-    def _readable(self, key: Key) -> float:
-        """What the largest plate at a scale is at least (mm)."""
-        return max(SMALLER * self.usual[key], READABLE * LARGER_PLATES.get(self.largest[key].name, 1.0))
+    def _at_least(self, key: Key, times: float, least: float) -> float:
+        """So many times the usual size of the largest plate at a scale, or the `least` size of plans (mm)."""
+        return max(times * self.usual[key], least * LARGER_PLATES.get(self.largest[key].name, 1.0))
 
     def _missing(self, choice: Choice) -> float:
         """What sheets miss of being full, as far as can be told without drawing them."""

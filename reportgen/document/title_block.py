@@ -17,7 +17,7 @@ from reportgen.figures import frame
 from reportgen.figures.scene import Scene
 from reportgen.notation.numbers import Language
 from reportgen.source import read_source
-from reportgen.words import as_error, templates
+from reportgen.words import as_error, close_or_known, templates
 
 FOLDER = "blocks"
 DEFAULT: Mapping[Language, str] = {"vi": "tcvn", "en": "iso"}
@@ -119,7 +119,7 @@ def _findings(cell: _Cell, index: int, block: _File) -> Iterator[Finding]:
         yield Finding("block-outside", where, {"width": f"{block.width:g}", "height": f"{block.height:g}"})
     for name in re.findall(r"\{([^{}]*)\}?", cell.text):
         if name not in FIELDS:
-            yield Finding("block-field", (*where, "text"), {"text": name, "known": ", ".join(sorted(FIELDS))})
+            yield Finding("block-field", (*where, "text"), {"text": name, **close_or_known(name, sorted(FIELDS))})
 
 
 def fields_of(case: Case) -> dict[str, str]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,6 +29,8 @@ HALF_WIDTH, HALF_HEIGHT = 78.0, 46.0
 CHART_MARGIN = 1.5
 AXIS_NAME = 8.0
 """What the turned name of an axis takes beside its figures, mm."""
+LINE = 4.5
+"""From one line of that name to the next, mm."""
 POLAR_SIZE = 84.0
 """Of a polar diagram by itself at most, either way, mm."""
 POLAR_PAIRS = 58.0, 54.0, 50.0
@@ -165,7 +167,7 @@ def plotted(
         requests += _marked(one, vertices, pen, items)
         if one.label and len(series) > 1:
             requests.append(label(_places(vertices), one.label))
-    items += _titles(window, x_label, y_label, items)
+    items += _titles(window, x_label, y_label, items, area is not None)
     scales = _scale(x_label, window.x, window.width, turn), _scale(y_label, window.y, window.height)
     notes = scales if area is not None else ()
     scene = finish(Draft(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN)
@@ -200,7 +202,7 @@ def polar(
     items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
     requests = _marked(series, vertices, PENS[0], items)
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
-    items += _titles(window, x_label, y_label, items)
+    items += _titles(window, x_label, y_label, items, area is not None)
     notes = () if area is None else (_scale(x_label, window.x, window.width),)
     return finish(Draft(tuple(items), tuple(requests)), notes=notes, title=title, margin=2.0)
 
@@ -351,16 +353,31 @@ def _figure(tick: float, ticks: Sequence[float], unit: str) -> Number:
     return Number(tick, decimals, unit)
 
 
-def _titles(window: _Window, x_label: Content, y_label: Content, items: Sequence[Item]) -> list[Item]:
-    """The axes' names: below the middle and, turned, left of the widest figure."""
+def _titles(
+    window: _Window, x_label: Content, y_label: Content, items: Sequence[Item], in_lines: bool = False
+) -> list[Item]:
+    """The axes' names: below the middle and, turned, left of the widest figure.
+
+    `in_lines` a turned name that is longer than its axis is broken after the unit.
+    """
     figures = [item for item in items if isinstance(item, Label) and item.anchor == "right"]
     widest = max((box(item.content, item.size).width for item in figures), default=0.0)
     titles: list[Item] = []
     if x_label:
         titles.append(Label(complex(window.width / 2, -8.5), x_label))
-    if y_label:
-        titles.append(Label(complex(-widest - 5.5, window.height / 2), y_label, turn=90))
+    lines = _lines(y_label) if in_lines and box(y_label, style.LABEL).width > window.height else [y_label]
+    for number, line in enumerate(reversed(lines)):
+        if line:
+            titles.append(Label(complex(-widest - 5.5 - LINE * number, window.height / 2), line, turn=90))
     return titles
+
+
+def _lines(name: Content) -> list[Content]:
+    """ω (rad/s; positive: anticlockwise) as two lines: ω (rad/s), and when it is positive."""
+    if not isinstance(name, Chain) or "; " not in name.note:
+        return [name]
+    unit, sense = name.note.split("; ", 1)
+    return [replace(name, note=unit), f"({sense})"]
 
 
 def _paths(vertices: Vertices) -> list[tuple[complex, ...]]:

@@ -170,6 +170,8 @@ class Dividing:
     enough: float
     in_rows: bool = False
     """Whether plates stand in rows only; else they do where that fills a sheet."""
+    in_any_order: bool = False
+    """Whether plates may change places on their sheet where that fills it."""
     paper: _Paper = field(init=False)
     _endings: dict[tuple[Size, int], int] = field(default_factory=dict)
     """The number of each ending of parts that was seen, by its first size and the number of what follows."""
@@ -269,7 +271,7 @@ class Dividing:
 
     def _in_other_orders(self, run: tuple[Size, ...]) -> Iterator[Filling]:
         """More parts than stand in their order; they need not stand in rows."""
-        if self.in_rows:
+        if self.in_rows or not self.in_any_order:
             return
         if run not in self._turned:
             self._turned[run] = list(self._found_in_other_orders(run))

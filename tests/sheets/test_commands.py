@@ -61,6 +61,16 @@ def test_a_plate_larger_than_the_paper_is_named(tmp_path: Path) -> None:
         api.sheet_files(ROOT / "assignments" / "engine-v-02.yaml", size="A3", formats=(), block=block)
 
 
+def test_a_set_without_plates_is_told_and_leaves_earlier_sheets(tmp_path: Path) -> None:
+    """The linkage has no loads and no masses."""
+    (tmp_path / SMALL.stem).mkdir()
+    (tmp_path / SMALL.stem / "sheet-1.pdf").write_bytes(b"earlier")
+    done = run(SMALL, "--out", tmp_path, "--set", "forces")
+    assert (done.exit_code, done.stdout) == (1, "")
+    assert "--set forces" in done.stderr
+    assert [path.name for path in (tmp_path / SMALL.stem).iterdir()] == ["sheet-1.pdf"]
+
+
 @pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="an administrator may write anywhere")
 def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:
     tmp_path.chmod(0o500)
