@@ -69,7 +69,7 @@ class Motion:
     def _knows_square(self, body: int) -> bool:
         """Whether the accelerations tell ω² of a body, and with it all of its motion but its sense."""
         solved = self._second.solved
-        return body in solved.layout.squared and not solved.free.size
+        return body in solved.unknowns.squared and not solved.free.size
 
     # --- rates: what is nothing beside the others is 0
 
@@ -92,19 +92,19 @@ class Motion:
     @property
     def size(self) -> float:
         """How far the points lie from their middle."""
-        return self._first.layout.size
+        return self._first.unknowns.size
 
     @cached_property
     def fastest(self) -> float:
         """The scale of the velocities."""
-        middle = self._first.layout.middle
+        middle = self._first.unknowns.middle
         each = ((abs(self.velocities.at(body, middle)), self.velocities.omega(body)) for body in self.system.bodies)
         return max((speed + abs(turn) * self.size for speed, turn in each), default=0.0)
 
     @cached_property
     def _steepest(self) -> float:
         """The scale of the accelerations."""
-        middle, bodies = self._first.layout.middle, self.system.bodies
+        middle, bodies = self._first.unknowns.middle, self.system.bodies
         each = (
             abs(self._acceleration_at(body, middle)) + abs(self._acceleration_of(body).turn) * self.size
             for body in bodies
