@@ -174,6 +174,11 @@ def _motion(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Finding]
             yield Finding("contradiction", where, {"text": called, "others": others, "reason": rank})
         if conflicts:
             return
+    for body in motion.parting:
+        given_of = (index for index, one in enumerate(given.given) if _is_acceleration_on(one, body, given))
+        yield Finding("points-part", (*TOP, "given", max(given_of)), {"body": str(body)})
+    if motion.parting:
+        return
     knows = {
         "omega": lambda of: motion.knows_omega(int(of)),
         "eps": lambda of: motion.knows_epsilon(int(of)),
@@ -213,6 +218,10 @@ def _methods(given: file.Parameters, layout: Layout) -> Iterator[Finding]:
             yield Finding("method-repeated", where, {"text": method})
         elif code := why_not(method, layout):
             yield Finding(code, where, {"text": method})
+
+
+def _is_acceleration_on(rate: file.GivenRate, body: int, given: file.Parameters) -> bool:
+    return isinstance(rate, file.AccelerationOf) and rate.point in given.bodies[body].carried
 
 
 def _open(motion: Motion, asked: file.Asked) -> str:

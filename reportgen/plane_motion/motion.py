@@ -46,6 +46,11 @@ class Motion:
         """Conditions that rule each other out in the accelerations, where the velocities are in order."""
         return () if self._first.conflicts else self._second.solved.conflicts
 
+    @property
+    def parting(self) -> tuple[int, ...]:
+        """Bodies whose points have accelerations away from each other, which no rigid body can have."""
+        return () if self._first.conflicts else self._second.parting
+
     def knows_omega(self, body: int) -> bool:
         return body == GROUND or self._first.determines_turn(body) or self._knows_square(body)
 

@@ -134,10 +134,14 @@ def solve_velocities(system: System) -> Solved:
 
 @dataclass(frozen=True)
 class Accelerations:
-    """What the accelerations come to; `velocities` with the angular velocities that only they determine."""
+    """What the accelerations come to; `velocities` with the angular velocities that only they determine.
+
+    Bodies that are `parting` could have them only with a negative ω²: their points would move away from each other.
+    """
 
     solved: Solved
     velocities: Solved
+    parting: tuple[int, ...] = ()
 
 
 def solve_accelerations(system: System, velocities: Solved) -> Accelerations:
@@ -166,7 +170,9 @@ def solve_accelerations(system: System, velocities: Solved) -> Accelerations:
         body: replace(rates, origin=rates.origin + squares.get(body, motion.omega(body) ** 2) * unknowns.middle)
         for body, rates in solved.rates.items()
     }
-    return Accelerations(replace(solved, rates=at_origin), replace(velocities, rates=turned))
+    least = -SMALL * float(np.abs(found).max(initial=0.0)) / unknowns.size
+    parting = () if solved.free.size else tuple(body for body, square in squares.items() if square < least)
+    return Accelerations(replace(solved, rates=at_origin), replace(velocities, rates=turned), parting)
 
 
 def _along(part: Component, middle: complex) -> float:
