@@ -14,6 +14,7 @@ from reportgen.document.tree import Equation, InlineMath, Paragraph, Section, Te
 from reportgen.figures.metrics import POINT, SCRIPT, SMALL_CUT, box
 from reportgen.figures.scene import Arrow, Circle, Label, Line, Scene
 from reportgen.notation.expressions import (
+    Chain,
     Expression,
     Fraction,
     Number,
@@ -213,6 +214,17 @@ def test_pens_are_classes_that_follow_light_and_dark() -> None:
     assert used
     assert used <= rules.keys()
     assert any("var(--" in rule for rule in rules.values())
+
+
+def test_no_line_begins_with_the_mark_behind_a_formula() -> None:
+    chain = InlineMath(Chain((Symbol("v"), Symbol("w"))))
+    words = (Text("where ("), InlineMath(Symbol("x")), Text("), "), chain, Text(". And "), Text(". So"))
+    document = replace(sample.sample(), blocks=(Paragraph(words),))
+    paragraph = ElementTree.fromstring(html.report(document).body.replace("<wbr>", "<wbr/>"))
+    kept = [said(one) for one in paragraph if one.tag == "span"]
+    # Of a formula that may break, the last piece.
+    assert kept == ["(x),", "=w."]
+    assert said(paragraph) == "where(x),v=w.And.So"
 
 
 def test_the_number_of_an_equation_stands_once() -> None:
