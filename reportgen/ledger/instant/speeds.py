@@ -239,8 +239,8 @@ def _slot(board: Board, joint: file.SlotJoint) -> bool:
         return False
     u = direction(joint, layout.points)
     arm_way = layout.points[point] - layout.points[base]
-    if abs(arm_way) < NEAR or not perpendicular(1j * u, arm_way / abs(arm_way)):
-        # The line does not pass through the point known: its own point has a component along it too.
+    if abs(arm_way) < NEAR or (not board.knows(f"omega.{body}") and perpendicular(u, arm_way / abs(arm_way))):
+        # As the body turns, its own point moves along the line alone, which tells nothing of how fast.
         return False
     own = board.at(point, body)
     turning = Vector(f"v.{point}{base}", board.way(own - board.at(base, body)))
