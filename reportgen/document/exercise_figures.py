@@ -126,12 +126,16 @@ def _rails(case: ExerciseCase, points: dict[str, complex]) -> Iterator[instant.R
 
 
 def _slots(case: ExerciseCase, points: dict[str, complex]) -> Iterator[tuple[complex, complex]]:
-    """The lines of moving bodies along which points slide, from the body's own point on to beyond the block."""
+    """The lines of moving bodies along which points slide, on to beyond the block, with an arm to a point beside."""
     given, system = case.exercise.given, case.exercise.motion.system
     for joint in given.slots:
         u, at = direction(joint, system.points), points[joint.point]
         along = [0.0, *((u.conjugate() * (points[name] - at)).real for name in system.bodies[joint.on])]
         yield at + (min(along) - instant.BEYOND) * u, at + (max(along) + instant.BEYOND) * u
+        beside = (points[name] for name in system.bodies[joint.on])
+        far = next((one for one in beside if abs((u.conjugate() * (one - at)).imag) > instant.TOGETHER), None)
+        if far is not None:
+            yield at + (u.conjugate() * (far - at)).real * u, far
 
 
 def _cords(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iterator[tuple[complex, complex]]:
