@@ -93,3 +93,54 @@ def test_a_ring_is_driven_by_the_planet(tmp_path: Path) -> None:
     ledger = ExerciseCase(catalogue.load(path)).ledger
     assert float(ledger["omega.4"].values[0]) == pytest.approx(5 * 2 * 0.4 / 0.5)
     assert float(ledger["turn.eps.4"].values[0]) == pytest.approx(-2 * 2 * 0.4 / 0.5)
+
+
+RACKS = """\
+kind: plane-motion
+parameters:
+  points:
+    O: {{at: [0 m, 0 m]}}
+    A: {{from: O, distance: 0.2 m, angle: {up} deg}}
+    B: {{from: O, distance: 0.2 m, angle: {down} deg}}
+    M: {{from: O, distance: 0.15 m, angle: 10 deg}}
+  bodies:
+    1: {{points: [A]}}
+    2: {{points: [B]}}
+    3: {{points: [M], disc: {{centre: O, radius: 0.2 m}}}}
+  joints:
+    - {{type: slider, body: 1, angle: {way} deg}}
+    - {{type: slider, body: 2, angle: {way} deg}}
+    - {{type: rolling on line, disc: 3, on: 1, through: A, angle: {way} deg}}
+    - {{type: rolling on line, disc: 3, on: 2, through: B, angle: {way} deg}}
+  given:
+    - {{type: velocity, point: B, size: {v} m/s, direction: {way} deg}}
+    - {{type: acceleration, point: B, size: {a} m/s2, direction: {way} deg}}
+    {driven}
+  find: [v.O, a.O, a.M, {asked}]
+"""
+FIRST = (
+    "- {{type: velocity, point: A, size: {w} m/s, direction: {way} deg}}\n"
+    "    - {{type: acceleration, point: A, size: {b} m/s2, direction: {way} deg}}"
+)
+TURNED = "- {{type: omega, body: 3, value: {w} rad/s}}\n    - {{type: epsilon, body: 3, value: {b} rad/s2}}"
+
+
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.booleans(), st.integers(-180, 180), st.tuples(RATES, RATES, RATES, RATES))
+def test_a_disc_between_two_racks(tmp_path: Path, by_rack: bool, way: int, rates: tuple[int, int, int, int]) -> None:
+    """ε = (a_A − a_B)/2r along the racks, and the centre moves with the mean of both, whichever of them is given."""
+    v, a, w, b = rates
+    driven, asked = (FIRST, "omega.3, eps.3") if by_rack else (TURNED, "v.A, a.A")
+    told = {"way": way, "v": v, "a": a, "w": w, "b": b}
+    path = tmp_path / "file.yaml"
+    text = RACKS.format(up=way + 90, down=way - 90, driven=driven.format(**told), asked=asked, **told)
+    path.write_text(text, encoding="utf-8")
+    ledger = ExerciseCase(catalogue.load(path)).ledger
+    # The upper rack goes ahead as the disc turns clockwise.
+    change = (a - b) / 0.4 if by_rack else b
+    upper = b if by_rack else a - 0.4 * change
+    assert float(ledger["a.O"].values[0]) == pytest.approx(abs(a + upper) / 2, abs=1e-9)
+    if by_rack:
+        assert float(ledger["eps.3"].values[0]) == pytest.approx(abs(change), abs=1e-9)
+    else:
+        assert float(ledger["a.A"].values[0]) == pytest.approx(abs(upper), abs=1e-9)

@@ -8,6 +8,7 @@ from itertools import permutations
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_places import unit
 from reportgen.ledger.instant.parts import Parts, Path, enter_normal, enter_tangential, known_path, relative
+from reportgen.ledger.instant.racks import by_rack
 from reportgen.ledger.instant.slot_accelerations import by_slot
 from reportgen.ledger.instant.speeds import Board, enter_blocks
 from reportgen.ledger.instant.steps import COORDINATES, Axis, Equation, Step
@@ -70,7 +71,7 @@ def _next(parts: Parts) -> bool:
             return True
         if _by_base(parts, body, names):
             return True
-    if _by_rims(parts) or by_train(board, "eps"):
+    if _by_rims(parts) or by_train(board, "eps") or by_rack(parts):
         return True
     return any(by_slot(parts, joint) for joint in board.layout.given.slots) or enter_blocks(board, "eps")
 
