@@ -86,8 +86,8 @@ def _draw(
         discs,
         [joint.at for joint in pins if GROUND in joint.bodies],
         [joint.at for joint in pins if GROUND not in joint.bodies],
-        [*_rails(case, points)],
-        [*_slots(case, points)],
+        [*_rails(case, points, scale)],
+        [*_slots(case, points), *((at - instant.WALL * u, at + instant.WALL * u) for at, u in _racks(case, scale))],
         [*_cords(case, points, scale)],
         [*_grounds(case, scale)],
         [(start * scale, end * scale) for start, end in normals],
@@ -115,13 +115,25 @@ def _scale(case: ExerciseCase, extra: list[complex]) -> float:
     return 1 / nice_up(needed)
 
 
-def _rails(case: ExerciseCase, points: dict[str, complex]) -> Iterator[instant.Rail]:
+def _racks(case: ExerciseCase, scale: float) -> Iterator[tuple[complex, complex]]:
+    """Where discs roll on lines of moving bodies, with the directions of the lines."""
+    layout = case.worked.layout
+    for index, joint in enumerate(case.exercise.given.joints):
+        if isinstance(joint, file.RollingOnLine) and joint.on != GROUND:
+            yield layout.points[layout.contacts[index]] * scale, direction(joint, layout.points)
+
+
+def _rails(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iterator[instant.Rail]:
     given, system = case.exercise.given, case.exercise.motion.system
+    racks = [*_racks(case, scale)]
     for joint in given.joints:
         if isinstance(joint, file.SlotJoint):
             yield instant.Rail(points[joint.point], direction(joint, system.points), joint.on == GROUND)
         elif isinstance(joint, file.Slider):
             first = system.bodies[joint.body][0]
+            # A rack is drawn as the line that a disc rolls along.
+            if any(abs(points[first] - at) < instant.TOGETHER for at, _ in racks):
+                continue
             yield instant.Rail(points[first], direction(joint, system.points), joint.on == GROUND)
 
 

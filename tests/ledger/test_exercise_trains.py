@@ -51,6 +51,12 @@ def case_of(tmp_path: Path, **numbers: Any) -> ExerciseCase:
     return ExerciseCase(catalogue.load(path))
 
 
+def has_no_dust(case: ExerciseCase) -> None:
+    """What floats leave of 0 prints as 0."""
+    numbers = {id: case.ledger.number(id).value for id in case.ledger.families}
+    assert all(value == 0 or abs(value) > 1e-9 for value in numbers.values()), numbers
+
+
 @settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.sampled_from(list(JOINTS)),
@@ -77,6 +83,7 @@ def test_discs_on_an_arm(
     motion = case.exercise.motion
     assert float(case.ledger["a.M"].values[0]) == pytest.approx(abs(motion.a("M")), abs=1e-7)
     assert "train-eps" in {step.kind for step in case.worked.steps}
+    has_no_dust(case)
 
 
 def test_a_ring_is_driven_by_the_planet(tmp_path: Path) -> None:
@@ -135,7 +142,9 @@ def test_a_disc_between_two_racks(tmp_path: Path, by_rack: bool, way: int, rates
     path = tmp_path / "file.yaml"
     text = RACKS.format(up=way + 90, down=way - 90, driven=driven.format(**told), asked=asked, **told)
     path.write_text(text, encoding="utf-8")
-    ledger = ExerciseCase(catalogue.load(path)).ledger
+    case = ExerciseCase(catalogue.load(path))
+    ledger = case.ledger
+    has_no_dust(case)
     # The upper rack goes ahead as the disc turns clockwise.
     change = (a - b) / 0.4 if by_rack else b
     upper = b if by_rack else a - 0.4 * change

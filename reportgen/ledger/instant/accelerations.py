@@ -13,7 +13,7 @@ from reportgen.ledger.instant.slot_accelerations import by_slot
 from reportgen.ledger.instant.speeds import Board, enter_blocks
 from reportgen.ledger.instant.steps import COORDINATES, Axis, Equation, Step
 from reportgen.ledger.instant.trains import by_train
-from reportgen.ledger.instant.vectors import Vector, components, solved_for
+from reportgen.ledger.instant.vectors import Vector, components, size_of, solved_for
 from reportgen.notation.expressions import Symbol, sqrt, total
 from reportgen.plane_motion.conditions import GROUND
 from reportgen.plane_motion.ways import parallel
@@ -225,15 +225,15 @@ def _whole(parts: Parts, point: str) -> None:
         lines = (f"a.{point}",)
     else:
         lines = ()
-        squares = []
+        sides = []
         for axis, name in COORDINATES:
             terms = components(q, vectors, axis)
             if terms:
                 one = q.define(f"a.{point}.{name}", total(terms), Symbol("a", f"{point}{name}"), "acceleration")
-                squares.append(one**2)
+                sides.append(one)
                 axes += (Axis(name, axis, point),)
                 lines += (one.id,)
-        q.define(f"a.{point}", sqrt(total(squares)))
+        q.define(f"a.{point}", size_of(q, sides))
         lines += (f"a.{point}",)
     equation = Equation((), vectors)
     board.steps.append(Step("acceleration-whole", lines, point=point, equation=equation, axes=axes))

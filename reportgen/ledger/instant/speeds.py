@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations, permutations
 
 from reportgen.catalogue import plane_motion_file as file
@@ -12,9 +12,28 @@ from reportgen.catalogue.plane_motion_places import direction
 from reportgen.ledger.instant.steps import Axis, Equation, Step
 from reportgen.ledger.instant.vectors import Vector, solved_for, towards
 from reportgen.notation.expressions import Ref, Symbol
-from reportgen.notation.sheet import Sheet, is_short
+from reportgen.notation.sheet import Family, Sheet, is_short
 from reportgen.plane_motion.motion import Motion
 from reportgen.plane_motion.ways import parallel, perpendicular
+
+
+class Quantities(Sheet):
+    """A sheet on which a rate is nothing that is so beside the rates of the whole system: what floats leave of 0."""
+
+    def __init__(self, positions: int, motion: Motion) -> None:
+        super().__init__(positions)
+        self.scales = {
+            "velocity": motion.fastest,
+            "angular velocity": motion.fastest / motion.size,
+            "acceleration": motion.steepest,
+            "angular acceleration": motion.steepest / motion.size,
+        }
+
+    def enter(self, family: Family) -> Ref:
+        return super().enter(replace(family, scale=family.scale or self.scales.get(family.kind, 0.0)))
+
+    def si(self, quantity: str | Ref) -> float:
+        return float(self.families[quantity if isinstance(quantity, str) else quantity.id].at(None))
 
 
 @dataclass

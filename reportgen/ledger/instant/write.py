@@ -14,7 +14,7 @@ from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.instant.accelerations import enter_accelerations
 from reportgen.ledger.instant.methods import belongs, find_velocities
-from reportgen.ledger.instant.speeds import Board, enter_given
+from reportgen.ledger.instant.speeds import Board, Quantities, enter_given
 from reportgen.ledger.instant.steps import Step
 from reportgen.ledger.instant.systems import solve_accelerations_together
 from reportgen.notation.expressions import Symbol, refs
@@ -59,7 +59,7 @@ def work_out(
     `units` and `names` are the units and the indices of symbols as a language has them.  Velocities are found by the
     `method` if one is named; where they alone are wanted, by no other.
     """
-    board = Board(Sheet(POSITIONS), lay_out(exercise.given, exercise.motion))
+    board = Board(Quantities(POSITIONS, exercise.motion), lay_out(exercise.given, exercise.motion))
     enter_given(board)
     find_velocities(board, method, alone=velocities_alone)
     if not velocities_alone:
