@@ -153,3 +153,28 @@ def test_a_disc_between_two_racks(tmp_path: Path, by_rack: bool, way: int, rates
         assert float(ledger["eps.3"].values[0]) == pytest.approx(abs(change), abs=1e-9)
     else:
         assert float(ledger["a.A"].values[0]) == pytest.approx(abs(upper), abs=1e-9)
+
+
+CANCELLED = """\
+kind: plane-motion
+parameters:
+  points:
+    M: {{at: [0.1 m, 0.2 m]}}
+    O: {{from: M, distance: 0.7 m, angle: {angle} deg}}
+  bodies:
+    1: {{points: [M, O]}}
+  given:
+    - {{type: velocity, point: M, size: 2.1 m/s, direction: {along} deg}}
+    - {{type: omega, body: 1, value: 3 rad/s}}
+  find: [v.O]
+"""
+
+
+@pytest.mark.parametrize("angle", range(1, 90, 7))
+def test_components_that_cancel_are_nothing(tmp_path: Path, angle: int) -> None:
+    """Both velocities are equal and mirrored in the y axis, so their sum has no component along x."""
+    path = tmp_path / "file.yaml"
+    path.write_text(CANCELLED.format(angle=angle, along=90 - angle), encoding="utf-8")
+    case = ExerciseCase(catalogue.load(path))
+    assert case.ledger.number("v.O.x").value == 0
+    has_no_dust(case)
