@@ -34,7 +34,7 @@ def velocity_figure(case: ExerciseCase) -> tuple[Scene, Chain | None] | None:
     """The system with the velocities of its points and the normals through the instant centres."""
     motion, layout = case.exercise.motion, case.worked.layout
     shown = [name for name in motion.system.points if f"v.{name}" in case.worked.ledger and motion.v(name)]
-    centres = [one for one in layout.centres.values() if one.rule == "normals"]
+    centres = [one for one in layout.centres.values() if one.rule in ("normals", "rate")]
     bodies = {step.body for step in case.worked.steps}
     centres = [one for one in centres if one.body in bodies]
     vectors = {name: (motion.v(name), vocabulary.symbol(f"v.{name}")) for name in shown}

@@ -178,3 +178,18 @@ def test_components_that_cancel_are_nothing(tmp_path: Path, angle: int) -> None:
     case = ExerciseCase(catalogue.load(path))
     assert case.ledger.number("v.O.x").value == 0
     has_no_dust(case)
+
+
+def test_a_centre_is_found_from_the_rotation(tmp_path: Path) -> None:
+    """Of a wheel on a turning wheel nothing tells directions: its centre lies v/ω from a known point."""
+    told = {"joint": "type: gears, discs: [1, 2]", "r1": 0.3, "r2": 0.2, "apart": 0.5, "angle": 40, "of": 130}
+    text = TRAIN.format(**told, w1=-4, w3=2, e1=0, e3=0).replace("find: [omega.2,", "find: [centre.2, omega.2,")
+    path = tmp_path / "file.yaml"
+    path.write_text(text, encoding="utf-8")
+    case = ExerciseCase(catalogue.load(path))
+    centre = case.worked.layout.centres[2]
+    # 1 m/s at A, 1.2 m/s against it at the rim, 0.2 m nearer to O: between them as their speeds are.
+    assert abs(centre.at) == pytest.approx(0.5 - 0.2 * 1 / 2.2)
+    motion = case.exercise.motion
+    assert abs(motion.velocities.at(2, centre.at)) < 1e-9
+    assert "centre-rate" in {step.kind for step in case.worked.steps}

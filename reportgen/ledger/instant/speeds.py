@@ -22,11 +22,13 @@ class Quantities(Sheet):
 
     def __init__(self, positions: int, motion: Motion) -> None:
         super().__init__(positions)
+        # A hundred thousandth: what is small beside the other rates keeps its figures.
+        fast, steep = motion.fastest * 1e-5, motion.steepest * 1e-5
         self.scales = {
-            "velocity": motion.fastest,
-            "angular velocity": motion.fastest / motion.size,
-            "acceleration": motion.steepest,
-            "angular acceleration": motion.steepest / motion.size,
+            "velocity": fast,
+            "angular velocity": fast / motion.size,
+            "acceleration": steep,
+            "angular acceleration": steep / motion.size,
         }
 
     def enter(self, family: Family) -> Ref:
