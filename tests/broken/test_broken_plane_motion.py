@@ -200,6 +200,8 @@ EDITS += [
     ("formula out of range", SYMBOLS, "distance: 0.2 m", "distance: r - l", ["6:28 out-of-range"]),
     ("symbol without unit", SYMBOLS, "r: 0.2 m", "r: 2", ["3:16 missing-unit"]),
     ("symbol of no length", SYMBOLS, "r: 0.2 m", "r: -0.2 m", ["3:16 out-of-range"]),
+    ("symbol of another body", SYMBOLS, "omega: 10", "omega2: 10", ["3:31 symbol-of-body"]),
+    ("symbol of no rotation", SYMBOLS, "omega: 10 rad/s", "omega1: 10 rad/s", ["3:31 symbol-of-body"]),
     ("name of a symbol", SYMBOLS, "{r: 0.2 m", "{r_1: 0.2 m", ["3:13 symbol-name"]),
     (
         "moves at these values alone",
