@@ -24,7 +24,7 @@ from reportgen.plane_motion.conditions import GROUND
 from reportgen.plane_motion.motion import Motion
 from reportgen.plane_motion.ways import parallel, perpendicular
 
-Rule = Literal["pivot", "contact", "normals", "translation"]
+Rule = Literal["pivot", "contact", "normals", "rate", "translation"]
 NEAR = 1e-9
 """Points nearer than this (m) are one."""
 LETTERS = "PQIK"
@@ -33,6 +33,8 @@ LETTERS = "PQIK"
 @dataclass(frozen=True, slots=True)
 class Centre:
     """The instant centre of a body: by which rule, its name and place, and the points whose normals meet there.
+
+    By the rule `rate` it lies on one normal, at the distance v/ω of a body whose rotation is known already.
 
     In translation it is infinitely far: `way` is then the direction of all velocities, 0 where it is not known.
     """
@@ -200,9 +202,13 @@ def _by_normals(found: Layout, body: int, one: str, other: str) -> Centre | None
         return Centre(body, "translation", points=(one, other), way=u)
     n, m = 1j * u, 1j * w
     at = p + n * (((q - p).conjugate() * m).imag / (n.conjugate() * m).imag)
+    return Centre(body, "normals", name_of_centre(found, body, at), at, (one, other))
+
+
+def name_of_centre(found: Layout, body: int, at: complex) -> str:
+    """The name of the point that an instant centre is, or one of its own."""
     letter = next(one for one in LETTERS if not any(name[0] == one for name in found.given.points))
-    name = next((name for name, place in found.points.items() if abs(place - at) < NEAR), f"{letter}{body}")
-    return Centre(body, "normals", name, at, (one, other))
+    return next((name for name, place in found.points.items() if abs(place - at) < NEAR), f"{letter}{body}")
 
 
 def _next_ways(found: Layout) -> bool:

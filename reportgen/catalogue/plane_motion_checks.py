@@ -14,6 +14,7 @@ from reportgen.catalogue.plane_motion_centres import Layout, lay_out
 from reportgen.catalogue.plane_motion_methods import why_not
 from reportgen.catalogue.plane_motion_places import TOP, MisplacedError, named, system
 from reportgen.errors import Finding, Where
+from reportgen.notation.expressions import Negative, Ref
 from reportgen.plane_motion.conditions import GROUND
 from reportgen.plane_motion.motion import Motion
 
@@ -24,7 +25,7 @@ def check(draft: Draft) -> Iterator[Finding]:
     if given is None:
         return
     names = _Names(given)
-    found = [*names.points(), *names.bodies(), *names.joints(), *names.rates(), *names.asked()]
+    found = [*names.points(), *names.bodies(), *names.joints(), *names.rates(), *names.asked(), *names.symbols()]
     yield from found or _motion(given, draft.raw["parameters"])
 
 
@@ -37,6 +38,19 @@ class _Names:
 
     def __init__(self, given: file.Parameters) -> None:
         self.given = given
+
+    def symbols(self) -> Iterator[Finding]:
+        """No symbol is printed as the rotation of a body is, unless it stands for that: ω₂."""
+        for name in self.given.symbols:
+            shown = symbols.symbol(name)
+            if shown.base not in ("ω", "ε") or not shown.sub or int(shown.sub) not in self.given.bodies:
+                continue
+            kind = "omega" if shown.base == "ω" else "epsilon"
+            rates = [one for one in self.given.given if isinstance(one, file.OmegaOf | file.EpsilonOf)]
+            told = [one.value for one in rates if one.type == kind and one.body == int(shown.sub)]
+            formulas = [one.formula for one in told if isinstance(one, symbols.Literal)]
+            if not any(formula in (Ref(name), Negative(Ref(name))) for formula in formulas):
+                yield Finding("symbol-of-body", (*TOP, "symbols", name), {"text": name, "body": shown.sub}, at="key")
 
     def points(self) -> Iterator[Finding]:
         for name, point in self.given.points.items():

@@ -34,7 +34,7 @@ def velocity_figure(case: ExerciseCase) -> tuple[Scene, Chain | None] | None:
     """The system with the velocities of its points and the normals through the instant centres."""
     motion, layout = case.exercise.motion, case.worked.layout
     shown = [name for name in motion.system.points if f"v.{name}" in case.worked.ledger and motion.v(name)]
-    centres = [one for one in layout.centres.values() if one.rule == "normals"]
+    centres = [one for one in layout.centres.values() if one.rule in ("normals", "rate")]
     bodies = {step.body for step in case.worked.steps}
     centres = [one for one in centres if one.body in bodies]
     vectors = {name: (motion.v(name), vocabulary.symbol(f"v.{name}")) for name in shown}
@@ -86,8 +86,8 @@ def _draw(
         discs,
         [joint.at for joint in pins if GROUND in joint.bodies],
         [joint.at for joint in pins if GROUND not in joint.bodies],
-        [*_rails(case, points)],
-        [*_slots(case, points)],
+        [*_rails(case, points, scale)],
+        [*_slots(case, points), *((at - instant.WALL * u, at + instant.WALL * u) for at, u in _racks(case, scale))],
         [*_cords(case, points, scale)],
         [*_grounds(case, scale)],
         [(start * scale, end * scale) for start, end in normals],
@@ -115,23 +115,39 @@ def _scale(case: ExerciseCase, extra: list[complex]) -> float:
     return 1 / nice_up(needed)
 
 
-def _rails(case: ExerciseCase, points: dict[str, complex]) -> Iterator[instant.Rail]:
+def _racks(case: ExerciseCase, scale: float) -> Iterator[tuple[complex, complex]]:
+    """Where discs roll on lines of moving bodies, with the directions of the lines."""
+    layout = case.worked.layout
+    for index, joint in enumerate(case.exercise.given.joints):
+        if isinstance(joint, file.RollingOnLine) and joint.on != GROUND:
+            yield layout.points[layout.contacts[index]] * scale, direction(joint, layout.points)
+
+
+def _rails(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iterator[instant.Rail]:
     given, system = case.exercise.given, case.exercise.motion.system
+    racks = [*_racks(case, scale)]
     for joint in given.joints:
         if isinstance(joint, file.SlotJoint):
             yield instant.Rail(points[joint.point], direction(joint, system.points), joint.on == GROUND)
         elif isinstance(joint, file.Slider):
             first = system.bodies[joint.body][0]
+            # A rack is drawn as the line that a disc rolls along.
+            if any(abs(points[first] - at) < instant.TOGETHER for at, _ in racks):
+                continue
             yield instant.Rail(points[first], direction(joint, system.points), joint.on == GROUND)
 
 
 def _slots(case: ExerciseCase, points: dict[str, complex]) -> Iterator[tuple[complex, complex]]:
-    """The lines of moving bodies along which points slide, from the body's own point on to beyond the block."""
+    """The lines of moving bodies along which points slide, on to beyond the block, with an arm to a point beside."""
     given, system = case.exercise.given, case.exercise.motion.system
     for joint in given.slots:
         u, at = direction(joint, system.points), points[joint.point]
         along = [0.0, *((u.conjugate() * (points[name] - at)).real for name in system.bodies[joint.on])]
         yield at + (min(along) - instant.BEYOND) * u, at + (max(along) + instant.BEYOND) * u
+        beside = (points[name] for name in system.bodies[joint.on])
+        far = next((one for one in beside if abs((u.conjugate() * (one - at)).imag) > instant.TOGETHER), None)
+        if far is not None:
+            yield at + (u.conjugate() * (far - at)).real * u, far
 
 
 def _cords(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iterator[tuple[complex, complex]]:

@@ -101,7 +101,7 @@ class Solution:
         if any(id.startswith("eps.") for id in shown):
             rate = motion.epsilon(step.body)
         rolling = centre is not None and centre.rule == "contact" and centre.name in (step.point, step.base)
-        others = centre.points if centre is not None and centre.points else ("", "")
+        others = (*(centre.points if centre is not None else ()), "", "")
         angles = dict.fromkeys(id for one in shown for id in self._angles_of(one))
         return StepView(
             step.kind,
@@ -117,7 +117,7 @@ class Solution:
             tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),
             self._sense(rate) if rate else str(self.case.words["instant"]["no_sense"]),
             self._heading(step),
-            self._coordinates(step.body) if centre is not None and centre.rule == "normals" else (),
+            self._coordinates(step.body) if centre is not None and centre.rule in ("normals", "rate") else (),
             step.frame,
             (Equation(step.system),) if step.system else (),
             (Equation(step.results),) if step.results else (),
@@ -190,7 +190,7 @@ class Solution:
 
     def _declared(self, id: str) -> bool:
         """Whether a distance is one of declared points."""
-        centres = {one.name for one in self.worked.layout.centres.values() if one.rule == "normals"}
+        centres = {one.name for one in self.worked.layout.centres.values() if one.rule in ("normals", "rate")}
         return not any(id.startswith(f"l.{name}") for name in centres - set(self.case.exercise.given.points))
 
     def _angle(self, radians: float) -> Inlines:

@@ -82,7 +82,7 @@ class Motion:
         return _without_dust(self.velocities.omega(body), self.fastest / self.size).real
 
     def epsilon(self, body: int) -> float:
-        return _without_dust(self._acceleration_of(body).turn, self._steepest / self.size).real
+        return _without_dust(self._acceleration_of(body).turn, self.steepest / self.size).real
 
     def v(self, point: str, body: int | None = None) -> complex:
         """The velocity of a point, as it moves with its own body or with another."""
@@ -92,7 +92,7 @@ class Motion:
     def a(self, point: str, body: int | None = None) -> complex:
         """The acceleration of a point, as it moves with its own body or with another."""
         own = self.system.body_of(point) if body is None else body
-        return _without_dust(self._acceleration_at(own, self.system.points[point]), self._steepest)
+        return _without_dust(self._acceleration_at(own, self.system.points[point]), self.steepest)
 
     @property
     def size(self) -> float:
@@ -107,7 +107,7 @@ class Motion:
         return max((speed + abs(turn) * self.size for speed, turn in each), default=0.0)
 
     @cached_property
-    def _steepest(self) -> float:
+    def steepest(self) -> float:
         """The scale of the accelerations."""
         middle, bodies = self._first.unknowns.middle, self.system.bodies
         each = (

@@ -29,8 +29,10 @@ CONTENTS_LEVEL = 3
 """The deepest level of heading that the contents and the outline list."""
 CAPTION = 15.0
 """About what a figure's caption takes, with the white around it (mm)."""
-HEADING, OPENING, TITLE, ROW = 15, 20, 14, 5.0
+HEADING, OPENING, TITLE, ROW = 12, 20, 14, 5.0
 """Approximate heights in mm: of a heading, of the words before a table, of its caption, and of a row."""
+WORDS, LINE = 9, 12
+"""Of the words before an equation that leads to a table, and of a line of it."""
 FRAME = r"\vrule width\heavyrulewidth"
 """The side of a framed table."""
 LONG, SHORT = 42, 18
@@ -126,10 +128,12 @@ class _Writer:
         for block, following in pairwise(blocks):
             if isinstance(block, tree.Section):
                 room += HEADING
-            elif layout.leads(block, following, self.language):
-                room += SHORT * (1 + len(block.rows)) / 2 if isinstance(block, tree.Equation) else OPENING
-            else:
+            elif not layout.leads(block, following, self.language):
                 return 0.0
+            elif isinstance(block, tree.Equation):
+                room += LINE * layout.lines(block.rows, layout.TEXT_WIDTH)
+            else:
+                room += WORDS if isinstance(following, tree.Equation) else OPENING
             if isinstance(following, tree.Table):
                 return room + _height(following)
         return 0.0

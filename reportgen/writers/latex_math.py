@@ -147,7 +147,7 @@ class LatexFormulas(Formulas):
     def chain(self, node: Chain) -> str:
         """In a line it may break before a second "=", not before the first."""
         left, rest = self.aligned(node)
-        return left + rest.replace(r" \relbreak= ", " = ", 1)
+        return left + rest.replace(r" \relbreak= ", r" =\nobreak ", 1)
 
     def aligned(self, node: Expression) -> tuple[str, str]:
         """A displayed line cut at its first relation: what stands left of it, and the rest.

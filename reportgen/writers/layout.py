@@ -272,7 +272,7 @@ def in_groups(rows: Sequence[Expression], room: float) -> list[tuple[Expression,
             found += ((row,) for row in group)
             continue
         aligned: list[Expression] = []
-        for short, run in groupby(group, lambda row: 2 * _width(row) + ABREAST <= room):
+        for short, run in groupby(group, lambda row: _is_short(row, room)):
             members = tuple(run)
             if not short or len(members) == 1:
                 aligned += members
@@ -282,6 +282,16 @@ def in_groups(rows: Sequence[Expression], room: float) -> list[tuple[Expression,
             aligned = []
         found += [tuple(aligned)] if aligned else []
     return found
+
+
+def lines(rows: Sequence[Expression], room: float) -> int:
+    """How many lines the rows of an equation take, short ones two abreast."""
+    groups = in_groups(rows, room)
+    return sum(-(-len(one) // 2) if all(_is_short(row, room) for row in one) else len(one) for one in groups)
+
+
+def _is_short(row: Expression, room: float) -> bool:
+    return 2 * _width(row) + ABREAST <= room
 
 
 def _width(row: Expression) -> float:

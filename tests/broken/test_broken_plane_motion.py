@@ -79,26 +79,28 @@ parameters:
   find: [v.D]
 """
 
-OFFSET_SLOT = """\
+ON_A_PLATE = """\
 kind: plane-motion
 parameters:
   points:
     O: {at: [0 m, 0 m]}
-    C: {at: [0 m, -0.5 m]}
-    A: {from: O, distance: 0.2 m, angle: 30 deg}
+    K: {at: [0.3 m, 0 m]}
+    C: {at: [0.3 m, 0.1 m]}
+    M: {at: [0.4 m, 0.1 m]}
   bodies:
-    1: {points: [O, A]}
-    2: {points: [C]}
+    1: {points: [O, K]}
+    2: {points: [M], disc: {centre: C, radius: 0.1 m}}
   joints:
     - {type: pin, at: O, bodies: [0, 1]}
-    - {type: pin, at: C, bodies: [0, 2]}
-    - {type: slot, point: A, body: 1, on: 2, angle: 20 deg}
+    - {type: rolling on line, disc: 2, on: 1, through: K, angle: 0 deg}
   given:
     - {type: omega, body: 1, value: 2 rad/s}
-    - {type: epsilon, body: 1, value: 0 rad/s2}
-  find: [omega.2, eps.2]
+    - {type: epsilon, body: 1, value: 1 rad/s2}
+    - {type: omega, body: 2, value: -3 rad/s}
+    - {type: epsilon, body: 2, value: 0 rad/s2}
+  find: [v.M, a.M]
 """
-"""The line of body 2 does not pass through its pivot."""
+"""A disc that rolls along a plate that turns."""
 
 # (name, the file, what is replaced in it, by what, the faults expected)
 EDITS = [
@@ -198,6 +200,8 @@ EDITS += [
     ("formula out of range", SYMBOLS, "distance: 0.2 m", "distance: r - l", ["6:28 out-of-range"]),
     ("symbol without unit", SYMBOLS, "r: 0.2 m", "r: 2", ["3:16 missing-unit"]),
     ("symbol of no length", SYMBOLS, "r: 0.2 m", "r: -0.2 m", ["3:16 out-of-range"]),
+    ("symbol of another body", SYMBOLS, "omega: 10", "omega2: 10", ["3:31 symbol-of-body"]),
+    ("symbol of no rotation", SYMBOLS, "omega: 10 rad/s", "omega1: 10 rad/s", ["3:31 symbol-of-body"]),
     ("name of a symbol", SYMBOLS, "{r: 0.2 m", "{r_1: 0.2 m", ["3:13 symbol-name"]),
     (
         "moves at these values alone",
@@ -354,7 +358,7 @@ def test_what_is_not_offered_is_told_in_one_line(tmp_path: Path) -> None:
         api.solve(load(path, "en"), 12)
     with pytest.raises(NotOfferedError, match="plane-motion"):
         api.sheet_files(path, "typst", "en")
-    path.write_text(OFFSET_SLOT, encoding="utf-8")
-    with pytest.raises(NotOfferedError, match=r"eps\.2"):
+    path.write_text(ON_A_PLATE, encoding="utf-8")
+    with pytest.raises(NotOfferedError, match=r"a\.M"):
         api.document(load(path, "en"))
-    assert api.solve(load(path))["positions"][0]["links"]["2"]["epsilon"] is not None
+    assert api.solve(load(path))["positions"][0]["points"]["M"]["a"] is not None

@@ -51,6 +51,12 @@ def case_of(tmp_path: Path, **numbers: Any) -> ExerciseCase:
     return ExerciseCase(catalogue.load(path))
 
 
+def has_no_dust(case: ExerciseCase) -> None:
+    """What floats leave of 0 prints as 0."""
+    numbers = {id: case.ledger.number(id).value for id in case.ledger.families}
+    assert all(value == 0 or abs(value) > 1e-9 for value in numbers.values()), numbers
+
+
 @settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.sampled_from(list(JOINTS)),
@@ -77,6 +83,7 @@ def test_discs_on_an_arm(
     motion = case.exercise.motion
     assert float(case.ledger["a.M"].values[0]) == pytest.approx(abs(motion.a("M")), abs=1e-7)
     assert "train-eps" in {step.kind for step in case.worked.steps}
+    has_no_dust(case)
 
 
 def test_a_ring_is_driven_by_the_planet(tmp_path: Path) -> None:
@@ -93,3 +100,96 @@ def test_a_ring_is_driven_by_the_planet(tmp_path: Path) -> None:
     ledger = ExerciseCase(catalogue.load(path)).ledger
     assert float(ledger["omega.4"].values[0]) == pytest.approx(5 * 2 * 0.4 / 0.5)
     assert float(ledger["turn.eps.4"].values[0]) == pytest.approx(-2 * 2 * 0.4 / 0.5)
+
+
+RACKS = """\
+kind: plane-motion
+parameters:
+  points:
+    O: {{at: [0 m, 0 m]}}
+    A: {{from: O, distance: 0.2 m, angle: {up} deg}}
+    B: {{from: O, distance: 0.2 m, angle: {down} deg}}
+    M: {{from: O, distance: 0.15 m, angle: 10 deg}}
+  bodies:
+    1: {{points: [A]}}
+    2: {{points: [B]}}
+    3: {{points: [M], disc: {{centre: O, radius: 0.2 m}}}}
+  joints:
+    - {{type: slider, body: 1, angle: {way} deg}}
+    - {{type: slider, body: 2, angle: {way} deg}}
+    - {{type: rolling on line, disc: 3, on: 1, through: A, angle: {way} deg}}
+    - {{type: rolling on line, disc: 3, on: 2, through: B, angle: {way} deg}}
+  given:
+    - {{type: velocity, point: B, size: {v} m/s, direction: {way} deg}}
+    - {{type: acceleration, point: B, size: {a} m/s2, direction: {way} deg}}
+    {driven}
+  find: [v.O, a.O, a.M, {asked}]
+"""
+FIRST = (
+    "- {{type: velocity, point: A, size: {w} m/s, direction: {way} deg}}\n"
+    "    - {{type: acceleration, point: A, size: {b} m/s2, direction: {way} deg}}"
+)
+TURNED = "- {{type: omega, body: 3, value: {w} rad/s}}\n    - {{type: epsilon, body: 3, value: {b} rad/s2}}"
+
+
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.booleans(), st.integers(-180, 180), st.tuples(RATES, RATES, RATES, RATES))
+def test_a_disc_between_two_racks(tmp_path: Path, by_rack: bool, way: int, rates: tuple[int, int, int, int]) -> None:
+    """ε = (a_A − a_B)/2r along the racks, and the centre moves with the mean of both, whichever of them is given."""
+    v, a, w, b = rates
+    driven, asked = (FIRST, "omega.3, eps.3") if by_rack else (TURNED, "v.A, a.A")
+    told = {"way": way, "v": v, "a": a, "w": w, "b": b}
+    path = tmp_path / "file.yaml"
+    text = RACKS.format(up=way + 90, down=way - 90, driven=driven.format(**told), asked=asked, **told)
+    path.write_text(text, encoding="utf-8")
+    case = ExerciseCase(catalogue.load(path))
+    ledger = case.ledger
+    has_no_dust(case)
+    # The upper rack goes ahead as the disc turns clockwise.
+    change = (a - b) / 0.4 if by_rack else b
+    upper = b if by_rack else a - 0.4 * change
+    assert float(ledger["a.O"].values[0]) == pytest.approx(abs(a + upper) / 2, abs=1e-9)
+    if by_rack:
+        assert float(ledger["eps.3"].values[0]) == pytest.approx(abs(change), abs=1e-9)
+    else:
+        assert float(ledger["a.A"].values[0]) == pytest.approx(abs(upper), abs=1e-9)
+
+
+CANCELLED = """\
+kind: plane-motion
+parameters:
+  points:
+    M: {{at: [0.1 m, 0.2 m]}}
+    O: {{from: M, distance: 0.7 m, angle: {angle} deg}}
+  bodies:
+    1: {{points: [M, O]}}
+  given:
+    - {{type: velocity, point: M, size: 2.1 m/s, direction: {along} deg}}
+    - {{type: omega, body: 1, value: 3 rad/s}}
+  find: [v.O]
+"""
+
+
+@pytest.mark.parametrize("angle", range(1, 90, 7))
+def test_components_that_cancel_are_nothing(tmp_path: Path, angle: int) -> None:
+    """Both velocities are equal and mirrored in the y axis, so their sum has no component along x."""
+    path = tmp_path / "file.yaml"
+    path.write_text(CANCELLED.format(angle=angle, along=90 - angle), encoding="utf-8")
+    case = ExerciseCase(catalogue.load(path))
+    assert case.ledger.number("v.O.x").value == 0
+    has_no_dust(case)
+
+
+def test_a_centre_is_found_from_the_rotation(tmp_path: Path) -> None:
+    """Of a wheel on a turning wheel nothing tells directions: its centre lies v/ω from a known point."""
+    told = {"joint": "type: gears, discs: [1, 2]", "r1": 0.3, "r2": 0.2, "apart": 0.5, "angle": 40, "of": 130}
+    text = TRAIN.format(**told, w1=-4, w3=2, e1=0, e3=0).replace("find: [omega.2,", "find: [centre.2, omega.2,")
+    path = tmp_path / "file.yaml"
+    path.write_text(text, encoding="utf-8")
+    case = ExerciseCase(catalogue.load(path))
+    centre = case.worked.layout.centres[2]
+    # 1 m/s at A, 1.2 m/s against it at the rim, 0.2 m nearer to O: between them as their speeds are.
+    assert abs(centre.at) == pytest.approx(0.5 - 0.2 * 1 / 2.2)
+    motion = case.exercise.motion
+    assert abs(motion.velocities.at(2, centre.at)) < 1e-9
+    assert "centre-rate" in {step.kind for step in case.worked.steps}

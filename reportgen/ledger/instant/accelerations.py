@@ -3,33 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from itertools import permutations
 
 from reportgen.catalogue import plane_motion_file as file
-from reportgen.catalogue.plane_motion_places import direction, unit
+from reportgen.catalogue.plane_motion_places import unit
+from reportgen.ledger.instant.parts import Parts, Path, enter_normal, enter_tangential, known_path, relative
+from reportgen.ledger.instant.racks import by_rack
+from reportgen.ledger.instant.slot_accelerations import by_slot
 from reportgen.ledger.instant.speeds import Board, enter_blocks
 from reportgen.ledger.instant.steps import COORDINATES, Axis, Equation, Step
 from reportgen.ledger.instant.trains import by_train
-from reportgen.ledger.instant.vectors import Vector, components, solved_for, towards
+from reportgen.ledger.instant.vectors import Vector, components, size_of, solved_for
 from reportgen.notation.expressions import Symbol, sqrt, total
 from reportgen.plane_motion.conditions import GROUND
 from reportgen.plane_motion.ways import parallel
-
-
-@dataclass
-class Parts:
-    """The accelerations of points as vectors that add up to them; none for a point at rest or in uniform motion."""
-
-    board: Board
-    of: dict[str, tuple[Vector, ...]] = field(default_factory=dict)
-
-    def vector(self, id: str, value: complex) -> Vector:
-        return Vector(id, self.board.way(value))
-
-    def nonzero(self, *vectors: Vector) -> tuple[Vector, ...]:
-        """Those of the vectors that are on the board and are not nothing."""
-        return tuple(one for one in vectors if self.board.knows(one.id) and self.board.q.si(one.id))
 
 
 def enter_accelerations(board: Board, together: Callable[[Parts], bool]) -> None:
@@ -84,46 +71,12 @@ def _next(parts: Parts) -> bool:
             return True
         if _by_base(parts, body, names):
             return True
-    if _by_rims(parts) or by_train(board, "eps"):
+    if _by_rims(parts) or by_train(board, "eps") or by_rack(parts):
         return True
-    return any(_slot(parts, joint) for joint in board.layout.given.slots) or enter_blocks(board, "eps")
+    return any(by_slot(parts, joint) for joint in board.layout.given.slots) or enter_blocks(board, "eps")
 
 
 # --- about a known point --------------------------------------------------------------------------
-
-
-def _relative(parts: Parts, body: int, point: str, base: str) -> tuple[Vector, Vector]:
-    """The normal and the tangential acceleration of a point about another of its body, as vectors."""
-    board = parts.board
-    arm = board.layout.points[point] - board.layout.points[base]
-    eps = board.motion.epsilon(body)
-    pivot = board.layout.centres.get(body)
-    fixed = pivot is not None and pivot.rule == "pivot" and pivot.name == base
-    name = point if fixed else f"{point}{base}"
-    return parts.vector(f"a.{name}.n", -arm), parts.vector(f"a.{name}.t", 1j * arm * (1 if eps >= 0 else -1))
-
-
-def _enter_normal(parts: Parts, body: int, point: str, base: str, normal: Vector) -> tuple[str, ...]:
-    """aⁿ = ω² l; no line where the body does not turn."""
-    return _enter_part(parts, normal.id, f"omega.{body}", 2, base, point)
-
-
-def _enter_tangential(parts: Parts, body: int, point: str, base: str, tangential: Vector) -> tuple[str, ...]:
-    """aᵗ = ε l; no line where the angular velocity does not change."""
-    return _enter_part(parts, tangential.id, f"eps.{body}", 1, base, point)
-
-
-def _enter_part(parts: Parts, id: str, rate: str, power: int, base: str, point: str) -> tuple[str, ...]:
-    """A part of an acceleration from a rate of the body; the ids of its lines, none where the part is nothing."""
-    board = parts.board
-    if board.knows(id):
-        return ()
-    if board.q.si(rate) == 0:
-        board.q.give(id, 0.0)
-        return ()
-    arm = board.length(base, point)
-    board.q.define(id, (board.q[rate] if power == 1 else board.q[rate] ** power) * arm)
-    return (arm.id, id)
 
 
 def _points(parts: Parts, body: int, names: list[str]) -> bool:
@@ -136,8 +89,8 @@ def _points(parts: Parts, body: int, names: list[str]) -> bool:
     if base is None or not new or not (board.knows(f"omega.{body}") and board.knows(f"eps.{body}")):
         return False
     point = new[0]
-    normal, tangential = _relative(parts, body, point, base)
-    lines = _enter_normal(parts, body, point, base, normal) + _enter_tangential(parts, body, point, base, tangential)
+    normal, tangential = relative(parts, body, point, base)
+    lines = enter_normal(parts, body, point, base, normal) + enter_tangential(parts, body, point, base, tangential)
     own = parts.nonzero(normal, tangential)
     parts.of[point] = (*parts.of[base], *own)
     equation = Equation((), parts.of[point])
@@ -163,55 +116,19 @@ def _by_base(parts: Parts, body: int, names: list[str]) -> bool:
     bases = [name for name in names if name in parts.of]
     for base in bases:
         for point in names:
-            if point not in parts.of and (path := _path(parts, point, body)) is not None:
+            if point not in parts.of and (path := known_path(parts, point, body)) is not None:
                 return _two_unknown(parts, body, point, base, path)
     return False
-
-
-@dataclass(frozen=True)
-class Path:
-    """What is known of the acceleration of a point, its part of unknown size, the body and base that it is about."""
-
-    known: tuple[Vector, ...]
-    unknown: Vector
-    body: int = GROUND
-    base: str = ""
-    lines: tuple[str, ...] = ()
-
-
-def _path(parts: Parts, point: str, body: int) -> Path | None:
-    """What is known of the acceleration of a point on a known path, its unknown part, and the body it turns with.
-
-    On a straight line of the ground nothing is known; about a pivot, or another known point, the normal acceleration.
-    """
-    board, layout = parts.board, parts.board.layout
-    actual = board.motion.a(point) if point in board.motion.system.points else 0j
-    if point in layout.slots:
-        u = layout.slots[point]
-        return Path((), Vector(f"a.{point}", u if (u.conjugate() * actual).real >= 0 else -u))
-    for other, centre in layout.centres.items():
-        if other != body and centre.rule == "pivot" and point in layout.own(other) and board.knows(f"omega.{other}"):
-            normal, tangential = _relative(parts, other, point, centre.name)
-            lines = _enter_normal(parts, other, point, centre.name, normal)
-            return Path(parts.nonzero(normal), tangential, other, centre.name, lines)
-    for other in layout.members:
-        names = layout.own(other)
-        base = next((name for name in names if name in parts.of), "")
-        if other != body and point in names and base and board.knows(f"omega.{other}"):
-            normal, tangential = _relative(parts, other, point, base)
-            lines = _enter_normal(parts, other, point, base, normal)
-            return Path((*parts.of[base], *parts.nonzero(normal)), tangential, other, base, lines)
-    return None
 
 
 def _two_unknown(parts: Parts, body: int, point: str, base: str, path: Path) -> bool:
     known, unknown, lines = path.known, path.unknown, path.lines
     board, q = parts.board, parts.board.q
-    normal, tangential = _relative(parts, body, point, base)
+    normal, tangential = relative(parts, body, point, base)
     across = board.way(board.layout.points[point] - board.layout.points[base])
     if abs((across.conjugate() * unknown.way).real) < 1e-9:
         return False
-    lines += _enter_normal(parts, body, point, base, normal)
+    lines += enter_normal(parts, body, point, base, normal)
     bases = (*parts.of[base], *parts.nonzero(normal))
     equation = Equation((*known, unknown), (*bases, tangential), (unknown.id, tangential.id))
     q.define(unknown.id, solved_for(q, unknown.way, across, bases, known))
@@ -275,7 +192,7 @@ def _free(parts: Parts, body: int, names: list[str]) -> bool:
         return False
     base, point = known[0], known[1]
     arm = board.length(base, point)
-    normal, tangential = _relative(parts, body, point, base)
+    normal, tangential = relative(parts, body, point, base)
     equation = Equation(parts.of[point], (*parts.of[base], normal, tangential), (normal.id, tangential.id))
     q.define(normal.id, solved_for(q, normal.way, normal.way, parts.of[point], parts.of[base]))
     q.define(f"omega.{body}", sqrt(q[normal.id] / arm))
@@ -287,44 +204,6 @@ def _free(parts: Parts, body: int, names: list[str]) -> bool:
         Axis("η", tangential.way, point),
     )
     board.steps.append(Step("acceleration-free", lines, body, point, base, equation, axes))
-    return True
-
-
-def _slot(parts: Parts, joint: file.SlotJoint) -> bool:
-    """ε of a body with a pivot from the acceleration of a point that slides along its line: Coriolis' is part of it."""
-    board, q, body, point = parts.board, parts.board.q, joint.on, joint.point
-    centre = board.layout.centres.get(body)
-    if centre is None or centre.rule != "pivot" or board.knows(f"eps.{body}") or point not in parts.of:
-        return False
-    if not (board.knows(f"omega.{body}") and board.knows(f"v.{point}.r")):
-        return False
-    u = direction(joint, board.layout.points)
-    arm = board.way(board.layout.points[point] - centre.at)
-    if not parallel(u, arm):
-        return False
-    motion = board.motion
-    relative = board.at(point) - board.at(point, body)
-    normal = Vector(f"a.{point}e.n", -arm)
-    tangential = Vector(f"a.{point}e.t", 1j * arm * (1 if motion.epsilon(body) >= 0 else -1))
-    coriolis = Vector(f"a.{point}.k", board.way(2j * motion.omega(body) * relative))
-    along = motion.a(point) - motion.a(point, body) - 2j * motion.omega(body) * relative
-    sliding = Vector(f"a.{point}.r", board.way(complex((u.conjugate() * along).real) * u))
-    lines: tuple[str, ...] = ()
-    length = board.length(centre.name, point)
-    if q.si(f"omega.{body}"):
-        q.define(normal.id, q[f"omega.{body}"] ** 2 * length)
-        lines += (normal.id,)
-        if q.si(f"v.{point}.r"):
-            q.define(coriolis.id, 2 * q[f"omega.{body}"] * q[f"v.{point}.r"])
-            lines += (coriolis.id,)
-    known = parts.nonzero(normal, coriolis)
-    equation = Equation(parts.of[point], (*known, tangential, sliding), (tangential.id, sliding.id))
-    value = solved_for(q, tangential.way, 1j * u, parts.of[point], known)
-    q.define(tangential.id, value)
-    q.define(f"eps.{body}", q[tangential.id] / length)
-    lines += (tangential.id, f"eps.{body}")
-    axis = Axis("η", towards(1j * u, tangential.way), point)
-    board.steps.append(Step("acceleration-slot", lines, body, point, centre.name, equation, (axis,)))
     return True
 
 
@@ -346,15 +225,15 @@ def _whole(parts: Parts, point: str) -> None:
         lines = (f"a.{point}",)
     else:
         lines = ()
-        squares = []
+        sides = []
         for axis, name in COORDINATES:
             terms = components(q, vectors, axis)
             if terms:
                 one = q.define(f"a.{point}.{name}", total(terms), Symbol("a", f"{point}{name}"), "acceleration")
-                squares.append(one**2)
+                sides.append(one)
                 axes += (Axis(name, axis, point),)
                 lines += (one.id,)
-        q.define(f"a.{point}", sqrt(total(squares)))
+        q.define(f"a.{point}", size_of(q, sides))
         lines += (f"a.{point}",)
     equation = Equation((), vectors)
     board.steps.append(Step("acceleration-whole", lines, point=point, equation=equation, axes=axes))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from reportgen.ledger.instant.speeds import Board
 from reportgen.ledger.instant.steps import COORDINATES, Axis, Equation, Step
-from reportgen.ledger.instant.vectors import Vector, components, solved_for
-from reportgen.notation.expressions import Symbol, sqrt, total
+from reportgen.ledger.instant.vectors import Vector, components, size_of, solved_for
+from reportgen.notation.expressions import Symbol, total
 from reportgen.plane_motion.ways import perpendicular
 
 
@@ -13,8 +13,10 @@ def by_base_point(board: Board) -> bool:
     """One more velocity v_M = v_A + v_MA of a body that turns at a known rate, or the rates of two such bodies."""
     bodies = {body: names for body, names in board.layout.members.items() if body not in board.layout.centres}
     for body, names in bodies.items():
-        base = next((name for name in names if board.knows(f"v.{name}")), "")
-        new = next((name for name in names if not board.knows(f"v.{name}")), "")
+        known = [name for name in names if board.knows(f"v.{name}")]
+        # A base point that is worked out by components itself comes last.
+        base = min(known, key=lambda name: board.knows(f"v.{name}.x") or board.knows(f"v.{name}.y"), default="")
+        new = next((name for name in names if name not in known), "")
         if base and new and board.knows(f"omega.{body}") and _point(board, body, new, base):
             return True
     for body, names in bodies.items():
@@ -93,17 +95,17 @@ def _point(board: Board, body: int, point: str, base: str) -> bool:
     if not board.knows(relative.id):
         lines = (q.define(relative.id, q[f"omega.{body}"] * board.length(base, point)).id,)
     parts = [one for one in (board.velocity(base), relative) if q.si(one.id)]
-    squares, axes = [], []
+    sides, axes = [], []
     for axis, name in COORDINATES:
         if terms := components(q, parts, axis):
             one = q.define(f"v.{point}.{name}", total(terms), Symbol("v", f"{point}{name}"), "velocity")
-            squares.append(one**2)
+            sides.append(one)
             axes.append(Axis(name, axis, point))
             lines = (*lines, one.id)
-    if not squares:
+    if not sides:
         q.give(f"v.{point}", 0.0)
         return True
-    q.define(f"v.{point}", sqrt(total(squares)))
+    q.define(f"v.{point}", size_of(q, sides))
     whole = board.velocity(point)
     equation = Equation((whole,), tuple(parts), (whole.id,))
     board.steps.append(Step("base-point", (*lines, whole.id), body, point, base, equation, tuple(axes)))

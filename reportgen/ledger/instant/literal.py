@@ -231,7 +231,7 @@ class LiteralBoard:
                 case file.RollingOnCircle() | file.Gears():
                     found[layout.contacts[index]] = geometry.contact_of_discs(joint, index)
         for body, centre in self.worked.layout.centres.items():
-            if centre.rule in ("normals", "contact") and self.motion.velocities.omega(body) != 0:
+            if centre.rule in ("normals", "rate", "contact") and self.motion.velocities.omega(body) != 0:
                 rates = self.motion.velocities.of(body)
                 found[centre.name] = Plane.of((1j * rates.origin) / rates.turn)
         return found

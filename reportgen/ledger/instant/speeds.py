@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations, permutations
 
 from reportgen.catalogue import plane_motion_file as file
@@ -12,9 +12,30 @@ from reportgen.catalogue.plane_motion_places import direction
 from reportgen.ledger.instant.steps import Axis, Equation, Step
 from reportgen.ledger.instant.vectors import Vector, solved_for, towards
 from reportgen.notation.expressions import Ref, Symbol
-from reportgen.notation.sheet import Sheet, is_short
+from reportgen.notation.sheet import Family, Sheet, is_short
 from reportgen.plane_motion.motion import Motion
 from reportgen.plane_motion.ways import parallel, perpendicular
+
+
+class Quantities(Sheet):
+    """A sheet on which a rate is nothing that is so beside the rates of the whole system: what floats leave of 0."""
+
+    def __init__(self, positions: int, motion: Motion) -> None:
+        super().__init__(positions)
+        # A hundred thousandth: what is small beside the other rates keeps its figures.
+        fast, steep = motion.fastest * 1e-5, motion.steepest * 1e-5
+        self.scales = {
+            "velocity": fast,
+            "angular velocity": fast / motion.size,
+            "acceleration": steep,
+            "angular acceleration": steep / motion.size,
+        }
+
+    def enter(self, family: Family) -> Ref:
+        return super().enter(replace(family, scale=family.scale or self.scales.get(family.kind, 0.0)))
+
+    def si(self, quantity: str | Ref) -> float:
+        return float(self.families[quantity if isinstance(quantity, str) else quantity.id].at(None))
 
 
 @dataclass
@@ -239,8 +260,8 @@ def _slot(board: Board, joint: file.SlotJoint) -> bool:
         return False
     u = direction(joint, layout.points)
     arm_way = layout.points[point] - layout.points[base]
-    if abs(arm_way) < NEAR or not perpendicular(1j * u, arm_way / abs(arm_way)):
-        # The line does not pass through the point known: its own point has a component along it too.
+    if abs(arm_way) < NEAR or (not board.knows(f"omega.{body}") and perpendicular(u, arm_way / abs(arm_way))):
+        # As the body turns, its own point moves along the line alone, which tells nothing of how fast.
         return False
     own = board.at(point, body)
     turning = Vector(f"v.{point}{base}", board.way(own - board.at(base, body)))

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from reportgen.catalogue.plane_motion_places import direction
-from reportgen.ledger.instant.accelerations import Parts
+from reportgen.ledger.instant.parts import Parts
 from reportgen.ledger.instant.speeds import Board
 from reportgen.ledger.instant.steps import Step
 from reportgen.notation.expressions import Chain, Expression, Negative, Number, Product, Symbol, call, total

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from reportgen.notation.expressions import Expression, Negative, Number, Product, Ref, Symbol, cos, total
+from reportgen.notation.expressions import Expression, Negative, Number, Product, Ref, Symbol, cos, sqrt, total
 from reportgen.notation.sheet import Sheet
 from reportgen.plane_motion.ways import SAME, parallel
 
@@ -51,6 +51,13 @@ def solved_for(
     if parallel(unknown, axis):
         return sum_of
     return sum_of / cos(angle(q, math.acos(min(cosine, 1.0))))
+
+
+def size_of(q: Sheet, sides: Sequence[Ref]) -> Expression:
+    """The size of a vector from its components along axes at right angles; one alone is the size but for its sign."""
+    if len(sides) == 1:
+        return sides[0] if q.si(sides[0]) >= 0 else Negative(sides[0])
+    return sqrt(total([one**2 for one in sides]))
 
 
 def towards(axis: complex, way: complex) -> complex:

@@ -13,8 +13,9 @@ from reportgen.catalogue.plane_motion_file import Asked, Method
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.instant.accelerations import enter_accelerations
+from reportgen.ledger.instant.centres import enter_centre
 from reportgen.ledger.instant.methods import belongs, find_velocities
-from reportgen.ledger.instant.speeds import Board, enter_given
+from reportgen.ledger.instant.speeds import Board, Quantities, enter_given
 from reportgen.ledger.instant.steps import Step
 from reportgen.ledger.instant.systems import solve_accelerations_together
 from reportgen.notation.expressions import Symbol, refs
@@ -59,7 +60,7 @@ def work_out(
     `units` and `names` are the units and the indices of symbols as a language has them.  Velocities are found by the
     `method` if one is named; where they alone are wanted, by no other.
     """
-    board = Board(Sheet(POSITIONS), lay_out(exercise.given, exercise.motion))
+    board = Board(Quantities(POSITIONS, exercise.motion), lay_out(exercise.given, exercise.motion))
     enter_given(board)
     find_velocities(board, method, alone=velocities_alone)
     if not velocities_alone:
@@ -67,13 +68,14 @@ def work_out(
     missing = [one.id for one in exercise.asked if one.what != "centre" and not _leads_to(board, one)]
     for asked in exercise.asked:
         if asked.what == "centre":
-            missing += [] if _centre(board, asked.body) else [asked.id]
+            missing += [] if enter_centre(board, asked.body) else [asked.id]
     for asked in exercise.asked:
         _signed(board, asked.id)
         if asked.what in ("v", "a"):
             _directed(board, asked)
     wanted = [one.id for one in exercise.asked]
     wanted += [id for id in board.q.families if id.startswith(("centre.", "turn.", "dir."))]
+    wanted += [id for step in board.steps if step.kind == "centre-rate" for id in step.ids]
     if velocities_alone and not any(one.what in ("v", "omega") for one in exercise.asked):
         wanted += [id for id in board.q.families if id.startswith(("v.", "omega."))]
     needed = _with_ancestors(board, wanted)
@@ -103,18 +105,6 @@ def _leads_to(board: Board, asked: Asked) -> bool:
         case what:
             value = motion.v(asked.of) if what == "v" else motion.a(asked.of)
     return math.isclose(board.q.si(asked.id), abs(value), rel_tol=SAME, abs_tol=NOTHING)
-
-
-def _centre(board: Board, body: int) -> bool:
-    """Enters the coordinates of a body's instant centre; whether it is known, which one infinitely far is, too."""
-    centre = board.layout.centres.get(body)
-    if centre is None:
-        return False
-    if centre.rule != "translation":
-        for axis, value in (("x", centre.at.real), ("y", centre.at.imag)):
-            size = board.motion.size
-            board.q.give(f"centre.{body}.{axis}", value, Symbol(axis, centre.name), "length", exact=False, scale=size)
-    return True
 
 
 def _signed(board: Board, id: str) -> None:
