@@ -51,9 +51,9 @@ def sheets_of(plates: Plates, chosen: Sequence[int], size: str, block: TitleBloc
     sets = {str(number): plates.series[index].belongs for number, index in enumerate(chosen, start=1)}
     result = []
     for number, parts in enumerate(found, start=1):
-        shown = dict.fromkeys(sets[part.name.partition(".")[0]] for part in parts)
+        shown = {sets[part.name.partition(".")[0]] for part in parts}
         fields = fields_of(report.case) | {
-            "title": "; ".join(words["sets"][one] for one in shown),
+            "title": words["sets"][shown.pop() if len(shown) == 1 else "all"],
             "sheet": str(number),
             "sheets": str(len(found)),
             "format": size,
