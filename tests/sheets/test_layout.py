@@ -52,6 +52,8 @@ def test_the_plates_are_numbered_in_the_order_of_the_work(name: str, size: str) 
     numbers = [tuple(map(int, part.name.split("."))) for sheet in laid(name, size).sheets for part in plates(sheet)]
     assert len(numbers) == len(set(numbers))
     assert {number[0] for number in numbers} == set(range(1, max(numbers)[0] + 1))
+    # Only on a small sheet may they change places.
+    assert size == "A3" or numbers == sorted(numbers)
     # Each sheet shows a run of them.
     runs = [sorted(tuple(map(int, part.name.split("."))) for part in plates(one)) for one in laid(name, size).sheets]
     assert [number for run in runs for number in run] == sorted(numbers)
