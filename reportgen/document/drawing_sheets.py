@@ -22,7 +22,7 @@ def drawing_sheets(case: Case, size: str = "", sets: Collection[str] = (), block
     """The finished drawing sheets of a case: of one `size`, else as the file says, else A1, or A0 if a plate needs it.
 
     `sets` are some of `SETS`, all if none is named; the title `block` is a file, else that of the language.  Raises
-    `SheetError` where there is nothing to draw or a plate is larger than the size, `AssignmentError` for a faulty block.
+    `SheetError` where there is nothing to draw or a plate is too large, `AssignmentError` for a faulty block.
     """
     report, language = open_report(case), case.assignment.language
     plates = Plates.of(report)

@@ -1,7 +1,7 @@
 """Where plates stand on drawing sheets: as many as have room, in the order of the work, then spread over the paper.
 
-Plates stand in rows, or in columns where rows do not fill a sheet.  Where neither does, each plate goes as high up as it
-can and there as far to the left, as one lays cards on a table.  Boxes here have half the white around them at each
+Plates stand in rows, or in columns where rows do not fill a sheet.  Where neither does, each plate goes as high up as
+it can and there as far to the left, as one lays cards on a table.  Boxes here have half the white around them at each
 side; a spot is (to the right, down) from where the first one stands.
 """
 

@@ -21,13 +21,13 @@ LEAST = 2.49
 FULL = 0.6
 """What of the free area of a sheet its plates take."""
 WIDE_CAPTIONS: dict[str, dict[str, set[int]]] = {
-    "": {"four-bar-01": {3}, "shaper-02": {2}},
+    "": {"four-bar-01": {3}, "linkage-8": {3, 4}, "shaper-02": {2}},
     "kinematics": {"four-bar-01": {3}, "linkage-8": {3, 4}, "shaper-02": {2}},
 }
 """By set, sheets A3 with plans of motion: of the next finer round scale fewer have room, at a coarser one they cannot
 be read, or a scheme and a position plan stand alone as no row of plans has room below them."""
 TALL: dict[str, dict[str, set[int]]] = {
-    "": {"engine-v-02": {8}},
+    "": {"engine-v-02": {9}},
     "forces": {
         **{f"engine-single-{one}": {1} for one in ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")},
         "engine-twin-05": {1, 2},
