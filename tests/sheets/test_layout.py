@@ -76,6 +76,15 @@ def test_a_plate_larger_than_the_paper_is_told(size: str) -> None:
     assert caught.value.part.name == "1"
 
 
+@pytest.mark.parametrize("size", ["A1", "A3"])
+@pytest.mark.parametrize("name", EVERY)
+def test_the_scheme_is_not_larger_than_the_position_plan(name: str, size: str) -> None:
+    """But for its slider and guide, and round scales: it shows less than the plan."""
+    sheet = laid(name, size).sheets[0]
+    scheme, positions = (next(part.scene for part in plates(sheet) if part.name == number) for number in "12")
+    assert max(scheme.width, scheme.height) <= 1.3 * max(positions.width, positions.height)
+
+
 @sheets
 def test_the_title_block_says_which_sheet_of_how_many(name: str, size: str) -> None:
     found = laid(name, size).sheets
