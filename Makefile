@@ -28,6 +28,7 @@ bench: $(VENV)/.developing
 	$(BIN)/python -m tests.bench
 	$(BIN)/python -m tests.bench.batch
 	$(BIN)/python -m tests.bench.page
+	$(BIN)/python -m tests.bench.growth --plot docs/growth.png
 
 # The seed of the day: another ten thousand files each time.
 fuzz: $(VENV)/.developing

@@ -7,6 +7,7 @@ where nothing can be kept (a read-only home, a full disk, somebody else's folder
 from __future__ import annotations
 
 import os
+import stat
 import tempfile
 from contextlib import suppress
 from functools import cache
@@ -46,7 +47,14 @@ def folder() -> Path | None:
     found = user_cache_path("reportgen", appauthor=False)
     with suppress(OSError):
         found.mkdir(mode=0o700, parents=True, exist_ok=True)
-        # What is kept is run: it must be nobody else's work.
-        if not hasattr(os, "getuid") or found.stat().st_uid == os.getuid():
+        if _is_private(found):
             return found
     return None
+
+
+def _is_private(found: Path) -> bool:
+    """Whether nobody else can have written there: what is kept is run."""
+    if not hasattr(os, "getuid"):
+        return True
+    about = found.stat()
+    return about.st_uid == os.getuid() and not about.st_mode & (stat.S_IWGRP | stat.S_IWOTH)

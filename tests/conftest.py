@@ -6,6 +6,7 @@ reports are made once; the others go by their own file.
 
 from __future__ import annotations
 
+import gc
 import os
 import re
 from pathlib import Path
@@ -14,8 +15,11 @@ from typing import Any
 import pytest
 from xdist.scheduler import LoadScopeScheduling
 
+from reportgen.cli import COLLECTED
 from tests.reports import built
 
+# As commands have it: what tests share lasts, and there is ever more of it to be looked through.
+gc.set_threshold(COLLECTED)
 # What is kept between runs is kept here for all processes of the tests, not in the home of whoever runs them.
 os.environ["XDG_CACHE_HOME"] = str(Path(__file__).resolve().parents[1] / ".pytest_cache" / "kept")
 

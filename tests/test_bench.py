@@ -8,9 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bench import batch, measure, page, plain
+from bench import batch, growth, measure, page, plain
 from bench.__main__ import Bench, Row, table
 from bench.closed_form import solve
+from bench.growth import Growth
 from bench.size import Size, size_of
 from bench.solving import compare, machine
 
@@ -181,3 +182,22 @@ def test_pages_are_told_as_the_documents_have_them() -> None:
     assert f"{head}\n{rule}\n| `engine-twin-05` |" in (SAMPLE.parents[1] / "docs" / "speed.md").read_text(
         encoding="utf-8"
     )
+
+
+def test_growth_tells_a_line_from_a_curve() -> None:
+    straight = Growth("build", "positions", {n: measure.Cost(2.0 + 0.01 * n, 90.0) for n in (8, 36, 90, 360)})
+    bent = Growth("build", "positions", {n: measure.Cost(2.0 + 1e-4 * n * n, 90.0) for n in (8, 36, 90, 360)})
+    assert straight.slope == pytest.approx(0.01)
+    assert straight.bend == pytest.approx(1.0)
+    # Of n² the last stretch has the slope n₂ + n₁, the whole n₂ + n₀.
+    assert bent.bend == pytest.approx((360 + 90) / (360 + 8))
+
+
+def test_growth_measures_the_main_process_and_draws_it(tmp_path: Path) -> None:
+    cost = growth.Trial(tmp_path).variants(2)
+    assert cost.seconds > 0
+    assert 20 < cost.memory < 1000
+    assert len(list((tmp_path / "given-2").glob("*.yaml"))) == 2
+    one = Growth("variants", "students", {1: cost, 2: cost, 3: cost})
+    growth.plot([one] * 4, tmp_path / "growth.png")
+    assert (tmp_path / "growth.png").read_bytes().startswith(b"\x89PNG")

@@ -82,3 +82,11 @@ def test_without_a_folder_all_goes_on(home: Path, words: Path) -> None:
 def test_a_folder_of_somebody_else_is_not_used(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "getuid", lambda: 12345)
     assert kept.folder() is None
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="no users on this system")
+@pytest.mark.parametrize("mode", [0o770, 0o702])
+def test_a_folder_that_others_may_write_to_is_not_used(home: Path, mode: int) -> None:
+    (home / "reportgen").mkdir(parents=True)
+    (home / "reportgen").chmod(mode)
+    assert kept.folder() is None

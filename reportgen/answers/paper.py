@@ -12,7 +12,6 @@ from reportgen.answers.key import Key, Role, Row, words_of
 from reportgen.answers.sheet import asked_positions, info_rows, open_cells
 from reportgen.case import Case, ExerciseCase, Opened
 from reportgen.document import tree
-from reportgen.document.exercise import task_names
 from reportgen.document.numbering import number
 from reportgen.document.outline import open_report
 from reportgen.document.prose import Prose
@@ -129,6 +128,8 @@ def task(case: Opened, key: Key, by_section: bool = False) -> Document:
 @task.register
 def of_exercise(case: ExerciseCase, key: Key, by_section: bool = False) -> Document:
     """The task of an exercise: what is given and asked, the system, and the sheet."""
+    from reportgen.document.exercise import task_names
+
     tables = tuple(_sections(key) if by_section else answer_tables(key))
     blocks = Prose(case.directories).render("exercise-task.md", {**task_names(case), "answer_tables": tables})
     about = case.assignment.report

@@ -12,7 +12,7 @@ from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue import plane_motion_symbols as symbols
 from reportgen.catalogue.plane_motion_centres import Layout, lay_out
 from reportgen.catalogue.plane_motion_methods import why_not
-from reportgen.catalogue.plane_motion_places import TOP, MisplacedError, system
+from reportgen.catalogue.plane_motion_places import TOP, MisplacedError, named, system
 from reportgen.errors import Finding, Where
 from reportgen.plane_motion.conditions import GROUND
 from reportgen.plane_motion.motion import Motion
@@ -163,16 +163,22 @@ def _motion(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Finding]
     except MisplacedError as fault:
         yield fault.finding
         return
+    known = named(given)
     for rank, conflicts in (
         ("velocities", motion.velocity_conflicts),
         ("accelerations", motion.acceleration_conflicts),
     ):
         for conflict in conflicts:
-            others = ", ".join(map(_short, conflict.others)) or "–"
-            arguments = {"text": _short(conflict.name), "others": others, "reason": rank}
-            yield Finding("contradiction", _place_of(conflict.name), arguments)
+            where, called = known[conflict.name]
+            others = ", ".join(known[name][1] for name in conflict.others) or "–"
+            yield Finding("contradiction", where, {"text": called, "others": others, "reason": rank})
         if conflicts:
             return
+    for body in motion.parting:
+        given_of = (index for index, one in enumerate(given.given) if _is_acceleration_on(one, body, given))
+        yield Finding("points-part", (*TOP, "given", max(given_of)), {"body": str(body)})
+    if motion.parting:
+        return
     knows = {
         "omega": lambda of: motion.knows_omega(int(of)),
         "eps": lambda of: motion.knows_epsilon(int(of)),
@@ -214,15 +220,8 @@ def _methods(given: file.Parameters, layout: Layout) -> Iterator[Finding]:
             yield Finding(code, where, {"text": method})
 
 
-def _place_of(name: str) -> Where:
-    """Where a joint or a given quantity stands in the file, from what messages call it: joints[2] (pin A)."""
-    section, _, rest = name.partition("[")
-    return (*TOP, section, int(rest.partition("]")[0]))
-
-
-def _short(name: str) -> str:
-    """What stands in the parentheses of a name: joints[2] (pin A) → pin A."""
-    return name.partition("(")[2].removesuffix(")")
+def _is_acceleration_on(rate: file.GivenRate, body: int, given: file.Parameters) -> bool:
+    return isinstance(rate, file.AccelerationOf) and rate.point in given.bodies[body].carried
 
 
 def _open(motion: Motion, asked: file.Asked) -> str:

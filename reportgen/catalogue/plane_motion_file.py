@@ -360,5 +360,18 @@ class Parameters(Part):
         """Whether the solution is one by symbols."""
         return bool(self.symbols)
 
+    @property
+    def slots(self) -> tuple[SlotJoint, ...]:
+        """Points that move along lines of moving bodies; of a slider it is the first point of its body."""
+        found = []
+        for joint in self.joints:
+            if isinstance(joint, SlotJoint) and joint.on:
+                found.append(joint)
+            elif isinstance(joint, Slider) and joint.on:
+                point = self.bodies[joint.body].carried[0]
+                slot = SlotJoint.model_construct(type="slot", point=point, body=joint.body, on=joint.on)
+                found.append(slot.model_copy(update={"angle": joint.angle, "along": joint.along}))
+        return tuple(found)
+
     def disc(self, body: int) -> Disc | None:
         return self.bodies[body].disc if body in self.bodies else None

@@ -19,8 +19,7 @@ def why_not(method: file.Method, layout: Layout) -> str:
     plane = [*_in_plane_motion(layout)]
     match method:
         case "moving frame":
-            moving = any(isinstance(one, file.SlotJoint) and one.on for one in layout.given.joints)
-            return "" if moving else "no-moving-frame"
+            return "" if layout.given.slots else "no-moving-frame"
         case _ if not plane:
             return "no-plane-motion"
         case "instant centre":

@@ -199,9 +199,19 @@ def conditions(geometry: Geometry, bare: System) -> Iterator[Condition]:
         yield from _rate(rate, index, geometry, bare)
 
 
-def name_of(index: int, what: str, *parts: object) -> str:
-    """What a message calls a joint or a given quantity: joints[2] (pin A)."""
-    return f"{what}[{index}] ({' '.join(map(str, parts))})"
+def name_of(index: int, section: str, *called: object) -> str:
+    """The name of the conditions of a joint or of a given quantity: joints[2] (pin A)."""
+    return f"{section}[{index}] ({' '.join(map(str, called))})"
+
+
+def named(given: file.Parameters) -> dict[str, tuple[Where, str]]:
+    """Where each joint and each given quantity stands, and what a message calls it, by the name of its conditions."""
+    listed = {"joints": given.joints, "given": given.given}
+    return {
+        name_of(index, section, *one.called): ((*TOP, section, index), " ".join(map(str, one.called)))
+        for section, several in listed.items()
+        for index, one in enumerate(several)
+    }
 
 
 def _joint(joint: file.Joint, index: int, geometry: Geometry, bare: System) -> tuple[Condition, ...]:

@@ -7,11 +7,14 @@ literal solution.
 from __future__ import annotations
 
 import ast
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import singledispatch
 from typing import Any
+
+import numpy as np
 
 from reportgen.assignment.fields import Quantity, Reader, fault
 from reportgen.notation.evaluation import evaluate
@@ -32,8 +35,8 @@ from reportgen.units import Given, QuantityFault, read_quantity
 MOST_SYMBOLS = 20
 LONGEST = 80
 """Of a formula, in characters."""
-LARGEST = 1e6
-"""A number in a formula."""
+MOST_NESTED = 3
+"""Parentheses within each other."""
 _NAME = re.compile(r"[A-Za-z]{1,10}[0-9]{0,2}")
 _GREEK = {"omega": "ω", "eps": "ε", "epsilon": "ε", "rho": "ρ", "lambda": "λ", "mu": "μ"}
 _UNITS = {"mm": (1, 0), "m/s": (1, -1), "m/s2": (1, -2), "rad/s": (0, -1), "rad/s2": (0, -2)}
@@ -107,6 +110,21 @@ class SymbolName(Reader):
         return {"type": "string", "pattern": f"^{_NAME.pattern}$"}
 
 
+def _sums(nested: int) -> str:
+    """The pattern of a formula as a file has it, with so many parentheses within each other."""
+    number = r"(?:0|[1-9][0-9]{0,5})(?:\.[0-9]*)?|\.[0-9]+"
+    name = rf"(?!sqrt\b){_NAME.pattern}(?![A-Za-z0-9])"
+    inner = rf"|(?:sqrt *)?\( *{_sums(nested - 1)} *\)" if nested else ""
+    factor = rf"(?:[-−] *)?(?:{number}|{name}{inner})(?: *(?:\*\*|\^) *[23](?![0-9.]))?"
+    return f"{factor}(?: *[-−+*/] *{factor})*"
+
+
+_WITH_A_SYMBOL = r"(?=(?:.*[^A-Za-z0-9])?(?!sqrt\b)[A-Za-z])"
+FORMULA = rf"^(?=.{{1,{LONGEST}}}$){_WITH_A_SYMBOL} *{_sums(MOST_NESTED)} *$"
+"""What is read as a formula: no text is a quantity with its unit, too."""
+_FORMULA = re.compile(FORMULA)
+
+
 @dataclass(frozen=True, slots=True)
 class Stated:
     """What stands in a file that has symbols, before it is read."""
@@ -124,18 +142,31 @@ class Told(Reader):
     def read(self, value: object) -> Given:
         if not isinstance(value, Stated):
             return self.by_number.read(value)
-        if not any(name in value.symbols for name in _NAME.findall(value.text)):
+        named = any(name in value.symbols for name in _NAME.findall(value.text))
+        if not named and not _FORMULA.fullmatch(value.text):
             return self.by_number.read(value.text)
         formula, powers = parsed(value.text, value.symbols)
         if powers != _UNITS[self.by_number.unit] and powers is not None:
             raise fault("wrong-unit", given=value.text, unit=self.by_number.unit)
-        si = float(evaluate(formula, {name: one.given.si for name, one in value.symbols.items()}))
+        si = _at_values(formula, value)
         scale = read_quantity(f"1 {self.by_number.unit}", self.by_number.unit).si
         self.by_number.interval.require(si / scale, value.text, self.by_number.unit)
         return Literal(si, si / scale, self.by_number.unit, value.text, formula)
 
     def schema(self) -> dict[str, Any]:
-        return {"anyOf": [self.by_number.schema(), {"type": "string", "pattern": r"^[-+*/(). 0-9A-Za-z]+$"}]}
+        return {"anyOf": [self.by_number.schema(), {"type": "string", "pattern": FORMULA}]}
+
+
+def _at_values(formula: Expression, told: Stated) -> float:
+    """What a formula comes to; raises the fault of one that divides by 0 or takes the root of less."""
+    try:
+        with np.errstate(all="ignore"):
+            si = float(evaluate(formula, {name: one.given.si for name, one in told.symbols.items()}))
+    except (ZeroDivisionError, OverflowError):
+        si = math.nan
+    if not math.isfinite(si):
+        raise fault("not-finite", text=told.text)
+    return si
 
 
 def si_unit(value: Value) -> str:
@@ -158,13 +189,12 @@ Parsed = tuple[Expression, Powers | None]
 
 def parsed(text: str, symbols: Symbols) -> Parsed:
     """Raises the fault of text that is no formula, names no symbol, or adds what cannot be added."""
-    if len(text) > LONGEST:
+    if not _FORMULA.fullmatch(text):
         raise fault("no-formula", text=text)
-    try:
-        tree = ast.parse(text.strip().replace("−", "-"), mode="eval").body
-    except (SyntaxError, ValueError, MemoryError, RecursionError):
-        raise fault("no-formula", text=text) from None
-    return _parsed(tree, text, symbols)
+    spelled = text.strip().replace("−", "-").replace("^", "**")
+    # A symbol may be called as a word of Python is: lambda.
+    marked = _NAME.sub(lambda name: name[0] if name[0] == "sqrt" else f"_{name[0]}", spelled)
+    return _parsed(ast.parse(marked, mode="eval").body, text, symbols)
 
 
 @singledispatch
@@ -175,30 +205,26 @@ def _parsed(node: ast.AST, text: str, symbols: Symbols) -> Parsed:
 @_parsed.register
 def _(node: ast.Constant, text: str, symbols: Symbols) -> Parsed:
     value = node.value
-    if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > LARGEST:
-        raise fault("no-formula", text=text)
+    assert isinstance(value, int | float)
     return Number(float(value)), (0, 0) if value else None
 
 
 @_parsed.register
 def _(node: ast.Name, text: str, symbols: Symbols) -> Parsed:
-    if node.id not in symbols:
-        raise fault("no-such-symbol", text=node.id, known=", ".join(symbols) or "–")
-    return Ref(node.id), symbols[node.id].powers
+    name = node.id.removeprefix("_")
+    if name not in symbols:
+        raise fault("no-such-symbol", text=name, known=", ".join(symbols) or "–")
+    return Ref(name), symbols[name].powers
 
 
 @_parsed.register
 def _(node: ast.UnaryOp, text: str, symbols: Symbols) -> Parsed:
     of, powers = _parsed(node.operand, text, symbols)
-    if not isinstance(node.op, ast.USub):
-        raise fault("no-formula", text=text)
     return Negative(of), powers
 
 
 @_parsed.register
 def _(node: ast.Call, text: str, symbols: Symbols) -> Parsed:
-    if not isinstance(node.func, ast.Name) or node.func.id != "sqrt" or len(node.args) != 1 or node.keywords:
-        raise fault("no-formula", text=text)
     of, powers = _parsed(node.args[0], text, symbols)
     return Root(of), None if powers is None else (powers[0] / 2, powers[1] / 2)
 

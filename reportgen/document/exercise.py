@@ -160,9 +160,12 @@ class Page(Solution):
 
     def _typed(self, id: str, given: Given) -> Chain:
         """What is given, by its size: the formula of one that is stated by symbols."""
-        size = Number(float(f"{abs(given.value):.{TYPED}g}"), None, pretty(given.unit))
+        unit = self.case.words["units"].get(given.unit, pretty(given.unit))
+        size = Number(float(f"{abs(given.value):.{TYPED}g}"), None, unit)
         if not isinstance(given, Literal):
-            return Chain((vocabulary.symbol(id), size))
+            # The lines count in rad/s.
+            in_si = (self.worked.ledger.number(id, AT),) if given.unit == "rpm" and id in self.worked.ledger else ()
+            return Chain((vocabulary.symbol(id), size, *in_si))
         formula = lettered(given.formula)
         shown = (formula.of if isinstance(formula, Negative) else formula,)
         return Chain((vocabulary.symbol(id), *shown))

@@ -10,6 +10,7 @@ import numpy as np
 from reportgen.case import ExerciseCase
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_places import direction
+from reportgen.document.exercise_axes import Axes
 from reportgen.figures import instant, style
 from reportgen.figures.scene import Scene
 from reportgen.notation import vocabulary
@@ -65,6 +66,7 @@ def _draw(
     """The system in mm; vectors are to the scale that is printed below."""
     exercise = case.exercise
     system, given = exercise.motion.system, exercise.given
+    projections = Axes((case.worked, *case.further))
     scale = _scale(case, [*extra.values()])
     points = {name: at * scale for name, at in {**system.points, **extra}.items()}
     per_mm = nice_up(max((abs(vector) for vector, _ in vectors.values()), default=1.0) / LONGEST)
@@ -91,6 +93,8 @@ def _draw(
         [(start * scale, end * scale) for start, end in normals],
         arrows,
         [*_rotations(case, points)] if what == "v" else [],
+        [*projections.drawn(what == "a", scale)] if what else [],
+        what != "" and projections.has_coordinates(what == "a"),
         style.ACTIVE if what == "v" else style.REACTION,
     )
     unit = "m/(s·mm)" if what == "v" else "m/(s²·mm)"
@@ -124,11 +128,10 @@ def _rails(case: ExerciseCase, points: dict[str, complex]) -> Iterator[instant.R
 def _slots(case: ExerciseCase, points: dict[str, complex]) -> Iterator[tuple[complex, complex]]:
     """The lines of moving bodies along which points slide, from the body's own point on to beyond the block."""
     given, system = case.exercise.given, case.exercise.motion.system
-    for joint in given.joints:
-        if isinstance(joint, file.SlotJoint) and joint.on != GROUND:
-            u, at = direction(joint, system.points), points[joint.point]
-            along = [(u.conjugate() * (points[name] - at)).real for name in system.bodies[joint.on]]
-            yield at + (min(*along, 0.0) - instant.BEYOND) * u, at + (max(*along, 0.0) + instant.BEYOND) * u
+    for joint in given.slots:
+        u, at = direction(joint, system.points), points[joint.point]
+        along = [0.0, *((u.conjugate() * (points[name] - at)).real for name in system.bodies[joint.on])]
+        yield at + (min(along) - instant.BEYOND) * u, at + (max(along) + instant.BEYOND) * u
 
 
 def _cords(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iterator[tuple[complex, complex]]:

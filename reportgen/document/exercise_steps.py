@@ -12,6 +12,7 @@ from typing import Any
 
 from reportgen.case import ExerciseCase
 from reportgen.catalogue.plane_motion_symbols import symbol
+from reportgen.document.exercise_axes import Axes
 from reportgen.document.prose import PointName
 from reportgen.document.tree import Equation, InlineMath, Inlines, Text, Value
 from reportgen.ledger.instant.steps import Step
@@ -30,6 +31,7 @@ class StepView:
     """A step as templates name it."""
 
     kind: str
+    of_accelerations: bool
     body: int
     point: PointName
     base: PointName
@@ -44,8 +46,15 @@ class StepView:
     way: str
     place: Inlines
     """The coordinates of the instant centre."""
+    frame: int
+    """The body that the motion is seen from."""
     system: tuple[Equation, ...]
     results: tuple[Equation, ...]
+    along: Symbol
+    across: Symbol
+    """The axes of projection ξ and η."""
+    letters: str
+    """Those of the axes that the step projects on: "ξη", "xy"."""
     contact: PointName | str
     """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
 
@@ -74,6 +83,11 @@ class Solution:
         return tuple(self._step(step) for step in self.worked.steps if step not in first.steps)
 
     @property
+    def axes(self) -> Axes:
+        """The axes of projection of all solutions of the case."""
+        return Axes((self.case.worked, *self.case.further))
+
+    @property
     def method(self) -> str:
         """What its method is called; "" where it is chosen for each step."""
         return str(self.case.words["instant"]["methods"][self.worked.method]) if self.worked.method else ""
@@ -91,6 +105,7 @@ class Solution:
         angles = dict.fromkeys(id for one in shown for id in self._angles_of(one))
         return StepView(
             step.kind,
+            step.of_accelerations,
             step.body,
             PointName(step.point),
             PointName(step.base),
@@ -103,8 +118,12 @@ class Solution:
             self._sense(rate) if rate else str(self.case.words["instant"]["no_sense"]),
             self._heading(step),
             self._coordinates(step.body) if centre is not None and centre.rule == "normals" else (),
+            step.frame,
             (Equation(step.system),) if step.system else (),
             (Equation(step.results),) if step.results else (),
+            self.axes.symbol(step, "ξ"),
+            self.axes.symbol(step, "η"),
+            "".join(axis.letter for axis in step.axes),
             PointName(centre.name) if rolling and centre is not None else "",
         )
 
@@ -164,6 +183,8 @@ class Solution:
         if self.worked.ledger[id].definition is None:
             formula = [chain.parts[0]]
         result = chain.parts[-1:] if self.put_in or (found is None and len(formula) == 1) else ()
+        if isinstance(found, Number) and found.value == 0 and result:
+            found = None
         steps = [*formula, *([] if found is None else [found]), *result]
         return Chain(tuple(one for place, one in enumerate(steps) if place == 0 or one != steps[place - 1]))
 

@@ -8,7 +8,7 @@ are one.  Motion repeats from turn to turn; forces go on through the cycle.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -32,6 +32,7 @@ from reportgen.figures.moving import (
     Film,
     MovingItem,
     Name,
+    Scales,
     Spot,
     Stage,
     Track,
@@ -67,6 +68,7 @@ ARROW = 34.0
 FAR = 2.5
 """A centre farther off than so many diagonals of the drawing is not drawn."""
 DIGITS, MOST_DECIMALS = 5, 5
+POLE = Track(np.zeros(1, complex))
 
 
 def film(case: Case) -> Film:
@@ -168,13 +170,12 @@ class _Samples:
         names: tuple[tuple[What, str], ...] = (("v", "velocity_plan"), ("a", "acceleration_plan"))
         for what, name in names:
             plan, tracks = self._plan_of_motion(what)
-            yield _stage(what, words[name], plan, tracks)
+            items = plan_items(plan, tracks)
+            yield Stage(what, words[name], tuple(items), *extent(items), (self._scale(f"mu.{what}"),))
         titles = {group.polygon.name: f"{group.i}, {group.j}" for group in report.groups if group.polygon is not None}
         for polygon in self.case.polygons:
-            plan, tracks = self._plan_of_forces(polygon)
             of = titles.get(polygon.name)
-            title = words["force_plan"].format(name=of) if of else words["driver_plan"]
-            yield _stage(f"R{polygon.name}", title, plan, tracks)
+            yield self._plan_of_forces(polygon, words["force_plan"].format(name=of) if of else words["driver_plan"])
 
     def mechanism(self) -> Stage:
         """The machine itself, true to shape."""
@@ -290,25 +291,35 @@ class _Samples:
         """The plan of velocities or accelerations, and the tracks of its corners."""
         numbers = _Numbers()
         plan = motion_plan_through(self.report, what, numbers)
-        tracks = [self.turn(_places(self.corners[id])) if id else Track(np.array([0j])) for id in numbers.ids]
-        return replace(plan, scale=self._scale(f"mu.{what}")), tracks
+        return plan, [self.turn(_places(self.corners[id])) if id else POLE for id in numbers.ids]
 
-    def _plan_of_forces(self, polygon: Polygon) -> tuple[Plan, list[Track]]:
-        """A force plan at the scale that serves all numbered positions, and the tracks of its corners."""
-        report, id = self.report, f"mu.R{polygon.name}"
-        numbers = _Numbers()
-        plan = force_plan_through(report, polygon, numbers)
-        own = self.corners[id]
-        common = max(report.plates, key=lambda k: float(report.ledger[id].at(k)))
-        share = own / float(report.ledger[id].at(common))
-        tracks = [Track(_places(self.corners[one]) * share) if one else Track(np.array([0j])) for one in numbers.ids]
-        return replace(plan, scale=self._scale(id, common)), tracks
+    def _plan_of_forces(self, polygon: Polygon, title: str) -> Stage:
+        """A force plan, at each sample at the scale that the report would draw it to.
 
-    def _scale(self, id: str, k: int | None = None) -> Chain:
+        Forces of combustion are many times those of the other strokes: at one scale those would be points.
+        """
+        id, numbers = f"mu.R{polygon.name}", _Numbers()
+        plan = force_plan_through(self.report, polygon, numbers)
+        places = [_places(self.corners[one]) if one else np.zeros(1, complex) for one in numbers.ids]
+        own = np.broadcast_to(self.corners[id], self.angles.shape)
+        each, at = np.unique(own, return_inverse=True)
+        coarsest = float(each[-1])
+        items = plan_items(plan, [Track(place * (own / coarsest)) for place in places])
+        low, high = extent(plan_items(plan, [Track(place) for place in places]))
+        scales = Scales(
+            tuple(self._printed(id, float(one)) for one in each),
+            tuple(coarsest / float(one) for one in each),
+            Track(at.astype(float)),
+        )
+        return Stage(f"R{polygon.name}", title, tuple(items), low, high, scales=scales)
+
+    def _scale(self, id: str) -> Chain:
+        return self._printed(id, float(self.report.ledger[id].at(None)))
+
+    def _printed(self, id: str, scale: float) -> Chain:
         """A scale with the figures of its kind: no decimals are chosen for drawings."""
-        family = self.report.ledger[id]
-        how = family.how
-        value = float(f"{float(family.at(k)) / how.scale:.{how.digits}g}")
+        how = self.report.ledger[id].how
+        value = float(f"{scale / how.scale:.{how.digits}g}")
         return Chain((self.report.ledger.symbol(id), Number(value, None, how.unit)))
 
     # --- curves and numbers
@@ -404,12 +415,6 @@ class _Numbers:
 def _places(corner: np.ndarray) -> np.ndarray:
     """A corner of a plan in mm; one that stays at 0 is a place, too."""
     return np.asarray(corner * MM, dtype=np.complex128)
-
-
-def _stage(key: str, title: str, plan: Plan, tracks: Sequence[Track]) -> Stage:
-    items = plan_items(plan, tracks)
-    low, high = extent(items)
-    return Stage(key, title, tuple(items), low, high, () if plan.scale is None else (plan.scale,))
 
 
 def _chart(report: Report, plotted: Plotted, curves: tuple[Curve, ...], title: Chain) -> Chart:

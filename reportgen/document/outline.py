@@ -22,7 +22,6 @@ from reportgen.document import (  # noqa: F401
     result_tables,
     steps,
 )
-from reportgen.document.exercise import solution
 from reportgen.document.numbering import number
 from reportgen.document.report import Report
 from reportgen.document.tree import Block, Contents, Cover, Document, PageBreak, Words
@@ -39,7 +38,12 @@ def compose(case: Opened) -> Document:
     raise TypeError(type(case).__name__)
 
 
-compose.register(ExerciseCase, solution)
+@compose.register
+def of_exercise(case: ExerciseCase) -> Document:
+    """The solution of an exercise; no machine needs what it is made with."""
+    from reportgen.document.exercise import solution
+
+    return solution(case)
 
 
 @compose.register

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence, Sized
 from string import Formatter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from reportgen.catalogue.linkage_words import GroupRow
 from reportgen.catalogue.loads import Opposing
 from reportgen.document.equations import math, quantity, slider_ways, value
 from reportgen.document.prose import PointName
@@ -18,6 +17,9 @@ from reportgen.document.report import Report, function, member
 from reportgen.document.tree import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Expression, Number
+
+if TYPE_CHECKING:
+    from reportgen.catalogue.linkage_words import GroupRow
 
 
 @function

@@ -5,7 +5,7 @@ The ledger's plans are metres on paper; how they are drawn is in `reportgen.figu
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -174,16 +174,26 @@ def _plates(
     """
     word = report.words["table"]["position"]
     plans = {k: replace(drawing(report, k), scale=None, lines=()) for k in positions}
+    largest = max(shown.extent for shown in plans.values())
+
+    def scenes(share: float) -> Iterator[Scene]:
+        for k, shown in plans.items():
+            title = f"{word} {report.machine.position(k)}"
+            yield plan(shown.scaled(share), title=title, enlarged=False, margin=CLOSE_MARGIN)
+
     for share in SHARES:
-        scenes = tuple(
-            plan(shown.scaled(share), title=f"{word} {report.machine.position(k)}", enlarged=False, margin=CLOSE_MARGIN)
-            for k, shown in plans.items()
-        )
-        room = ROOM if share > SHARES[-1] else TEXT_BLOCK
-        small = share * max(shown.extent for shown in plans.values()) <= LARGEST or share == SHARES[-1]
-        if small and all(scene.width <= room[0] and scene.height <= room[1] for scene in scenes):
-            return Drawn(scenes, note=scale_note(report, scale, share, at))
-    return Drawn(sheets(scenes, *SHEET, scale_note(report, scale, share, at), trim=0.0), A3_ACROSS)
+        last = share == SHARES[-1]
+        room = TEXT_BLOCK if last else ROOM
+        if share * largest > LARGEST and not last:
+            continue
+        drawn: list[Scene] = []
+        for scene in scenes(share):
+            if scene.width > room[0] or scene.height > room[1]:
+                break
+            drawn.append(scene)
+        else:
+            return Drawn(tuple(drawn), note=scale_note(report, scale, share, at))
+    return Drawn(sheets(tuple(scenes(share)), *SHEET, scale_note(report, scale, share, at), trim=0.0), A3_ACROSS)
 
 
 class _Sketch:

@@ -7,11 +7,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from reportgen.figures import style
-from reportgen.figures.draft import Draft, finish
-from reportgen.figures.geometry import clusters
+from reportgen.figures.draft import Draft, finish, settle
+from reportgen.figures.geometry import bounds, clusters
 from reportgen.figures.labels import Request, joined, label
 from reportgen.figures.scene import Arc, Arrow, Circle, Content, Item, Line, Scene, Stroke
 from reportgen.notation import vocabulary
+from reportgen.notation.expressions import Symbol
 
 TOGETHER = 0.3
 """Points nearer than this (mm) share one label."""
@@ -21,8 +22,15 @@ WALL = 16.0
 """Half the length (mm) of the ground that a disc rolls on."""
 BEYOND = 6.0
 """How far (mm) a guide on a body reaches beyond its points."""
+CORNER, COORDINATE = 6.0, 9.0
+"""How far left of the drawing (mm) the axes of the coordinates stand, and their length."""
+BEFORE, AFTER = 5.0, 14.0
+"""How far (mm) an axis of projection reaches beyond the points it is about, back and forward."""
+AXIS_HEAD = 2.0
 DRIVER_ARROW = 7.0
 """Radius (mm) of the arrow of an angular velocity."""
+ARROWS_APART = 3.2
+"""Between the arrows of several bodies about one point."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,11 +67,22 @@ class Rotation:
 
 
 @dataclass(frozen=True, slots=True)
+class Axis:
+    """An axis of projection towards `way`, from `start` to `end` of the points it is about, which may be one."""
+
+    symbol: Symbol
+    way: complex
+    start: complex
+    end: complex
+
+
+@dataclass(frozen=True, slots=True)
 class Drawn:
     """A system in mm about any origin.
 
     `bodies` are the outlines, by the points of each; `joints` and `pivots` are names of points, others are dots.
-    `normals` are lines from points to instant centres, `vectors` arrows by the point they start from.
+    `normals` are lines from points to instant centres, `vectors` arrows by the point they start from, `axes` those that
+    the solution projects on; with `coordinates` x and y are shown beside the drawing.
     """
 
     points: Mapping[str, complex]
@@ -80,6 +99,8 @@ class Drawn:
     normals: Sequence[tuple[complex, complex]] = ()
     vectors: Sequence[tuple[complex, complex, Content]] = ()
     rotations: Sequence[Rotation] = ()
+    axes: Sequence[Axis] = ()
+    coordinates: bool = False
     pen: Stroke = field(default=style.ACTIVE)
 
 
@@ -101,6 +122,10 @@ def instant(drawn: Drawn, notes: Sequence[Content] = ()) -> Scene:
     for points in drawn.bodies.values():
         items += style.body(points)
     items += [Line(start, end, style.NORMAL) for start, end in drawn.normals]
+    for axis in drawn.axes:
+        tip = axis.end + AFTER * axis.way
+        name = axis.symbol.base + axis.symbol.sub
+        items.append(Arrow(axis.start - BEFORE * axis.way, tip, style.PROJECTION, AXIS_HEAD, name))
     for name, at in drawn.points.items():
         if name in drawn.pivots:
             items += style.pivot(at)
@@ -112,15 +137,31 @@ def instant(drawn: Drawn, notes: Sequence[Content] = ()) -> Scene:
         way = cmath.phase(end - start)
         places = [start + (end - start) * share for share in (1.0, 0.7, 0.5)]
         requests.append(label(places, symbol, prefer=(way + cmath.pi / 2, way - cmath.pi / 2), gap=0.8))
-    for rotation in drawn.rotations:
+    for axis in drawn.axes:
+        tip, across = axis.end + AFTER * axis.way, cmath.phase(1j * axis.way)
+        requests.append(label((tip, tip - 2 * axis.way), axis.symbol, prefer=(across, across + cmath.pi), gap=0.8))
+    for index, rotation in enumerate(drawn.rotations):
         start = 0.6 if rotation.sense > 0 else 2.5
         stop = start + rotation.sense * 1.9
-        items.append(Arc(rotation.at, DRIVER_ARROW, start, stop, Stroke(0.25), style.HEAD))
-        ends = [
-            rotation.at + DRIVER_ARROW * cmath.exp(1j * (start + (stop - start) * share)) for share in (0.5, 0.8, 0.2)
-        ]
+        inner = sum(abs(other.at - rotation.at) < TOGETHER for other in drawn.rotations[:index])
+        radius = DRIVER_ARROW + inner * ARROWS_APART
+        items.append(Arc(rotation.at, radius, start, stop, Stroke(0.25), style.HEAD))
+        ends = [rotation.at + radius * cmath.exp(1j * (start + (stop - start) * share)) for share in (0.5, 0.8, 0.2)]
         requests.append(label(ends, rotation.symbol, prefer=((start + stop) / 2,)))
-    return finish(Draft(tuple(items), tuple(requests)), notes=notes)
+    draft = settle(Draft(tuple(items), tuple(requests)))
+    if drawn.coordinates:
+        draft += _coordinates(draft)
+    return finish(draft, notes=notes)
+
+
+def _coordinates(draft: Draft) -> Draft:
+    """The axes of the coordinates at the lower left corner of a drawing."""
+    low, _ = bounds(draft.items)
+    corner = low - CORNER - COORDINATE
+    ends = {"x": corner + COORDINATE, "y": corner + 1j * COORDINATE}
+    arrows = (Arrow(corner, end, style.PROJECTION, AXIS_HEAD, letter) for letter, end in ends.items())
+    names = (label(end, Symbol(letter), prefer=(cmath.phase(end - corner),)) for letter, end in ends.items())
+    return Draft((*arrows,), (*names,))
 
 
 def _names(points: Mapping[str, complex]) -> list[Request]:

@@ -98,16 +98,32 @@ MovingItem = Still | Carried | Vector | Name
 
 
 @dataclass(frozen=True, slots=True)
+class Scales:
+    """The scales of a drawing that is shown finer where it is small: each as it is printed, and how much finer it is.
+
+    `at` is the number of the one in use at each sample.
+    """
+
+    printed: tuple[Content, ...]
+    times: tuple[float, ...]
+    at: Track
+
+
+@dataclass(frozen=True, slots=True)
 class Stage:
-    """A drawing that moves, in mm, in the box from `low` to `high`; `scale` is printed below it."""
+    """A drawing that moves, in mm, in the box from `low` to `high`; `notes` are printed below it.
+
+    With `scales` it is drawn so many times as large as its tracks have it, at each sample.
+    """
 
     key: str
     title: str
     items: tuple[MovingItem, ...]
     low: complex
     high: complex
-    scale: tuple[Content, ...] = ()
+    notes: tuple[Content, ...] = ()
     spots: tuple[Spot, ...] = ()
+    scales: Scales | None = None
 
 
 @dataclass(frozen=True, slots=True)

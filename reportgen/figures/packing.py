@@ -7,7 +7,6 @@ side; a spot is (to the right, down) from where the first one stands.
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import accumulate, chain
@@ -178,7 +177,7 @@ class Laid:
 class Dividing:
     """How parts in the order of the work are divided over sheets, each filled to a share that is `enough`.
 
-    What is found of a run of sizes is kept, for the next parts often have the same ones.
+    What is found is kept: the next parts often end as these do, and often have runs of the same sizes.
     """
 
     room: Room
@@ -188,8 +187,13 @@ class Dividing:
     in_any_order: bool = False
     """Whether plates may change places on their sheet where that fills it."""
     paper: _Paper = field(init=False)
+    _endings: dict[tuple[Size, int], int] = field(default_factory=dict)
+    """The number of each ending of parts that was seen, by its first size and the number of what follows."""
+    _found: dict[int, Best] = field(default_factory=lambda: {0: (0.0, ())})
+    """The sheets of each ending, by its number."""
     _kept: dict[tuple[Size, ...], list[Filling]] = field(default_factory=dict)
     _turned: dict[tuple[Size, ...], list[Filling]] = field(default_factory=dict)
+    _placed: dict[tuple[Size, ...], list[Spot]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.paper = _Paper.of(self.room)
@@ -200,59 +204,78 @@ class Dividing:
         What misses `NEVER` and more has a part that fits no sheet.
         """
         sizes = [Size.of(part) for part in parts]
-        area = self.room.area
-        shares = [0.0, *accumulate(size.width * size.height / area for size in sizes)]
-        found: Found = {len(parts): (0.0, [])}
-        missing, sheets = self._best(sizes, shares, 0, found)
-        return missing, [
-            Laid(tuple(parts[start + index] for index in order), spots, share, stretch)
-            for start, (order, spots, share, stretch) in sheets
-        ]
+        endings = [0]
+        for size in reversed(sizes):
+            endings.append(self._endings.setdefault((size, endings[-1]), len(self._endings) + 1))
+        endings.reverse()
+        missing, sheets = self._best(sizes, endings, 0)
+        laid, start = [], 0
+        for order, spots, share, stretch in sheets:
+            laid.append(Laid(tuple(parts[start + index] for index in order), spots, share, stretch))
+            start += len(order)
+        return missing, laid
 
-    def _best(self, sizes: list[Size], shares: list[float], start: int, found: Found) -> Best:
+    def _best(self, sizes: Sequence[Size], endings: Sequence[int], start: int) -> Best:
         """The sheets of what begins at `start`, and what they miss."""
-        if start not in found:
-            best: Best = NEVER, []
-            end = bisect_right(shares, shares[start] + 1.0)
-            run = tuple(sizes[start:end])
+        if endings[start] not in self._found:
+            best: Best = NEVER, ()
+            run = self._run(sizes, start)
             for filling in chain(self._fillings(run), self._in_other_orders(run)):
-                missing, rest = self._best(sizes, shares, start + len(filling[0]), found)
+                missing, rest = self._best(sizes, endings, start + len(filling[0]))
                 missing += 100 * max(self.enough - filling[2], 0.0)
                 if missing < best[0]:
-                    best = missing, [(start, filling), *rest]
+                    best = missing, (filling, *rest)
                 if missing == 0.0:
                     break
-            found[start] = best
-        return found[start]
+            self._found[endings[start]] = best
+        return self._found[endings[start]]
+
+    def _run(self, sizes: Sequence[Size], start: int) -> tuple[Size, ...]:
+        """What could stand on one sheet from `start` on, were there no white."""
+        share, end = 0.0, start
+        while end < len(sizes) and (share := share + self._share(sizes[end])) <= 1.0:
+            end += 1
+        return tuple(sizes[start:end])
+
+    def _share(self, size: Size) -> float:
+        return size.width * size.height / self.room.area
+
+    def _spots(self, run: tuple[Size, ...]) -> list[Spot]:
+        if run not in self._placed:
+            self._placed[run] = _spots(run, self.paper)
+        return self._placed[run]
 
     def _fillings(self, run: tuple[Size, ...]) -> list[Filling]:
         """What a sheet may take of a run: all it can in this order, then fewer if these still fill it."""
         if run not in self._kept:
-            self._kept[run] = list(self._found(run))
+            self._kept[run] = list(self._in_order(run))
         return self._kept[run]
 
-    def _found(self, run: tuple[Size, ...]) -> Iterator[Filling]:
-        shares = list(accumulate(size.width * size.height / self.room.area for size in run))
-        rows = tuple(_rows(run, self.paper))
-        yield from self._fewer(rows, shares, self.in_rows)
+    def _in_order(self, run: tuple[Size, ...]) -> Iterator[Filling]:
+        shares = list(accumulate(map(self._share, run)))
+        rows = _rows(run, self.paper)
+        yield from self._fewer(tuple(rows), shares, self.in_rows)
         yield from self._fewer(tuple(_columns(run, self.paper)), shares, False)
         if not self.in_rows:
-            yield from self._fewer(tuple(_spots(run, self.paper)), shares, True)
-            rows = max(rows, tuple(_spots(run, self.paper)), key=len)
+            yield from self._fewer(tuple(self._spots(run)), shares, True)
+            rows = max(rows, self._spots(run), key=len)
         yield from self._stretched(run[: len(rows)])
 
     def _stretched(self, run: tuple[Size, ...]) -> Iterator[Filling]:
         """Plates that do not fill the sheet, its tables wider or higher so that they do."""
         place = _rows if self.in_rows else _spots
+        found: dict[complex, tuple[list[float], list[Spot]]] = {}
+        """Of all plates with their tables stretched, shares and spots: fewer of them have the same ones."""
         for count in range(len(run), max(len(run) - LEAVING, 0), -1):
             for stretch in STRETCHES if any(size.tall for size in run[:count]) else ():
-                sizes = [size.stretched(stretch) for size in run[:count]]
-                share = sum(size.width * size.height for size in sizes) / self.room.area
-                if self.enough <= share <= MOST:
-                    spots = place(sizes, self.paper)
-                    if len(spots) == count:
-                        yield tuple(range(count)), tuple(spots), share, stretch
-                        break
+                if stretch not in found:
+                    sizes = [size.stretched(stretch) for size in run]
+                    areas = accumulate(size.width * size.height for size in sizes)
+                    found[stretch] = [area / self.room.area for area in areas], place(sizes, self.paper)
+                shares, spots = found[stretch]
+                if self.enough <= shares[count - 1] <= MOST and len(spots) >= count:
+                    yield tuple(range(count)), tuple(spots[:count]), shares[count - 1], stretch
+                    break
 
     def _fewer(self, spots: tuple[Spot, ...], shares: Sequence[float], at_least_all: bool) -> Iterator[Filling]:
         """All plates that have spots, then fewer of them, as long as they fill the sheet."""
@@ -270,8 +293,8 @@ class Dividing:
         yield from self._turned[run]
 
     def _found_in_other_orders(self, run: tuple[Size, ...]) -> Iterator[Filling]:
-        count = len(_spots(run, self.paper))
-        shares = list(accumulate(size.width * size.height / self.room.area for size in run))
+        count = len(self._spots(run))
+        shares = list(accumulate(map(self._share, run)))
         for more in range(min(count + AHEAD, len(run)), count, -1):
             if not self.enough <= shares[more - 1] <= MOST:
                 continue
@@ -285,9 +308,8 @@ class Dividing:
 
 Filling = tuple[tuple[int, ...], tuple[Spot, ...], float, complex]
 """Which parts one sheet takes, counted from the first, their spots, the share they fill, and how tables stretch."""
-Best = tuple[float, list[tuple[int, Filling]]]
-"""What sheets miss of being full, and where each begins with what it takes."""
-Found = dict[int, Best]
+Best = tuple[float, tuple[Filling, ...]]
+"""What sheets miss of being full, and what each takes."""
 
 
 def too_large(parts: Sequence[Part], room: Room) -> Part | None:

@@ -25,6 +25,8 @@ THIN = Stroke(0.15, GRAY)
 """Circles, guides, lines of projection."""
 AXIS = Stroke(0.13, GRAY, (5.0, 1.0, 0.8, 1.0))
 """Axes of symmetry and of guides."""
+PROJECTION = Stroke(0.18, BLACK, (5.0, 1.0, 0.8, 1.0))
+"""An axis that vectors are projected on."""
 CONSTRUCTION = Stroke(0.13, GRAY, (1.6, 1.0))
 """Auxiliary directions of a plan, which go a little beyond their end."""
 LEADER = Stroke(0.1, GRAY)

@@ -72,7 +72,8 @@ def _judged(working: Working, submission: Submission, row: Row, position: int, p
     guide, place = working.guide, (row.id, position)
     family, index = guide.ledger[row.id], row.at(position)
     unit, worth = float(working.unit(row.id)[index]), guide.policy.worth(row.id)
-    band = float(np.broadcast_to(working.bands[row.id], family.values.shape)[index])
+    bands = working.bands[row.id]
+    band = float(bands[index if len(bands) > 1 else 0])
     key = float(family.at(position).real)
     following = [_own(guide.ledger, values, row.id, index) for values in possible]
     following += working.also(row, position)

@@ -20,7 +20,6 @@ from reportgen.grading.naming import unseen_mistakes
 from reportgen.grading.plans import behind_many
 from reportgen.grading.working import Change, Guide, Working, last_half_unit
 from reportgen.ledger.core import follow
-from reportgen.notation.expressions import refs
 
 FACTORS = np.geomspace(1 / 4, 4, 120)
 WIDE = np.geomspace(1 / 5, 5, 400)
@@ -91,7 +90,7 @@ def _data(guide: Guide) -> Iterator[str]:
     loads = {load.name for load in guide.analysis.applied} if guide.analysis else set()
     for id, family in guide.ledger.families.items():
         # A ratio is given as 1/3.6, which the ledger works out.
-        given = family.definition is None or not refs(family.definition)
+        given = not guide.ledger.inputs[id]
         unseen = not (family.hidden or family.is_plane or id in guide.rows)
         if given and unseen and (len(family.values) == 1 or id in loads) and np.any(family.values):
             yield id

@@ -216,8 +216,10 @@ def _degrees(id: str) -> Callable[[Values], np.ndarray]:
 def _with(definition: Expression, others: Mapping[str, Callable[[Values], np.ndarray]]) -> Change:
     """The definition worked out with other values of some of its inputs."""
 
+    names = refs(definition)
+
     def change(_: np.ndarray, values: Values) -> np.ndarray:
-        inputs = {id: others[id](values) if id in others else values[id] for id in refs(definition)}
+        inputs = {id: others[id](values) if id in others else values[id] for id in names}
         return np.atleast_1d(evaluate(definition, inputs))
 
     return change

@@ -132,17 +132,26 @@ def mistakes_of_working(working: Working, cells: Cells) -> dict[Place, Mistake]:
     for (id, position), cell in cells.items():
         if cell.first and not cell.mistake:
             by_row.setdefault(id, []).append(position)
+    # A student goes on from the rounded value written down, or from the one left in the calculator.
+    right = {place for place, cell in cells.items() if cell.verdict is Verdict.right}
+    gone_on_from = (working, working.unrounded(right)) if by_row else ()
     found = {
         (id, position): mistake
         for id, positions in by_row.items()
-        for position, mistake in _explained(working, cells, id, positions)
+        for position, mistake in _explained(gone_on_from, cells, id, positions)
     }
     told = Counter(mistake.name for mistake in found.values())
     return {place: one for place, one in found.items() if one.name not in OF_POSITION or told[one.name] > 1}
 
 
-def _explained(working: Working, cells: Cells, id: str, positions: Sequence[int]) -> Iterator[tuple[int, Mistake]]:
-    """The mistake at each of the positions at which a quantity is wrong, where one is found."""
+def _explained(
+    gone_on_from: Sequence[Working], cells: Cells, id: str, positions: Sequence[int]
+) -> Iterator[tuple[int, Mistake]]:
+    """The mistake at each of the positions at which a quantity is wrong, where one is found.
+
+    The first working is the one handed in.
+    """
+    working = gone_on_from[0]
     guide = working.guide
     candidates = list(_candidates(working, id))
     if not candidates:
@@ -153,8 +162,6 @@ def _explained(working: Working, cells: Cells, id: str, positions: Sequence[int]
     unit = working.unit(id)[index]
     band = np.array([cells[id, position].band for position in positions]) * unit
     own, expected = np.array([[cells[id, k].own, cells[id, k].expected] for k in positions]).T * unit
-    # A student goes on from the rounded value written down, or from the one left in the calculator.
-    gone_on_from = (working, working.unrounded({one for one in cells if cells[one].verdict is Verdict.right}))
     values = np.concatenate([foreseen(one, [id], candidates)[id][:, index] for one in gone_on_from])
     candidates = [*candidates, *candidates]
     with np.errstate(all="ignore"):

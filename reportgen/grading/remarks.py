@@ -13,7 +13,6 @@ from reportgen.grading.marks import Cells, Marked, Place, Verdict
 from reportgen.grading.working import Working, last_half_unit
 from reportgen.notation import vocabulary
 from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import refs
 
 ROOM = 2.0
 """So many times the rounding of all that is written down may part a value from what the others give."""
@@ -38,7 +37,7 @@ def _differs(working: Working, cell: Marked) -> bool:
     kind = ledger[id].kind
     if kind == "segment":
         return _differs_on_plan(working, cell)
-    if definition is None or ledger[id].constructed or kind.endswith("scale"):
+    if definition is None or id in ledger.constructed or kind.endswith("scale"):
         return False
     index = working.guide.rows[cell.id].at(cell.position)
 
@@ -46,18 +45,19 @@ def _differs(working: Working, cell: Marked) -> bool:
         values = world[name]
         return float(values[index if len(values) > 1 else 0].real)
 
-    inputs = {name: at(name) for name in refs(definition)}
+    inputs = {name: at(name) for name in ledger.inputs[id]}
     rounding = {name: _rounding(working, name, cell.position) for name in inputs}
     if not inputs or any(share is None for share in rounding.values()) or not any(rounding.values()):
         return False
 
-    def result(**moved: float) -> float:
-        values = {name: np.array([value]) for name, value in (inputs | moved).items()}
-        return abs(float(np.real(np.atleast_1d(evaluate(definition, values))[0])))
-
+    # The first row as the values stand on the sheet, each further one with another of them moved.
+    moved = {name: share for name, share in rounding.items() if share}
+    values = {name: np.full((len(moved) + 1, 1), value) for name, value in inputs.items()}
+    for row, (name, share) in enumerate(moved.items(), start=1):
+        values[name][row] *= 1 + share
     with np.errstate(all="ignore"):
-        own = result()
-        moves = [abs(result(**{name: inputs[name] * (1 + share)}) - own) for name, share in rounding.items() if share]
+        own, *others = (abs(float(one.real)) for one in np.asarray(evaluate(definition, values))[:, 0])
+        moves = [abs(one - own) for one in others]
     value = abs(float(working.values[cell.id][index]))
     last = last_half_unit(cell.given) * float(working.unit(cell.id)[index])
     return bool(np.isfinite(own) and abs(value - own) > ROOM * (sum(moves) + last))
@@ -94,7 +94,7 @@ def _rounding(working: Working, id: str, position: int) -> float | None:
     row = guide.key.find(id)
     if row is None or row.id not in guide.rows:
         family = guide.ledger[id]
-        given = family.definition is None or not refs(family.definition)
+        given = not guide.ledger.inputs[id]
         return 0.0 if given and not (family.hidden or family.is_plane) and row is not None else None
     answer = working.submission.values.get((row.id, guide.place(row, position)))
     if answer is None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -165,9 +165,16 @@ class Guide:
         """Positions of one turn."""
         return self.analysis.machine.count if self.analysis else 1
 
+    @cached_property
+    def _repeated(self) -> dict[str, bool]:
+        return {
+            row.id: not row.single and max(row.positions, default=0) <= self.count < len(row.values)
+            for row in self.key.rows
+        }
+
     def repeats(self, row: Row) -> bool:
         """Whether a quantity is asked for in the first turn only, because all turns are the same."""
-        return not row.single and max(row.positions, default=0) <= self.count < len(row.values)
+        return self._repeated[row.id]
 
     def place(self, row: Row, position: int) -> int:
         """The position at which the sheet asks for a quantity that one at `position` stands on."""
@@ -202,6 +209,11 @@ class Working:
     shown: Values
 
     @cached_property
+    def _units(self) -> dict[str, np.ndarray]:
+        """What `unit` has been asked for."""
+        return {}
+
+    @cached_property
     def factors(self) -> dict[str, np.ndarray]:
         """The scales as multiples of the report's, [N] or [1]."""
         return {id: scale / self.guide.ledger[id].values for id, scale in self.scales.items()}
@@ -216,9 +228,11 @@ class Working:
 
     def unit(self, id: str) -> np.ndarray:
         """What one printed unit of a quantity stands for in `values` [N]: lengths as drawn at the student's scale."""
-        family = self.guide.ledger[id]
-        unit = family.how.scale * self.factors.get(vocabulary.plan(id), 1.0) / self.factors.get(id, 1.0)
-        return np.broadcast_to(unit, family.values.shape)
+        if id not in self._units:
+            family = self.guide.ledger[id]
+            unit = family.how.scale * self.factors.get(vocabulary.plan(id), 1.0) / self.factors.get(id, 1.0)
+            self._units[id] = np.broadcast_to(unit, family.values.shape)
+        return self._units[id]
 
     def own_values(
         self, blank_from_key: bool = False, changes: Mapping[str, Change] | None = None
@@ -298,7 +312,7 @@ class Working:
         """Whether the sheet has a value of a quantity at any position."""
         return id in self.values or self.guide.ledger.signed.get(id) in self.values
 
-    @property
+    @cached_property
     def entered_ids(self) -> tuple[str, ...]:
         """Ids of the ledger that hold a value of the student's or are judged, sizes of signed rotations too."""
         judged = [row.id for row in self.guide.judged]
@@ -317,6 +331,7 @@ class Working:
         return np.where(np.isnan(given), blank, given)
 
 
+@lru_cache(maxsize=65536)
 def last_half_unit(value: float) -> float:
     """Half a unit of the last figure of a number as it was written, with three figures at least."""
     written = f"{abs(value):.11e}".partition("e")[0].replace(".", "").rstrip("0")

@@ -77,6 +77,18 @@ class Ledger:
     """The ids of what the report sets out together, by the names that the machine's sheet gives."""
 
     @cached_property
+    def inputs(self) -> Mapping[str, tuple[str, ...]]:
+        """What the definition of each quantity names."""
+        return {
+            id: () if family.definition is None else refs(family.definition) for id, family in self.families.items()
+        }
+
+    @cached_property
+    def constructed(self) -> frozenset[str]:
+        """What a drawing gives."""
+        return frozenset(id for id, family in self.families.items() if family.constructed)
+
+    @cached_property
     def signed(self) -> Mapping[str, str]:
         """The signed angular velocities and accelerations by their sizes: omega.2 → turn.omega.2."""
         return {family.of: id for id, family in self.families.items() if family.is_signed_rotation}
@@ -91,7 +103,7 @@ class Ledger:
                     found[id] = vector
             # A vector that is computed from its size follows it by itself.
             size = family.of if family.hidden else ""
-            if size in self and family.definition is not None and size not in refs(family.definition):
+            if size in self and family.definition is not None and size not in self.inputs[id]:
                 found[size] = id
         return found
 
@@ -239,17 +251,13 @@ class Ledger:
     def ancestors(self, id: str) -> tuple[str, ...]:
         """Every quantity that one stands on, directly or through others, nearest first."""
         found: dict[str, None] = {}
-        waiting = list(_definition_refs(self.families[id]))
+        waiting = list(self.inputs[id])
         while waiting:
             current = waiting.pop(0)
             if current not in found:
                 found[current] = None
-                waiting.extend(_definition_refs(self.families[current]))
+                waiting.extend(self.inputs[current])
         return tuple(found)
-
-
-def _definition_refs(family: Family) -> Iterable[str]:
-    return () if family.definition is None else refs(family.definition)
 
 
 def _negated(node: Expression) -> Expression:
@@ -312,8 +320,7 @@ def standing_on(ledger: Ledger, id: str) -> tuple[str, ...]:
     waiting = [id]
     while waiting:
         current = waiting.pop(0)
-        definition = ledger[current].definition
-        nearer = [*(() if definition is None else refs(definition))]
+        nearer = [*ledger.inputs[current]]
         nearer += [size for size in read.get(current, ()) if order[size] < order[id]]
         for name in nearer:
             if name not in found and name != id:

@@ -160,11 +160,49 @@ class _Line:
     definition: Expression
 
 
+class _Calculator:
+    """A reader's calculator: what lines come to from numbers as they are printed, each tried once."""
+
+    def __init__(self, families: Mapping[str, Family]) -> None:
+        self.families = families
+        self._printed: dict[tuple[str, int | None], np.ndarray] = {}
+        self._computed: dict[tuple[object, ...], np.ndarray] = {}
+        self._off: dict[tuple[object, ...], np.ndarray] = {}
+
+    def printed(self, id: str, digits: int | None) -> np.ndarray:
+        """A family's values (SI) as a reader sees them."""
+        key = id, digits
+        if key not in self._printed:
+            self._printed[key] = _as_printed(self.families[id], digits)
+        return self._printed[key]
+
+    def computed(self, line: _Line, rounded: Mapping[str, int | None]) -> np.ndarray:
+        """What the line comes to in its printed unit, with some of its inputs printed with so many decimals."""
+        key = line.id, *rounded.items()
+        if key not in self._computed:
+            values = {id: self.families[id].values for id in line.inputs}
+            values |= {id: self.printed(id, digits) for id, digits in rounded.items()}
+            with np.errstate(all="ignore"):
+                found = np.atleast_1d(np.asarray(evaluate(line.definition, values)))
+            self._computed[key] = found / self.families[line.id].how.scale
+        return self._computed[key]
+
+    def off(self, line: _Line, last: int | None, rounded: Mapping[str, int | None]) -> np.ndarray:
+        """How far a line is off at each position, as a share of how far a result with the decimals `last` may be."""
+        key = line.id, last, *rounded.items()
+        if key not in self._off:
+            result = self.printed(line.id, last) / self.families[line.id].how.scale
+            unit = 10.0 ** -(_last_decimal(float(result[0])) if last is None else last)
+            self._off[key] = np.nan_to_num(np.abs(self.computed(line, rounded) - result) / unit, posinf=0.0)
+        return self._off[key]
+
+
 class _Choice:
     """The decimals of a ledger's quantities while they are being chosen."""
 
-    def __init__(self, families: Mapping[str, Family], same: Sequence[tuple[str, ...]], worked: Sequence[int]) -> None:
-        self.families = families
+    def __init__(self, calculator: _Calculator, same: Sequence[tuple[str, ...]], worked: Sequence[int]) -> None:
+        self.calculator = calculator
+        self.families = families = calculator.families
         self.worked = worked
         self.results = {id for ids in same for id in ids}
         self.names = _names(families, same)
@@ -172,7 +210,6 @@ class _Choice:
         self.by_worked: set[str] = set()
         """Lines that are judged by the positions worked out only."""
         self.lines: list[_Line] = []
-        self._known: dict[tuple[str, int | None], np.ndarray] = {}
 
     def settle(self, ids: Sequence[str]) -> None:
         """Choose the decimals of further families; those before them change where the new lines need it."""
@@ -228,25 +265,9 @@ class _Choice:
     def decimals(self, id: str) -> int | None:
         return self.quantities[id].decimals if id in self.quantities else None
 
-    def _printed(self, id: str) -> np.ndarray:
-        """A family's values (SI) as a reader sees them."""
-        known = id, self.decimals(id)
-        if known not in self._known:
-            self._known[known] = _as_printed(self.families[id], known[1])
-        return self._known[known]
-
-    def _computed(self, line: _Line, rounded: Container[str]) -> np.ndarray:
-        """What the line comes to in its printed unit, with some of its inputs as they are printed."""
-        values = {id: self._printed(id) if id in rounded else self.families[id].values for id in line.inputs}
-        with np.errstate(all="ignore"):
-            return np.atleast_1d(np.asarray(evaluate(line.definition, values))) / self.families[line.id].how.scale
-
     def _over(self, line: _Line) -> np.ndarray:
         """How far a line is off at each position, as a share of how far it may be."""
-        family, last = self.families[line.id], self.decimals(line.id)
-        result = self._printed(line.id) / family.how.scale
-        unit = 10.0 ** -(_last_decimal(float(result[0])) if last is None else last)
-        return np.asarray(np.nan_to_num(np.abs(self._computed(line, line.inputs) - result) / unit, posinf=0.0))
+        return self.calculator.off(line, self.decimals(line.id), {id: self.decimals(id) for id in line.inputs})
 
     def _worst(self, line: _Line) -> float:
         """How far it is off at most."""
@@ -279,11 +300,11 @@ class _Choice:
 
     def _raise_an_input(self, line: _Line, limit: Callable[[_Quantity], int]) -> bool:
         """One decimal more for the input below its limit whose rounding does most where the line is worst."""
-        worst, exact = int(self._over(line).argmax()), self._computed(line, ())
+        worst, exact = int(self._over(line).argmax()), self.calculator.computed(line, {})
         shares = []
         for id in line.inputs:
             if id in self.quantities and self.quantities[id].decimals < limit(self.quantities[id]):
-                share = np.nan_to_num(np.abs(self._computed(line, (id,)) - exact))
+                share = np.nan_to_num(np.abs(self.calculator.computed(line, {id: self.decimals(id)}) - exact))
                 shares.append((float(share[worst % share.size]), id))
         share, chosen = max(shares, default=(0.0, ""))
         if share > 0:
@@ -325,8 +346,10 @@ def choose_decimals(
     formulas = [id for id, family in before.items() if family.chapter is Chapter.formulas]
     others = [id for id, family in before.items() if family.chapter is not Chapter.formulas]
 
+    calculator = _Calculator(families)
+
     def chosen(*steps: Sequence[str]) -> _Choice:
-        choice = _Choice(families, same, worked)
+        choice = _Choice(calculator, same, worked)
         for ids in steps:
             choice.settle(ids)
         choice.freeze()

@@ -46,6 +46,11 @@ class Motion:
         """Conditions that rule each other out in the accelerations, where the velocities are in order."""
         return () if self._first.conflicts else self._second.solved.conflicts
 
+    @property
+    def parting(self) -> tuple[int, ...]:
+        """Bodies whose points have accelerations away from each other, which no rigid body can have."""
+        return () if self._first.conflicts else self._second.parting
+
     def knows_omega(self, body: int) -> bool:
         return body == GROUND or self._first.determines_turn(body) or self._knows_square(body)
 
@@ -69,7 +74,7 @@ class Motion:
     def _knows_square(self, body: int) -> bool:
         """Whether the accelerations tell ω² of a body, and with it all of its motion but its sense."""
         solved = self._second.solved
-        return body in solved.layout.squared and not solved.free.size
+        return body in solved.unknowns.squared and not solved.free.size
 
     # --- rates: what is nothing beside the others is 0
 
@@ -92,19 +97,19 @@ class Motion:
     @property
     def size(self) -> float:
         """How far the points lie from their middle."""
-        return self._first.layout.size
+        return self._first.unknowns.size
 
     @cached_property
     def fastest(self) -> float:
         """The scale of the velocities."""
-        middle = self._first.layout.middle
+        middle = self._first.unknowns.middle
         each = ((abs(self.velocities.at(body, middle)), self.velocities.omega(body)) for body in self.system.bodies)
         return max((speed + abs(turn) * self.size for speed, turn in each), default=0.0)
 
     @cached_property
     def _steepest(self) -> float:
         """The scale of the accelerations."""
-        middle, bodies = self._first.layout.middle, self.system.bodies
+        middle, bodies = self._first.unknowns.middle, self.system.bodies
         each = (
             abs(self._acceleration_at(body, middle)) + abs(self._acceleration_of(body).turn) * self.size
             for body in bodies

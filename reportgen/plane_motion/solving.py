@@ -45,28 +45,28 @@ class Conflict:
 class Solved:
     """Rates of all bodies, or why there are none.
 
-    `free` are the motions that the conditions leave open, one a row, over the unknowns of `Layout`.
+    `free` are the motions that the conditions leave open, one a row, over the unknowns of `Unknowns`.
     """
 
     rates: Mapping[int, Rates]
     conflicts: tuple[Conflict, ...]
     free: np.ndarray
-    layout: Layout
+    unknowns: Unknowns
 
     def determines_turn(self, body: int) -> bool:
-        return self._fixed(self.layout.row(Condition("", turns=((body, 1.0),))))
+        return self._fixed(self.unknowns.row(Condition("", turns=((body, 1.0),))))
 
     def determines_point(self, body: int, point: complex) -> bool:
         axes = (Condition("", (Component(body, point, axis),)) for axis in (1 + 0j, 1j))
-        return all(self._fixed(self.layout.row(axis)) for axis in axes)
+        return all(self._fixed(self.unknowns.row(axis)) for axis in axes)
 
     def _fixed(self, row: Row) -> bool:
         return bool(np.all(np.abs(self.free @ row) < SMALL * max(float(np.linalg.norm(row)), SMALL)))
 
 
 @dataclass(frozen=True)
-class Layout:
-    """The unknowns: of each body its turn (times the size of the system) and two components at the middle.
+class Unknowns:
+    """What is unknown: of each body its turn (times the size of the system) and two components at the middle.
 
     Lengths are measured from the middle of all points in units of their spread, so that the matrix is of the order 1.
     `squared` are bodies whose ω² is an unknown too.
@@ -105,39 +105,43 @@ class Layout:
         """The value of a condition in the units of the unknowns: turns are ω times the size of the system."""
         return value * self.size if condition.turns else value
 
-    def rates(self, unknowns: np.ndarray) -> dict[int, Rates]:
+    def rates(self, values: np.ndarray) -> dict[int, Rates]:
         found: dict[int, Rates] = {}
         for index, body in enumerate(self.bodies):
-            turn, x, y = unknowns[3 * index : 3 * index + 3]
+            turn, x, y = values[3 * index : 3 * index + 3]
             found[body] = Rates(turn / self.size, complex(x, y) - 1j * turn / self.size * self.middle)
         return found
 
-    def squares(self, unknowns: np.ndarray) -> dict[int, float]:
+    def squares(self, values: np.ndarray) -> dict[int, float]:
         """ω² of the bodies in `squared`."""
-        last = unknowns[3 * len(self.bodies) :]
+        last = values[3 * len(self.bodies) :]
         return {body: float(value) / self.size for body, value in zip(self.squared, last, strict=True)}
 
 
-def layout_of(system: System) -> Layout:
+def unknowns_of(system: System) -> Unknowns:
     places = np.array(list(system.points.values()))
     middle = complex(places.mean())
     size = float(np.abs(places - middle).max())
-    return Layout(tuple(system.bodies), middle, size if size > 0 else 1.0)
+    return Unknowns(tuple(system.bodies), middle, size if size > 0 else 1.0)
 
 
 def solve_velocities(system: System) -> Solved:
     """The angular velocities and velocities of all bodies, with what stays open and what contradicts itself."""
-    layout = layout_of(system)
+    unknowns = unknowns_of(system)
     told = [(one, one.velocity) for one in system.conditions if one.velocity is not None]
-    return _solve(layout, told)[0]
+    return _solve(unknowns, told)[0]
 
 
 @dataclass(frozen=True)
 class Accelerations:
-    """What the accelerations come to; `velocities` with the angular velocities that only they determine."""
+    """What the accelerations come to; `velocities` with the angular velocities that only they determine.
+
+    Bodies that are `parting` could have them only with a negative ω²: their points would move away from each other.
+    """
 
     solved: Solved
     velocities: Solved
+    parting: tuple[int, ...] = ()
 
 
 def solve_accelerations(system: System, velocities: Solved) -> Accelerations:
@@ -147,26 +151,28 @@ def solve_accelerations(system: System, velocities: Solved) -> Accelerations:
     as ε is, and ω is its positive root, since accelerations do not tell the sense of rotation.
     """
     squared = tuple(body for body in system.bodies if _turns_unknown(system, velocities, body))
-    layout = replace(velocities.layout, squared=squared)
+    unknowns = replace(velocities.unknowns, squared=squared)
     known = {body: STILL if body in squared else rates for body, rates in velocities.rates.items()}
     motion = Velocities(known)
     told: list[tuple[Condition, float]] = []
     for one in system.conditions:
         if one.drift is not None:
-            inward = (motion.omega(part.body) ** 2 * _along(part, layout.middle) for part in one.components)
+            inward = (motion.omega(part.body) ** 2 * _along(part, unknowns.middle) for part in one.components)
             told.append((one, one.drift(motion) + sum(inward)))
-    solved, unknowns = _solve(layout, told)
-    squares = layout.squares(unknowns)
+    solved, found = _solve(unknowns, told)
+    squares = unknowns.squares(found)
     turned = {
         body: replace(rates, turn=float(np.sqrt(max(squares[body], 0.0)))) if body in squares else rates
         for body, rates in velocities.rates.items()
     }
     # From the middle to the origin: a(0) = a(m) − iε m + ω² m.
     at_origin = {
-        body: replace(rates, origin=rates.origin + squares.get(body, motion.omega(body) ** 2) * layout.middle)
+        body: replace(rates, origin=rates.origin + squares.get(body, motion.omega(body) ** 2) * unknowns.middle)
         for body, rates in solved.rates.items()
     }
-    return Accelerations(replace(solved, rates=at_origin), replace(velocities, rates=turned))
+    least = -SMALL * float(np.abs(found).max(initial=0.0)) / unknowns.size
+    parting = () if solved.free.size else tuple(body for body, square in squares.items() if square < least)
+    return Accelerations(replace(solved, rates=at_origin), replace(velocities, rates=turned), parting)
 
 
 def _along(part: Component, middle: complex) -> float:
@@ -184,14 +190,14 @@ def _names(condition: Condition, body: int) -> bool:
     return any(part.body == body for part in condition.components) or any(turn[0] == body for turn in condition.turns)
 
 
-def _solve(layout: Layout, told: Sequence[tuple[Condition, float]]) -> tuple[Solved, np.ndarray]:
-    matrix = np.array([layout.row(one) for one, _ in told]).reshape(len(told), layout.count)
-    values = np.array([layout.scaled(one, value) for one, value in told])
-    unknowns = np.linalg.lstsq(matrix, values, rcond=SMALL)[0] if len(told) else np.zeros(layout.count)
-    _, sizes, ways = np.linalg.svd(matrix) if len(told) else (None, np.zeros(0), np.eye(layout.count))
+def _solve(unknowns: Unknowns, told: Sequence[tuple[Condition, float]]) -> tuple[Solved, np.ndarray]:
+    matrix = np.array([unknowns.row(one) for one, _ in told]).reshape(len(told), unknowns.count)
+    values = np.array([unknowns.scaled(one, value) for one, value in told])
+    found = np.linalg.lstsq(matrix, values, rcond=SMALL)[0] if len(told) else np.zeros(unknowns.count)
+    _, sizes, ways = np.linalg.svd(matrix) if len(told) else (None, np.zeros(0), np.eye(unknowns.count))
     rank = int((sizes > SMALL * max(sizes, default=0.0)).sum())
     conflicts = tuple(_conflicts([one.name for one, _ in told], matrix, values))
-    return Solved(layout.rates(unknowns), conflicts, ways[rank:], layout), unknowns
+    return Solved(unknowns.rates(found), conflicts, ways[rank:], unknowns), found
 
 
 def _conflicts(names: Sequence[str], matrix: np.ndarray, values: np.ndarray) -> Iterable[Conflict]:

@@ -38,7 +38,13 @@ def watch(
     port: int = 0,
     stream: TextIO = sys.stdout,
 ) -> None:
-    """Serve the page of a file and renew it until the program is interrupted.  Raises `OutputError`."""
+    """Serve the page of a file and renew it until the program is interrupted.
+
+    A faulty file has a page that tells its faults.  Raises `AssignmentError` if there is no file, `OutputError`.
+    """
+    if not path.exists():
+        # A name mistyped is no file to wait for.
+        api.load(path, language)
     path = path.absolute()
     renewed = _pdf_writer(path, out, stream) if pdf else _nobody
     desk = Desk(path, language, renewed)

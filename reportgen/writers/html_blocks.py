@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
@@ -16,6 +17,8 @@ CONTENTS_LEVEL = 3
 """The deepest level of heading that the contents list."""
 BREAK = "<wbr>"
 """Between two pieces of a formula: a line may end there."""
+CLOSING = re.compile(r"[.,;:!?)\]”]+")
+"""Marks with which no line begins."""
 ALIGNS = {"left": "l", "center": "c", "right": "r"}
 """The classes of cells."""
 
@@ -129,7 +132,23 @@ class Blocks:
     # --- inlines ----------------------------------------------------------------------------------
 
     def inlines(self, inlines: tree.Inlines) -> str:
-        return "".join(map(self.inline, inlines))
+        """Inlines in a row; a mark stays with the formula that it stands at, where a browser would part them."""
+        shown: list[str] = []
+        behind_formula = False
+        for inline in inlines:
+            text = inline.text if isinstance(inline, tree.Text) else ""
+            if behind_formula and (marks := CLOSING.match(text)):
+                pieces, stroke, last = shown.pop().rpartition(BREAK)
+                shown.append(f'{pieces}{stroke}<span class="nb">{last}{escape(marks[0])}</span>')
+                inline = tree.Text(text[marks.end() :])
+            behind_formula = isinstance(inline, tree.InlineMath)
+            if behind_formula and shown and shown[-1].endswith("("):
+                first, stroke, pieces = self.inline(inline).partition(BREAK)
+                shown[-1] = shown[-1].removesuffix("(")
+                shown.append(f'<span class="nb">({first}</span>{stroke}{pieces}')
+            else:
+                shown.append(self.inline(inline))
+        return "".join(shown)
 
     def inline(self, inline: tree.Inline) -> str:
         match inline:

@@ -78,7 +78,8 @@ class _Drawn:
     height: str
     box: str
     body: str
-    scale: str
+    notes: str
+    scales: tuple[str, ...]
     spots: tuple[str, ...]
     reach: str
 
@@ -145,6 +146,11 @@ class _Writer:
                 }
                 for spot in film.stages[0].spots
             ],
+            "scales": {
+                stage.key: {"at": number(stage.scales.at), "times": stage.scales.times}
+                for stage in film.stages
+                if stage.scales
+            },
             "charts": list(map(self.axes, film.charts)),
             "values": [[number(value.values), value.decimals] for value in film.values],
             "heads": [f"{words['way']} (mm)" if film.span else f"{words['angle']} (°)", *HEADS],
@@ -178,7 +184,8 @@ class _Writer:
             height,
             f"{decimal(stage.low.real)} {decimal(-stage.high.imag)} {width} {height}",
             "".join(map(self.item, stage.items)),
-            ", ".join(map(self.formulas.content, stage.scale)),
+            ", ".join(map(self.formulas.content, stage.notes)),
+            tuple(map(self.formulas.content, stage.scales.printed)) if stage.scales else (),
             tuple(spot.name for spot in stage.spots),
             decimal(HIT * self.grown),
         )

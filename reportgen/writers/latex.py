@@ -29,8 +29,8 @@ CONTENTS_LEVEL = 3
 """The deepest level of heading that the contents and the outline list."""
 CAPTION = 15.0
 """About what a figure's caption takes, with the white around it (mm)."""
-OPENING, TITLE, ROW = 20, 14, 5.0
-"""Approximate heights in mm: of the words before a table, of its caption, and of a row."""
+HEADING, OPENING, TITLE, ROW = 15, 20, 14, 5.0
+"""Approximate heights in mm: of a heading, of the words before a table, of its caption, and of a row."""
 FRAME = r"\vrule width\heavyrulewidth"
 """The side of a framed table."""
 LONG, SHORT = 42, 18
@@ -96,25 +96,43 @@ class _Writer:
         }
 
     def blocks(self, blocks: Sequence[tree.Block]) -> str:
-        return "\n".join(
-            self.led(block, following) if layout.leads(block, following, self.language) else self.block(block)
-            for block, following in pairwise((*blocks, None))
-            if block is not None
-        )
+        return "\n".join(self.kept(blocks[index:]) for index in range(len(blocks)))
 
-    def led(self, block: tree.Block, following: tree.Block | None) -> str:
-        """A block that stays on one page with the block that follows it."""
+    def kept(self, blocks: Sequence[tree.Block]) -> str:
+        """The first of the blocks, on one page with the next one if it leads to that."""
+        block, following = blocks[0], blocks[1] if len(blocks) > 1 else None
+        if isinstance(block, tree.Section):
+            room = self.room_to_table(blocks)
+            return (_command("needed", f"{room:g}mm") if room else "") + self.block(block)
+        if not layout.leads(block, following, self.language):
+            return self.block(block)
         if isinstance(block, tree.List):
             return self.list(block, r"\keeplist")
-        needed = ""
-        if isinstance(following, tree.Table):
-            needed = _command("tableroom", f"{_whole(following):g}mm") + _command(
-                "needed", f"{OPENING + _height(following):g}mm"
-            )
+        if isinstance(block, tree.Equation):
+            return rf"\let\eqend\nobreak {self.block(block)}\let\eqend\relax\par\nobreak"
+        room = self.room_to_table(blocks)
+        if room:
+            needed = _command("needed", f"{room:g}mm")
+            if isinstance(following, tree.Table):
+                needed = _command("tableroom", f"{_whole(following):g}mm") + needed
         else:
             short = isinstance(following, tree.Equation) and not isinstance(following.rows[0], VectorEquation)
             needed = _command("neededbelow", f"{SHORT if short else LONG:g}mm")
         return f"{needed}{self.block(block)}\\par\\nobreak"
+
+    def room_to_table(self, blocks: Sequence[tree.Block]) -> float:
+        """About how much paper (mm) blocks need that lead one to the next and at last to a table; 0 for others."""
+        room = 0.0
+        for block, following in pairwise(blocks):
+            if isinstance(block, tree.Section):
+                room += HEADING
+            elif layout.leads(block, following, self.language):
+                room += SHORT * (1 + len(block.rows)) / 2 if isinstance(block, tree.Equation) else OPENING
+            else:
+                return 0.0
+            if isinstance(following, tree.Table):
+                return room + _height(following)
+        return 0.0
 
     def block(self, block: tree.Block) -> str:
         match block:

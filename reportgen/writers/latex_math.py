@@ -145,7 +145,9 @@ class LatexFormulas(Formulas):
         return opening + inner + closing
 
     def chain(self, node: Chain) -> str:
-        return "".join(self.aligned(node))
+        """In a line it may break before a second "=", not before the first."""
+        left, rest = self.aligned(node)
+        return left + rest.replace(r" \relbreak= ", " = ", 1)
 
     def aligned(self, node: Expression) -> tuple[str, str]:
         """A displayed line cut at its first relation: what stands left of it, and the rest.
@@ -180,7 +182,7 @@ class LatexFormulas(Formulas):
         lines = ["&" + "&".join(f"{sign}&{shown}" for sign, shown, _ in terms)]
         for row, name in enumerate(rows):
             entries = (known[row] if row < len(known) else "" for _, _, known in terms)
-            known = "&".join(rf"&\known{{{self.content('?' if e is None else e)}}}" for e in entries)
+            known = "&".join(rf"&\known{{{self.known(e)}}}" for e in entries)
             lines.append(rf"\rowname{{{escape(name)}}}&{known}")
         if rows:
             lines[1] = rf"\cline{{2-{2 * len(terms) + 1}}}{lines[1]}"

@@ -179,6 +179,10 @@ class Formulas(ABC):
                 found.append((sign, self.symbol(term.symbol), term.known))
         return found
 
+    def known(self, entry: Expression | str | None) -> str:
+        """What is known of a vector, in the row below its term: "?" for nothing; a fraction keeps to the line."""
+        return type(self)(self.language, slashed=True).content("?" if entry is None else entry)
+
     def signed(self, equation: VectorEquation) -> Iterator[tuple[str, Term]]:
         """Each term with what is printed before it: "=" at the head of a later side, then its sign."""
         for side, terms in enumerate(equation.sides):
@@ -304,12 +308,19 @@ def _flat(node: Expression) -> Expression:
 
 
 def leads(block: Block, following: Block | None, language: Language) -> bool:
-    """Whether a text must stay with the next block: it ends in a colon or its sentence goes on there."""
+    """Whether a block must stay with the next one: a text that ends in a colon or whose sentence goes on there.
+
+    A vector equation stays with the text that says how it is solved, and any equation with a table that sums it up.
+    """
     if following is None or isinstance(following, (PageBreak, Plate)):
         return False
     match block:
         case List(items=(*_, (*_, Paragraph(inlines)))):
             return isinstance(following, Equation) and plain(inlines, language).endswith(":")
+        case Equation(rows=(VectorEquation(), *_)) if isinstance(following, Paragraph):
+            return leads(following, block, language)
+        case Equation():
+            return isinstance(following, Table)
         case Paragraph(inlines):
             text = plain(inlines, language).rstrip()
             goes_on = isinstance(following, (Equation, List, Table))

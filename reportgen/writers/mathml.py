@@ -15,6 +15,8 @@ from reportgen.writers.layout import ATOM, NAMED, PRIMES, UNSPACED, Formulas, sh
 
 EQUALS = '<mo form="infix">=</mo>'
 NARROW = "\N{NARROW NO-BREAK SPACE}"
+TALL = ("<mfrac", "<mtable", "<msqrt")
+"""Elements that are higher than a line."""
 
 
 def escape(text: str) -> str:
@@ -73,9 +75,9 @@ class MathmlFormulas(Formulas):
         return f"{name}<mo>&#x2061;</mo>{self.applied(node)}"
 
     def applied(self, node: Call) -> str:
-        """What a function is applied to, in parentheses unless it is one piece."""
+        """What a function is applied to: in parentheses or, if it is one piece, behind a thin space."""
         plain = super().call(node).removeprefix(self.function(node.name))
-        return row(plain)
+        return row(f'<mspace width="0.17em"/>{plain.lstrip()}' if plain.startswith(" ") else plain)
 
     # --- symbols
 
@@ -129,7 +131,13 @@ class MathmlFormulas(Formulas):
         return escape(written(number.value, number.decimals, self.language) + gap + number.unit)
 
     def parentheses(self, node: Expression) -> str:
-        return row('<mo form="prefix">(</mo>', self.math(node), '<mo form="postfix">)</mo>')
+        return self.enclosed(self.math(node))
+
+    def enclosed(self, inner: str, opening: str = "(", closing: str = ")") -> str:
+        """What stands in parentheses, which are as high as it is."""
+        # Browsers set white beside parentheses that may be stretched, even where they need not be.
+        still = "" if any(tall in inner for tall in TALL) else ' stretchy="false"'
+        return row(f'<mo form="prefix"{still}>{opening}</mo>', inner, f'<mo form="postfix"{still}>{closing}</mo>')
 
     def function(self, name: str) -> str:
         return f'<mi mathvariant="normal">{escape(name)}</mi>'
@@ -138,11 +146,11 @@ class MathmlFormulas(Formulas):
         # A comma is the decimal mark in Vietnamese.
         mark = f'<mo separator="true">{";" if self.language == "vi" else ","}</mo>'
         inner = mark.join(map(self.math, nodes))
-        return row('<mo form="prefix">(</mo>', inner, '<mo form="postfix">)</mo>')
+        return self.enclosed(inner)
 
     def matrix(self, rows: Sequence[Sequence[str]]) -> str:
         body = "".join(f"<mtr>{''.join(f'<mtd>{entry}</mtd>' for entry in entries)}</mtr>" for entries in rows)
-        return row('<mo form="prefix">[</mo>', f"<mtable>{body}</mtable>", '<mo form="postfix">]</mo>')
+        return self.enclosed(f"<mtable>{body}</mtable>", "[", "]")
 
     # --- lines
 
@@ -185,7 +193,7 @@ class MathmlFormulas(Formulas):
             # Of a last "= 0" the sign stands as a plain letter between two terms.
             term = self.sign(sign) + shown.replace("> =", f">{EQUALS}")
             entries = [*known, *("",) * (len(equation.rows) - len(known))][: len(equation.rows)]
-            found.append((term, [self.content("?" if entry is None else entry) for entry in entries]))
+            found.append((term, [self.known(entry) for entry in entries]))
         return found
 
     def sign(self, sign: str) -> str:

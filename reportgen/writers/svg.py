@@ -54,14 +54,16 @@ OVER = 0.09
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """Letters of one label that look alike: italic or not, their size and their base line's drop in font sizes."""
+    """Letters of one label that look alike: italic or not, their size and their base line's drop in font sizes.
+
+    They stand so far `back` from the end of those before them, in their own font size.
+    """
 
     text: str
     italic: bool = False
     size: float = 1.0
     drop: float = 0.0
-    over: str = ""
-    """What stands over them: "vector" or "segment"."""
+    back: float = 0.0
 
 
 class Pens:
@@ -216,7 +218,8 @@ class Painter:
         for run in parts:
             # A shift counts in the font size of the run that it moves.
             shift = (run.drop - drop) / run.size
-            attributes = f' dy="{decimal(shift)}em"' if shift else ""
+            attributes = f' dx="{decimal(-run.back)}em"' if run.back else ""
+            attributes += f' dy="{decimal(shift)}em"' if shift else ""
             names = ("i " if run.italic else "") + ("x" if run.size < 1 else "")
             attributes += f' class="{names.strip()}"' if names else ""
             text = escape(run.text)
@@ -232,9 +235,7 @@ def label_runs(node: Expression, language: Language) -> Iterator[Run]:
             for letters, digits in runs(base):
                 yield Run(letters, italic=any(map(str.isalpha, letters)))
                 yield from _script(digits, SUB)
-            for letters, digits in numbered(sub):
-                yield from _script(letters + digits, SUB)
-            yield from _script(sup, SUPER)
+            yield from _scripts("".join(letters + digits for letters, digits in numbered(sub)), sup)
         case Number(value, decimals, unit):
             gap = "" if unit in UNSPACED else "\N{NARROW NO-BREAK SPACE}"
             yield Run(write(value, decimals, language) + (gap + unit if unit else ""))
@@ -278,6 +279,16 @@ def label_runs(node: Expression, language: Language) -> Iterator[Run]:
                 yield from _joined([term.symbol for term in side], " + ", language)
         case Matrix(rows):
             yield from _joined([entry for row in rows for entry in row], "; ", language)
+
+
+def _scripts(below: str, above: str) -> Iterator[Run]:
+    """An index and an exponent over one another: the narrower first, then the other from where it began."""
+    wide_below, wide_above = (box(text, 1.0).width / POINT for text in (below, above))
+    first, second = _script(below, SUB), _script(above, SUPER)
+    if wide_below > wide_above:
+        first, second = second, first
+    yield from first
+    yield from (replace(run, back=min(wide_below, wide_above)) for run in second)
 
 
 def _script(text: str, drop: float) -> Iterator[Run]:

@@ -276,12 +276,15 @@ class _Blocks:
                 return "#linebreak()"
 
     def formula(self, expression: Expression, formulas: TypstFormulas) -> str:
-        """A formula in a line, which may break before "=" and between the terms of a sum only."""
-        if not any(isinstance(node, Product) for node in walk(expression)) or isinstance(expression, Sum):
-            return formulas.content(expression)
+        """A formula in a line, which may break before a second "=" and between the terms of a sum only."""
         parts = expression.parts if isinstance(expression, Chain) else (expression,)
+        products = any(isinstance(node, Product) for node in walk(expression))
+        if any(isinstance(part, Sum) for part in parts[:2]) or not (products or len(parts) > 1):
+            return formulas.content(expression)
         printed = [formulas.math(part) for part in parts]
         printed[-1] += formulas.note(expression)
+        # What stands left of "=" never stands alone at the end of a line.
+        printed[:2] = [" = ".join(printed[:2])]
         return " ".join(f"#box(${'= ' if index else ''}{part}$)" for index, part in enumerate(printed))
 
     def run_in(self, section: tree.Section) -> str:
@@ -324,7 +327,7 @@ class _Blocks:
         terms = []
         for sign, shown, known in self.formulas.columns(equation):
             known = (*known, *("",) * (len(equation.rows) - len(known)))
-            entries = (self.formulas.content("?" if e is None else e) for e in known[: len(equation.rows)])
+            entries = map(self.formulas.known, known[: len(equation.rows)])
             terms.append(_array((f"${sign}$", f"${shown}$", *entries)))
         return ",".join((_array(map(literal, equation.rows)), *terms))
 

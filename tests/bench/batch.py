@@ -7,17 +7,23 @@ from __future__ import annotations
 
 import argparse
 import io
+import math
 import os
+import shutil
+import subprocess
 import sys
 import tempfile
 import threading
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from statistics import median
 from time import perf_counter
 
+from reportgen import api
 from reportgen.batch.run import Order, run_batch
 from reportgen.batch.variants import make_variants
 
@@ -70,6 +76,26 @@ def machine(folder: Path) -> float:
 def efficiency(one: Sequence[Cost], two: Sequence[Cost]) -> float:
     """The rate of two workers over twice that of one: the median of rounds, each compared with itself."""
     return median(a.seconds / (2 * b.seconds) for a, b in zip(one, two, strict=True))
+
+
+def plain(folder: Path, size: str) -> float:
+    """Documents of the same size a minute by the plain script, one on each of two processors."""
+    script = str(Path(__file__).with_name("plain.py"))
+    targets = [tempfile.mkdtemp(dir=folder) for _ in range(2)]
+    waiting = [partial(run, (sys.executable, script, target, size), Path(target)) for target in targets]
+    begun = perf_counter()
+    with ThreadPoolExecutor(2) as both:
+        for cost in [both.submit(one) for one in waiting]:
+            cost.result()
+    return 2 * 60 / (perf_counter() - begun)
+
+
+def size(given: Path, folder: Path) -> str:
+    """How much a report of the class holds, see `size.py`."""
+    file = next(iter(sorted(given.glob("*.yaml"))))
+    pdf = api.build(file, folder / "one")
+    command = (sys.executable, "-m", "tests.bench.size", str(file), str(pdf))
+    return subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
 
 
 @contextmanager
@@ -131,12 +157,15 @@ def main(arguments: Sequence[str] | None = None) -> None:
         group.draw()
         free = machine(folder)
         costs = in_turns({str(n): lambda n=n: group.reports(n) for n in (1, 2)}, chosen.rounds)
+        script = plain(folder, size(folder / "given", folder)) if shutil.which("pdflatex") else math.nan
     print(f"reports of {chosen.students} students")
     for workers, taken in costs.items():
         cost = middle(taken)
         rate = 60 * chosen.students / cost.seconds
         print(f"  by {workers}: {rate:6.1f} a minute, peak memory of a worker {cost.memory:.0f} MB (aim ≤ 1024)")
     print(f"  two over twice one: {efficiency(costs['1'], costs['2']):.2f} (aim ≥ 0.85)")
+    rate = 60 * chosen.students / middle(costs["2"]).seconds
+    print(f"  by two over a plain script on two processors: {rate / script:.1f} ({script:.1f} a minute; aim ≥ 20)")
     print(f"  two busy processes over twice one on this machine: {free:.2f}")
 
 

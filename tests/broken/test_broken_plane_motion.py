@@ -225,6 +225,31 @@ def told(tmp_path: Path, content: str) -> str:
     return "\n".join(str(problem) for problem in check(path, "en"))
 
 
+@pytest.mark.parametrize(
+    ("size", "expected"), [("-3", []), ("1", []), ("2.001", ["12 points-part"]), ("3", ["12 points-part"])]
+)
+def test_points_of_a_rigid_body_have_no_accelerations_away_from_each_other(
+    tmp_path: Path, size: str, expected: list[str]
+) -> None:
+    """Along AB, which is x, a_B − a_A = −ω² l cannot be positive."""
+    content = f"""kind: plane-motion
+parameters:
+  points:
+    A: {{at: [0 mm, 0 mm]}}
+    B: {{at: [200 mm, 0 mm]}}
+  bodies:
+    1: {{points: [A, B]}}
+  find: [omega.1]
+
+  given:
+    - {{type: acceleration, point: A, size: 2 m/s2, direction: 0 deg}}
+    - {{type: acceleration, point: B, size: {size} m/s2, direction: 0 deg}}
+"""
+    path = tmp_path / "file.yaml"
+    path.write_text(content, encoding="utf-8")
+    assert [f"{problem.mark.line} {problem.code}" for problem in check(path, "en")] == expected
+
+
 def test_a_contradiction_names_both_sides(tmp_path: Path) -> None:
     second = "    - {type: velocity, point: B, size: 1 m/s, direction: 0 deg}\n    - {type: epsilon"
     message = told(tmp_path, BASE.replace("    - {type: epsilon", second))

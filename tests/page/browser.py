@@ -98,10 +98,14 @@ class Browser:
             {"name": "prefers-reduced-motion", "value": "reduce" if still else "no-preference"},
         ]
         self.command("Emulation.setEmulatedMedia", features=features)
-        self.driver.get("about:blank")
+        self.leave()
         for log in ("browser", "performance"):
             self.driver.get_log(log)
         self.driver.get(page.as_uri() if isinstance(page, Path) else page)
+
+    def leave(self) -> None:
+        """Show nothing."""
+        self.driver.get("about:blank")
 
     def run(self, script: str, *arguments: Any) -> Any:
         return self.driver.execute_script(script, *arguments)

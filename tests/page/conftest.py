@@ -11,9 +11,16 @@ from tests.page.browser import Browser, opened
 
 
 @pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
+def only_browser() -> Iterator[Browser]:
     with opened() as found:
         yield found
+
+
+@pytest.fixture
+def browser(only_browser: Browser) -> Iterator[Browser]:
+    """The browser for one test; a page left open would go on moving while all other tests run."""
+    yield only_browser
+    only_browser.leave()
 
 
 @pytest.fixture(params=made.CASES)

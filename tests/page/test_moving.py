@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import time
 
 import numpy as np
@@ -95,10 +96,7 @@ def test_at_numbered_positions_plans_are_the_report_s_figures(page: Made, browse
         turn = (k - 1) % machine.count + 1
         expected = {what: motion_plan(report, what, turn) for what in ("v", "a")}
         for polygon in page.case.polygons:
-            # The page has one scale for all positions, that of the report's plates.
-            scales = {one: float(report.ledger[f"mu.R{polygon.name}"].at(one)) for one in report.plates}
-            share = float(report.ledger[f"mu.R{polygon.name}"].at(k)) / max(scales.values())
-            expected[f"R{polygon.name}"] = force_plan(report, polygon, k).scaled(share)
+            expected[f"R{polygon.name}"] = force_plan(report, polygon, k)
         for key, plan in expected.items():
             drawn = vectors(shown[key])
             for vector in plan.vectors:
@@ -106,6 +104,19 @@ def test_at_numbered_positions_plans_are_the_report_s_figures(page: Made, browse
                     ends = drawn[vector.name]
                     off = min(abs(start - vector.start) + abs(end - vector.end) for start, end in ends)
                     assert off < ROUND * 2, (key, vector.name, k)
+
+
+def test_a_force_plan_says_the_scale_that_it_has_at_the_moment(page: Made, browser: Browser) -> None:
+    """At a numbered position that of the report's figure; a vector's length times it is the force."""
+    browser.show(page.file)
+    shown = "return document.querySelector(`[data-stage='${arguments[0]}'] [data-scale]:not([hidden])`).textContent"
+    for polygon in page.case.polygons:
+        family = page.case.ledger[f"mu.R{polygon.name}"]
+        for k in sorted({1, page.case.analysis.machine.positions, *page.case.assignment.worked_positions}):
+            browser.run("moving.pause(); moving.seek(arguments[0])", page.film.positions[k - 1][1])
+            number = re.search(r"=([\d.,]+)", re.sub(r"\s", "", browser.run(shown, f"R{polygon.name}")))
+            assert number is not None
+            assert float(number[1].replace(",", ".")) == pytest.approx(float(family.at(k)) / family.how.scale)
 
 
 def test_between_samples_the_error_is_below_the_one_stated(page: Made) -> None:

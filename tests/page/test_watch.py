@@ -15,7 +15,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
+from reportgen.cli import app
 from reportgen.watch.edition import Desk
 from reportgen.watch.server import Server
 from tests.page.browser import Browser
@@ -104,6 +106,12 @@ def test_a_faulty_file_has_a_page_that_comes_when_it_is_mended(file: Path, brows
         file.write_text(given, encoding="utf-8")
         until(lambda: browser.run("return document.getElementById('moving') !== null"))
         assert browser.run("return document.getElementById('fault').hidden")
+
+
+def test_a_name_of_no_file_is_told_at_once(tmp_path: Path) -> None:
+    result = CliRunner().invoke(app, ["watch", str(tmp_path / "mistyped.yaml"), "--no-open"])
+    assert result.exit_code == 1
+    assert "mistyped.yaml:1:1: " in result.stderr
 
 
 def test_the_pdf_is_renewed_too(file: Path, tmp_path: Path) -> None:

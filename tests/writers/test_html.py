@@ -11,8 +11,21 @@ from xml.etree import ElementTree
 import pytest
 
 from reportgen.document.tree import Equation, InlineMath, Paragraph, Section, Text, formula
+from reportgen.figures.metrics import POINT, SCRIPT, SMALL_CUT, box
 from reportgen.figures.scene import Arrow, Circle, Label, Line, Scene
-from reportgen.notation.expressions import Expression, Number, Power, Product, Sum, Symbol, VectorEquation, walk
+from reportgen.notation.expressions import (
+    Chain,
+    Expression,
+    Fraction,
+    Number,
+    Power,
+    Product,
+    Sum,
+    Symbol,
+    VectorEquation,
+    cos,
+    walk,
+)
 from reportgen.notation.numbers import Language
 from reportgen.writers import html
 from reportgen.writers.mathml import MathmlFormulas
@@ -56,6 +69,19 @@ def test_parentheses_stand_where_a_line_would_be_misread() -> None:
     assert said(parsed(Power(Sum((a, b)), Number(2.0)))) == "(a+b)2"
     assert said(parsed(Product((a, Number(-1.5))))) == "a·(−1,5)"
     assert said(parsed(Product((a, Number(-1.5))), "en")) == "a·(−1.5)"
+
+
+def test_parentheses_stretch_only_about_what_is_high() -> None:
+    low, high = Sum((Symbol("x"), Symbol("y"))), Sum((Symbol("x"), Fraction(Symbol("a"), Symbol("b"))))
+    for inner, stretched in ((low, False), (high, True)):
+        marks = [one for one in parsed(Product((Symbol("k"), inner))).iter("mo") if one.text in ("(", ")")]
+        assert len(marks) == 2
+        assert all((mark.get("stretchy") != "false") is stretched for mark in marks)
+
+
+def test_a_function_stands_apart_from_its_letter() -> None:
+    assert [one.get("width") for one in parsed(cos(Symbol("α", "2"))).iter("mspace")] == ["0.17em"]
+    assert not list(parsed(cos(Sum((Symbol("α"), Symbol("β"))))).iter("mspace"))
 
 
 def test_displayed_rows_break_where_the_tree_breaks_them() -> None:
@@ -163,6 +189,24 @@ def test_labels_are_text_and_stand_at_their_anchors() -> None:
     assert str(texts[3].get("transform")).startswith("rotate(-90")
 
 
+@pytest.mark.parametrize(("below", "above", "first"), [("CB", "n", "n"), ("1", "τqt", "1"), ("CB", "", "CB")])
+def test_an_index_stands_under_an_exponent(below: str, above: str, first: str) -> None:
+    """The wider one comes last and begins where the narrower did, so that what follows stands behind both."""
+    label = Label(0j, Symbol("a", below, above), size=10.0)
+    text = ElementTree.fromstring(Painter("vi", Pens()).label(label))
+    letter, *scripts = text.iter("tspan")
+    assert letter.text == "a"
+    assert scripts[0].text == first
+    assert {script.text for script in scripts} == {below, above} - {""}
+    assert scripts[0].get("dx") is None
+    for script in scripts[1:]:
+        # Attributes count in the font size of the script itself.
+        narrower = box(Symbol("", first), 10.0).width / SMALL_CUT
+        assert float(str(script.get("dx")).removesuffix("em")) * SCRIPT * 10.0 * POINT == pytest.approx(
+            -narrower, abs=1e-3 * 10.0
+        )
+
+
 def test_pens_are_classes_that_follow_light_and_dark() -> None:
     written = html.report(sample.sample())
     rules = dict(re.findall(r"\.(p\d+)\{([^}]*)\}", written.rules))
@@ -170,6 +214,17 @@ def test_pens_are_classes_that_follow_light_and_dark() -> None:
     assert used
     assert used <= rules.keys()
     assert any("var(--" in rule for rule in rules.values())
+
+
+def test_no_line_begins_with_the_mark_behind_a_formula() -> None:
+    chain = InlineMath(Chain((Symbol("v"), Symbol("w"))))
+    words = (Text("where ("), InlineMath(Symbol("x")), Text("), "), chain, Text(". And "), Text(". So"))
+    document = replace(sample.sample(), blocks=(Paragraph(words),))
+    paragraph = ElementTree.fromstring(html.report(document).body.replace("<wbr>", "<wbr/>"))
+    kept = [said(one) for one in paragraph if one.tag == "span"]
+    # Of a formula that may break, the last piece.
+    assert kept == ["(x),", "=w."]
+    assert said(paragraph) == "where(x),v=w.And.So"
 
 
 def test_the_number_of_an_equation_stands_once() -> None:

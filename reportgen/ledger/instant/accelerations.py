@@ -8,9 +8,10 @@ from itertools import permutations
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_places import direction, unit
-from reportgen.ledger.instant.speeds import Board
-from reportgen.ledger.instant.steps import Equation, Step
-from reportgen.ledger.instant.vectors import Vector, components, solved_for
+from reportgen.ledger.instant.speeds import Board, enter_blocks
+from reportgen.ledger.instant.steps import COORDINATES, Axis, Equation, Step
+from reportgen.ledger.instant.trains import by_train
+from reportgen.ledger.instant.vectors import Vector, components, solved_for, towards
 from reportgen.notation.expressions import Symbol, sqrt, total
 from reportgen.plane_motion.conditions import GROUND
 from reportgen.plane_motion.ways import parallel
@@ -67,7 +68,11 @@ def _given(parts: Parts) -> None:
 def _held(board: Board, body: int) -> bool:
     """Whether a joint keeps a body from turning, not only at the instant."""
     joints = board.layout.given.joints
-    return any(isinstance(one, file.Slider | file.Translation) and one.body == body for one in joints)
+    return any(
+        one.body == body and (isinstance(one, file.Translation) or one.on == GROUND)
+        for one in joints
+        if isinstance(one, file.Slider | file.Translation)
+    )
 
 
 def _next(parts: Parts) -> bool:
@@ -79,10 +84,9 @@ def _next(parts: Parts) -> bool:
             return True
         if _by_base(parts, body, names):
             return True
-    if _by_rims(parts):
+    if _by_rims(parts) or by_train(board, "eps"):
         return True
-    joints = board.layout.given.joints
-    return any(_slot(parts, joint) for joint in joints if isinstance(joint, file.SlotJoint) and joint.on)
+    return any(_slot(parts, joint) for joint in board.layout.given.slots) or enter_blocks(board, "eps")
 
 
 # --- about a known point --------------------------------------------------------------------------
@@ -186,12 +190,7 @@ def _path(parts: Parts, point: str, body: int) -> Path | None:
         u = layout.slots[point]
         return Path((), Vector(f"a.{point}", u if (u.conjugate() * actual).real >= 0 else -u))
     for other, centre in layout.centres.items():
-        if (
-            other != body
-            and centre.rule == "pivot"
-            and point in layout.members[other]
-            and board.knows(f"omega.{other}")
-        ):
+        if other != body and centre.rule == "pivot" and point in layout.own(other) and board.knows(f"omega.{other}"):
             normal, tangential = _relative(parts, other, point, centre.name)
             lines = _enter_normal(parts, other, point, centre.name, normal)
             return Path(parts.nonzero(normal), tangential, other, centre.name, lines)
@@ -224,7 +223,8 @@ def _two_unknown(parts: Parts, body: int, point: str, base: str, path: Path) -> 
     if path.body and not board.knows(f"eps.{path.body}"):
         q.define(f"eps.{path.body}", q[unknown.id] / board.length(path.base, point))
         lines += (f"eps.{path.body}",)
-    board.steps.append(Step("acceleration-base", lines, body, point, base, equation))
+    axes = Axis("ξ", across, point), Axis("η", tangential.way, point)
+    board.steps.append(Step("acceleration-base", lines, body, point, base, equation, axes))
     return True
 
 
@@ -282,7 +282,11 @@ def _free(parts: Parts, body: int, names: list[str]) -> bool:
     q.define(tangential.id, solved_for(q, tangential.way, tangential.way, parts.of[point], parts.of[base]))
     q.define(f"eps.{body}", q[tangential.id] / arm)
     lines = (normal.id, f"omega.{body}", tangential.id, f"eps.{body}")
-    board.steps.append(Step("acceleration-free", lines, body, point, base, equation))
+    axes = (
+        Axis("ξ", board.way(board.layout.points[point] - board.layout.points[base]), point),
+        Axis("η", tangential.way, point),
+    )
+    board.steps.append(Step("acceleration-free", lines, body, point, base, equation, axes))
     return True
 
 
@@ -319,7 +323,8 @@ def _slot(parts: Parts, joint: file.SlotJoint) -> bool:
     q.define(tangential.id, value)
     q.define(f"eps.{body}", q[tangential.id] / length)
     lines += (tangential.id, f"eps.{body}")
-    board.steps.append(Step("acceleration-slot", lines, body, point, centre.name, equation))
+    axis = Axis("η", towards(1j * u, tangential.way), point)
+    board.steps.append(Step("acceleration-slot", lines, body, point, centre.name, equation, (axis,)))
     return True
 
 
@@ -332,6 +337,7 @@ def _whole(parts: Parts, point: str) -> None:
     if not vectors:
         q.give(f"a.{point}", 0.0)
         return
+    axes: tuple[Axis, ...] = ()
     if len(vectors) == 1:
         q.define(f"a.{point}", q[vectors[0].id])
         lines: tuple[str, ...] = (f"a.{point}",)
@@ -341,12 +347,14 @@ def _whole(parts: Parts, point: str) -> None:
     else:
         lines = ()
         squares = []
-        for axis, name in ((1 + 0j, "x"), (1j, "y")):
+        for axis, name in COORDINATES:
             terms = components(q, vectors, axis)
             if terms:
                 one = q.define(f"a.{point}.{name}", total(terms), Symbol("a", f"{point}{name}"), "acceleration")
                 squares.append(one**2)
+                axes += (Axis(name, axis, point),)
                 lines += (one.id,)
         q.define(f"a.{point}", sqrt(total(squares)))
         lines += (f"a.{point}",)
-    board.steps.append(Step("acceleration-whole", lines, point=point, equation=Equation((), vectors)))
+    equation = Equation((), vectors)
+    board.steps.append(Step("acceleration-whole", lines, point=point, equation=equation, axes=axes))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from reportgen.ledger.instant.speeds import Board
-from reportgen.ledger.instant.steps import Equation, Step
+from reportgen.ledger.instant.steps import COORDINATES, Axis, Equation, Step
 from reportgen.ledger.instant.vectors import Vector, components, solved_for
 from reportgen.notation.expressions import Symbol, sqrt, total
 from reportgen.plane_motion.ways import perpendicular
@@ -62,7 +62,9 @@ def _rate(board: Board, body: int, point: str, base: str) -> bool:
     unknown = (whole.id, relative.id) if new else (relative.id,)
     equation = Equation((whole,), (*bases, relative), unknown)
     lines: tuple[str, ...] = ()
+    axes: tuple[Axis, ...] = ()
     if new:
+        axes = (Axis("ξ", line, point),)
         lines = (q.define(whole.id, solved_for(q, way, line, bases, ())).id,)
     elif not bases and not q.si(whole.id):
         return False
@@ -70,12 +72,13 @@ def _rate(board: Board, body: int, point: str, base: str) -> bool:
     if turn:
         q.define(relative.id, solved_for(q, relative.way, relative.way, wholes, bases))
         q.define(f"omega.{body}", q[relative.id] / board.length(base, point))
+        axes = (*axes, Axis("η", relative.way, point))
         lines = (*lines, relative.id, f"omega.{body}")
     else:
         q.give(f"omega.{body}", 0.0)
     kind = "base-rate" if turn else "base-translation"
     kind = kind if new else "base-known"
-    board.steps.append(Step(kind, lines, body, point, base, equation))
+    board.steps.append(Step(kind, lines, body, point, base, equation, axes))
     return True
 
 
@@ -90,18 +93,20 @@ def _point(board: Board, body: int, point: str, base: str) -> bool:
     if not board.knows(relative.id):
         lines = (q.define(relative.id, q[f"omega.{body}"] * board.length(base, point)).id,)
     parts = [one for one in (board.velocity(base), relative) if q.si(one.id)]
-    squares = []
-    for axis, name in ((1 + 0j, "x"), (1j, "y")):
+    squares, axes = [], []
+    for axis, name in COORDINATES:
         if terms := components(q, parts, axis):
             one = q.define(f"v.{point}.{name}", total(terms), Symbol("v", f"{point}{name}"), "velocity")
             squares.append(one**2)
+            axes.append(Axis(name, axis, point))
             lines = (*lines, one.id)
     if not squares:
-        return False
+        q.give(f"v.{point}", 0.0)
+        return True
     q.define(f"v.{point}", sqrt(total(squares)))
     whole = board.velocity(point)
     equation = Equation((whole,), tuple(parts), (whole.id,))
-    board.steps.append(Step("base-point", (*lines, whole.id), body, point, base, equation))
+    board.steps.append(Step("base-point", (*lines, whole.id), body, point, base, equation, tuple(axes)))
     return True
 
 
@@ -122,5 +127,6 @@ def _between(board: Board, body: int, other: int, point: str) -> bool:
     lines = [first.id, second.id]
     for turning, vector, base in zip((body, other), (first, second), bases, strict=True):
         lines.append(q.define(f"omega.{turning}", q[vector.id] / board.length(base, point)).id)
-    board.steps.append(Step("two-bases", tuple(lines), body, point, bases[0], equation))
+    axes = Axis("ξ", line, point), Axis("η", second.way, point)
+    board.steps.append(Step("two-bases", tuple(lines), body, point, bases[0], equation, axes))
     return True

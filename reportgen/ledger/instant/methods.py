@@ -11,11 +11,12 @@ from reportgen.ledger.instant.proportion import enter_proportion
 from reportgen.ledger.instant.speeds import Board, about_joints, by_centre, by_moving_frame, derive
 from reportgen.ledger.instant.steps import Step
 from reportgen.ledger.instant.systems import solve_velocities_together
+from reportgen.ledger.instant.trains import by_train
 
 Finder = Callable[[Board], bool]
 """Enters one more velocity, or those of one more body; whether there was one."""
 
-CHOSEN: tuple[Finder, ...] = (derive, by_base_point, enter_proportion, solve_velocities_together)
+CHOSEN: tuple[Finder, ...] = (derive, by_base_point, enter_proportion, by_train, solve_velocities_together)
 """Chosen well for each step: the instant centre wherever there is one; all that is left over together."""
 
 OWN: Mapping[Method, tuple[Finder, ...]] = {

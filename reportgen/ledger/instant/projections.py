@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import permutations
 
 from reportgen.ledger.instant.speeds import Board
-from reportgen.ledger.instant.steps import Step
+from reportgen.ledger.instant.steps import Axis, Step
 from reportgen.ledger.instant.vectors import Vector, solved_for
 from reportgen.plane_motion.ways import perpendicular
 
@@ -24,6 +24,7 @@ def by_projection(board: Board) -> bool:
                 way = board.way(board.at(point)) or layout.ways[point]
                 known = [Vector(f"v.{base}", board.way(board.at(base)))]
                 board.q.define(f"v.{point}", solved_for(board.q, way, line, known, ()))
-                board.steps.append(Step("projection", (f"v.{point}",), body, point, base))
+                axis = Axis("ξ", line, point)
+                board.steps.append(Step("projection", (f"v.{point}",), body, point, base, axes=(axis,)))
                 return True
     return False

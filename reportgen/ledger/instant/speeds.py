@@ -9,8 +9,8 @@ from itertools import combinations, permutations
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_centres import NEAR, Centre, Layout
 from reportgen.catalogue.plane_motion_places import direction
-from reportgen.ledger.instant.steps import Equation, Step
-from reportgen.ledger.instant.vectors import Vector, solved_for
+from reportgen.ledger.instant.steps import Axis, Equation, Step
+from reportgen.ledger.instant.vectors import Vector, solved_for, towards
 from reportgen.notation.expressions import Ref, Symbol
 from reportgen.notation.sheet import Sheet, is_short
 from reportgen.plane_motion.motion import Motion
@@ -107,7 +107,20 @@ def by_parallels(board: Board) -> bool:
 
 def by_moving_frame(board: Board) -> bool:
     """One more point along a line of a moving body."""
-    return any(_slot(board, joint) for joint in board.layout.given.joints if isinstance(joint, file.SlotJoint))
+    given = board.layout.given
+    return any(_slot(board, joint) for joint in given.slots) or enter_blocks(board, "omega")
+
+
+def enter_blocks(board: Board, what: str) -> bool:
+    """One more body that turns as the one does along whose guide it slides; `what` is omega or eps."""
+    for joint in board.layout.given.joints:
+        if isinstance(joint, file.Slider) and joint.on:
+            for known, new in permutations((joint.body, joint.on)):
+                if board.knows(f"{what}.{known}") and not board.knows(f"{what}.{new}"):
+                    id = board.q.define(f"{what}.{new}", board.q[f"{what}.{known}"]).id
+                    board.steps.append(Step(f"block-{what}", (id,), new, frame=known))
+                    return True
+    return False
 
 
 def _by_belt(board: Board) -> bool:
@@ -219,7 +232,7 @@ def _parallel(board: Board, body: int, names: list[str]) -> bool:
 def _slot(board: Board, joint: file.SlotJoint) -> bool:
     """v_P = v_X + v_PX + v_r for a point P on a line of a body with a known point X, with two unknown sizes."""
     body, point, q, layout = joint.on, joint.point, board.q, board.layout
-    if not body or board.knows(f"v.{point}.r"):
+    if board.knows(f"v.{point}.r"):
         return False
     base = _base(board, body)
     if base is None or not (board.knows(f"v.{point}") or board.knows(f"omega.{body}")):
@@ -236,6 +249,7 @@ def _slot(board: Board, joint: file.SlotJoint) -> bool:
     bases = (board.velocity(base),) if q.si(f"v.{base}") else ()
     arm = board.length(base, point)
     known_rate = board.knows(f"omega.{body}")
+    axes: tuple[Axis, ...] = ()
     if known_rate:
         q.define(turning.id, q[f"omega.{body}"] * arm)
         if not board.knows(whole.id):
@@ -244,6 +258,7 @@ def _slot(board: Board, joint: file.SlotJoint) -> bool:
             unknown = (whole.id, sliding.id)
             equation = Equation((whole,), (*bases, turning, sliding), unknown)
             q.define(whole.id, solved_for(q, whole.way, 1j * u, (*bases, turning), ()))
+            axes = (Axis("η", towards(1j * u, whole.way), point),)
             lines: tuple[str, ...] = (turning.id, whole.id)
         else:
             equation = Equation((whole,), (*bases, turning, sliding), (sliding.id,))
@@ -251,16 +266,19 @@ def _slot(board: Board, joint: file.SlotJoint) -> bool:
     else:
         equation = Equation((whole,), (*bases, turning, sliding), (turning.id, sliding.id))
         q.define(turning.id, solved_for(q, turning.way, 1j * u, (whole,), bases))
+        axes = (Axis("η", towards(1j * u, turning.way), point),)
         q.define(f"omega.{body}", q[turning.id] / arm)
         lines = (turning.id, f"omega.{body}")
     if sliding.way:
         q.define(
             sliding.id, solved_for(q, sliding.way, u, (whole,), (*bases, turning)), Symbol("v", point, "r"), "velocity"
         )
+        axes = (*axes, Axis("ξ", towards(u, arm_way), point))
         lines = (*lines, sliding.id)
     else:
         q.give(sliding.id, 0.0, Symbol("v", point, "r"), "velocity")
-    board.steps.append(Step("slot-rate" if not known_rate else "slot-speed", lines, body, point, base, equation))
+    kind = "slot-speed" if known_rate else "slot-rate"
+    board.steps.append(Step(kind, lines, body, point, base, equation, axes))
     return True
 
 

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_places import direction
 from reportgen.ledger.instant.accelerations import Parts
 from reportgen.ledger.instant.speeds import Board
@@ -75,7 +74,9 @@ class Loops:
 
     def bodies(self) -> Iterator[tuple[int, list[str]]]:
         layout = self.board.layout
-        for body, names in layout.members.items():
+        for body in layout.members:
+            # Points of contact move alike at the instant; their accelerations differ.
+            names = layout.members[body] if self.what == "omega" else layout.own(body)
             centre = layout.centres.get(body)
             pivot = [centre.name] if centre is not None and centre.rule == "pivot" else []
             guided = centre is not None and centre.by_joint and not pivot
@@ -85,8 +86,8 @@ class Loops:
     def across_slots(self) -> Iterator[tuple[Reached, complex]]:
         """What a point on a line of a moving body does across that line, against the body's own point there."""
         members = dict(self.bodies())
-        for joint in self.board.layout.given.joints:
-            if isinstance(joint, file.SlotJoint) and joint.on and joint.point in self.points:
+        for joint in self.board.layout.given.slots:
+            if joint.point in self.points:
                 base = next((name for name in members.get(joint.on, ()) if name in self.points), None)
                 if base is not None:
                     own = self.points[base].plus(self.turned(joint.on, joint.point, base))

@@ -43,14 +43,19 @@ def solved_for(
 
     The axis points so that the unknown's component is positive.
     """
+    axis = towards(axis, unknown)
     cosine = (axis.conjugate() * unknown).real
-    axis = axis if cosine > 0 else -axis
     terms = components(q, known, axis)
     terms += [one.of if isinstance(one, Negative) else Negative(one) for one in components(q, opposite, axis)]
     sum_of = total(_positive_first(terms)) if terms else Number(0.0)
     if parallel(unknown, axis):
         return sum_of
-    return sum_of / cos(angle(q, math.acos(min(abs(cosine), 1.0))))
+    return sum_of / cos(angle(q, math.acos(min(cosine, 1.0))))
+
+
+def towards(axis: complex, way: complex) -> complex:
+    """The axis, or its opposite, along which a vector of that direction has a positive component."""
+    return axis if (axis.conjugate() * way).real > 0 else -axis
 
 
 def _positive_first(terms: list[Expression]) -> list[Expression]:

@@ -22,6 +22,8 @@ from reportgen.notation.sheet import Sheet
 
 ROUND = 1e-9
 """An angle this little below a whole turn (degrees) is none."""
+SAME, NOTHING = 1e-6, 1e-9
+"""Values that differ by this share, or in SI units by this much, are one."""
 POSITIONS = 1
 """The instant."""
 
@@ -62,7 +64,7 @@ def work_out(
     find_velocities(board, method, alone=velocities_alone)
     if not velocities_alone:
         enter_accelerations(board, solve_accelerations_together)
-    missing = [one.id for one in exercise.asked if one.what != "centre" and one.id not in board.q]
+    missing = [one.id for one in exercise.asked if one.what != "centre" and not _leads_to(board, one)]
     for asked in exercise.asked:
         if asked.what == "centre":
             missing += [] if _centre(board, asked.body) else [asked.id]
@@ -86,6 +88,21 @@ def work_out(
     decimals, cancellations = choose_decimals(q.families, (), set(), (1,))
     ledger = Ledger(q.families, decimals, POSITIONS, cancellations, units).in_language(names)
     return Worked(ledger, board.layout, steps, tuple(missing), method)
+
+
+def _leads_to(board: Board, asked: Asked) -> bool:
+    """Whether the steps lead to what is asked: to the value that the whole system gives, and to no other."""
+    motion = board.motion
+    if asked.id not in board.q:
+        return False
+    match asked.what:
+        case "omega":
+            value: complex = motion.omega(asked.body)
+        case "eps":
+            value = motion.epsilon(asked.body)
+        case what:
+            value = motion.v(asked.of) if what == "v" else motion.a(asked.of)
+    return math.isclose(board.q.si(asked.id), abs(value), rel_tol=SAME, abs_tol=NOTHING)
 
 
 def _centre(board: Board, body: int) -> bool:

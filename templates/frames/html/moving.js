@@ -34,6 +34,15 @@ const moving = (() => {
     return now.share === 0 ? one : one + now.share * (values[index + 1] - one);
   };
 
+  // A drawing that is small at the moment is shown at a finer scale, that of the sample nearest by.
+  const rescale = (part) => {
+    const scales = film.scales[part.element.dataset.stage];
+    if (!scales) return;
+    const index = sample(scales.at, now.cycle + (now.share > 0.5 ? 1 : 0));
+    part.zoom = scales.times[index];
+    part.printed.forEach((one, number) => { one.hidden = number !== index; });
+  };
+
   const sample = (track, index) => values[starts[track] + (film.lengths[track] === 1 ? 0 : index)];
 
   // --- drawing
@@ -51,8 +60,8 @@ const moving = (() => {
     }
   };
 
-  const carried = (element, item) => () => {
-    const x = value(item.at), y = -value(item.at + 1), there = isFinite(x + y);
+  const carried = (element, item, stage) => () => {
+    const x = stage.zoom * value(item.at), y = -stage.zoom * value(item.at + 1), there = isFinite(x + y);
     show(element, there);
     if (!there) return;
     const turn = item.turn === undefined ? "" : ` rotate(${short(-value(item.turn) * 180 / Math.PI)})`;
@@ -67,7 +76,8 @@ const moving = (() => {
     const [shaft, ...others] = element.children;
     const head = item.head ? others[0] : null, label = item.size ? others[others.length - 1] : null;
     return () => {
-      const x1 = value(item.from), y1 = -value(item.from + 1), x2 = value(item.to), y2 = -value(item.to + 1);
+      const z = stage.zoom;
+      const x1 = z * value(item.from), y1 = -z * value(item.from + 1), x2 = z * value(item.to), y2 = -z * value(item.to + 1);
       const dx = x2 - x1, dy = y2 - y1, length = Math.hypot(dx, dy), there = length > NOTHING;
       show(element, there);
       if (!there) return;
@@ -82,24 +92,24 @@ const moving = (() => {
       }
       shaft.setAttribute("d", `M${short(x1)} ${short(y1)}L${short(x1 + ux * end)} ${short(y1 + uy * end)}`);
       if (!label) return;
-      show(label, length > SHORT);
-      // Beside its middle or, where another label stands there, elsewhere along it or on its other side.
+      // Beside its middle or, where another label stands there, elsewhere along it or on its other side, or not at all.
       const [w, h] = item.size, off = Math.abs(uy) * w + Math.abs(ux) * h + 0.9;
       const places = SHARES.flatMap((share) => [off, -off].map((side) => [x1 + dx * share + uy * side, y1 + dy * share - ux * side]));
-      const at = places.find(([x, y]) => free(stage, x, y, w, h)) || places[0];
-      if (length > SHORT) stage.names.push([...at, w, h]);
+      const at = length > SHORT ? places.find(([x, y]) => free(stage, x, y, w, h)) : undefined;
+      show(label, at !== undefined);
+      if (!at) return;
+      stage.names.push([...at, w, h]);
       label.setAttribute("transform", `translate(${short(at[0])} ${short(at[1])})`);
     };
   };
 
-  // A name stands on the side away from what its point is joined to, or opposite where another name stands.
+  // A name stands on the side away from what its point is joined to, or elsewhere about it where another name stands.
   const name = (element, item, stage) => () => {
-    const x = value(item.label), y = -value(item.label + 1), there = isFinite(x + y);
-    show(element, there);
-    if (!there) return;
+    const z = stage.zoom, x = z * value(item.label), y = -z * value(item.label + 1), there = isFinite(x + y);
+    if (!there) { show(element, false); return; }
     let ux = 0, uy = 0, px = 0, py = 0;
     for (const other of item.off) {
-      const dx = x - value(other), dy = y + value(other + 1), length = Math.hypot(dx, dy);
+      const dx = x - z * value(other), dy = y + z * value(other + 1), length = Math.hypot(dx, dy);
       if (length > 0.5) { ux += dx / length; uy += dy / length; px = -dy / length; py = dx / length; }
     }
     let size = Math.hypot(ux, uy);
@@ -107,7 +117,9 @@ const moving = (() => {
     ux /= size; uy /= size;
     const [w, h] = item.size, off = item.gap + Math.abs(ux) * w + Math.abs(uy) * h;
     const places = [[ux, uy], [-ux, -uy], [-uy, ux], [uy, -ux]].map(([a, b]) => [x + a * off, y + b * off]);
-    const at = places.find(([a, b]) => free(stage, a, b, w, h)) || places[0];
+    const at = places.find(([a, b]) => free(stage, a, b, w, h));
+    show(element, at !== undefined);
+    if (!at) return;
     stage.names.push([...at, w, h]);
     element.setAttribute("transform", `translate(${short(at[0])} ${short(at[1])})`);
   };
@@ -115,7 +127,7 @@ const moving = (() => {
   const follower = (element, stage) => {
     const item = film.items[element.dataset.i];
     if (item.from !== undefined) return vector(element, item, stage);
-    return item.label === undefined ? carried(element, item) : name(element, item, stage);
+    return item.label === undefined ? carried(element, item, stage) : name(element, item, stage);
   };
 
   const written = (number, decimals) => {
@@ -178,6 +190,7 @@ const moving = (() => {
       // Where frames take long the machine goes on smoothly, and plans follow in turns.
       if (index && (index + drawing.count) % turns) continue;
       part.names = [];
+      rescale(part);
       for (const { element, update, layer } of part.followers) if (!layer || drawing.layers[layer]) update();
     }
     // Figures that change faster than this cannot be read.
@@ -319,12 +332,12 @@ const moving = (() => {
       rates: { v: find('[data-of="v"]'), a: find('[data-of="a"]') },
     };
     drawing.parts = all("[data-stage]").map((element) => {
-      const part = { element, names: [], followers: [] };
+      const part = { element, names: [], followers: [], zoom: 1, printed: [...element.querySelectorAll("[data-scale]")] };
       part.followers = [...element.querySelectorAll("[data-i]")].map((one) => (
         { element: one, update: follower(one, part), layer: one.dataset.ofLayer }));
       element.querySelectorAll(".spot").forEach((one) => {
         const spot = film.spots[one.dataset.spot];
-        part.followers.push({ element: one, update: carried(one, { at: spot.at }) });
+        part.followers.push({ element: one, update: carried(one, { at: spot.at }, part) });
         const point = (index) => () => { drawing.pointed = index; tell(); };
         one.addEventListener("pointerenter", point(Number(one.dataset.spot)));
         one.addEventListener("pointerleave", point(null));
