@@ -22,7 +22,7 @@ def drawing_sheets(case: Case, size: str = "", sets: Collection[str] = (), block
     """The finished drawing sheets of a case: of one `size`, else as the file says, else A1, or A0 if a plate needs it.
 
     `sets` are some of `SETS`, all if none is named; the title `block` is a file, else that of the language.  Raises
-    `SheetError` where there is nothing to draw or a plate is larger than the size, `AssignmentError` for a faulty block.
+    `SheetError` where there is nothing to draw or a plate is too large, `AssignmentError` for a faulty block.
     """
     report, language = open_report(case), case.assignment.language
     plates = Plates.of(report)
@@ -51,9 +51,9 @@ def sheets_of(plates: Plates, chosen: Sequence[int], size: str, block: TitleBloc
     sets = {str(number): plates.series[index].belongs for number, index in enumerate(chosen, start=1)}
     result = []
     for number, parts in enumerate(found, start=1):
-        shown = dict.fromkeys(sets[part.name.partition(".")[0]] for part in parts)
+        shown = {sets[part.name.partition(".")[0]] for part in parts}
         fields = fields_of(report.case) | {
-            "title": "; ".join(words["sets"][one] for one in shown),
+            "title": words["sets"][shown.pop() if len(shown) == 1 else "all"],
             "sheet": str(number),
             "sheets": str(len(found)),
             "format": size,

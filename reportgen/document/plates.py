@@ -17,7 +17,7 @@ import numpy as np
 
 from reportgen.document.centres import centre_state, centres
 from reportgen.document.curves import flywheel_speed, flywheel_torque, flywheel_work, motion, polar, torque, wittenbauer
-from reportgen.document.figures import MM, SHOWN_AT, Drawn, indicator, positions_scene, scheme_scene
+from reportgen.document.figures import MM, Drawn, indicator, positions_scene, scheme_scene
 from reportgen.document.force_figures import lever, separated, separated_driver
 from reportgen.document.plans import force_plan, motion_plan
 from reportgen.document.report import Report

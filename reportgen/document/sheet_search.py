@@ -108,8 +108,8 @@ class Search:
     def sheets(self) -> list[tuple[Part, ...]]:
         """The plates on sheets; raises `TooLargeError` for one that fits none.
 
-        They stand in rows throughout if that is found to fill the sheets.  On a small sheet few plates stand in a row:
-        there it is not tried.
+        They stand in rows or columns throughout if that is found to fill the sheets.  On a small sheet few plates stand
+        in a row: there it is not tried, and plates may change places.
         """
         large = too_large(self._estimated(self._fitting(self._beginning(1.0))), self.space)
         if large:

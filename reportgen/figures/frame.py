@@ -33,6 +33,9 @@ PADDING = 0.6
 LEADING = 1.6
 """From line to line, in heights of capitals."""
 
+LINE = 1.3
+"""Of a line with what reaches below it, in heights of capitals."""
+
 Align = Literal["left", "center"]
 
 
@@ -132,7 +135,7 @@ def _lines(cell: Cell, height: float) -> list[str]:
 
 def _fits(lines: Sequence[str], cell: Cell, height: float) -> bool:
     wide = max(_width(line, height) for line in lines) <= cell.width - 2 * PADDING
-    return wide and (LEADING * (len(lines) - 1) + 1.2) * height <= cell.height
+    return wide and (LEADING * (len(lines) - 1) + LINE) * height + 2 * PADDING <= cell.height
 
 
 def _shortened(cell: Cell, height: float) -> str:

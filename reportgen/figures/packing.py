@@ -1,7 +1,7 @@
 """Where plates stand on drawing sheets: as many as have room, in the order of the work, then spread over the paper.
 
-Each plate goes as high up as it can and there as far to the left, as one lays cards on a table: plates of one height
-stand in rows, smaller ones below one another beside a tall one.  Boxes here have half the white around them at each
+Plates stand in rows, or in columns where rows do not fill a sheet.  Where neither does, each plate goes as high up as
+it can and there as far to the left, as one lays cards on a table.  Boxes here have half the white around them at each
 side; a spot is (to the right, down) from where the first one stands.
 """
 
@@ -138,6 +138,20 @@ def _rows(sizes: Sequence[Size], paper: _Paper) -> list[Spot]:
     return spots
 
 
+def _columns(sizes: Sequence[Size], paper: _Paper) -> list[Spot]:
+    """The places of plates below one another in columns, up to the first that has none."""
+    spots: list[Spot] = []
+    left = right = low = 0.0
+    for width, tall in ((width + GAP, height + GAP) for width, height, *_ in sizes):
+        if not _fits(left, low, width, tall, paper):
+            left, low = right, 0.0
+            if not _fits(left, low, width, tall, paper):
+                break
+        spots.append((left, low))
+        right, low = max(right, left + width), low + tall
+    return spots
+
+
 def _fits(left: float, top: float, width: float, tall: float, paper: _Paper) -> bool:
     right = left + width
     return right <= paper.wide + EDGE and top + tall <= paper.floor(right) + EDGE
@@ -169,7 +183,7 @@ class Dividing:
     room: Room
     enough: float
     in_rows: bool = False
-    """Whether plates stand in rows only; else they do where that fills a sheet."""
+    """Whether plates stand in rows or columns only; else they do where that fills a sheet."""
     in_any_order: bool = False
     """Whether plates may change places on their sheet where that fills it."""
     paper: _Paper = field(init=False)
@@ -241,6 +255,7 @@ class Dividing:
         shares = list(accumulate(map(self._share, run)))
         rows = _rows(run, self.paper)
         yield from self._fewer(tuple(rows), shares, self.in_rows)
+        yield from self._fewer(tuple(_columns(run, self.paper)), shares, False)
         if not self.in_rows:
             yield from self._fewer(tuple(self._spots(run)), shares, True)
             rows = max(rows, self._spots(run), key=len)

@@ -43,10 +43,10 @@ LAYERS: dict[str, int] = {
 AXIS, HIDDEN = "CENTER", "HIDDEN"
 AXIS_PARTS = 4
 """A pen of four dashes and gaps is that of an axis, one of two that of a hidden or construction line."""
-STYLE, FONT = "unicode", "arial.ttf"
-"""The text style's name, which some programs take for that of their own font, and the font of the others.
+STYLE, FONT = "lc_opengost-ar", "arial.ttf"
+"""The text style's name, which LibreCAD takes for that of a stroke font of its own, and the font of all others.
 
-Both have all letters of Vietnamese.
+The second has all letters of Vietnamese.  None of LibreCAD's has; the first has Greek, the minus and other signs.
 """
 WIDTHS = (13, 18, 25, 35, 50, 70, 100)
 """Line weights that DXF knows, hundredths of a millimetre."""

@@ -8,9 +8,9 @@ import sys
 import numpy as np
 import pytest
 
-from reportgen.figures.charts import HEIGHT, WIDTH, Series, bars, chart, histogram, polar
+from reportgen.figures.charts import HEIGHT, WIDTH, Area, Series, bars, chart, histogram, polar
 from reportgen.figures.scene import Circle, Label, Polyline, Scene
-from reportgen.notation.expressions import Number, Symbol
+from reportgen.notation.expressions import Chain, Number, Symbol
 from tests.figures.overlaps import overlaps
 
 ANGLE = np.linspace(0, 720, 721)
@@ -54,6 +54,19 @@ def test_the_simplified_curve_stays_within_the_pen() -> None:
     drawn = (curve.imag - base) * per + min(ticks)
     error = np.abs(drawn - (300 * np.sin(2 * x) - 120 * np.cos(x))) / per
     assert error.max() < 0.2  # half a pen's width of 0.4 mm
+
+
+@pytest.mark.parametrize("height", [25.0, 100.0])
+def test_a_name_longer_than_its_axis_is_set_in_two_lines(height: float) -> None:
+    """On a sheet, where the height of a chart is chosen."""
+    name = Chain((Symbol("ω"),), "rad/s; positive: anticlockwise, seen from above")
+    curve = Series("", ANGLE[:361], np.sin(np.radians(ANGLE[:361])))
+    scene = chart([curve], Symbol("φ"), name, area=Area(60.0, height))
+    turned = [item for item in scene.items if isinstance(item, Label) and item.turn == 90]
+    assert len(turned) == (2 if height < 50 else 1)
+    assert overlaps(scene) == []
+    # The line that ends with the unit is read first, that is, stands on the left.
+    assert "rad/s" in max(turned, key=lambda label: -label.at.real).content.note
 
 
 def test_two_curves_are_told_apart_without_colour() -> None:

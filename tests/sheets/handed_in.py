@@ -21,24 +21,17 @@ LEAST = 2.49
 FULL = 0.6
 """What of the free area of a sheet its plates take."""
 WIDE_CAPTIONS: dict[str, dict[str, set[int]]] = {
-    "": {"engine-single-VII": {1}, "four-bar-01": {3}, "linkage-8": {3, 4, 5}, "scotch-yoke-01": {1}, "shaper-02": {2}},
-    "kinematics": {
-        "engine-single-VII": {1},
-        "four-bar-01": {3},
-        "linkage-8": {3, 4},
-        "scotch-yoke-01": {1},
-        "shaper-01": {4},
-        "shaper-02": {2},
-    },
+    "": {"four-bar-01": {3}, "linkage-8": {3, 4}, "shaper-02": {2}},
+    "kinematics": {"four-bar-01": {3}, "linkage-8": {3, 4}, "shaper-02": {2}},
 }
 """By set, sheets A3 with plans of motion: of the next finer round scale fewer have room, at a coarser one they cannot
 be read, or a scheme and a position plan stand alone as no row of plans has room below them."""
 TALL: dict[str, dict[str, set[int]]] = {
-    "": {"engine-v-02": {9, 21}},
+    "": {"engine-v-02": {9}},
     "forces": {
         **{f"engine-single-{one}": {1} for one in ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")},
-        "engine-twin-05": {1},
-        "engine-v-02": {1, 13, 14},
+        "engine-twin-05": {1, 2},
+        "engine-v-02": {1},
     },
 }
 """By set, sheets A3 with an indicator diagram or polar diagrams, beside which the title block leaves little height."""

@@ -52,6 +52,8 @@ def test_the_plates_are_numbered_in_the_order_of_the_work(name: str, size: str) 
     numbers = [tuple(map(int, part.name.split("."))) for sheet in laid(name, size).sheets for part in plates(sheet)]
     assert len(numbers) == len(set(numbers))
     assert {number[0] for number in numbers} == set(range(1, max(numbers)[0] + 1))
+    # Only on a small sheet may they change places.
+    assert size == "A3" or numbers == sorted(numbers)
     # Each sheet shows a run of them.
     runs = [sorted(tuple(map(int, part.name.split("."))) for part in plates(one)) for one in laid(name, size).sheets]
     assert [number for run in runs for number in run] == sorted(numbers)
@@ -72,6 +74,15 @@ def test_a_plate_larger_than_the_paper_is_told(size: str) -> None:
     with pytest.raises(TooLargeError) as caught:
         sheets_of(Plates(found.report, [scheme]), [0], size, block_of("four-bar-02"))
     assert caught.value.part.name == "1"
+
+
+@pytest.mark.parametrize("size", ["A1", "A3"])
+@pytest.mark.parametrize("name", EVERY)
+def test_the_scheme_is_not_larger_than_the_position_plan(name: str, size: str) -> None:
+    """But for its slider and guide, and round scales: it shows less than the plan."""
+    sheet = laid(name, size).sheets[0]
+    scheme, positions = (next(part.scene for part in plates(sheet) if part.name == number) for number in "12")
+    assert max(scheme.width, scheme.height) <= 1.3 * max(positions.width, positions.height)
 
 
 @sheets
