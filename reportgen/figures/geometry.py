@@ -6,6 +6,7 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import TypeVar
 
 import numpy as np
@@ -115,7 +116,7 @@ def enlarged(item: Item, factor: float) -> Item:
     """The item as a photographic enlargement about the origin shows it: pens, arrowheads and letters grow too."""
 
     def pen(stroke: Stroke) -> Stroke:
-        return replace(stroke, width=factor * stroke.width, dash=tuple(factor * part for part in stroke.dash))
+        return _enlarged_pen(stroke, factor)
 
     match item:
         case Line(start, end, stroke):
@@ -132,6 +133,12 @@ def enlarged(item: Item, factor: float) -> Item:
             return replace(item, points=tuple(p * factor for p in points), spacing=spacing * factor, stroke=pen(stroke))
         case Label(at, _, _, size):
             return replace(item, at=at * factor, size=size * factor)
+
+
+@lru_cache(maxsize=256)
+def _enlarged_pen(stroke: Stroke, factor: float) -> Stroke:
+    """The same few pens draw every figure."""
+    return replace(stroke, width=factor * stroke.width, dash=tuple(factor * part for part in stroke.dash))
 
 
 def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[complex, complex] | None:

@@ -8,6 +8,7 @@ the standards take the place of those that came out.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 
 from reportgen.figures import style
 from reportgen.figures.geometry import enlarged, moved
@@ -64,6 +65,7 @@ def _standard(item: Item) -> Item:
             return replace(item, stroke=outline and _pen(outline))
 
 
+@lru_cache(maxsize=256)
 def _pen(stroke: Stroke) -> Stroke:
     return replace(stroke, width=WIDE if stroke.width >= ENLARGED * OUTLINE else NARROW)
 

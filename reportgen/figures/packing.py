@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import accumulate, chain
+from itertools import accumulate, chain, islice
 from typing import NamedTuple
 
 from reportgen.figures.sheet import GAP, Part, Room
@@ -187,16 +187,16 @@ class Dividing:
     in_any_order: bool = False
     """Whether plates may change places on their sheet where that fills it."""
     paper: _Paper = field(init=False)
+    area: float = field(init=False)
     _endings: dict[tuple[Size, int], int] = field(default_factory=dict)
     """The number of each ending of parts that was seen, by its first size and the number of what follows."""
     _found: dict[int, Best] = field(default_factory=lambda: {0: (0.0, ())})
     """The sheets of each ending, by its number."""
-    _kept: dict[tuple[Size, ...], list[Filling]] = field(default_factory=dict)
-    _turned: dict[tuple[Size, ...], list[Filling]] = field(default_factory=dict)
+    _kept: dict[tuple[Size, ...], _Remembered] = field(default_factory=dict)
     _placed: dict[tuple[Size, ...], list[Spot]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.paper = _Paper.of(self.room)
+        self.paper, self.area = _Paper.of(self.room), self.room.area
 
     def of(self, parts: Sequence[Part]) -> tuple[float, list[Laid]]:
         """The parts on sheets, and what these miss of being full enough, in hundredths.
@@ -220,7 +220,7 @@ class Dividing:
         if endings[start] not in self._found:
             best: Best = NEVER, ()
             run = self._run(sizes, start)
-            for filling in chain(self._fillings(run), self._in_other_orders(run)):
+            for filling in self._fillings(run):
                 missing, rest = self._best(sizes, endings, start + len(filling[0]))
                 missing += 100 * max(self.enough - filling[2], 0.0)
                 if missing < best[0]:
@@ -238,20 +238,21 @@ class Dividing:
         return tuple(sizes[start:end])
 
     def _share(self, size: Size) -> float:
-        return size.width * size.height / self.room.area
+        return size.width * size.height / self.area
 
     def _spots(self, run: tuple[Size, ...]) -> list[Spot]:
         if run not in self._placed:
             self._placed[run] = _spots(run, self.paper)
         return self._placed[run]
 
-    def _fillings(self, run: tuple[Size, ...]) -> list[Filling]:
-        """What a sheet may take of a run: all it can in this order, then fewer if these still fill it."""
+    def _fillings(self, run: tuple[Size, ...]) -> Iterable[Filling]:
+        """What a sheet may take of a run, the best first; mostly no more of it is asked for."""
         if run not in self._kept:
-            self._kept[run] = list(self._in_order(run))
+            self._kept[run] = _Remembered(chain(self._in_order(run), self._in_other_orders(run)))
         return self._kept[run]
 
     def _in_order(self, run: tuple[Size, ...]) -> Iterator[Filling]:
+        """All that a sheet can take in this order, then fewer if these still fill it."""
         shares = list(accumulate(map(self._share, run)))
         rows = _rows(run, self.paper)
         yield from self._fewer(tuple(rows), shares, self.in_rows)
@@ -269,9 +270,9 @@ class Dividing:
         for count in range(len(run), max(len(run) - LEAVING, 0), -1):
             for stretch in STRETCHES if any(size.tall for size in run[:count]) else ():
                 if stretch not in found:
-                    sizes = [size.stretched(stretch) for size in run]
+                    sizes = [size.stretched(stretch) if size.tall else size for size in run]
                     areas = accumulate(size.width * size.height for size in sizes)
-                    found[stretch] = [area / self.room.area for area in areas], place(sizes, self.paper)
+                    found[stretch] = [area / self.area for area in areas], place(sizes, self.paper)
                 shares, spots = found[stretch]
                 if self.enough <= shares[count - 1] <= MOST and len(spots) >= count:
                     yield tuple(range(count)), tuple(spots[:count]), shares[count - 1], stretch
@@ -288,11 +289,6 @@ class Dividing:
         """More parts than stand in their order; they need not stand in rows."""
         if self.in_rows or not self.in_any_order:
             return
-        if run not in self._turned:
-            self._turned[run] = list(self._found_in_other_orders(run))
-        yield from self._turned[run]
-
-    def _found_in_other_orders(self, run: tuple[Size, ...]) -> Iterator[Filling]:
         count = len(self._spots(run))
         shares = list(accumulate(map(self._share, run)))
         for more in range(min(count + AHEAD, len(run)), count, -1):
@@ -310,6 +306,26 @@ Filling = tuple[tuple[int, ...], tuple[Spot, ...], float, complex]
 """Which parts one sheet takes, counted from the first, their spots, the share they fill, and how tables stretch."""
 Best = tuple[float, tuple[Filling, ...]]
 """What sheets miss of being full, and what each takes."""
+
+
+class _Remembered:
+    """What is found one after the other, each once, for all who ask."""
+
+    def __init__(self, found: Iterator[Filling]) -> None:
+        self._known: list[Filling] = []
+        self._more = found
+
+    def __iter__(self) -> Iterator[Filling]:
+        number = 0
+        while number < len(self._known) or self._goes_on():
+            yield self._known[number]
+            number += 1
+
+    def _goes_on(self) -> bool:
+        """Whether there is one more."""
+        so_far = len(self._known)
+        self._known.extend(islice(self._more, 1))
+        return len(self._known) > so_far
 
 
 def too_large(parts: Sequence[Part], room: Room) -> Part | None:

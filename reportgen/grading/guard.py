@@ -173,7 +173,8 @@ def _other_data(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> 
         causes = {*named, *unnamed}
         follows = (place for place, cell in cells.items() if cell.verdict is Verdict.follows)
         spoiled = (one for one in follows if guide.stands_on(one, causes) or misread & {*guide.before[one[0]]})
-        yield Flag("other-data", tuple(causes), tuple(spoiled), other=other)
+        # In the order of the sheet, which is the same in every run.
+        yield Flag("other-data", tuple(place for place in first if place in causes), tuple(spoiled), other=other)
 
 
 def _is_right_for(guide: Guide, cells: Cells, classmate: Classmate) -> bool:

@@ -56,7 +56,7 @@ def test_a_job_that_kills_every_worker_fails_alone(scheduler: Any, tmp_path: Pat
 
 
 def test_papers_of_the_cluster_are_those_made_here(scheduler: Any, tmp_path: Path) -> None:
-    text = (ROOT / "assignments" / "slider-crank-01.yaml").read_text(encoding="utf-8")
+    text = (ROOT / "assignments" / "slotted-lever-01.yaml").read_text(encoding="utf-8")
     roster, given = write_class(tmp_path, {"K1": text})
     for out, address in (("here", None), ("there", scheduler.scheduler_address)):
         order = Order(roster, None, given, tmp_path / out, ("task", "key"), jobs=1, cluster=address)

@@ -226,7 +226,7 @@ def test_killed_again_and_again_nothing_is_lost(tmp_path: Path) -> None:
 
 
 def test_ctrl_c_ends_all_processes_and_keeps_what_is_done(tmp_path: Path) -> None:
-    text = (ROOT / "assignments" / "slider-crank-01.yaml").read_text(encoding="utf-8")
+    text = (ROOT / "assignments" / "slotted-lever-01.yaml").read_text(encoding="utf-8")
     roster, given = write_class(tmp_path, {f"K{k}": text for k in range(9)})
     command = (sys.executable, "-m", "reportgen.cli", "batch", roster, "--assignments", given)
     with subprocess.Popen(
@@ -264,7 +264,7 @@ def lives(group: int) -> bool:
 
 def test_reports_are_the_same_whoever_makes_them(tmp_path: Path) -> None:
     """Two real reports, by one process and by two."""
-    text = (ROOT / "assignments" / "slider-crank-01.yaml").read_text(encoding="utf-8")
+    text = (ROOT / "assignments" / "slotted-lever-01.yaml").read_text(encoding="utf-8")
     roster, given = write_class(tmp_path, {"K1": text, "K2": text.replace("variant:", "variant: 9 #", 1)})
     for jobs in (1, 2):
         order = Order(roster, None, given, tmp_path / str(jobs), ("report",), jobs=jobs)

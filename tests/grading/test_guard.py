@@ -78,6 +78,10 @@ def test_three_other_data_keep_what_does_not_depend_on_them(mine: Guide, paramet
     copied = students.sheet(other(**parameters), lambda row, k, value: students.figures(value))
     marking = mark(mine, copied)
     assert marking.warnings == ("other-data", "taken")
+    # What is told of it stands in the order of the sheet, not in one that changes from run to run.
+    (places,) = [flag.places for flag in marking.flags if flag.kind == "other-data"]
+    order = {row.id: index for index, row in enumerate(mine.judged)}
+    assert list(places) == sorted(places, key=lambda place: order[place[0]])
     assert not any(cell.verdict is Verdict.follows and cell.points for cell in marking.cells if cell.position)
     assert all(cell.points == cell.worth for cell in marking.cells if cell.verdict is Verdict.right)
 

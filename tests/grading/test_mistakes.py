@@ -28,7 +28,7 @@ MACHINES = (
 
 WORKED = (2, 3, 5, 8)
 
-SAMPLE = 12
+SAMPLE = 6
 """Mistakes drawn for each variant beside one of each name; `python -m tests.bench.mistakes` takes all."""
 
 

@@ -85,6 +85,8 @@ class Browser:
 
     def __init__(self, driver: Any) -> None:
         self.driver = driver
+        self.shown: Path | str = ""
+        """The page that is open on the usual screen."""
 
     def show(
         self, page: Path | str, width: int = 1440, height: int = 900, dark: bool = False, still: bool = False
@@ -102,10 +104,24 @@ class Browser:
         for log in ("browser", "performance"):
             self.driver.get_log(log)
         self.driver.get(page.as_uri() if isinstance(page, Path) else page)
+        self.shown = page if (width, height, dark, still) == (1440, 900, False, False) else ""
+
+    def keep(self, page: Path) -> None:
+        """Open a page unless it is open, as the test before has left it: to lay out a large one takes a second."""
+        if page != self.shown:
+            self.show(page)
 
     def leave(self) -> None:
         """Show nothing."""
         self.driver.get("about:blank")
+        self.shown = ""
+
+    def rest(self) -> None:
+        """Let nothing move on a page that the next test may look at; leave any other."""
+        if isinstance(self.shown, Path):
+            self.run("if (typeof moving !== 'undefined') moving.pause()")
+        else:
+            self.leave()
 
     def run(self, script: str, *arguments: Any) -> Any:
         return self.driver.execute_script(script, *arguments)

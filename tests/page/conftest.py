@@ -20,10 +20,10 @@ def only_browser() -> Iterator[Browser]:
 def browser(only_browser: Browser) -> Iterator[Browser]:
     """The browser for one test; a page left open would go on moving while all other tests run."""
     yield only_browser
-    only_browser.leave()
+    only_browser.rest()
 
 
-@pytest.fixture(params=made.CASES)
+@pytest.fixture(params=made.CASES, scope="module")
 def page(request: pytest.FixtureRequest) -> made.Made:
-    """The page of each kind of machine."""
+    """The page of each kind of machine; all tests of a module look at one before the next."""
     return made.made(*request.param)

@@ -54,7 +54,7 @@ def test_it_opens_in_silence_asks_for_nothing_and_plays(page: Made, browser: Bro
 
 def test_drawn_points_are_where_the_solver_has_them(page: Made, browser: Browser) -> None:
     """Every point has a corner or a sign of a link there, to 0.1 % of the crank; links are drawn rigid by that."""
-    browser.show(page.file)
+    browser.keep(page.file)
     at = angles(page)
     motion = page.solved(at).motion
     ground = page.case.analysis.machine.linkage.ground
@@ -67,7 +67,7 @@ def test_drawn_points_are_where_the_solver_has_them(page: Made, browser: Browser
 
 
 def test_plans_show_the_rates_and_close(page: Made, browser: Browser) -> None:
-    browser.show(page.file)
+    browser.keep(page.file)
     at = angles(page)
     solved, ledger = page.solved(at), page.case.ledger
     for index, shown in enumerate(browser.drawn(at)):
@@ -88,7 +88,7 @@ def test_plans_show_the_rates_and_close(page: Made, browser: Browser) -> None:
 
 
 def test_at_numbered_positions_plans_are_the_report_s_figures(page: Made, browser: Browser) -> None:
-    browser.show(page.file)
+    browser.keep(page.file)
     report, machine = page.report, page.case.analysis.machine
     numbers = sorted({*page.case.assignment.worked_positions, 1, machine.positions})
     found = browser.drawn([page.film.positions[k - 1][1] for k in numbers])
@@ -138,7 +138,7 @@ def test_between_samples_the_error_is_below_the_one_stated(page: Made) -> None:
 
 
 def test_a_point_tells_its_motion(page: Made, browser: Browser) -> None:
-    browser.show(page.file)
+    browser.keep(page.file)
     spots = page.film.stages[0].spots
     angle = page.film.positions[1][1]
     browser.run("moving.pause(); moving.seek(arguments[0])", angle)

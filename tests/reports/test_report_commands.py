@@ -12,7 +12,8 @@ import pytest
 from reportgen.writers.pdflatex import INSTALL
 from tests.reports import built
 
-SAMPLE = built.SAMPLE
+SAMPLE = built.ROOT / "assignments" / "slotted-lever-01.yaml"
+"""A report that is soon made."""
 OLD = b"the report of yesterday"
 
 
@@ -67,7 +68,7 @@ def test_a_typesetter_that_fails_leaves_the_old_report(finished: Path, tmp_path:
 
 def test_a_faulty_assignment_leaves_the_old_report(finished: Path, tmp_path: Path) -> None:
     faulty = tmp_path / SAMPLE.name
-    faulty.write_text(SAMPLE.read_text(encoding="utf-8").replace("1/3.6", "3.6"), encoding="utf-8")
+    faulty.write_text(SAMPLE.read_text(encoding="utf-8").replace("count: 12", "count: 0"), encoding="utf-8")
     done = build(faulty, "--out", finished)
     assert (done.returncode, done.stdout) == (1, "")
     assert f"{faulty}:" in done.stderr
