@@ -21,10 +21,10 @@ from reportgen.errors import AssignmentError, Fault, Mark, Problem, ReportgenErr
 from reportgen.grading.feedback import feedback_book, feedback_document
 from reportgen.grading.grades import class_document, grade_rows, person
 from reportgen.grading.guard import Classmate
+from reportgen.grading.guide import Guide, open_guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking, Policy, Submission
 from reportgen.grading.submission import read_submission
-from reportgen.grading.working import Guide, open_guide
 from reportgen.kinds import title
 from reportgen.notation.numbers import Language
 from reportgen.scratch import scratch

@@ -5,20 +5,12 @@ A length stands for a quantity at a scale that is the student's own choice; only
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.answers.bands import is_chosen_length
+from reportgen.grading.guide import Guide, Values
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Ref
-
-if TYPE_CHECKING:
-    from reportgen.grading.working import Guide
-
-Values = Mapping[str, np.ndarray]
-"""Values (SI) by id, [N] or [1]."""
 
 LARGEST_SCALE = 1e6
 """A student's own scale that differs more than this from the report's is no scale."""
@@ -58,15 +50,6 @@ def in_use(guide: Guide, values: Values, scale: str, place: slice, stated: float
         return stated
     agree = np.abs(ratios / middle - 1) < CONFIRMED
     return middle if agree.sum() >= MANY and agree.mean() > 1 / 2 else None
-
-
-def makes_scale(guide: Guide, id: str, scale: str) -> bool:
-    """Whether a length on paper is the one that a scale was made from: the drawn crank, pa."""
-    ledger = guide.ledger
-    if scale == "mu.l":
-        return is_chosen_length(ledger, ledger[id])
-    definition = ledger[id].definition
-    return isinstance(definition, Ref) and ledger[definition.id].definition is None
 
 
 def drawn_at(

@@ -21,9 +21,10 @@ import numpy as np
 
 from reportgen.answers.bands import is_direction
 from reportgen.answers.key import Key, Role, Row
+from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Cells, Flag, Marked, Place, Submission, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM
-from reportgen.grading.working import Guide, last_half_unit
+from reportgen.grading.working import last_half_unit
 from reportgen.notation import vocabulary
 from reportgen.notation.vocabulary import Chapter
 

@@ -19,8 +19,8 @@ from reportgen.answers.asking import Ask
 from reportgen.answers.bands import half_unit
 from reportgen.answers.key import Row, symbol_text, words_of
 from reportgen.catalogue import load
-from reportgen.grading.drawn_scales import Values
 from reportgen.grading.guard import Classmate, guard
+from reportgen.grading.guide import Guide, Values, open_guide
 from reportgen.grading.marks import Cells, Flag, Marked, Marking, Place, Policy, Submission, Verdict
 from reportgen.grading.misread import misread_by_many, misread_data
 from reportgen.grading.mistakes import WRONG_DATUM, Mistake
@@ -28,7 +28,7 @@ from reportgen.grading.naming import mistakes_of_working, slips_of_writing
 from reportgen.grading.plans import mistakes_of_plans
 from reportgen.grading.remarks import not_from_own
 from reportgen.grading.submission import read_submission
-from reportgen.grading.working import Guide, Working, lay_out, open_guide
+from reportgen.grading.working import Working, lay_out
 from reportgen.ledger.core import Ledger
 from reportgen.notation.numbers import Language
 

@@ -14,11 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.answers.bands import half_unit, is_direction
+from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Cells, Marked, Place, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM, Mistake
 from reportgen.grading.naming import unseen_mistakes
 from reportgen.grading.plans import behind_many
-from reportgen.grading.working import Change, Guide, Working, last_half_unit
+from reportgen.grading.working import Change, Working, last_half_unit
 from reportgen.ledger.core import follow
 
 FACTORS = np.geomspace(1 / 4, 4, 120)

@@ -13,8 +13,8 @@ from itertools import takewhile
 import numpy as np
 
 from reportgen.answers.bands import is_direction
-from reportgen.grading.drawn_scales import Values
-from reportgen.grading.working import Change, Guide
+from reportgen.grading.guide import Guide, Values
+from reportgen.grading.working import Change
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Call, Expression, Negative, Sum, rebuild, refs, walk
 from reportgen.notation.sheet import Family

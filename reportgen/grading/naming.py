@@ -13,10 +13,10 @@ import numpy as np
 
 from reportgen.answers.bands import is_direction
 from reportgen.answers.key import Role
-from reportgen.grading.drawn_scales import Values
+from reportgen.grading.guide import Guide, Values
 from reportgen.grading.marks import Cells, Marked, Place, Verdict
 from reportgen.grading.mistakes import NO_CORIOLIS, OF_POSITION, Mistake, general_mistakes, mistakes_in
-from reportgen.grading.working import Change, Guide, Working
+from reportgen.grading.working import Change, Working
 from reportgen.ledger.core import follow
 
 FEW_FIGURES = 2

@@ -10,10 +10,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Cells, Place
 from reportgen.grading.mistakes import Mistake
 from reportgen.grading.naming import foreseen
-from reportgen.grading.working import Guide, Working
+from reportgen.grading.working import Working
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import refs
 

@@ -16,9 +16,9 @@ from reportgen.answers.sheet import answer_book
 from reportgen.case import open_case
 from reportgen.document.tree import PageBreak, text_of
 from reportgen.errors import AssignmentError
+from reportgen.grading.guide import open_guide
 from reportgen.grading.marks import Policy, Scale, Verdict, read_policy
 from reportgen.grading.submission import read_submission
-from reportgen.grading.working import open_guide
 from reportgen.notation.numbers import Language
 from reportgen.notation.vocabulary import Chapter
 from reportgen.workbook import write_csv, write_xlsx

@@ -23,9 +23,9 @@ from reportgen.answers.asking import Ask
 from reportgen.answers.key import make_key
 from reportgen.answers.sheet import answer_book
 from reportgen.case import opened
+from reportgen.grading.guide import open_guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Policy
-from reportgen.grading.working import open_guide
 from reportgen.workbook import write_xlsx
 from tests.grading import students
 

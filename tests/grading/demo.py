@@ -18,9 +18,9 @@ from reportgen import api
 from reportgen.answers.key import Key
 from reportgen.answers.sheet import NAMES, asked_positions
 from reportgen.batch.variants import make_variants
+from reportgen.grading.guide import Guide, open_guide
 from reportgen.grading.marks import Answer, Place, Submission
 from reportgen.grading.mistakes import mistakes_in
-from reportgen.grading.working import Guide, open_guide
 from reportgen.notation.vocabulary import Chapter
 from reportgen.workbook import write_csv, write_xlsx
 from tests.grading import students

@@ -14,8 +14,8 @@ import numpy as np
 from reportgen.answers.asking import Ask
 from reportgen.answers.key import Role
 from reportgen.errors import Mark
+from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Answer, Submission
-from reportgen.grading.working import Guide
 from tests.grading import students
 from tests.grading.hand import Change, Hand, Rod, Task
 from tests.grading.machines import WAYS

@@ -20,9 +20,9 @@ from reportgen.answers.key import Key, Row, words_of
 from reportgen.answers.sheet import asked_positions, grid, info_page, page, rows_shown
 from reportgen.assignment import Assignment
 from reportgen.errors import AssignmentError, Mark
+from reportgen.grading.guide import Guide, open_guide
 from reportgen.grading.marks import Answer, Submission
 from reportgen.grading.mistakes import Mistake
-from reportgen.grading.working import Guide, open_guide
 from reportgen.ledger.core import follow
 from reportgen.workbook import Book, Entry
 

@@ -13,10 +13,10 @@ from reportgen.batch import assess
 from reportgen.batch.assess import Graded
 from reportgen.batch.variants import make_variants
 from reportgen.case import open_any
+from reportgen.grading.guide import open_guide
 from reportgen.grading.marking import compare
 from reportgen.grading.marks import Policy
 from reportgen.grading.mistakes import Mistake
-from reportgen.grading.working import open_guide
 from reportgen.notation.numbers import write
 from tests.grading import demo, students
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from reportgen.answers.bands import is_direction
-from reportgen.grading.working import Guide
+from reportgen.grading.guide import Guide
 from reportgen.ledger.core import follow
 from reportgen.notation.expressions import Ref, refs
 from tests.grading import hands, students

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from reportgen.grading.guard import Classmate
+from reportgen.grading.guide import Guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import FLAGS_ONLY, TAKES, Policy, Submission, Verdict
 from reportgen.grading.mistakes import Mistake
-from reportgen.grading.working import Guide
 from reportgen.notation.numbers import Language
 from reportgen.notation.vocabulary import Chapter
 from reportgen.words import load_words, search_path

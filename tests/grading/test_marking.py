@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from reportgen.answers.key import Row
+from reportgen.grading.guide import open_guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking, Policy, Verdict
 from reportgen.grading.mistakes import Mistake
-from reportgen.grading.working import open_guide
 from tests.grading import students
 
 KINDS = (

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
+from reportgen.grading.guide import Guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking, Submission
 from reportgen.grading.mistakes import WRONG_DATUM, Mistake, general_mistakes, mistakes_in
-from reportgen.grading.working import Guide
 from tests.grading import students
 from tests.grading.students import NAMES, World
 

@@ -15,9 +15,9 @@ import pytest
 from reportgen.answers.key import Row
 from reportgen.answers.results import results
 from reportgen.case import Case
+from reportgen.grading.guide import Guide, open_guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking, Verdict
-from reportgen.grading.working import Guide, open_guide
 from tests.grading import students
 
 Position = Mapping[str, Any]

@@ -6,11 +6,11 @@ from collections.abc import Callable
 
 import pytest
 
+from reportgen.grading.guide import Guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking, Policy
 from reportgen.grading.mistakes import Mistake
 from reportgen.grading.naming import AGREED
-from reportgen.grading.working import Guide
 from tests.grading import students
 
 WORKED = (4, 12)
