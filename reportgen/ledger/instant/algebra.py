@@ -186,8 +186,27 @@ def simplified(of: Algebraic) -> Algebraic:
 
 
 def value(of: Algebraic, at: Mapping[str, float]) -> float:
-    angles = {one: evaluate(call) for one in of.free_symbols if (call := _of_angle(one.name)) is not None}
-    return float(of.subs({symbol(name): one for name, one in at.items()} | angles))
+    """What an expression comes to at values of its symbols.
+
+    It is worked out by floats alone: sympy would ask of every root what it is, which may take it minutes.
+    """
+    return _value(of, at).real
+
+
+def _value(of: Algebraic, at: Mapping[str, float]) -> complex:
+    if of.is_Symbol:
+        call = _of_angle(of.name)
+        return complex(at[of.name] if call is None else evaluate(call))
+    if of.is_number:
+        return complex(of)
+    parts = [_value(one, at) for one in of.args]
+    if of.is_Add:
+        return sum(parts)
+    if of.is_Mul:
+        return math.prod(parts)
+    if of.is_Pow:
+        return parts[0] ** parts[1]
+    return complex(of.func(*parts))
 
 
 # --- to and from the expressions of the page ------------------------------------------------------
