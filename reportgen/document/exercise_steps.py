@@ -12,7 +12,7 @@ from typing import Any
 
 from reportgen.case import ExerciseCase
 from reportgen.catalogue.plane_motion_symbols import symbol
-from reportgen.document.exercise_axes import Axes
+from reportgen.document.exercise_axes import COORDINATES, Axes
 from reportgen.document.prose import PointName
 from reportgen.document.tree import Equation, InlineMath, Inlines, Text, Value
 from reportgen.ledger.instant.steps import Step
@@ -53,8 +53,10 @@ class StepView:
     along: Symbol
     across: Symbol
     """The axes of projection ξ and η."""
-    letters: str
-    """Those of the axes that the step projects on: "ξη", "xy"."""
+    on_line: bool
+    """Whether the step projects on ξ."""
+    on_coordinates: bool
+    """Whether it projects on x or y."""
     contact: PointName | str
     """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
 
@@ -123,7 +125,8 @@ class Solution:
             (Equation(step.results),) if step.results else (),
             self.axes.symbol(step, "ξ"),
             self.axes.symbol(step, "η"),
-            "".join(axis.letter for axis in step.axes),
+            any(axis.letter == "ξ" for axis in step.axes),
+            any(axis.letter in COORDINATES for axis in step.axes),
             PointName(centre.name) if rolling and centre is not None else "",
         )
 

@@ -28,13 +28,16 @@ STUDENTS = 12, 250, 1000, 5000
 REPORTS = 12, 50, 200
 PROGRAM = "from reportgen.cli import main; main()"
 ALONE = """
-import resource, sys
+import os, sys
+from pathlib import Path
 from reportgen.cli import main
+from tests.bench.batch import peak
 try:
     main()
 finally:
-    print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, file=open(sys.argv[-1], "w"))
+    Path({note!r}).write_text(str(peak(os.getpid())))
 """
+"""The command, and the peak memory (MB) of its own process: what it starts, and what started it, do not count."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,9 +70,9 @@ class Trial:
     def command(self, *arguments: str) -> Cost:
         """One command in a cold process, with the peak memory of its main process alone."""
         note = self.folder / "memory"
-        program = ALONE.replace("sys.argv[-1]", repr(str(note)))
+        program = ALONE.format(note=str(note))
         seconds = run((sys.executable, "-c", program, *arguments), self.folder, _importable()).seconds
-        return Cost(seconds, int(note.read_text()) * (1 if sys.platform == "darwin" else 1024) / 1e6)
+        return Cost(seconds, float(note.read_text()))
 
     def build(self, count: int = 0, worked: int = 0) -> Cost:
         """The sample's report with so many positions, or so many worked ones."""

@@ -148,9 +148,13 @@ def text_of(pdf: bytes) -> list[Any]:
     return [page.get_text() for page in pymupdf.open(stream=pdf, filetype="pdf")]
 
 
+OWN = built.ROOT / "assignments" / "linkage-slide.yaml"
 COLD = [
     pytest.param(path, engine, marks=built.MARKS[engine], id=f"{path.stem}-{engine}")
-    for path, engines in ((built.SAMPLE, built.ENGINES), (built.ROOT / "assignments" / "linkage-8.yaml", ("typst",)))
+    for path, engines in (
+        (built.SAMPLE, built.ENGINES),
+        (built.ROOT / "assignments" / "linkage-slide.yaml", ("typst",)),
+    )
     for engine in engines
 ]
 """The sample by both writers, and a machine of the user's own: a new process takes seconds."""

@@ -88,7 +88,7 @@ CHANGES: dict[str, Change] = {
     "absolute pressures": absolute_indicator,
 }
 
-ON_PAPER = ("clockwise all worked", "crank angle 90")
+ON_PAPER = ("clockwise", "crank angle 90")
 """Variants that are typeset, too."""
 
 
