@@ -187,7 +187,7 @@ def _of_a_class(taken: Mapping[str, float]) -> Iterator[Row]:
 def _solving(taken: dict[str, float]) -> Row:
     solver, closed = taken["solver"], taken["closed form"]
     detail = f"{solver:.1f} ms, closed form {closed:.2f} ms"
-    return Row(f"motion and forces of {POSITIONS} positions", "≤ 10", f"{solver / closed:.1f}", detail)
+    return Row(f"motion and forces of {POSITIONS} positions", "≤ 4", f"{solver / closed:.1f}", detail)
 
 
 def _importable() -> dict[str, str]:
