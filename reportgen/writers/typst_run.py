@@ -19,6 +19,8 @@ UNSETTLED = "#let settled = (:)"
 """The line of a source that choices are written into."""
 ROUNDS = 8
 """How often the typesetter is helped on at most."""
+MEMORY = 11
+"""What the typesetter has worked out it keeps for ten further runs."""
 
 
 def compile(source: str) -> bytes:
@@ -40,10 +42,13 @@ def settle(unsettled: str) -> tuple[str, bytes]:
             if settles:
                 break
             found = {name: choice for name, choice, _ in run.choices()}
+            _forget(Path(folder))
             trial = _Run(_settled(unsettled, {**found, **known}), Path(folder))
             shown = trial.choices()
             known = _right(shown, known)
             settled = all(choice == seen for _, choice, seen in shown)
+            if not settled:
+                _forget(Path(folder))
             run = trial if settled else _Run(_settled(unsettled, known), Path(folder))
             pdf, settles = run.compile()
     return run.source, pdf
@@ -68,6 +73,12 @@ def _right(choices: Iterable[tuple[str, str, str]], known: Mapping[str, str]) ->
         if choice != seen:
             break
     return right
+
+
+def _forget(folder: Path) -> None:
+    """Make the typesetter drop what it keeps of documents before: hundreds of MB each, of little use to the next."""
+    for _ in range(MEMORY):
+        _Run(".", folder).compile()
 
 
 class _Run:
