@@ -22,10 +22,10 @@ from .measure import Cost, run
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 SPEC = ROOT / "assignments" / "class-demo" / "spec.yaml"
-POSITIONS = 8, 36, 90, 180, 360
+POSITIONS = 8, 36, 90, 360
 WORKED = 1, 2, 4, 8
 STUDENTS = 12, 250, 1000, 5000
-REPORTS = 12, 50, 200
+REPORTS = 10, 25, 60
 PROGRAM = "from reportgen.cli import main; main()"
 ALONE = """
 import os, sys
