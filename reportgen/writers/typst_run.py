@@ -1,26 +1,28 @@
 """Typst source → PDF, by typst inside this process.
 
-Where figures stand depends on where those before them stand.  Should the typesetter come to no end with that, the
-choices that it has found right are written into the source, and it goes on behind them.
+Where figures stand depends on where those before them stand, and the typesetter looks at a document five times at
+most.  If it has come to no end by then, it goes on with the choices that it has made so far: it reads them from a file
+beside the source, so that it lays out anew only what they have changed.
 """
 
 from __future__ import annotations
 
 import json
-import os
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from reportgen.errors import TypesetterError
 from reportgen.writers.scripts import needs_system_fonts, question
 
 UNSETTLED = "#let settled = (:)"
-"""The line of a source that choices are written into."""
-ROUNDS = 8
-"""How often the typesetter is helped on at most."""
-MEMORY = 11
-"""What the typesetter has worked out it keeps for ten further runs."""
+"""The line of a source that has room for choices."""
+READ = '#let settled = json("settled.json")'
+"""The same line where they stand in a file, by their names."""
+ROUNDS = 12
+"""How often the typesetter is asked at most."""
 
 
 def compile(source: str) -> bytes:
@@ -34,51 +36,44 @@ def compile(source: str) -> bytes:
 
 def settle(unsettled: str) -> tuple[str, bytes]:
     """A source with the choices that it needed, and its PDF.  Raises `TypesetterError`."""
-    known: dict[str, str] = {}
+    right: dict[str, Any] = {}
+    choices: dict[str, Any] = {}
     with tempfile.TemporaryDirectory(prefix="typst-") as folder:
-        run = _Run(unsettled, Path(folder))
-        pdf, settles = run.compile()
+        run = _Run(unsettled.replace(UNSETTLED, READ, 1), Path(folder))
         for _ in range(ROUNDS):
-            if settles:
-                break
-            found = {name: choice for name, choice, _ in run.choices()}
-            _forget(Path(folder))
-            trial = _Run(_settled(unsettled, {**found, **known}), Path(folder))
-            shown = trial.choices()
-            known = _right(shown, known)
-            settled = all(choice == seen for _, choice, seen in shown)
-            if not settled:
-                _forget(Path(folder))
-            run = trial if settled else _Run(_settled(unsettled, known), Path(folder))
+            shown = run.choices(choices)
             pdf, settles = run.compile()
-    return run.source, pdf
+            if settles:
+                if all(choice == seen for _, choice, seen in shown):
+                    break
+                right = _right(shown, right)
+            choices = {name: seen for name, _, seen in shown} | right
+    return _settled(unsettled, choices), pdf
 
 
-def _settled(source: str, choices: Mapping[str, str]) -> str:
+def _settled(source: str, choices: Mapping[str, Any]) -> str:
     """A source with choices of its figures and plates written in."""
-    entries = "".join(f"{json.dumps(name, ensure_ascii=False)}: {choice}," for name, choice in choices.items())
+    entries = "".join(f"{_literal(name)}: {_literal(choice)}," for name, choice in choices.items())
     return source.replace(UNSETTLED, f"#let settled = ({entries or ':'})", 1)
 
 
-def _right(choices: Iterable[tuple[str, str, str]], known: Mapping[str, str]) -> dict[str, str]:
+def _literal(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _right(shown: Iterable[Sequence[Any]], known: Mapping[str, Any]) -> dict[str, Any]:
     """The choices up to the first that the pages it has led to do not show; of that one, what they show.
 
     A choice stands on those before it only.
     """
     right = dict(known)
-    for name, choice, seen in choices:
+    for name, choice, seen in shown:
         if name in known:
             continue
         right[name] = seen
         if choice != seen:
             break
     return right
-
-
-def _forget(folder: Path) -> None:
-    """Make the typesetter drop what it keeps of documents before: hundreds of MB each, of little use to the next."""
-    for _ in range(MEMORY):
-        _Run(".", folder).compile()
 
 
 class _Run:
@@ -89,27 +84,37 @@ class _Run:
             import typst
         except ImportError as error:
             raise TypesetterError("typst is not installed: pip install typst") from error
-        self.source, self._error = source, typst.TypstError
-        handle, name = tempfile.mkstemp(suffix=".typ", dir=folder)
-        with os.fdopen(handle, "w", encoding="utf-8", newline="") as stream:
-            stream.write(source)
+        self._folder, self._error = folder, typst.TypstError
+        (folder / "report.typ").write_text(source, encoding="utf-8", newline="")
         own = not needs_system_fonts(source, lacking)
-        self._typesetter = typst.Compiler(name, root=str(folder), ignore_system_fonts=own)
+        self._typesetter = typst.Compiler(folder / "report.typ", root=folder, ignore_system_fonts=own)
+
+    def choices(self, known: Mapping[str, Any]) -> list[list[Any]]:
+        """Of each figure and plate that may wait, in order: its name, what is chosen, what the pages then show.
+
+        What is `known` is chosen so; to ask makes the typesetter read it.  Raises `TypesetterError`.
+        """
+        (self._folder / "settled.json").write_text(_literal(known), encoding="utf-8")
+        with self._told():
+            answer = self._typesetter.query("<settled>", field="value")
+        found: list[list[Any]] = json.loads(answer)
+        return found
 
     def compile(self) -> tuple[bytes, bool]:
         """The PDF, and whether all places in it are final; raises `TypesetterError`."""
-        try:
+        with self._told():
             pdf, warnings = self._typesetter.compile_with_warnings()
-        except self._error as error:
-            lines = str(getattr(error, "message", error)).splitlines()
-            raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
         assert isinstance(pdf, bytes)
         return pdf, not any("did not converge" in warning.message for warning in warnings)
 
-    def choices(self) -> list[tuple[str, str, str]]:
-        """Of each figure and plate that may wait, in order: its name, what was chosen, what the pages show."""
-        found = json.loads(self._typesetter.query("<settled>", field="value"))
-        return [(name, json.dumps(choice), json.dumps(seen)) for name, choice, seen in found]
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """What the typesetter complains of as a `TypesetterError` with the message's first lines."""
+        try:
+            yield
+        except self._error as error:
+            lines = str(getattr(error, "message", error)).splitlines()
+            raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
 
 
 def lacking(letters: str, system: bool) -> str:
