@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import importlib
+import json
 import shutil
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
 import pytest
-from bench import batch, growth, measure, page, plain
+from bench import batch, growth, measure, page, plain, steps
 from bench.__main__ import Bench, Row, table
 from bench.closed_form import solve
 from bench.growth import Growth
@@ -70,7 +73,7 @@ def test_the_closed_form_is_the_engine(tmp_path: Path, changed: dict[str, str]) 
 
 def test_solver_and_closed_form_are_both_timed() -> None:
     taken = compare(SAMPLE, positions=16, rounds=1)
-    assert set(taken) == {"solver", "closed form"}
+    assert set(taken) == {"solver", "motion", "closed form"}
     assert all(time > 0 for time in taken.values())
 
 
@@ -125,7 +128,6 @@ def test_shares_are_even_and_whole() -> None:
 
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex is not installed")
 def test_the_plain_script_makes_a_document_of_that_size(tmp_path: Path) -> None:
-    import json
     from dataclasses import asdict
 
     import pymupdf
@@ -160,6 +162,42 @@ def test_a_class_is_made_and_its_workers_memory_taken(tmp_path: Path) -> None:
     assert cost.seconds > 0
     # An interpreter with all libraries takes more than that; without /proc nothing is told.
     assert cost.memory > 30 or not Path("/proc/self/status").exists()
+
+
+def test_a_command_is_taken_apart_into_steps() -> None:
+    """Each function that counts as a step is there and is come by; what no command here needs stays out."""
+    bench = Bench(SAMPLE, SAMPLE.parent, ())
+    checked = json.loads(bench.ask("-m", "tests.bench.steps", "check", str(SAMPLE)))
+    solved = json.loads(bench.ask("-m", "tests.bench.steps", "solve", str(SAMPLE)))
+    assert {steps.LOADED, steps.REST, "reading the file", "checking its data"} == set(checked)
+    assert set(solved) - set(checked) == {"motion", "forces", "torque by virtual work"}
+    assert all(time > 0 for time in solved.values())
+
+
+def test_every_step_is_a_function_of_the_program() -> None:
+    for path in steps.STEPS:
+        home, _, name = path.rpartition(".")
+        assert callable(getattr(importlib.import_module(home), name)), path
+
+
+def test_a_step_within_a_step_counts_once() -> None:
+    clock = steps.Clock()
+    with clock.step("outer"):
+        time.sleep(0.02)
+        with clock.step("inner"):
+            time.sleep(0.05)
+        time.sleep(0.02)
+    taken = clock.stop()
+    # A sleep is never shorter than asked for; the outer one has slept 0.04 s itself.
+    assert taken["inner"] >= 0.05
+    assert taken["outer"] >= 0.04
+    assert list(taken) == [steps.REST, "outer", "inner"]
+
+
+def test_steps_are_told_with_their_shares() -> None:
+    taken = steps.middle([{"a": 10.0, "b": 300.0, "c": 1.0}, {"a": 99.0, "b": 500.0}, {"a": 11.0, "b": 389.0}])
+    assert taken == {"b": 389.0, "a": 11.0, "c": 0.0}
+    assert steps.told("build", taken) == "build: b 389 ms (97%), a 11 ms (3%), all else 0 ms (0%)"
 
 
 def test_the_efficiency_of_two_is_taken_round_by_round() -> None:

@@ -1,7 +1,8 @@
 """`make bench`: what a report costs, as ratios measured in one run.
 
 The build in a cold process over the typesetter alone on the finished source; a plain script that makes a
-document of the same size over the build; motion and forces over a closed form by hand; peak memory.
+document of the same size over the build; motion and forces over a closed form by hand; peak memory.  Then where the
+time of each command goes, step by step.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from . import steps
 from .measure import Cost, in_turns, middle, ratio, repeated, run
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -151,6 +153,15 @@ class Bench:
         for name in (*self.engines, "typst alone"):
             yield Row(f"peak memory, {name}", "", f"{middle(costs[name]).memory:.0f} MB")
 
+    def steps(self, rounds: int) -> Iterator[str]:
+        """Commands and where their time goes, a line each."""
+        file, out = str(self.file), ("--out", str(self.folder / "steps"))
+        commands = {f"build, {engine}": ("build", file, *out, "--engine", engine) for engine in self.engines}
+        commands |= {"check": ("check", file), "kinds": ("kinds",), "key": ("key", file, *out)}
+        for name, arguments in commands.items():
+            runs = [json.loads(self.ask("-m", "tests.bench.steps", *arguments)) for _ in range(rounds)]
+            yield steps.told(name, steps.middle(runs))
+
 
 def _over_typesetter(engine: str, build: Sequence[Cost], alone: Sequence[Cost], passes: int) -> Row:
     aim = {"typst": "≤ 1.6", "latex": "≤ 1.2"}[engine]
@@ -186,7 +197,7 @@ def _of_a_class(taken: Mapping[str, float]) -> Iterator[Row]:
 
 def _solving(taken: dict[str, float]) -> Row:
     solver, closed = taken["solver"], taken["closed form"]
-    detail = f"{solver:.1f} ms, closed form {closed:.2f} ms"
+    detail = f"{solver:.1f} ms, of which motion {taken['motion']:.1f} ms, closed form {closed:.2f} ms"
     return Row(f"motion and forces of {POSITIONS} positions", "≤ 4", f"{solver / closed:.1f}", detail)
 
 
@@ -220,7 +231,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     with tempfile.TemporaryDirectory(prefix="reportgen-bench-") as name:
         bench = Bench(chosen.file.resolve(), Path(name), engines)
         rows = list(bench.rows(chosen.rounds))
-    print(of_this_machine(), table(rows), sep="\n")
+        print(of_this_machine(), table(rows), "", *bench.steps(chosen.rounds), sep="\n")
 
 
 if __name__ == "__main__":

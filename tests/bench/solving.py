@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from reportgen import api, catalogue
-from reportgen.analysis import analyse
+from reportgen.analysis import analyse, motion_at
 from reportgen.catalogue.machine import Machine
 from reportgen.cycle import StrokeIndicator
 
@@ -59,6 +59,7 @@ def compare(path: Path, positions: int, rounds: int = ROUNDS) -> dict[str, float
     angles = np.arange(positions, dtype=np.float64) * (2 * np.pi * built.turns / positions)
     tasks: dict[str, Callable[[], Any]] = {
         "solver": lambda: analyse(built, angles),
+        "motion": lambda: motion_at(built, angles),
         "closed form": lambda: solve(engine, angles),
     }
     taken: dict[str, list[float]] = {name: [] for name in tasks}
