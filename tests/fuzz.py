@@ -23,7 +23,7 @@ import numpy as np
 from reportgen import api
 from reportgen.answers.key import Key, make_key
 from reportgen.answers.sheet import answer_book
-from reportgen.batch.draw import draw, judge_of
+from reportgen.batch.draw import Draw, judge_of
 from reportgen.batch.roster import read_roster
 from reportgen.batch.spec import read_spec
 from reportgen.case import Case, open_case
@@ -188,7 +188,7 @@ def _spec(number: int, chance: random.Random, folder: Path) -> None:
     file = folder / "spec.yaml"
     _put(file, spoilt(_text(DEMO / "spec.yaml"), chance))
     spec = read_spec(file)
-    draw(spec, read_roster(DEMO / "roster.csv"), judge_of(spec))
+    list(Draw(spec, judge_of(spec)).each(read_roster(DEMO / "roster.csv")))
 
 
 def _policy(number: int, chance: random.Random, folder: Path) -> None:

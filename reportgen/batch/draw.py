@@ -57,72 +57,61 @@ class Drawn:
     settings: Settings
 
 
-@dataclass(frozen=True, slots=True)
-class Draw:
-    """The class's variants in the order of the roster, or what made it impossible.
-
-    `usable` is the number of usable variants where all of them are taken and some are shared, else None.
-    """
-
-    drawn: tuple[Drawn, ...]
-    faults: tuple[Fault, ...] = ()
-    usable: int | None = None
-
-
 def pick(assignment: str, salt: str, student: str, parameter: str, attempt: int, count: int) -> int:
     """The index, 0…`count` − 1, that a student draws."""
     text = "\0".join((FORMAT, assignment, salt, unicodedata.normalize("NFC", student), parameter, str(attempt)))
     return int.from_bytes(hashlib.sha256(text.encode()).digest(), "big") % count
 
 
-def draw(spec: Spec, roster: Roster, judge: Judge) -> Draw:
-    """Draw for the whole class."""
-    return _Lottery(spec, judge).draw(roster)
-
-
 @dataclass(slots=True)
-class _Lottery:
-    """A draw under way: how often each variant is taken, and how each was judged."""
+class Draw:
+    """A draw under way: how often each variant is taken, how each was judged, and what makes the draw impossible."""
 
     spec: Spec
     judge: Judge
     taken: Counter[Key] = field(default_factory=Counter)
     judged: dict[Key, tuple[Fault, ...]] = field(default_factory=dict)
+    keys: dict[Combination, Key] = field(default_factory=dict)
+    faults: list[Fault] = field(default_factory=list)
 
-    def draw(self, roster: Roster) -> Draw:
-        drawn: list[Drawn] = []
-        faults: list[Fault] = []
+    def each(self, roster: Roster) -> Iterator[Drawn]:
+        """The students' variants in the order of the roster; nobody's counts if there are `faults` in the end."""
         for student in roster.students:
             one = self._draw_for(student)
             if one is not None:
-                drawn.append(one)
-                self.taken[_key(one.settings)] += 1
+                self.taken[self._key(student, one.combination)] += 1
+                yield one
             elif student.overrides:
-                faults += self._faults_of_roster(student)
+                self.faults += self._faults_of_roster(student)
             else:
                 # No combination is usable: no other student could get one either.
                 tried = {"count": str(min(self.spec.size, MOST_TRIED)), "size": str(self.spec.size)}
-                return Draw((), (Fault("no-variant", self.spec.mark, tried), *self._reasons(student)))
-        shared = any(count > 1 for count in self.taken.values())
-        return Draw(tuple(drawn), tuple(faults), len(self.taken) if shared else None)
+                self.faults = [Fault("no-variant", self.spec.mark, tried), *self._reasons(student)]
+                return
+
+    @property
+    def usable(self) -> int | None:
+        """The number of usable variants where all of them are taken and some are shared, else None."""
+        return len(self.taken) if any(count > 1 for count in self.taken.values()) else None
 
     def _draw_for(self, student: Student) -> Drawn | None:
         for combination in self._attempts(student):
-            settings = self._settings(student, combination)
-            if not self.taken[_key(settings)] and not self._faults(settings):
-                return Drawn(student, combination, settings)
-        found: Drawn | None = None
+            if not self.taken[self._key(student, combination)] and not self._faults(student, combination):
+                return self._drawn(student, combination)
+        found: Combination | None = None
         fewest = 0
         for combination in self._in_order(student):
-            settings = self._settings(student, combination)
-            if self._faults(settings):
+            if self._faults(student, combination):
                 continue
-            count = self.taken[_key(settings)]
+            count = self.taken[self._key(student, combination)]
             if found is None or count < fewest:
-                found, fewest = Drawn(student, combination, settings), count
+                found, fewest = combination, count
             if not count:
                 break
-        return found
+        return None if found is None else self._drawn(student, found)
+
+    def _drawn(self, student: Student, combination: Combination) -> Drawn:
+        return Drawn(student, combination, self._settings(student, combination))
 
     def _attempts(self, student: Student) -> Iterator[Combination]:
         spec = self.spec
@@ -141,17 +130,25 @@ class _Lottery:
         overridden = {place(self.spec.kind, name): value for name, value in student.overrides.items()}
         return {**self.spec.settings(combination), **overridden}
 
-    def _faults(self, settings: Settings) -> tuple[Fault, ...]:
-        key = _key(settings)
+    def _key(self, student: Student, combination: Combination) -> Key:
+        """That of a student without values of his or her own is found once a combination."""
+        if student.overrides:
+            return _key(self._settings(student, combination))
+        if combination not in self.keys:
+            self.keys[combination] = _key(self._settings(student, combination))
+        return self.keys[combination]
+
+    def _faults(self, student: Student, combination: Combination) -> tuple[Fault, ...]:
+        key = self._key(student, combination)
         if key not in self.judged:
-            self.judged[key] = self.judge(settings)
+            self.judged[key] = self.judge(self._settings(student, combination))
         return self.judged[key]
 
     def _reasons(self, student: Student) -> list[Fault]:
         """Why the first combinations fail."""
         found: dict[tuple[str, str], Fault] = {}
         for combination in self._attempts(student):
-            for fault in self._faults(self._settings(student, combination)):
+            for fault in self._faults(student, combination):
                 found.setdefault((fault.code, str(fault.mark)), fault)
             if len(found) >= MOST_REASONS:
                 break

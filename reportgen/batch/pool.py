@@ -239,6 +239,8 @@ def _work(job: Job) -> Outcome:
 
 # --- calls within limits --------------------------------------------------------------------------
 
+AHEAD = 4
+"""So many calls a process wait or run, so that none is idle while arguments are slow to come."""
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
 
@@ -268,7 +270,7 @@ def each_within(
         for argument in arguments:
             with _uninterrupted():
                 running.append((argument, pool.schedule(function, (argument,), timeout=limits.seconds)))
-            if len(running) > workers:
+            if len(running) > AHEAD * workers:
                 yield _outcome(running.popleft())
         while running:
             yield _outcome(running.popleft())

@@ -20,7 +20,7 @@ import numpy as np
 
 from reportgen import api, catalogue
 from reportgen.assignment import Assignment
-from reportgen.batch.draw import Draw, Drawn, draw, judge_of, shared
+from reportgen.batch.draw import Draw, Drawn, judge_of, shared
 from reportgen.batch.editing import at, path_text, put, quoted, text_of
 from reportgen.batch.pool import Limits, each_within
 from reportgen.batch.roster import read_roster
@@ -126,18 +126,25 @@ def make_variants(
     spec = read_spec(spec_path, language)
     roster = read_roster(roster_path, spec.language)
     _refuse(spec.column_faults(roster.columns), spec)
-    result = draw(spec, roster, judge_of(spec))
-    _refuse(result.faults, spec)
+    draw, files = Draw(spec, judge_of(spec)), list[StudentFile]()
+
+    def made() -> Iterator[StudentFile]:
+        for drawn in draw.each(roster):
+            files.append(_student_file(spec, drawn, out, force))
+            yield files[-1]
+
+    count = len(roster.students)
+    # While some are drawn, other processes find the figures of those before.
+    efforts = tuple(shown(_efforts(made(), count), count))
+    _refuse(draw.faults, spec)
     out.mkdir(parents=True, exist_ok=True)
-    files = tuple(_student_file(spec, drawn, out, force) for drawn in result.drawn)
     for file in files:
         if file.state in ("new", "changed"):
             api.replace(file.path, file.text.encode())
-    efforts = tuple(shown(_efforts(files), len(files)))
     api.replace(out / TABLE, _csv(files, efforts))
-    remarks = (*_remarks(files, efforts, spec.language), *_sharing(result, spec))
+    remarks = (*_remarks(files, efforts, spec.language), *_sharing(draw, files, spec))
     known = {file.drawn.student.id: one for file, one in zip(files, efforts, strict=True) if one is not None}
-    return Variants(files, remarks, tuple(_summary(known, spec.language)))
+    return Variants(tuple(files), remarks, tuple(_summary(known, spec.language)))
 
 
 def _refuse(faults: Sequence[Fault], spec: Spec) -> None:
@@ -206,9 +213,9 @@ def _scalar(text: str) -> Scalar:
 # --- how equal the variants are ---------------------------------------------------------------------
 
 
-def _efforts(files: Sequence[StudentFile]) -> Iterator[Effort | None]:
-    """The figures of each file; None for one edited by hand that is at fault."""
-    if len(files) < ONE_PROCESS:
+def _efforts(files: Iterable[StudentFile], count: int) -> Iterator[Effort | None]:
+    """The figures of each of so many files; None for one edited by hand that is at fault."""
+    if count < ONE_PROCESS:
         yield from map(_effort_of, files)
     else:
         yield from (found for _, found in each_within(LIMITS, _effort_of, files, __name__))
@@ -287,11 +294,11 @@ def _remarks(files: Sequence[StudentFile], efforts: Sequence[Effort | None], lan
             yield word("variants_unchecked", language, id=file.drawn.student.id)
 
 
-def _sharing(result: Draw, spec: Spec) -> Iterator[str]:
+def _sharing(draw: Draw, files: Sequence[StudentFile], spec: Spec) -> Iterator[str]:
     """Who has the same variant, if anybody has."""
-    groups = shared(result.drawn)
+    groups = shared(file.drawn for file in files)
     if groups:
-        yield word("variants_shared", spec.language, size=result.usable, students=len(result.drawn))
+        yield word("variants_shared", spec.language, size=draw.usable, students=len(files))
     for group in groups:
         ids = ", ".join(one.student.id for one in group)
         yield word("variants_same", spec.language, variant=spec.label(group[0].combination), ids=ids)

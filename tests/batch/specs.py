@@ -5,9 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
+from reportgen.batch.draw import Draw, Drawn, Judge
 from reportgen.batch.roster import Roster, Student
-from reportgen.errors import AssignmentError, Mark
+from reportgen.batch.spec import Spec
+from reportgen.errors import AssignmentError, Fault, Mark
 
 ROOT = Path(__file__).parents[2]
 DEMO = ROOT / "assignments" / "class-demo"
@@ -31,6 +34,20 @@ Put = Callable[..., Path]
 
 def classes(*ids: str) -> Roster:
     return Roster(tuple(Student({"id": id}, {}, Mark("r", k)) for k, id in enumerate(ids, start=2)))
+
+
+class Result(NamedTuple):
+    """What a draw for a whole class came to."""
+
+    drawn: tuple[Drawn, ...]
+    faults: tuple[Fault, ...]
+    usable: int | None
+
+
+def draw(spec: Spec, roster: Roster, judge: Judge) -> Result:
+    under_way = Draw(spec, judge)
+    drawn = tuple(under_way.each(roster))
+    return Result(drawn, tuple(under_way.faults), under_way.usable)
 
 
 def ids(count: int) -> tuple[str, ...]:

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.batch.draw import Judge, draw, judge_of, pick
+from reportgen.batch.draw import Judge, judge_of, pick
 from reportgen.batch.spec import Settings, Spec, read_spec
 from reportgen.batch.variants import Effort, compare, make_variants
 from reportgen.errors import AssignmentError, Fault
 from reportgen.source import plain, read_text
 from reportgen.workbook import Book, Sheet, write_xlsx
-from tests.batch.specs import BARS, ROOT, Put, classes, ids, located
+from tests.batch.specs import BARS, ROOT, Put, classes, draw, ids, located
 
 PINNED = 993029
 _judged: dict[tuple[object, ...], tuple[Fault, ...]] = {}

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.batch.draw import draw, judge_of
+from reportgen.batch.draw import judge_of
 from reportgen.batch.editing import put
 from reportgen.batch.roster import read_roster
 from reportgen.batch.spec import read_spec
@@ -17,7 +17,7 @@ from reportgen.cli import app
 from reportgen.errors import AssignmentError, Mark
 from reportgen.source import Scalar, plain, read_text
 from reportgen.workbook import read, write_csv
-from tests.batch.specs import BARS, DEMO, ROOT, Put, ids, located
+from tests.batch.specs import BARS, DEMO, ROOT, Put, draw, ids, located
 
 
 def made(path: Path, roster: Path, **options: bool) -> Variants:
