@@ -24,7 +24,11 @@ _MASS: Dimension = (("kilogram", 1),)
 _FORCE: Dimension = (("kilogram", 1), ("meter", 1), ("second", -2))
 _PRESSURE: Dimension = (("kilogram", 1), ("meter", -1), ("second", -2))
 _INERTIA: Dimension = (("kilogram", 1), ("meter", 2))
+_MOMENT: Dimension = (("kilogram", 1), ("meter", 2), ("second", -2))
+_TIME: Dimension = (("second", 1),)
+_VELOCITY: Dimension = (("meter", 1), ("second", -1))
 _ACCELERATION: Dimension = (("meter", 1), ("second", -2))
+_ANGULAR_ACCELERATION: Dimension = (("radian", 1), ("second", -2))
 
 PLAIN: Mapping[str, tuple[float, Dimension]] = {
     "m": (1.0, _LENGTH),
@@ -42,9 +46,17 @@ PLAIN: Mapping[str, tuple[float, Dimension]] = {
     "bar": (1e5, _PRESSURE),
     "N/cm2": (1e4, _PRESSURE),
     "kg m2": (1.0, _INERTIA),
+    "N m": (1.0, _MOMENT),
+    "s": (1.0, _TIME),
+    "m/s": (1.0, _VELOCITY),
+    "cm/s": (1e-2, _VELOCITY),
+    "mm/s": (1e-3, _VELOCITY),
     "m/s2": (1.0, _ACCELERATION),
+    "cm/s2": (1e-2, _ACCELERATION),
+    "mm/s2": (1e-3, _ACCELERATION),
+    "rad/s2": (1.0, _ANGULAR_ACCELERATION),
 }
-"""SI factor and dimension of the commonest spellings."""
+"""SI factor and dimension of the commonest spellings: those of all units that files are asked for among them."""
 
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 UNIT = r"[A-Za-zµμ°Ω][A-Za-z0-9µμ°Ω²³⁴⁻¹ */^()·⋅.+-]*"

@@ -6,6 +6,8 @@ import contextlib
 import copy
 import datetime
 import math
+import subprocess
+import sys
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -39,6 +41,14 @@ def test_plain_units_are_those_of_pint(unit: str) -> None:
     # Two roundings of the same number may differ in the last bit.
     assert PLAIN[unit][0] == pytest.approx(factor, rel=1e-15)
     assert PLAIN[unit][1] == dimension
+
+
+def test_no_file_of_the_repository_waits_for_pint() -> None:
+    """Nor would one like it: loading pint takes as long as all the rest of a check."""
+    code = "import sys; from reportgen import api; [api.load(f) for f in sys.argv[1:]]; sys.exit('pint' in sys.modules)"
+    files = [str(file) for file in sorted((ROOT / "assignments").rglob("*.yaml")) if "class-demo" not in file.parts]
+    assert len(files) > 40
+    subprocess.run((sys.executable, "-c", code, *files), check=True, cwd=ROOT)
 
 
 @pytest.mark.parametrize(

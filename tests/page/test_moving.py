@@ -108,7 +108,7 @@ def test_at_numbered_positions_plans_are_the_report_s_figures(page: Made, browse
 
 def test_a_force_plan_says_the_scale_that_it_has_at_the_moment(page: Made, browser: Browser) -> None:
     """At a numbered position that of the report's figure; a vector's length times it is the force."""
-    browser.show(page.file)
+    browser.keep(page.file)
     shown = "return document.querySelector(`[data-stage='${arguments[0]}'] [data-scale]:not([hidden])`).textContent"
     for polygon in page.case.polygons:
         family = page.case.ledger[f"mu.R{polygon.name}"]

@@ -32,10 +32,13 @@ def document(path: Path, language: Any) -> Document:
 
 
 @pytest.mark.parametrize("engine", built.ENGINE_CASES)
-@pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_every_exercise_builds(path: Path, language: Any, engine: Any) -> None:
-    """A few pages, with the answers on them as the ledger prints them."""
+def test_every_exercise_builds(path: Path, engine: Any) -> None:
+    """A few pages, with the answers on them as the ledger prints them.
+
+    Each engine has every file, and each language half of them: what is said in it is a matter of the tree.
+    """
+    language = LANGUAGES[(FILES.index(path) + built.ENGINES.index(engine)) % 2]
     pages = pymupdf.open(stream=api.typeset(document(path, language), engine)[1])
     assert 1 <= len(pages) <= MOST_PAGES
     text = "".join(page.get_text() for page in pages)
