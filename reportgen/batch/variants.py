@@ -222,7 +222,9 @@ def _efforts(files: Iterable[StudentFile], count: int) -> Iterator[Effort | None
 
 
 def _effort_of(file: StudentFile) -> Effort | None:
-    assignment, _ = catalogue.assess(file.source, file.path)
+    # What was drawn has been judged, what was edited by hand has not.
+    judge = catalogue.assess if file.state == "kept" else catalogue.understood
+    assignment, _ = judge(file.source, file.path)
     return None if assignment is None else effort(assignment)
 
 

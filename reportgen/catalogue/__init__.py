@@ -58,10 +58,15 @@ def kind(name: str) -> Kind:
 
 def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
     """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
-    assignment, faults = reading.assess(source, path, kinds(), kind)
+    assignment, faults = understood(source, path)
     if assignment is not None and makes(assignment.kind) == "machine":
         faults = reading.placed(source, _out_of_reach(assignment))
     return (None if faults else assignment), faults
+
+
+def understood(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
+    """As `assess`, but whether the machine reaches all its places is not asked: sooner, of what has been assessed."""
+    return reading.assess(source, path, kinds(), kind)
 
 
 def _out_of_reach(assignment: Assignment) -> Iterator[Finding]:
