@@ -153,6 +153,11 @@ def half_unit(values: np.ndarray, digits: int) -> np.ndarray:
     return np.where(np.isfinite(unit) & (sizes > 0), unit / 2, 0.0)
 
 
+def _or_nothing(values: np.ndarray) -> np.ndarray:
+    """The values, 0 for those that do not exist; numpy's own `nan_to_num` takes several times as long."""
+    return np.where(np.isnan(values), 0.0, values)
+
+
 def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Half widths (SI) [N] of every printed quantity from own errors of some."""
     rows = {id: row for row, id in enumerate(errors)}
@@ -163,7 +168,7 @@ def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[s
     def moved(id: str) -> object:
         def move(value: np.ndarray, _: Mapping[str, np.ndarray]) -> np.ndarray:
             step = np.zeros((len(rows), errors[id].shape[-1]))
-            step[rows[id]] = SHARE * np.nan_to_num(errors[id])
+            step[rows[id]] = SHARE * _or_nothing(errors[id])
             return value + step
 
         return move
@@ -175,10 +180,10 @@ def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[s
         change = np.atleast_2d(values[id] - family.values)
         if family.how.unit == "°":
             change = np.mod(change + np.pi, 2 * np.pi) - np.pi
-        own = np.nan_to_num(np.broadcast_to(errors.get(id, 0.0), family.values.shape))
+        own = _or_nothing(np.broadcast_to(errors.get(id, 0.0), family.values.shape))
         if id in rows:
             change[rows[id]] = 0.0
-        inherited = REACH * np.sqrt((np.nan_to_num(change) ** 2).sum(axis=0)) / SHARE
+        inherited = REACH * np.sqrt((_or_nothing(change) ** 2).sum(axis=0)) / SHARE
         # A single value depends on the errors at all positions.
         band = own + (inherited.max(keepdims=True) if len(own) == 1 else inherited)
         # Near a dead centre a very short vector may have any direction.

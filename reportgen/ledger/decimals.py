@@ -193,7 +193,8 @@ class _Calculator:
         if key not in self._off:
             result = self.printed(line.id, last) / self.families[line.id].how.scale
             unit = 10.0 ** -(_last_decimal(float(result[0])) if last is None else last)
-            self._off[key] = np.nan_to_num(np.abs(self.computed(line, rounded) - result) / unit, posinf=0.0)
+            off = np.abs(self.computed(line, rounded) - result) / unit
+            self._off[key] = np.where(np.isfinite(off), off, 0.0)
         return self._off[key]
 
 
