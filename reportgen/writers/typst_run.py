@@ -21,8 +21,8 @@ UNSETTLED = "#let settled = (:)"
 """The line of a source that has room for choices."""
 READ = '#let settled = json("settled.json")'
 """The same line where they stand in a file, by their names."""
-ROUNDS = 12
-"""How often the typesetter is asked at most."""
+ROUNDS = 40
+"""How often the typesetter is asked at most; two or three times are usual, and each makes one choice right at least."""
 
 
 def compile(source: str) -> bytes:
@@ -43,12 +43,13 @@ def settle(unsettled: str) -> tuple[str, bytes]:
         for _ in range(ROUNDS):
             shown = run.choices(choices)
             pdf, settles = run.compile()
+            source = _settled(unsettled, choices)
             if settles:
-                if all(choice == seen for _, choice, seen in shown):
+                if all(choice == seen or name in right for name, choice, seen in shown):
                     break
                 right = _right(shown, right)
             choices = {name: seen for name, _, seen in shown} | right
-    return _settled(unsettled, choices), pdf
+    return source, pdf
 
 
 def _settled(source: str, choices: Mapping[str, Any]) -> str:
