@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.document.phrases import say
-from reportgen.document.report import Report, function
+from reportgen.document.report import Report, function, member
 from reportgen.document.tree import InlineMath, Inlines, Text, Value, listed
 from reportgen.mechanism.structure import DRIVER, GROUND
 
@@ -47,6 +47,12 @@ class Peak:
     def place(self) -> str:
         """Where it is greatest, with a space before the words; "" where it is the same everywhere."""
         return "" if self.level else f" {self.where}"
+
+
+@member
+def worked_at(report: Report) -> str:
+    """Where a report works all out in full."""
+    return where(report, report.assignment.worked_positions)
 
 
 def shown(report: Report, id: str, positions: Iterable[int]) -> np.ndarray:

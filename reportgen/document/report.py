@@ -210,10 +210,6 @@ class Report:
         return self.machine.numbered(self.assignment.worked_positions)
 
     @property
-    def worked_list(self) -> str:
-        return ", ".join(map(str, self.worked_forces))
-
-    @property
     def plates(self) -> tuple[int, ...]:
         """Positions whose plans are drawn: all of the cycle, or the worked ones when there are very many."""
         if self.assignment.positions.count <= PLATES_UP_TO:
