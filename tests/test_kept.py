@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -11,6 +11,9 @@ import pytest
 from reportgen import kept
 from reportgen.document import prose
 from reportgen.document.tree import Block
+from reportgen.writers import latex, pdflatex
+from tests.writers import sample
+from tests.writers.pages import needs_tex
 
 
 @pytest.fixture
@@ -90,3 +93,28 @@ def test_a_folder_that_others_may_write_to_is_not_used(home: Path, mode: int) ->
     (home / "reportgen").mkdir(parents=True)
     (home / "reportgen").chmod(mode)
     assert kept.folder() is None
+
+
+@needs_tex
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda known: known.replace("}{", "}{9"),
+        lambda known: known.replace("pt}", "1pt}"),
+        lambda known: known[:-4],
+        lambda known: "\\undefined",
+    ],
+    ids=["other pages", "wider columns", "half a file", "no auxiliary file"],
+)
+def test_page_numbers_of_before_save_a_pass_and_change_nothing(home: Path, spoil: Callable[[str], str]) -> None:
+    source = latex.write(sample.sample())
+    first = pdflatex.compile(source)
+    assert first.passes == 2
+    again = pdflatex.compile(source)
+    assert (again.passes, again.pdf) == (1, first.pdf)
+    (file,) = (home / "reportgen").glob("contents-*")
+    known = file.read_text(encoding="utf-8")
+    file.write_text(spoil(known), encoding="utf-8")
+    assert file.read_text(encoding="utf-8") != known
+    assert pdflatex.compile(source).pdf == first.pdf
+    assert file.read_text(encoding="utf-8") == known

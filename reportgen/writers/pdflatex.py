@@ -2,10 +2,13 @@
 
 The run may read and write that directory only, starts no other program, and stops at the first error
 or at the time limit.  The same source gives the same bytes.
+
+Page numbers are kept from one report to the next of the same contents: where they still hold, one pass is enough.
 """
 
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 import shutil
@@ -15,6 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from reportgen.errors import TypesetterError
+from reportgen.kept import keep, kept
 
 INSTALL = (
     "apt-get install --no-install-recommends texlive-latex-base texlive-latex-recommended texlive-lang-other lmodern"
@@ -51,6 +55,7 @@ _MISSING = re.compile(
     r"File [`'][^']+' not found|Font \S+ (?:at \S+ )?not loadable|Encoding scheme [^\n]* unknown"
     r"|can't find file|Metric \(TFM\) file not found|pdfTeX error[^\n]*(?:font|cannot open)"
 )
+_ENTRY = re.compile(r"^\\contentsentry\{.*$", re.MULTILINE)
 _ERROR = re.compile(r"^(?:!|\S+:\d+:) ", re.MULTILINE)
 
 
@@ -73,18 +78,43 @@ def compile(source: str, timeout: float = 120.0) -> Compiled:
     program = shutil.which(_COMMAND[0])
     if program is None:
         raise TypesetterError(f"the LaTeX engine needs pdflatex; install it with\n    {INSTALL}")
-    with tempfile.TemporaryDirectory(prefix="reportgen-") as name:
-        directory = Path(name)
+    name = _kept_as(source)
+    known = kept(name) or b"" if name else b""
+    with tempfile.TemporaryDirectory(prefix="reportgen-") as folder:
+        directory = Path(folder)
         (directory / "report.tex").write_text(source, encoding="utf-8")
-        auxiliary = b""
-        for passes in range(1, MAX_PASSES + 1):
-            _run(program, directory, timeout)
-            latest = (directory / "report.aux").read_bytes()
-            if latest == auxiliary or b"\\newlabel" not in latest:
-                log = _log(directory)
-                return Compiled((directory / "report.pdf").read_bytes(), passes, overfull(log))
-            auxiliary = latest
+        try:
+            compiled, auxiliary = _settled(program, directory, timeout, known)
+        except TypesetterError:
+            if not known:
+                raise
+            # What was kept may be damaged.
+            compiled, auxiliary = _settled(program, directory, timeout, b"")
+    if name and auxiliary != known:
+        keep(name, auxiliary)
+    return compiled
+
+
+def _settled(program: str, directory: Path, timeout: float, auxiliary: bytes) -> tuple[Compiled, bytes]:
+    """The PDF with page numbers that hold, and the auxiliary file that has them; `auxiliary` is one from before.
+
+    Contents have room for any number, so that the pages do not depend on what was known of them.
+    """
+    (directory / "report.aux").write_bytes(auxiliary)
+    for passes in range(1, MAX_PASSES + 1):
+        _run(program, directory, timeout)
+        latest = (directory / "report.aux").read_bytes()
+        if latest == auxiliary or b"\\newlabel" not in latest:
+            log = _log(directory)
+            return Compiled((directory / "report.pdf").read_bytes(), passes, overfull(log)), latest
+        auxiliary = latest
     raise TypesetterError(f"the page numbers did not settle within {MAX_PASSES} passes of pdflatex")
+
+
+def _kept_as(source: str) -> str:
+    """The name under which page numbers are kept, the same for reports of the same contents; "" for no contents."""
+    contents = "\n".join(_ENTRY.findall(source))
+    return f"contents-{hashlib.sha256(contents.encode()).hexdigest()[:32]}.aux" if contents else ""
 
 
 def overfull(log: str) -> tuple[str, ...]:
