@@ -11,7 +11,7 @@ from reportgen.document.tree import Contents, Section, Text
 from tests.writers.pages import body_of, by_latex, by_typst, needs_tex
 
 WRITERS = [pytest.param(by_typst, id="typst"), pytest.param(by_latex, id="latex", marks=needs_tex)]
-LENGTHS = range(44, 62)
+LENGTHS = range(49, 57)
 """Numbers of entries about what a page of lines at their usual distance holds."""
 
 

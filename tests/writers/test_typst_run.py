@@ -12,6 +12,7 @@ from reportgen.writers import typst_run
 pymupdf = pytest.importorskip("pymupdf")
 
 CHAIN = """\
+#set document(date: none)
 #let settled = (:)
 #for k in range(LENGTH) {
   context {
@@ -25,6 +26,7 @@ CHAIN = """\
 """Each number is one more than the one before it on the page; a look finds one of them."""
 
 NEVER = """\
+#set document(date: none)
 #let settled = (:)
 #context {
   let seen = query(<own>).map(it => not it.value).first(default: true)
