@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from reportgen.case import ExerciseCase
@@ -28,9 +28,10 @@ from reportgen.document.tree import (
     Text,
     Value,
     Words,
+    listed,
 )
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Chain, Negative, Number, Symbol
+from reportgen.notation.expressions import Chain, Expression, Negative, Number, Symbol
 from reportgen.units import Given
 
 TYPED = 6
@@ -94,6 +95,7 @@ def names(case: ExerciseCase) -> Mapping[str, Any]:
         "velocity_figure": page.figure("velocity"),
         "acceleration_figure": page.figure("acceleration"),
         "expressions": page.expressions,
+        "unwritten": page.unwritten,
         "answers": page.answers,
     }
 
@@ -182,12 +184,20 @@ class Page(Solution):
     @property
     def expressions(self) -> tuple[Equation, ...]:
         """What was asked, by the symbols of the file."""
+        symbol = self.worked.ledger.symbol
+        rows = tuple(Chain((symbol(id), shown)) for id, shown in self._by_symbols if shown is not None)
+        return (Equation(rows),) if rows else ()
+
+    @property
+    def unwritten(self) -> Inlines:
+        """The symbols of what was asked whose expressions are too long."""
+        return listed(InlineMath(self.worked.ledger.symbol(id)) for id, shown in self._by_symbols if shown is None)
+
+    @property
+    def _by_symbols(self) -> list[tuple[str, Expression | None]]:
         if self.case.literal is None:
-            return ()
-        ledger = self.worked.ledger
-        found = [(one.id, self._literal(one.id)) for one in self.case.exercise.asked if one.what != "centre"]
-        rows = (Chain((ledger.symbol(id), shown)) for id, shown in found if shown is not None)
-        return (Equation(tuple(rows)),)
+            return []
+        return [(one.id, self._literal(one.id)) for one in self.case.exercise.asked if one.what != "centre"]
 
     @property
     def asked(self) -> Inlines:
@@ -224,11 +234,14 @@ class Page(Solution):
 
     def _place(self, name: str) -> tuple[Inlines, Inlines]:
         """The coordinates of a point in mm, or by symbols."""
+        at, unit = self.case.exercise.motion.system.points[name], ""
         if self.case.literal is not None:
-            x, y = (lettered(one) for one in self.case.literal.place(name))
-            return (InlineMath(x, slashed=True),), (InlineMath(y, slashed=True),)
-        at = self.case.exercise.motion.system.points[name]
-        return (Value(self._coordinate(at.real)),), (Value(self._coordinate(at.imag)),)
+            found, unit = self.case.literal.place(name), "mm"
+            if found is not None:
+                x, y = map(lettered, found)
+                return (InlineMath(x, slashed=True),), (InlineMath(y, slashed=True),)
+        across, up = (replace(self._coordinate(part), unit=unit) for part in (at.real, at.imag))
+        return (Value(across),), (Value(up),)
 
     def comparison(self, further: Sequence[Page]) -> Table:
         """What is asked of velocities, by each method that leads to it.  Raises `ValueError` if two disagree."""

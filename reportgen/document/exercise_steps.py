@@ -219,7 +219,8 @@ class Solution:
         centre = self.worked.layout.centres[body]
         numbers = [Number(self._coordinate(part).value, None, "mm") for part in (centre.at.real, centre.at.imag)]
         literal = self.case.literal
-        formulas = None if literal is None else [lettered(one) for one in literal.place(centre.name)]
+        found = None if literal is None else literal.place(centre.name)
+        formulas = None if found is None else [*map(lettered, found)]
         shown: list[Any] = []
         for index, axis in enumerate("xy"):
             parts: list[Expression] = [] if formulas is None else [formulas[index]]

@@ -179,6 +179,12 @@ def size(of: Algebraic, at: Mapping[str, float]) -> Algebraic:
     return simplified(-whole) if value(whole, at) < 0 else whole
 
 
+def operations(of: Algebraic | Plane) -> int:
+    """How many operations an expression, or both components of a vector, is written with."""
+    parts = (of.real, of.imag) if isinstance(of, Plane) else (of,)
+    return sum(int(_sympy().count_ops(part)) for part in parts)
+
+
 def simplified(of: Algebraic) -> Algebraic:
     sp = _sympy()
     whole = sp.radsimp(sp.factor(sp.radsimp(sp.together(sp.expand(of)))))

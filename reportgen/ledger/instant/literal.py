@@ -7,7 +7,7 @@ are those at the symbols' values.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import Any, cast
 
@@ -24,6 +24,12 @@ from reportgen.plane_motion.solving import System
 from reportgen.units import Given
 
 ZERO = Plane(0, 0)
+LONGEST = 40
+"""An expression of more operations is not written: it would fill a line and more, and say little."""
+WITHIN_WORDS = 20
+"""Nor is a coordinate of more, which stands within a sentence or a table."""
+MOST = 100
+"""One of more operations is not even simplified, which may take minutes; published examples have 73 at most."""
 
 
 def told(given: Given) -> Algebraic:
@@ -168,6 +174,14 @@ def _dot(one: Any, other: Any) -> Algebraic:
     return (Plane.of(one).conjugate() * other).real
 
 
+def _short(of: Any, simplify: Callable[[Any], Algebraic], most: int = LONGEST) -> Algebraic | None:
+    """What it is simplified to; None for what is too long."""
+    if algebra.operations(of) > MOST:
+        return None
+    found = simplify(of)
+    return None if algebra.operations(found) > most else found
+
+
 class LiteralBoard:
     """What the quantities of a board are by symbols, each worked out when it is asked for."""
 
@@ -182,16 +196,19 @@ class LiteralBoard:
         found = self.algebraic(id)
         return None if found is None else algebra.expression(found, self.at)
 
-    def place(self, point: str) -> tuple[Expression, Expression]:
-        """The coordinates of a point, instant centres among them; lengths in numbers are metres."""
+    def place(self, point: str) -> tuple[Expression, Expression] | None:
+        """The coordinates of a point, instant centres among them; lengths in numbers are metres.
+
+        None where they would be too long.
+        """
         at = {**self._centres, **self.motion.geometry.points}[point]
-        x, y = (algebra.expression(algebra.simplified(part), self.at) for part in (at.real, at.imag))
-        return x, y
+        x, y = (_short(part, algebra.simplified, WITHIN_WORDS) for part in (at.real, at.imag))
+        return None if x is None or y is None else (algebra.expression(x, self.at), algebra.expression(y, self.at))
 
     def algebraic(self, id: str) -> Algebraic | None:
         if id not in self._found:
             whole = self._of(id)
-            self._found[id] = None if whole is None else algebra.size(whole, self.at)
+            self._found[id] = None if whole is None else _short(whole, lambda of: algebra.size(of, self.at))
         return self._found[id]
 
     def _of(self, id: str) -> Any:
