@@ -31,7 +31,7 @@ from reportgen.document.tree import (
     listed,
 )
 from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Chain, Expression, Negative, Number, Symbol
+from reportgen.notation.expressions import Chain, Negative, Number, Symbol
 from reportgen.units import Given
 
 TYPED = 6
@@ -185,19 +185,13 @@ class Page(Solution):
     def expressions(self) -> tuple[Equation, ...]:
         """What was asked, by the symbols of the file."""
         symbol = self.worked.ledger.symbol
-        rows = tuple(Chain((symbol(id), shown)) for id, shown in self._by_symbols if shown is not None)
+        rows = tuple(Chain((symbol(id), shown)) for id, shown in self._by_symbols() if shown is not None)
         return (Equation(rows),) if rows else ()
 
     @property
     def unwritten(self) -> Inlines:
         """The symbols of what was asked whose expressions are too long."""
-        return listed(InlineMath(self.worked.ledger.symbol(id)) for id, shown in self._by_symbols if shown is None)
-
-    @property
-    def _by_symbols(self) -> list[tuple[str, Expression | None]]:
-        if self.case.literal is None:
-            return []
-        return [(one.id, self._literal(one.id)) for one in self.case.exercise.asked if one.what != "centre"]
+        return listed(InlineMath(self.worked.ledger.symbol(id)) for id, shown in self._by_symbols() if shown is None)
 
     @property
     def asked(self) -> Inlines:
@@ -234,12 +228,12 @@ class Page(Solution):
 
     def _place(self, name: str) -> tuple[Inlines, Inlines]:
         """The coordinates of a point in mm, or by symbols."""
-        at, unit = self.case.exercise.motion.system.points[name], ""
-        if self.case.literal is not None:
-            found, unit = self.case.literal.place(name), "mm"
-            if found is not None:
-                x, y = map(lettered, found)
-                return (InlineMath(x, slashed=True),), (InlineMath(y, slashed=True),)
+        literal = self.case.literal
+        found = None if literal is None else literal.place(name)
+        if found is not None:
+            x, y = map(lettered, found)
+            return (InlineMath(x, slashed=True),), (InlineMath(y, slashed=True),)
+        at, unit = self.case.exercise.motion.system.points[name], "" if literal is None else "mm"
         across, up = (replace(self._coordinate(part), unit=unit) for part in (at.real, at.imag))
         return (Value(across),), (Value(up),)
 

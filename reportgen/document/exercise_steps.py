@@ -168,8 +168,15 @@ class Solution:
 
     @property
     def put_in(self) -> bool:
-        """Whether numbers are put in, at the end of each line."""
-        return all(one.put_in for one in self.case.exercise.given.symbols.values())
+        """Whether numbers are put in, at the end of each line: also where the file wants none but an answer has one."""
+        wanted = all(one.put_in for one in self.case.exercise.given.symbols.values())
+        return wanted or any(shown is None for _, shown in self._by_symbols())
+
+    def _by_symbols(self) -> list[tuple[str, Expression | None]]:
+        """What is asked by the symbols of the file; None for what is too long."""
+        if self.case.literal is None:
+            return []
+        return [(one.id, self._literal(one.id)) for one in self.case.exercise.asked if one.what != "centre"]
 
     def _literal(self, id: str) -> Expression | None:
         """A quantity by the symbols of the file; None where it is not known so."""

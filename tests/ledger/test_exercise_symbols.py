@@ -87,3 +87,17 @@ def test_what_would_fill_lines_is_not_written_by_symbols(tmp_path: Path, languag
     told = {"vi": "Với v_B, v_M, biểu thức quá dài", "en": "Expressions for v_B, v_M would be too long"}
     assert told[language] in text
     assert all(len(line) < 1200 for line in text.splitlines())
+
+
+@pytest.mark.parametrize(("a", "b", "put_in"), [(37, 101, True), (0, 90, False)])
+def test_values_kept_out_are_put_in_where_an_answer_needs_them(tmp_path: Path, a: int, b: int, put_in: bool) -> None:
+    """Else a reader could not check the numbers of the answer."""
+    path = tmp_path / "file.yaml"
+    drawn = FOUR_BAR.replace("r: 0.3 m, l: 0.5 m", "r: {{drawn: 0.3 m}}, l: {{drawn: 0.5 m}}")
+    path.write_text(drawn.format(a=a, b=b), encoding="utf-8")
+    text = text_of(solution(ExerciseCase(catalogue.load(path, "en"))))
+    assert ("The values of the symbols are" in text) == put_in
+    assert ("The solution is by symbols" in text) != put_in
+    # Behind the speed of A, which is short in either, its number stands or not.
+    (line,) = [line for line in text.splitlines() if line.startswith("v_A = ")]
+    assert ("0.6" in line) == put_in
