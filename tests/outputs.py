@@ -5,16 +5,21 @@
     python -m tests.outputs compare BEFORE AFTER   what differs, and exit code 1 if anything does
 
 It calls the command line alone, so it stands outside whatever is rebuilt.  Written are, of each file in
-`assignments/`, in each language: results, tables, key, task; with each typesetter the report's source and its
-PDF's words and strokes with their places; and the marks and feedback of the example class.  A PART is a word
-of the jobs' names ("engine-twin", "typst", "key", "class"); only jobs with all of them are run.
+`assignments/` and `assignments/plane-motion/`, in each language: results, tables, key, task and answer sheet, that
+sheet filled in with some mistakes and marked, the drawing sheets (PDF and DXF), the page for a browser with its film;
+with each typesetter the report's source and its PDF's words and strokes with their places; and the marks and feedback
+of the example class.  A PART is a word of the jobs' names ("engine-twin", "typst", "key", "class", "sheet", "page",
+"marks"); only jobs with all of them are run.
 """
 
 from __future__ import annotations
 
+import base64
+import json
 import math
 import re
 import shutil
+import struct
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -23,7 +28,7 @@ from itertools import zip_longest
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-FILES = sorted((ROOT / "assignments").glob("*.yaml"))
+FILES = [*sorted((ROOT / "assignments").glob("*.yaml")), *sorted((ROOT / "assignments/plane-motion").glob("*.yaml"))]
 CLASS = ROOT / "assignments" / "class-demo"
 LANGUAGES = ("vi", "en")
 ENGINES = ("typst", "latex")
@@ -34,7 +39,11 @@ JOINT = '"#"'
 """Where two strings meet in typst's source: they read as one."""
 SHOWN = 12
 """Differing lines shown of a file."""
+EVERY, WRONG = 17, 1.13
+"""Of a filled sheet the second and then each so many-th answer is wrong by this factor."""
 
+PACKED = re.compile(r"(?<=\")[A-Za-z0-9+/]{400,}={0,2}(?=\")")
+"""The packed samples of a film."""
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
 
@@ -95,7 +104,18 @@ def workbook_text(path: Path) -> str:
     )
 
 
-READERS: dict[str, Callable[[Path], str]] = {".pdf": page_text, ".xlsx": workbook_text}
+def browser_text(path: Path) -> str:
+    """The elements of a page, a line each; the samples of its film as numbers."""
+    text = path.read_text(encoding="utf-8").replace("><", ">\n<")
+    return PACKED.sub(lambda found: " ".join(f"{number:.7g}" for number in _floats(found[0])), text)
+
+
+def _floats(packed: str) -> Iterator[float]:
+    raw = base64.b64decode(packed)
+    return (number for (number,) in struct.iter_unpack("<f", raw[: len(raw) // 4 * 4]))
+
+
+READERS: dict[str, Callable[[Path], str]] = {".pdf": page_text, ".xlsx": workbook_text, ".html": browser_text}
 
 
 def take(folder: Path, out: Path) -> None:
@@ -144,6 +164,63 @@ def task(out: Path, file: Path, language: str, place: Path) -> None:
         take(folder, out)
 
 
+def sheets(out: Path, file: Path, language: str, place: Path) -> None:
+    made = place / "made"
+    say(out, "sheet", run("sheet", file, "--lang", language, "--out", made), place)
+    take(made, out)
+
+
+def page(out: Path, file: Path, language: str, place: Path) -> None:
+    made = place / "made"
+    say(out, "page", run("build", file, "--format", "html", "--lang", language, "--out", made), place)
+    take(made, out)
+
+
+def marks(out: Path, file: Path, language: str, place: Path) -> None:
+    """The answer sheet filled in from the key, some of it wrong: compared, then marked."""
+    assignments, made, marked = place / "assignments", place / "made", place / "marked"
+    assignments.mkdir()
+    shutil.copy(file, assignments)
+    (place / "roster.csv").write_text(f"id,name\n{file.stem},A B\n", encoding="utf-8")
+    files = ("--assignments", assignments, "--make", "task", "--jobs", "1", "--out", made)
+    run("batch", place / "roster.csv", *files, "--lang", language)
+    run("key", file, "--lang", language, "--format", "json", "--out", made)
+    sheet = place / f"{file.stem}.xlsx"
+    fill(next(made.rglob("answers.xlsx")), json.loads((made / file.stem / "key.json").read_text("utf-8")), sheet)
+    say(out, "compare", run("compare", file, sheet, "--hint", "--lang", language), place)
+    text = run("grade", sheet, "--assignments", assignments, "--lang", language, "--out", marked)
+    say(out, "grade", text, place)
+    take(marked, out)
+
+
+def fill(empty: Path, key: dict[str, object], filled: Path) -> None:
+    """Write the key's values into an empty answer sheet."""
+    import openpyxl
+
+    rows = {row["id"]: row["values"] for row in key["rows"]}  # type: ignore[attr-defined,index,union-attr]
+    labels = [str(label) for label in key["positions"]]  # type: ignore[attr-defined]
+    book = openpyxl.load_workbook(empty)
+    count = 0
+    for page in book:
+        columns: dict[int, str] = {}
+        for cells in page.iter_rows():
+            first = cells[0].value
+            if first in ("mã", "id"):
+                columns = {cell.column: str(cell.value).split()[-1] for cell in cells[4:] if cell.value}
+            if first not in rows:
+                continue
+            for cell in cells[4:]:
+                label, values = columns.get(cell.column, ""), rows[first]
+                index = labels.index(label) if label in labels and len(values) > 1 else 0
+                if cell.value is not None or (label in labels) != (len(values) > 1) or values[index] is None:
+                    continue
+                count += 1
+                cell.value = values[index] * (WRONG if count % EVERY == 2 else 1.0)
+    if not count:
+        raise ValueError(f"{empty}: no answer was filled in")
+    book.save(filled)
+
+
 def example_class(out: Path, language: str, place: Path) -> None:
     drawn, marked = place / "variants", place / "marked"
     say(out, "variants", run("variants", CLASS / "spec.yaml", CLASS / "roster.csv", "--out", drawn), place)
@@ -174,6 +251,9 @@ def jobs(files: list[Path]) -> Iterator[tuple[str, Callable[..., None], tuple[ob
             yield f"{file.stem} {language} results", results, (file, language)
             yield f"{file.stem} {language} key", key, (file, language)
             yield f"{file.stem} {language} task", task, (file, language)
+            yield f"{file.stem} {language} sheet", sheets, (file, language)
+            yield f"{file.stem} {language} page", page, (file, language)
+            yield f"{file.stem} {language} marks", marks, (file, language)
             for engine in ENGINES:
                 yield f"{file.stem} {language} {engine}", report, (file, engine, language)
 
