@@ -6,18 +6,17 @@ What comes before the document is in a `Case`.
 
 from __future__ import annotations
 
-import os
-import re
-import tempfile
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.case import Case, ExerciseCase, open_any, open_case, opened
+from reportgen.case import Calculation
+from reportgen.cases import open_case, opened
 from reportgen.errors import NotOfferedError, ReportgenError
+from reportgen.files import put_files, reported
 from reportgen.notation.numbers import Language
 from reportgen.scratch import scratch
 from reportgen.words import word
@@ -25,7 +24,8 @@ from reportgen.words import word
 if TYPE_CHECKING:
     from reportgen.analysis import Analysis
     from reportgen.answers.asking import Ask
-    from reportgen.answers.key import Key
+    from reportgen.document.case import Case
+    from reportgen.document.key import Key
     from reportgen.document.tree import Document
     from reportgen.figures.sheet import Sheet
 
@@ -35,18 +35,12 @@ FORMATS = ("pdf", "html")
 """What a report can be written as."""
 
 
-class OutputError(ReportgenError):
-    """The result could not be written; exit code 3."""
-
-    exit_code = 3
-
-
 load, check = catalogue.load, catalogue.check
 
 
 def analyse(assignment: Assignment) -> Analysis:
     """Everything computed of an assignment, as arrays over its positions."""
-    return Case(assignment).analysis
+    return Calculation(assignment).analysis
 
 
 def solve(assignment: Assignment, positions: int | None = None) -> dict[str, Any]:
@@ -54,13 +48,10 @@ def solve(assignment: Assignment, positions: int | None = None) -> dict[str, Any
 
     Raises `NotOfferedError` for positions of an exercise, which is one instant.
     """
-    from reportgen.answers.results import results
-
-    if positions is not None and catalogue.makes(assignment.kind) == "exercise":
+    if positions is not None and not catalogue.kind(assignment.kind).has_positions:
         raise NotOfferedError(word("no_positions", assignment.language, kind=assignment.kind))
     chosen = assignment if positions is None else assignment.with_positions(positions)
-    found: dict[str, Any] = results(opened(chosen))
-    return found
+    return opened(chosen).results()
 
 
 RESULT_FORMATS = ("csv", "xlsx", "json")
@@ -75,14 +66,14 @@ def result_files(
     from reportgen.answers.result_files import result_file
 
     assignment = load(path, language)
-    wanted = positions or (FULL_TURN if catalogue.makes(assignment.kind) == "machine" else None)
+    wanted = positions or (FULL_TURN if catalogue.kind(assignment.kind).has_positions else None)
     found = solve(assignment, wanted)
     return {f"results.{name}": result_file(found, name) for name in formats}
 
 
 def document(assignment: Assignment) -> Document:
     """The report as a numbered tree, ready for any writer."""
-    return _composed(opened(assignment))
+    return opened(assignment).document()
 
 
 def build(
@@ -114,23 +105,17 @@ def build_each(
     files: dict[str, bytes] = {}
     with reported(), scratch(Path(out)):
         case = opened(assignment)
-        tree = _composed(case)
+        tree = case.document()
         if "pdf" in formats:
             source, pdf = typeset(tree, engine)
             files = {**({f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}), "report.pdf": pdf}
         if "html" in formats:
             files["report.html"] = _page(case, tree)
-    put(Path(out) / assignment.id, files)
+    put_files(Path(out) / assignment.id, files)
     return [Path(out) / assignment.id / f"report.{name}" for name in formats]
 
 
-def _composed(case: Case | ExerciseCase) -> Document:
-    from reportgen.document.outline import compose
-
-    return compose(case)
-
-
-def _page(case: Case | ExerciseCase, tree: Document) -> bytes:
+def _page(case: Case, tree: Document) -> bytes:
     from reportgen.pages import page
 
     return page(case, tree).encode()
@@ -157,7 +142,6 @@ Maker = Callable[..., Mapping[str, bytes]]
 It depends on its arguments alone, so that it can run anywhere.
 """
 
-_SHEET = re.compile(r"sheet-\d+\.(pdf|dxf)")
 KEY_FORMATS = ("pdf", "xlsx", "csv", "json")
 
 
@@ -168,22 +152,20 @@ def report_files(path: Path, engine: Engine, language: Language | None) -> Mappi
 
 def page_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
     """The complete report as a page for a browser, whatever the engine."""
-    case = open_any(path, language)
-    return {"report.html": _page(case, _composed(case))}
+    case = open_case(path, language)
+    return {"report.html": _page(case, case.document())}
 
 
 def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
     """The student's handout, and the answer sheet to fill in, of what is to be asked; no answer is in them."""
     from reportgen.answers.asking import Ask
-    from reportgen.answers.key import make_key
-    from reportgen.answers.paper import task
     from reportgen.answers.sheet import answer_book
     from reportgen.workbook import write_xlsx
 
-    case = open_any(path, language)
+    case = open_case(path, language)
     chosen = ask or Ask()
-    key = chosen.of(make_key(case))
-    files = {"task.pdf": typeset(task(case, key, chosen.by_section), engine)[1]}
+    key = chosen.of(case.key())
+    files = {"task.pdf": typeset(case.task(key, chosen.by_section), engine)[1]}
     return {**files, "answers.xlsx": write_xlsx(answer_book(key, chosen.by_section))}
 
 
@@ -197,11 +179,10 @@ def key_files(
     """The answer key in some of `KEY_FORMATS`; it says what the answer sheet asks for, and holds everything."""
     from reportgen.answers import key_files as files
     from reportgen.answers.asking import Ask
-    from reportgen.answers.key import make_key
     from reportgen.workbook import write_csv, write_xlsx
 
-    case = open_any(path, language)
-    key = (ask or Ask()).of(make_key(case))
+    case = open_case(path, language)
+    key = (ask or Ask()).of(case.key())
     makers: Mapping[str, Callable[[], bytes]] = {
         "pdf": lambda: typeset(files.key_document(key, case.title), engine)[1],
         "xlsx": lambda: write_xlsx(files.key_book(key)),
@@ -229,11 +210,10 @@ def sheet_files(
     of the language unless a file of one is given.  Raises `SheetError` where there is nothing
     to draw or a plate has no place on the size.
     """
-    from reportgen.document.drawing_sheets import drawing_sheets
     from reportgen.writers import dxf, typst, typst_run
 
     case = open_case(path, language)
-    sheets = drawing_sheets(case, size, sets, block)
+    sheets = case.sheets(size, sets, block)
     writers: Mapping[str, Callable[[Sheet], bytes]] = {
         "pdf": lambda sheet: typst_run.compile(typst.write_sheet(sheet, case.title, case.assignment.language)),
         "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
@@ -243,15 +223,6 @@ def sheet_files(
         for number, sheet in enumerate(sheets, start=1)
         for name in formats
     }
-
-
-def put_sheets(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
-    """Write drawing sheets into a folder; those of an earlier set that had more sheets go."""
-    written = put(folder, files)
-    for path in folder.glob("sheet-*.*"):
-        if _SHEET.fullmatch(path.name) and path not in written:
-            path.unlink(missing_ok=True)
-    return written
 
 
 MAKERS: Mapping[str, Maker] = {
@@ -268,66 +239,18 @@ ASKING = frozenset({"task", "key"})
 """Those that depend on what the answer sheet asks for."""
 
 
-# --- writing files ------------------------------------------------------------------------------------
-
-
 def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None) -> None:
     """Raises `AssignmentError` if a policy asks for what no machine of these assignments has."""
-    from reportgen.answers.key import make_key
 
     def keys() -> Iterator[Key]:
         """A key of each kind of machine; what cannot be computed is told where its turn comes."""
         seen: set[str] = set()
         for path in files:
             with suppress(ReportgenError):
-                case = open_any(path, language)
+                case = open_case(path, language)
                 if case.assignment.kind not in seen:
                     seen.add(case.assignment.kind)
-                    yield make_key(case)
+                    yield case.key()
 
     if ask is not None:
         ask.check(keys(), language)
-
-
-def put(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
-    """Write files by name into a folder, each in one step; raises `OutputError`."""
-    with reported():
-        folder.mkdir(parents=True, exist_ok=True)
-        try:
-            for name, content in files.items():
-                replace(folder / name, content)
-        except OSError:
-            # A folder without a file tells nobody anything.
-            with suppress(OSError):
-                folder.rmdir()
-            raise
-    return [folder / name for name in files]
-
-
-def replace(target: Path, content: bytes) -> None:
-    """Put `content` in place of a file in one step: a reader sees the old or the new, never a half."""
-    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    temporary = Path(name)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
-        umask = os.umask(0)
-        os.umask(umask)
-        temporary.chmod(0o666 & ~umask)
-        temporary.replace(target)
-    except BaseException as error:
-        temporary.unlink(missing_ok=True)
-        if isinstance(error, OSError):
-            # A full disk does not say itself what had no room on it.
-            error.filename = error.filename or str(target)
-        raise
-
-
-@contextmanager
-def reported(about: Path | None = None) -> Iterator[None]:
-    """A full disk or a forbidden folder is a fault in one line, which names its path, or else `about`."""
-    try:
-        yield
-    except OSError as error:
-        place = error.filename or about
-        raise OutputError(f"{place}: {error.strerror or error}" if place else str(error)) from error

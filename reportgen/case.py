@@ -1,12 +1,12 @@
-"""An assignment opened once: report, key, task, marking and results are all made of one case."""
+"""An assignment opened once with its words, and a machine with all that is computed of it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any, Self, get_args
 
 from reportgen import catalogue, kinds
 from reportgen.assignment import Assignment
@@ -18,12 +18,10 @@ if TYPE_CHECKING:
     import numpy as np
 
     from reportgen.analysis import Analysis
-    from reportgen.catalogue.plane_motion import Exercise
     from reportgen.flywheel import Flywheel
     from reportgen.ledger.core import Ledger
     from reportgen.ledger.forces.polygon import Polygon
-    from reportgen.ledger.instant.literal import LiteralBoard
-    from reportgen.ledger.instant.write import Worked
+    from reportgen.ledger.report import Written
 
 
 @dataclass(frozen=True)
@@ -64,128 +62,62 @@ class Opened:
 
 
 @dataclass(frozen=True)
-class Case(Opened):
+class Calculation(Opened):
     """A machine: its assignment with all that is computed of it."""
+
+    found: tuple[Analysis, Written] | None = field(default=None, compare=False, repr=False)
+    """What is known already of a calculation whose drawings alone are others."""
 
     @cached_property
     def analysis(self) -> Analysis:
         """Everything computed, as arrays over the positions.
 
-        Raises `NotOfferedError` for an exercise, which has no machine.
+        Raises `NotOfferedError` for a kind that is no machine.
         """
         from reportgen.analysis import analyse
 
+        if self.found is not None:
+            return self.found[0]
         kind, language = self.assignment.kind, self.assignment.language
-        if catalogue.makes(kind) != "machine":
+        machine = getattr(catalogue.module(kind), "machine", None)
+        if machine is None:
             raise NotOfferedError(word("no_machine", language, kind=kind))
-        return analyse(catalogue.module(kind).machine(self.assignment))
+        return analyse(machine(self.assignment))
 
     @cached_property
-    def ledger(self) -> Ledger:
-        """Every number by its id, with the symbols and the units of the assignment's language."""
-        return self._written(printed=True)
+    def written(self) -> Written:
+        """Every number with the force plans, in the symbols and units of the assignment's language."""
+        return self._write(printed=True) if self.found is None else self.found[1]
 
-    def _written(self, printed: bool) -> Ledger:
+    def _write(self, printed: bool) -> Written:
         from reportgen.ledger.report import write_ledger
 
         written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions, printed)
-        return written.in_language(self.words["symbols"])
+        return replace(written, ledger=written.ledger.in_language(self.words["symbols"]))
 
-    @cached_property
-    def drawn(self) -> Case:
-        """The same case for drawings alone: sooner there, as no decimals are chosen for its numbers."""
-        if "ledger" in vars(self):
-            return self
-        case = Case(self.assignment)
-        vars(case).update(analysis=self.analysis, words=self.words, ledger=self._written(printed=False))
-        return case
-
-    def redrawn(self, scales: Mapping[str, float | np.ndarray]) -> Case:
-        """The same case with drawings to other scales (SI, by id), one or [N]."""
-        case = Case(self.assignment)
-        vars(case).update(vars(self), ledger=self.ledger.redrawn(scales))
-        return case
+    @property
+    def ledger(self) -> Ledger:
+        """Every number by its id."""
+        return self.written.ledger
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:
         """The force plans: one for each group, the driver's last; none without loads."""
-        return self.ledger.polygons
+        return self.written.polygons
 
     @property
     def flywheel(self) -> Flywheel | None:
         """The flywheel, if the assignment asks for one."""
-        return self.ledger.flywheel
-
-
-@dataclass(frozen=True)
-class ExerciseCase(Opened):
-    """One instant of a system in plane motion: its assignment with all that is computed of it."""
+        return self.written.flywheel
 
     @cached_property
-    def exercise(self) -> Exercise:
-        """The system and what is asked of it."""
-        exercise: Exercise = catalogue.module(self.assignment.kind).exercise(self.assignment)
-        return exercise
+    def drawn(self) -> Self:
+        """The same for drawings alone: sooner there, as no decimals are chosen for its numbers."""
+        if "written" in vars(self):
+            return self
+        return replace(self, found=(self.analysis, self._write(printed=False)))
 
-    @cached_property
-    def worked(self) -> Worked:
-        """The steps of its solution with their numbers.
-
-        Raises `NotOfferedError` if no steps that are known here lead to something that is asked.
-        """
-        from reportgen.ledger.instant.write import work_out
-
-        first = next(iter(self.exercise.given.methods), None)
-        worked = work_out(self.exercise, self.words["units"], self.words["symbols"], first)
-        if worked.missing:
-            raise NotOfferedError(word("no_steps", self.assignment.language, asked=", ".join(worked.missing)))
-        return self._by_its_method(worked)
-
-    @cached_property
-    def further(self) -> tuple[Worked, ...]:
-        """The velocities worked out anew by each further method that the file asks for.
-
-        Raises `NotOfferedError` for a method of which no steps are known here.
-        """
-        from reportgen.ledger.instant.write import work_out
-
-        rest = self.exercise.given.methods[1:]
-        each = (work_out(self.exercise, self.words["units"], self.words["symbols"], one, True) for one in rest)
-        return tuple(map(self._by_its_method, each))
-
-    def _by_its_method(self, worked: Worked) -> Worked:
-        if not worked.by_method:
-            raise NotOfferedError(word("no_method_steps", self.assignment.language, method=worked.method))
-        return worked
-
-    @cached_property
-    def literal(self) -> LiteralBoard | None:
-        """The quantities of the solution by symbols; None where the file has none."""
-        if not self.exercise.given.literal:
-            return None
-        from reportgen.ledger.instant.literal import LiteralBoard
-
-        return LiteralBoard(self.exercise, self.worked)
-
-    @property
-    def ledger(self) -> Ledger:
-        """Every number of the solution by its id."""
-        return self.worked.ledger
-
-
-def opened(assignment: Assignment) -> Case | ExerciseCase:
-    """The case of an assignment, whatever its kind makes of it."""
-    return ExerciseCase(assignment) if catalogue.makes(assignment.kind) == "exercise" else Case(assignment)
-
-
-def open_any(path: Path | str, language: Language | None = None) -> Case | ExerciseCase:
-    """The case of an assignment file, whatever its kind makes of it.  Raises `AssignmentError` as `open_case`."""
-    return opened(catalogue.load(path, language))
-
-
-def open_case(path: Path | str, language: Language | None = None) -> Case:
-    """The case of an assignment file, in its own language or in `language`.
-
-    Raises `AssignmentError` with all faults of the file, located.
-    """
-    return Case(catalogue.load(path, language))
+    def redrawn(self, scales: Mapping[str, float | np.ndarray]) -> Self:
+        """The same with drawings to other scales (SI, by id), one or [N]."""
+        written = replace(self.written, ledger=self.ledger.redrawn(scales))
+        return replace(self, found=(self.analysis, written))

@@ -136,3 +136,9 @@ class TypesetterError(ReportgenError):
     """The typesetter is missing or failed; nothing the assignment can mend."""
 
     exit_code = 3
+
+
+class OutputError(ReportgenError):
+    """The result could not be written."""
+
+    exit_code = 3

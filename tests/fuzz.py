@@ -21,12 +21,12 @@ from pathlib import Path
 import numpy as np
 
 from reportgen import api
-from reportgen.answers.key import Key, make_key
 from reportgen.answers.sheet import answer_book
 from reportgen.batch.draw import Draw, judge_of
 from reportgen.batch.roster import read_roster
 from reportgen.batch.spec import read_spec
-from reportgen.case import Case, open_case
+from reportgen.cases import MachineCase, open_case
+from reportgen.document.key import Key
 from reportgen.errors import ReportgenError
 from reportgen.grading.marks import read_policy
 from reportgen.grading.submission import read_submission
@@ -167,7 +167,7 @@ CHANGES = (_scaled, _scaled, _scaled, _extreme, _extreme, _zeros, _unit, _letter
 def _assignment(number: int, chance: random.Random, folder: Path) -> None:
     file = folder / "a.yaml"
     _put(file, spoilt(_text(chance.choice(ASSIGNMENTS)), chance))
-    case = Case(api.load(file))
+    case = MachineCase(api.load(file))
     torque, by_work = case.analysis.torque, case.analysis.torque_by_work
     largest = float(np.abs(torque).max())
     # Without a load that moves, both torques are rounding of what the joints hand on.
@@ -215,7 +215,7 @@ def _sheet(number: int, chance: random.Random, folder: Path) -> None:
 @cache
 def _key() -> tuple[Key, str, bytes]:
     """The key of a sample with its empty sheet as CSV and as a workbook."""
-    key = make_key(open_case(Path("assignments/slotted-lever-01.yaml"), "en"))
+    key = open_case(Path("assignments/slotted-lever-01.yaml"), "en").key()
     book = answer_book(key)
     rows = [[getattr(entry, "value", entry) for entry in row] for row in book.sheets[0].rows]
     return key, write_csv(rows).decode("utf-8-sig"), write_xlsx(book)

@@ -15,6 +15,8 @@ from typer.testing import CliRunner
 
 from reportgen import api
 from reportgen.cli import app
+from reportgen.errors import OutputError
+from reportgen.files import put_files
 from reportgen.scratch import PREFIX, scratch, sweep
 
 SAMPLE = "assignments/slotted-lever-01.yaml"
@@ -84,7 +86,7 @@ def test_a_full_disk_names_the_path_and_leaves_no_empty_folder(tmp_path: Path, m
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     monkeypatch.setattr(os, "fdopen", full)
-    with pytest.raises(api.OutputError) as told:
-        api.put(tmp_path / "id", {"report.pdf": b"x"})
+    with pytest.raises(OutputError) as told:
+        put_files(tmp_path / "id", {"report.pdf": b"x"})
     assert str(told.value) == f"{tmp_path / 'id' / 'report.pdf'}: No space left on device"
     assert list(tmp_path.iterdir()) == []

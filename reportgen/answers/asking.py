@@ -10,8 +10,8 @@ from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 
-from reportgen.answers.key import Key, Row
 from reportgen.assignment.reading import placed
+from reportgen.document.key import Key, Row
 from reportgen.errors import Finding
 from reportgen.notation.numbers import Language
 from reportgen.notation.vocabulary import Chapter

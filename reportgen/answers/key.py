@@ -6,121 +6,23 @@ Its rows are the ledger's own families, so key, report and marker cannot disagre
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from enum import StrEnum
-from functools import cached_property, singledispatch
 from typing import Any
 
 import numpy as np
 
 from reportgen.answers.bands import computed_bands, drawn_bands, is_chosen_length, is_round_scale
 from reportgen.answers.trapezoid import is_workable, trapezoid_errors
-from reportgen.answers.wording import MAGNITUDE, capitalised, is_open, phrase, positive_sense
-from reportgen.case import Case, ExerciseCase, Opened
-from reportgen.document.outline import open_report
+from reportgen.answers.wording import MAGNITUDE, is_open, phrase, positive_sense
+from reportgen.case import Calculation, Opened
+from reportgen.document.key import INSTANT, Key, Role, Row, Span
+from reportgen.document.report import Report
 from reportgen.document.tree import formula
 from reportgen.ledger.core import Ledger
-from reportgen.notation.expressions import Number, Symbol, refs
-from reportgen.notation.numbers import Language, significant_decimals
+from reportgen.notation.expressions import Number, refs
+from reportgen.notation.numbers import significant_decimals
 from reportgen.notation.sheet import Family, is_short
 from reportgen.notation.vocabulary import MAX_DIGITS, Chapter
 from reportgen.words import load_words, search_path
-
-
-class Role(StrEnum):
-    """What a row is to the student: printed on the task, to be worked out, or a scale of his or her own choice."""
-
-    given = "given"
-    asked = "asked"
-    scale = "scale"
-
-
-@dataclass(frozen=True, slots=True)
-class Row:
-    """One quantity over the positions, in its printed unit.
-
-    `values` [N] have the sign that is printed; NaN where the quantity does not exist (the direction of a
-    vector of no length).  A `single` quantity has one value for all positions (N = 1).  `drawn` and
-    `computed` [N] are the half widths of the two bands.  `positions` are the numbers (from 1) at which
-    the answer sheet asks for it, empty if it does not; (0,) for a single quantity.  `sense` [N] says the
-    direction in words where the value has one, else "".
-    """
-
-    id: str
-    part: Chapter
-    role: Role
-    symbol: Symbol
-    kind: str
-    unit: str
-    decimals: int | None
-    values: np.ndarray
-    drawn: np.ndarray
-    computed: np.ndarray
-    positions: tuple[int, ...]
-    sense: tuple[str, ...]
-    size: str = ""
-    """The id of the size of a signed rotation."""
-    what: str = ""
-    """What it is in words: normal acceleration of B about A."""
-    positive: str = ""
-    """Which sense counts as positive, in words; "" where there is none, or where the general rule says it."""
-    open_sense: bool = False
-    """Whether its sign is not judged, because the papers do not say which sense is positive."""
-
-    @property
-    def single(self) -> bool:
-        return len(self.values) == 1
-
-    @property
-    def described(self) -> str:
-        """What it is and which sense of it counts as positive, as it stands beside the row."""
-        return capitalised("; ".join(filter(None, (self.what, self.positive))))
-
-    def has(self, position: int) -> bool:
-        """Whether the quantity has a value at a position: from 1, or 0 for a single value."""
-        return self.single == (position == 0)
-
-    def at(self, position: int) -> int:
-        """The index of a position (from 1, 0 for a single value) in `values`."""
-        return 0 if self.single else position - 1
-
-
-@dataclass(frozen=True)
-class Key:
-    """All rows of an assignment; `labels` [N] are what its positions are called, `students` fields of its student.
-
-    Of very many positions only those in `printed` stand in the document.
-    """
-
-    id: str
-    kind: str
-    variant: str
-    language: Language
-    student: Mapping[str, str]
-    labels: tuple[str, ...]
-    rows: tuple[Row, ...]
-    printed: tuple[int, ...] = ()
-
-    def label(self, position: int) -> str:
-        """What a position (from 1) is called; "" for 0, the one of single values."""
-        return self.labels[position - 1] if position else ""
-
-    def find(self, id: str) -> Row | None:
-        """The row of a quantity, or of the signed rotation whose size it is; None if there is none."""
-        return self._by_id.get(id)
-
-    def row(self, id: str) -> Row:
-        """The row of a quantity.  Raises `KeyError` if there is none."""
-        return self._by_id[id]
-
-    @cached_property
-    def _by_id(self) -> Mapping[str, Row]:
-        return {row.size: row for row in self.rows} | {row.id: row for row in self.rows}
-
-    @property
-    def asked(self) -> tuple[Row, ...]:
-        """The rows of the answer sheet, in order."""
-        return tuple(row for row in self.rows if row.positions)
 
 
 def words_of(key: Key) -> Mapping[str, Any]:
@@ -138,46 +40,20 @@ def shown_number(row: Row, value: float) -> Number:
     return Number(value if row.decimals is not None else float(f"{value:.12g}"), row.decimals)
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
-    """The positions that a key has: those of the cycle by their labels, `count` of them in a turn.
-
-    Those in `worked` are written out in full; of very many only those in `printed` stand in the document.
-    """
-
-    labels: tuple[str, ...]
-    count: int
-    worked: tuple[int, ...]
-    printed: tuple[int, ...] = ()
-
-
-INSTANT = Span(("1",), 1, (1,))
-"""The one position of an exercise."""
-
-
-@singledispatch
-def make_key(case: Opened) -> Key:
-    """The key of a case, from the ledger that its report prints."""
-    raise TypeError(type(case).__name__)
-
-
-@make_key.register
-def of_machine(case: Case) -> Key:
+def machine_key(case: Calculation) -> Key:
     """The key of a machine, over all positions of its cycle."""
-    machine, report = case.analysis.machine, open_report(case)
+    machine, report = case.analysis.machine, Report(case)
     labels = tuple(str(machine.position(k)) for k in range(1, machine.positions + 1))
     printed = report.all_positions if report.thinned else ()
     span = Span(labels, machine.count, tuple(case.assignment.worked_positions), printed)
-    return _key(case, case.ledger, span, lambda id: positive_sense(id, report))
+    return make_key(case, case.ledger, span, lambda id: positive_sense(id, report))
 
 
-@make_key.register
-def of_exercise(case: ExerciseCase) -> Key:
-    """The key of an exercise, whose quantities are all sizes."""
-    return _key(case, case.ledger, INSTANT, lambda _: "")
+def make_key(case: Opened, ledger: Ledger, span: Span = INSTANT, sense_of: Callable[[str], str] = lambda id: "") -> Key:
+    """The key of an assignment from the ledger that its report prints, over the positions of its `span`.
 
-
-def _key(case: Opened, ledger: Ledger, span: Span, sense_of: Callable[[str], str]) -> Key:
+    `sense_of` a quantity is which sense of it counts as positive, in words; without it all are sizes.
+    """
     assignment, words, worked = case.assignment, case.words, span.worked
     by_rule = trapezoid_errors(ledger)
     on_paper, by_rounding = drawn_bands(ledger), computed_bands(ledger)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.answers.key import Key, Row, shown_number, symbol_text, words_of
+from reportgen.answers.key import shown_number, symbol_text, words_of
 from reportgen.answers.paper import (
     DASH,
     cells,
@@ -24,6 +24,7 @@ from reportgen.answers.paper import (
 )
 from reportgen.answers.sheet import Filling, grid, info_page, number_format, page
 from reportgen.document import tree
+from reportgen.document.key import Key, Row
 from reportgen.document.tree import Cell, Column, Document, InlineMath, Inlines, Table, Text
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.notation.numbers import significant_decimals

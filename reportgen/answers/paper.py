@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
-from functools import singledispatch
 from itertools import groupby
 from typing import Any
 
-from reportgen.answers.key import Key, Role, Row, words_of
+from reportgen.answers.key import words_of
 from reportgen.answers.sheet import asked_positions, info_rows, open_cells
-from reportgen.case import Case, ExerciseCase, Opened
+from reportgen.case import Calculation, Opened
 from reportgen.document import tree
+from reportgen.document.key import Key, Role, Row
 from reportgen.document.numbering import number
 from reportgen.document.outline import open_report
-from reportgen.document.prose import Prose
 from reportgen.document.report import PLATES_UP_TO
 from reportgen.document.tree import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
 from reportgen.figures.metrics import box
@@ -116,52 +115,40 @@ def shared_symbols(rows: Iterable[Row]) -> frozenset[Symbol]:
 # --- the task -------------------------------------------------------------------------------------
 
 
-@singledispatch
-def task(case: Opened, key: Key, by_section: bool = False) -> Document:
-    """What a student is handed, from the given data to the empty answer sheet; no answer is in it.
+def machine_task(case: Calculation, key: Key, by_section: bool = False) -> Document:
+    """The task of a machine, from the given data to the empty answer sheet; no answer is in it.
 
     `by_section` puts each section of the sheet on pages of its own, headed by whose it is.  Raises `TemplateError`.
     """
-    raise TypeError(type(case).__name__)
-
-
-@task.register
-def of_exercise(case: ExerciseCase, key: Key, by_section: bool = False) -> Document:
-    """The task of an exercise: what is given and asked, the system, and the sheet."""
-    from reportgen.document.exercise import task_names
-
-    tables = tuple(_sections(key) if by_section else answer_tables(key))
-    blocks = Prose(case.directories).render("exercise-task.md", {**task_names(case), "answer_tables": tables})
-    about = case.assignment.report
-    owner = (*fields(student_rows(key)), *blocks)
-    return paper(case.assignment.language, case.words, case.course, owner, about.student.name or "", key.variant)
-
-
-@task.register
-def of_machine(case: Case, key: Key, by_section: bool = False) -> Document:
-    """The task of a machine."""
     report = open_report(case)
-    prose, names, words, machine = report.prose, report.names(), case.words, case.analysis.machine
+    prose, names, machine = report.prose, report.names(), case.analysis.machine
     every = range(1, machine.positions + 1)
     asked = asked_positions(key)
     (title, *given) = prose.render("given.md", names)
     names |= {
-        "answer_tables": tuple(_sections(key) if by_section else answer_tables(key)),
+        "answer_tables": empty_sheet(key, by_section),
         "asks_scales": any(row.role is Role.scale for row in key.asked),
         "asked": tuple(map(key.label, asked)),
         "known_tables": tuple(_known_tables(key, every if machine.count <= PLATES_UP_TO else asked)),
     }
-    about = case.assignment.report
-    blocks: list[Block] = [
-        title,
-        Paragraph((tree.Strong((Text(case.title),)),), "center"),
-        *fields(student_rows(key)),
-        *given,
-        *prose.render("task.md", names),
-    ]
-    return paper(
-        case.assignment.language, words, case.course, blocks, about.student.name or "", case.assignment.variant
+    return task_paper(
+        case,
+        key,
+        (title, Paragraph((tree.Strong((Text(case.title),)),), "center")),
+        (*given, *prose.render("task.md", names)),
     )
+
+
+def task_paper(case: Opened, key: Key, title: Iterable[Block], blocks: Iterable[Block]) -> Document:
+    """A task: whose it is between its title and what follows."""
+    student = case.assignment.report.student.name or ""
+    contents = (*title, *fields(student_rows(key)), *blocks)
+    return paper(case.assignment.language, case.words, case.course, contents, student, key.variant)
+
+
+def empty_sheet(key: Key, by_section: bool) -> tuple[Block, ...]:
+    """The answer sheet to fill in by hand; `by_section` with each section on pages of its own."""
+    return tuple(_sections(key) if by_section else answer_tables(key))
 
 
 def _sections(key: Key) -> Iterator[Block]:

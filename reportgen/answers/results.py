@@ -9,13 +9,12 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from functools import singledispatch
 from typing import Any
 
 import numpy as np
 
 from reportgen.analysis import Analysis
-from reportgen.case import Case, ExerciseCase, Opened
+from reportgen.case import Calculation, Opened
 from reportgen.mechanism.forces import Load
 from reportgen.mechanism.structure import Crank
 from reportgen.notation.numbers import Language, significant_decimals, write
@@ -24,55 +23,17 @@ from reportgen.words import word
 FORMAT = "reportgen-results/1"
 
 
-@singledispatch
-def results(case: Opened) -> dict[str, Any]:
-    """The contract's JSON object of a case: one entry a position, null where it cannot be reached."""
-    raise TypeError(type(case).__name__)
+def results(case: Opened, positions: list[Any], **more: Any) -> dict[str, Any]:
+    """The contract's JSON object of a case: one entry a position, null where it cannot be reached; `more` before it."""
+    about = {"format": FORMAT, "kind": case.assignment.kind, "variant": case.assignment.variant, "units": "SI"}
+    return {**about, **more, "positions": positions}
 
 
-@results.register
-def of_machine(case: Case) -> dict[str, Any]:
+def machine_results(case: Calculation) -> dict[str, Any]:
     """The object of a machine, an entry a position."""
-    assignment, analysis = case.assignment, case.analysis
-    machine = analysis.machine
-    return {
-        "format": FORMAT,
-        "kind": assignment.kind,
-        "variant": assignment.variant,
-        "units": "SI",
-        "dyad_signs": {f"{dyad.links[0]}{dyad.links[1]}": dyad.sign for dyad in machine.linkage.dyads},
-        "positions": [_position(analysis, k) for k in range(len(analysis.cycle_angle))],
-    }
-
-
-@results.register
-def of_instant(case: ExerciseCase) -> dict[str, Any]:
-    """The same object of an exercise, whose one position has its number alone; null is what is not determined."""
-    assignment, motion = case.assignment, case.exercise.motion
-    points = {
-        name: {
-            "p": _pair(place),
-            "v": _pair(motion.v(name)) if motion.knows_velocity(name) else None,
-            "a": _pair(motion.a(name)) if motion.knows_acceleration(name) else None,
-        }
-        for name, place in motion.system.points.items()
-        if motion.system.body_of(name)
-    }
-    links = {
-        str(body): {
-            "omega": motion.omega(body) if motion.knows_omega(body) else None,
-            "epsilon": motion.epsilon(body) if motion.knows_epsilon(body) else None,
-            "centre": None if not motion.knows_centre(body) or (at := motion.centre(body)) is None else _pair(at),
-        }
-        for body in motion.system.bodies
-    }
-    return {
-        "format": FORMAT,
-        "kind": assignment.kind,
-        "variant": assignment.variant,
-        "units": "SI",
-        "positions": [{"number": 1, "points": points, "links": links}],
-    }
+    analysis = case.analysis
+    signs = {f"{dyad.links[0]}{dyad.links[1]}": dyad.sign for dyad in analysis.machine.linkage.dyads}
+    return results(case, [_position(analysis, k) for k in range(len(analysis.cycle_angle))], dyad_signs=signs)
 
 
 def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
@@ -87,7 +48,7 @@ def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
         **({} if crank else {"driver_way": float(abs(motion.driver[k] - analysis.machine.start))}),
         "cycle_angle": float(analysis.cycle_angle[k]),
         "points": {
-            name: {"p": _pair(point.p[k]), "v": _pair(point.v[k]), "a": _pair(point.a[k])}
+            name: {"p": pair(point.p[k]), "v": pair(point.v[k]), "a": pair(point.a[k])}
             for name, point in motion.points.items()
             if name not in linkage.ground
         },
@@ -108,9 +69,9 @@ def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
     if analysis.gas:
         entry["pressures"] = {name.replace("P", "p"): float(gas.pressure[k]) for name, gas in analysis.gas.items()}
     reactions = analysis.forces.reactions.items()
-    entry["reactions"] = {name: _pair(reaction.force[k]) for name, reaction in reactions}
+    entry["reactions"] = {name: pair(reaction.force[k]) for name, reaction in reactions}
     entry["reactions_in_guides"] = {
-        name: {"moment": float(reaction.moment[k]), "point": _pair(reaction.point[k])}
+        name: {"moment": float(reaction.moment[k]), "point": pair(reaction.point[k])}
         for name, reaction in reactions
         if _slides(analysis, name)
     }
@@ -124,13 +85,13 @@ def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
 def _applied(analysis: Analysis, k: int) -> dict[str, Any]:
     """Forces as [x, y]; a torque, which has no force, as it is in `weights` and `inertia`."""
     torques = {torque.name for torque in analysis.machine.torques}
-    forces = {load.name: _pair(load.force[k]) for load in analysis.applied if load.name not in torques}
+    forces = {load.name: pair(load.force[k]) for load in analysis.applied if load.name not in torques}
     return {**forces, **_loads(tuple(load for load in analysis.applied if load.name in torques), k)}
 
 
 def _loads(loads: tuple[Load, ...], k: int) -> Mapping[str, Any]:
     return {
-        load.name: {"force": _pair(load.force[k]), "point": _pair(load.point[k]), "couple": float(load.couple[k])}
+        load.name: {"force": pair(load.force[k]), "point": pair(load.point[k]), "couple": float(load.couple[k])}
         for load in loads
     }
 
@@ -143,7 +104,7 @@ def _slides(analysis: Analysis, name: str) -> bool:
     return pair in analysis.motion.slides or pair[::-1] in analysis.motion.slides
 
 
-def _pair(value: complex) -> list[float] | None:
+def pair(value: complex) -> list[float] | None:
     """[x, y], or null for a point that does not exist."""
     if not np.isfinite(value):
         return None

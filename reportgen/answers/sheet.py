@@ -11,7 +11,8 @@ from itertools import groupby
 
 import numpy as np
 
-from reportgen.answers.key import Key, Role, Row, shown_number, symbol_text, words_of
+from reportgen.answers.key import shown_number, symbol_text, words_of
+from reportgen.document.key import Key, Role, Row
 from reportgen.notation.vocabulary import Chapter
 from reportgen.workbook import Book, Entry, Sheet
 

@@ -48,11 +48,6 @@ def _body(link: str, phrases: Mapping[str, str]) -> str:
     return str(phrases["frame"]) if link == "0" else str(phrases["link"]).format(link=link)
 
 
-def capitalised(text: str) -> str:
-    """A phrase as it stands at the head of a row."""
-    return text[:1].upper() + text[1:]
-
-
 def _uncapitalised(text: str) -> str:
     """A name of the given data as it stands in a sentence; what begins with an abbreviation stays."""
     return text if text[1:2].isupper() else text[:1].lower() + text[1:]

@@ -11,13 +11,15 @@ from functools import cached_property
 from pathlib import Path
 
 from reportgen import api
-from reportgen.answers.key import Key
 from reportgen.api import Engine
 from reportgen.batch import gradebooks
 from reportgen.batch.downloads import Owner, handed_in, zipped
 from reportgen.batch.roster import Student, assignment_files, comparable, folder_name, read_roster
 from reportgen.batch.sheets import read_sheets
+from reportgen.cases import open_case
+from reportgen.document.key import Key
 from reportgen.errors import AssignmentError, Fault, Mark, Problem, ReportgenError
+from reportgen.files import put_files, reported
 from reportgen.grading.feedback import feedback_book, feedback_document
 from reportgen.grading.grades import class_document, grade_rows, person
 from reportgen.grading.guard import Classmate
@@ -47,7 +49,7 @@ class Classroom:
         """The marking guide of an assignment.  Raises `KeyError` for a name that no file has."""
         stem = comparable(name)
         if stem not in self.opened:
-            guide = open_guide(api.load(self.files[stem], self.language), self.policy)
+            guide = open_guide(open_case(self.files[stem], self.language), self.policy)
             known = self.people[stem].card if stem in self.people else {}
             student = {name: known[name] for name in ("name", "id", "class") if name in known}
             student |= dict(guide.key.student)
@@ -213,9 +215,9 @@ def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language 
 
 def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None) -> Iterator[Path]:
     """Write every file of a graded class below `out`, each in one step; raises `OutputError`."""
-    with api.reported(out), scratch(out):
+    with reported(out), scratch(out):
         for name, content in files_of(graded, policy, engine, language):
-            yield from api.put(out / name.parent, {name.name: content})
+            yield from put_files(out / name.parent, {name.name: content})
 
 
 def put_gradebook(
@@ -228,7 +230,7 @@ def put_gradebook(
     content, faults = gradebooks.fill(path, graded.results(), policy.scale, column, language)
     # The file that was downloaded stays as it is.
     taken = path.name == "grades.csv" or (out / path.name).resolve() == path.resolve()
-    (written,) = api.put(out, {f"filled-{path.name}" if taken else path.name: content})
+    (written,) = put_files(out, {f"filled-{path.name}" if taken else path.name: content})
     return written, [as_problem(fault, language) for fault in faults]
 
 

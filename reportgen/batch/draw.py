@@ -24,23 +24,17 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from reportgen import catalogue
-from reportgen.analysis import Analysis, motion_at
 from reportgen.batch.editing import path_text
 from reportgen.batch.roster import Roster, Student
 from reportgen.batch.spec import DRAWN_SECTIONS, Settings, Spec, place
-from reportgen.case import ExerciseCase, opened
-from reportgen.catalogue.machine import Machine
+from reportgen.cases import opened
 from reportgen.errors import Fault
 
 ATTEMPTS = 64
 MOST_TRIED = 4096
 MOST_REASONS = 3
 FORMAT = "reportgen-draw/1"
-STEPS = 720
-"""Places in a turn, half a degree apart, that the mechanism must reach."""
 
 Judge = Callable[[Settings], tuple[Fault, ...]]
 """Finds what is wrong with the assignment of some values; nothing if it is usable."""
@@ -183,31 +177,7 @@ def judge_of(spec: Spec) -> Judge:
         assignment, faults = catalogue.assess(spec.source(settings), spec.path)
         if assignment is None:
             return tuple(faults)
-        try:
-            case = opened(assignment)
-            if isinstance(case, ExerciseCase):
-                # That it moves, and only in one way, is among its checks.
-                return ()
-            analysis = case.analysis
-            if not _turns(analysis.machine):
-                return (Fault("not-turning", spec.mark),)
-            return () if _finite(analysis) else (Fault("not-finite-results", spec.mark),)
-        except np.linalg.LinAlgError:
-            return (Fault("not-finite-results", spec.mark),)
+        code = opened(assignment).fault()
+        return (Fault(code, spec.mark),) if code else ()
 
     return judge
-
-
-def _turns(machine: Machine) -> bool:
-    """Whether the mechanism assembles all the way round (or along, for a sliding driver)."""
-    return bool(motion_at(machine, np.linspace(0.0, 2 * np.pi, STEPS, endpoint=bool(machine.span))).reachable.all())
-
-
-def _finite(analysis: Analysis) -> bool:
-    """Whether motion, reactions and both torques are finite at every position."""
-    motion = analysis.motion
-    arrays = [part for link in motion.links.values() for part in (link.angle, link.omega, link.epsilon)]
-    if analysis.loads:
-        arrays += [analysis.torque, analysis.torque_by_work]
-        arrays += [np.abs(reaction.force) for reaction in analysis.forces.reactions.values()]
-    return bool(motion.reachable.all()) and all(bool(np.isfinite(array).all()) for array in arrays)

@@ -17,8 +17,8 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from reportgen import api
 from reportgen.batch.pool import Job, Outcome
+from reportgen.files import put_file
 
 NAME = "manifest.json"
 JOURNAL = ".manifest.journal"
@@ -93,7 +93,7 @@ def write(out: Path, entries: Iterable[Entry]) -> Path:
     content = {"format": FORMAT, "students": students}
     target = out / NAME
     text = json.dumps(content, ensure_ascii=False, indent=1, sort_keys=True) + "\n"
-    api.replace(target, text.encode())
+    put_file(target, text.encode())
     (out / JOURNAL).unlink(missing_ok=True)
     return target
 

@@ -20,7 +20,8 @@ from reportgen.batch.manifest import Entry
 from reportgen.batch.pool import Job, Outcome, Pool, failed, local, making
 from reportgen.batch.roster import Assigned, Roster, Student, match_files, read_roster
 from reportgen.batch.variants import make_variants
-from reportgen.errors import Fault, Mark, Problem
+from reportgen.errors import Fault, Mark, OutputError, Problem
+from reportgen.files import put_file, reported
 from reportgen.notation.numbers import Language, write
 from reportgen.scratch import held, scratch
 from reportgen.words import DEFAULT_LANGUAGE, as_problem, counted, word
@@ -33,7 +34,7 @@ DRAWN = "assignments"
 NO_ROOM = frozenset({errno.ENOSPC, errno.EROFS, errno.EIO, getattr(errno, "EDQUOT", errno.ENOSPC)})
 """Errors that every other student would meet, too."""
 _TEMPORARY = re.compile(r"\..+\.(?:pdf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
-"""What `api.replace` leaves when it is killed."""
+"""What `files.replace` leaves when it is killed."""
 
 Event = Literal["kept", "retried", "done", "failed"]
 """`kept`: made by an earlier run; `retried`: its worker died, another one begins anew."""
@@ -112,7 +113,7 @@ def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS
         name: partial(makers[name], ask=order.ask) if _asked(order, name) else makers[name] for name in order.products
     }
     workers = pool or _pool(order)
-    with locked(order.out, order.language), api.reported(order.out), scratch(order.out) as temporary:
+    with locked(order.out, order.language), reported(order.out), scratch(order.out) as temporary:
         return _run(order, roster, chosen, workers, stream, None if order.cluster else temporary)
 
 
@@ -133,7 +134,7 @@ def _run(
     before = manifest.read(out)
     number = {student.id: number for number, (student, _) in enumerate(assigned)}
     entries = {key: entry for key, entry in before.items() if entry.student in number}
-    with api.reported(out):
+    with reported(out):
         result = Result(manifest.write(out, entries.values()), notes)
     how = {name: making(order.engine, order.language, _asked(order, name)) for name in makers}
     kept: list[Job] = []
@@ -157,7 +158,7 @@ def _run(
         def add(entry: Entry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
             """Each entry stands in the journal before its event is shown."""
             entries[entry.student, entry.product] = entry
-            with api.reported(out):
+            with reported(out):
                 record(entry)
             result.exit_code = max(result.exit_code, exit_code)
             if problems:
@@ -180,7 +181,7 @@ def _run(
                 file_name = files[job.student]
                 problems = tuple(one if isinstance(one, str) else one.in_file(file_name) for one in outcome.problems)
                 add(manifest.entry(job, outcome), problems, outcome.exit_code)
-    with api.reported(out):
+    with reported(out):
         manifest.write(out, entries.values())
     result.failures.sort(key=lambda failure: number[failure.student])
     if gone := {entry.student for entry in before.values()} - number.keys():
@@ -297,12 +298,12 @@ def locked(out: Path, language: Language | None) -> Iterator[None]:
     Raises `OutputError` if there is another one, or if there can be no such folder.
     """
     with ExitStack() as lock:
-        with api.reported():
+        with reported():
             out.mkdir(parents=True, exist_ok=True)
             try:
                 lock.enter_context(held(out))
             except BlockingIOError as error:
-                raise api.OutputError(word("out_in_use", language, out=out)) from error
+                raise OutputError(word("out_in_use", language, out=out)) from error
         yield
 
 
@@ -324,13 +325,13 @@ def _put(job: Job, outcome: Outcome, out: Path, earlier: Entry | None) -> Outcom
         if outcome.files:
             (out / job.folder).mkdir(exist_ok=True)
         for name, content in outcome.files.items():
-            api.replace(out / job.folder / name, content)
+            put_file(out / job.folder / name, content)
         if outcome.files and earlier is not None and earlier.folder == job.folder:
             for path in earlier.outlived(outcome.files, out):
                 path.unlink(missing_ok=True)
     except OSError as error:
         if error.errno in NO_ROOM:
-            raise api.OutputError(f"{error.filename or ''}: {error.strerror or error}") from error
+            raise OutputError(f"{error.filename or ''}: {error.strerror or error}") from error
         text = word("system", job.making.language, text=error.strerror or error)
         return failed(f"{job.folder}: {text}")
     return outcome

@@ -18,16 +18,16 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from reportgen import api, catalogue
+from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.batch.draw import Draw, Drawn, judge_of, shared
 from reportgen.batch.editing import at, path_text, put, quoted, text_of
 from reportgen.batch.pool import Limits, each_within
 from reportgen.batch.roster import read_roster
 from reportgen.batch.spec import Spec, assembled, read_spec
-from reportgen.case import Case, opened
+from reportgen.cases import opened
 from reportgen.errors import Fault, Mark, Where
-from reportgen.ledger.report import enter_plans
+from reportgen.files import put_file
 from reportgen.notation.numbers import Language
 from reportgen.source import Node, Scalar, Source, Table, read_source
 from reportgen.words import as_error, version, word
@@ -140,8 +140,8 @@ def make_variants(
     out.mkdir(parents=True, exist_ok=True)
     for file in files:
         if file.state in ("new", "changed"):
-            api.replace(file.path, file.text.encode())
-    api.replace(out / TABLE, _csv(files, efforts))
+            put_file(file.path, file.text.encode())
+    put_file(out / TABLE, _csv(files, efforts))
     remarks = (*_remarks(files, efforts, spec.language), *_sharing(draw, files, spec))
     known = {file.drawn.student.id: one for file, one in zip(files, efforts, strict=True) if one is not None}
     return Variants(tuple(files), remarks, tuple(_summary(known, spec.language)))
@@ -231,15 +231,15 @@ def _effort_of(file: StudentFile) -> Effort | None:
 def effort(assignment: Assignment) -> Effort:
     """The figures of an assignment, from what is derived at each of its positions."""
     case = opened(assignment)
-    analysis = case.analysis if isinstance(case, Case) else None
-    families = (enter_plans(analysis, (), analysis.machine.formulas)[0] if analysis else case.ledger).families.values()
-    derived = [one for one in families if one.definition is not None and not one.hidden and not one.is_plane]
+    balance = case.balance
+    derived = [
+        one for one in case.families.values() if one.definition is not None and not one.hidden and not one.is_plane
+    ]
     zeros = sum(one.at(position) == 0 for one in derived if one.scale for position in range(1, len(one.values) + 1))
-    balance = np.real(analysis.torque) if analysis and analysis.loads else None
     return Effort(
         worked=sum(len(one.values) for one in derived),
         largest=None if balance is None else float(np.max(np.abs(balance))),
-        speed=analysis.machine.speed if analysis else None,
+        speed=case.speed,
         positive=None if balance is None else float(np.mean(balance > 0)),
         zeros=int(zeros),
     )

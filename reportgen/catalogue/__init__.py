@@ -5,7 +5,7 @@ A machine is found because its module is here and its words are in `templates/<l
 `Parameters` and, if it has one, `Indicator`, and `CHECKS`; `added_positions` if a turn has more positions than the
 evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
 
-A kind that is no machine but one instant of a system says `MAKES = "exercise"`, and makes one by `exercise`.
+A kind that is no machine gives `case` in place of `machine`, which makes a case of its own.
 """
 
 from __future__ import annotations
@@ -14,11 +14,12 @@ from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Literal
+from typing import Any
 
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
 from reportgen.catalogue import reach
+from reportgen.catalogue.machine import Machine
 from reportgen.errors import AssignmentError, Fault, Finding, Problem
 from reportgen.kinds import kinds
 from reportgen.notation.numbers import Language
@@ -29,15 +30,6 @@ from reportgen.words import as_error
 def module(kind: str) -> ModuleType:
     """The module of a kind; raises `KeyError` for a kind nobody knows."""
     return import_module(f"{__name__}.{kinds()[kind]}")
-
-
-Makes = Literal["machine", "exercise"]
-
-
-def makes(kind: str) -> Makes:
-    """What the module of a kind makes of an assignment; raises `KeyError` for a kind nobody knows."""
-    what: Makes = getattr(module(kind), "MAKES", "machine")
-    return what
 
 
 def kind(name: str) -> Kind:
@@ -52,15 +44,15 @@ def kind(name: str) -> Kind:
         (*shared(), *machine.CHECKS),
         getattr(machine, "added_positions", none_added),
         getattr(machine, "INDICATOR_OPTIONAL", False),
-        has_positions=makes(name) == "machine",
+        has_positions=getattr(machine, "HAS_POSITIONS", True),
     )
 
 
 def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
     """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
     assignment, faults = understood(source, path)
-    if assignment is not None and makes(assignment.kind) == "machine":
-        faults = reading.placed(source, _out_of_reach(assignment))
+    if assignment is not None and (machine_of := getattr(module(assignment.kind), "machine", None)) is not None:
+        faults = reading.placed(source, _out_of_reach(machine_of(assignment)))
     return (None if faults else assignment), faults
 
 
@@ -69,9 +61,8 @@ def understood(source: Source, path: Path) -> tuple[Assignment | None, list[Faul
     return reading.assess(source, path, kinds(), kind)
 
 
-def _out_of_reach(assignment: Assignment) -> Iterator[Finding]:
-    """Whether the machine of an assignment comes too near to a dead point on its way, or is too large to draw."""
-    machine = module(assignment.kind).machine(assignment)
+def _out_of_reach(machine: Machine) -> Iterator[Finding]:
+    """Whether a machine comes too near to a dead point on its way, or is too large to draw."""
     way = reach.Way(machine.start, machine.start + machine.turn * machine.span, False) if machine.span else reach.Way()
     yield from reach.near_dead_point(machine.linkage, way, ("parameters",))
     if machine.drawn:

@@ -1,7 +1,6 @@
 """Exercises of plane motion: one instant of a system of rigid bodies, as the file declares it.
 
-There is no machine in it: no driver that goes round, no positions, no forces.  The module makes an `Exercise`, and
-whoever opens an assignment finds out from `MAKES` which of the two it is.
+There is no machine in it: no driver that goes round, no positions, no forces.  So its case is one of its own.
 """
 
 from __future__ import annotations
@@ -16,9 +15,10 @@ from reportgen.plane_motion.motion import Motion
 
 if TYPE_CHECKING:
     from reportgen.assignment import Assignment
+    from reportgen.exercise_case import ExerciseCase
 
 TURNS = 1
-MAKES = "exercise"
+HAS_POSITIONS = False
 CHECKS = (check,)
 
 
@@ -38,3 +38,10 @@ def exercise(assignment: Assignment) -> Exercise:
     """The exercise of an assignment that is in order."""
     given: Parameters = assignment.parameters
     return Exercise(given, Motion(system(given)))
+
+
+def case(assignment: Assignment) -> ExerciseCase:
+    """The case of an assignment."""
+    from reportgen.exercise_case import ExerciseCase
+
+    return ExerciseCase(assignment)

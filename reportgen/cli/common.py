@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 import typer
 
 from reportgen.errors import AssignmentError, ReportgenError
+from reportgen.files import put_file
 from reportgen.notation.numbers import Language
 
 AT_FAULT, SYSTEM, INTERRUPTED = 1, 3, 130
@@ -106,9 +107,8 @@ def listed(text: str, known: Collection[str], option: str, complaint: str, lang:
 
 def write(path: Path, text: str) -> None:
     """To standard output for `-`; else to the file, which is replaced only once all is written."""
-    from reportgen import api
 
     if str(path) == "-":
         sys.stdout.write(text)
     else:
-        api.replace(path, text.encode())
+        put_file(path, text.encode())

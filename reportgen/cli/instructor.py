@@ -22,6 +22,7 @@ from reportgen.cli.common import (
     listed,
     say,
 )
+from reportgen.files import put_files, reported
 
 PolicyOption = Annotated[
     Path | None,
@@ -124,9 +125,9 @@ def key(
         api.check_ask(ask, files, lang)
 
     def work(file: Path) -> None:
-        with api.reported(out), scratch(out):
+        with reported(out), scratch(out):
             made = api.key_files(file, engine, lang, formats, ask)
-        print(*api.put(out / file.stem, made), sep="\n", flush=True)
+        print(*put_files(out / file.stem, made), sep="\n", flush=True)
 
     for_each(files, lang, work)
 

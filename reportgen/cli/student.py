@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -16,12 +17,18 @@ from reportgen.cli.common import (
     Files,
     LangOption,
     app,
+    complain,
     ending,
     for_each,
     listed,
     say,
     write,
 )
+from reportgen.files import put_files, put_sheets, reported
+
+if TYPE_CHECKING:
+    from reportgen.document.case import Case
+    from reportgen.document.tree import Document
 
 
 @app.command()
@@ -81,9 +88,9 @@ def sheet(
         path = None if block is None else known.get(block, Path(block))
         if path is not None and not path.is_file():
             raise typer.BadParameter(say("no_block", lang, name=block, known=", ".join(known)), param_hint="--block")
-        with api.reported(), scratch(out):
+        with reported(), scratch(out):
             made = api.sheet_files(file, "typst", lang, size or "", () if sets == "all" else (sets,), formats, path)
-            print(*api.put_sheets(out / assignment.id, made), sep="\n", flush=True)
+            print(*put_sheets(out / assignment.id, made), sep="\n", flush=True)
 
     for_each(files, lang, work)
 
@@ -97,10 +104,26 @@ def watch(
     lang: LangOption = None,
 ) -> None:
     """Show the report of FILE in a browser, renewed whenever FILE changes; Ctrl-C ends it."""
+    from reportgen.cases import open_case
+    from reportgen.watch.session import nobody
     from reportgen.watch.session import watch as serve
 
     with ending(lang):
-        serve(file, lang, out, pdf, browser=not no_open)
+        serve(file, open_case, lang, _pdf_writer(file, out) if pdf else nobody, browser=not no_open)
+
+
+def _pdf_writer(path: Path, out: Path) -> Callable[[Case, Document], None]:
+    """Writes each finished report as PDF, whole or not at all; says in a line what keeps it from that."""
+    from reportgen.api import typeset
+    from reportgen.errors import ReportgenError
+
+    def write(case: Case, document: Document) -> None:
+        try:
+            print(*put_files(out / path.stem, {"report.pdf": typeset(document, "typst")[1]}), flush=True)
+        except ReportgenError as error:
+            complain(say("system", case.assignment.language, text=error))
+
+    return write
 
 
 @app.command()
@@ -131,7 +154,7 @@ def solve(
     with ending(lang):
         if formats:
             files = api.result_files(file, formats, positions, lang)
-            print(*api.put(out / file.stem, files), sep="\n", flush=True)
+            print(*put_files(out / file.stem, files), sep="\n", flush=True)
         if formats and json_file is None:
             return
         assignment = api.load(file, lang)
@@ -200,9 +223,10 @@ def compare(
     lang: LangOption = None,
 ) -> None:
     """Check your own SHEET before handing it in: where it first leaves the assignment, without answers."""
+    from reportgen.cases import open_case
     from reportgen.grading.marking import compare as compared
 
     with ending(lang):
-        lines, agrees = compared(file, sheet, hint, lang)
+        lines, agrees = compared(open_case(file, lang), sheet, hint)
         print(*lines, sep="\n")
         raise typer.Exit(0 if agrees else AT_FAULT)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from pathlib import Path
 
-from reportgen.case import Case
+from reportgen.case import Calculation
 from reportgen.document.drawn_plates import Plates
 from reportgen.document.outline import open_report
 from reportgen.document.sheet_search import Search
@@ -18,7 +18,9 @@ from reportgen.words import word
 USUAL_SIZES = ("A1", "A0")
 
 
-def drawing_sheets(case: Case, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[Sheet]:
+def drawing_sheets(
+    case: Calculation, size: str = "", sets: Collection[str] = (), block: Path | None = None
+) -> list[Sheet]:
     """The finished drawing sheets of a case: of one `size`, else as the file says, else A1, or A0 if a plate needs it.
 
     `sets` are some of `SETS`, all if none is named; the title `block` is a file, else that of the language.  Raises

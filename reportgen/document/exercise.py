@@ -8,7 +8,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from reportgen.case import ExerciseCase
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_symbols import Literal, symbol
 from reportgen.document.exercise_figures import FIGURES
@@ -30,6 +29,7 @@ from reportgen.document.tree import (
     Words,
     listed,
 )
+from reportgen.exercise_case import ExerciseCase
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Chain, Negative, Number, Symbol
 from reportgen.units import Given

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from reportgen.case import ExerciseCase
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_places import direction
 from reportgen.document.exercise_axes import Axes
+from reportgen.exercise_case import ExerciseCase
 from reportgen.figures import instant, style
 from reportgen.figures.scene import Scene
 from reportgen.notation import vocabulary

@@ -10,11 +10,11 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from reportgen.case import ExerciseCase
 from reportgen.catalogue.plane_motion_symbols import symbol
 from reportgen.document.exercise_axes import COORDINATES, Axes
 from reportgen.document.prose import PointName
 from reportgen.document.tree import Equation, InlineMath, Inlines, Text, Value
+from reportgen.exercise_case import ExerciseCase
 from reportgen.ledger.instant.steps import Step
 from reportgen.ledger.instant.vectors import Vector
 from reportgen.ledger.instant.write import Worked

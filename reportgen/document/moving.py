@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.analysis import FULL_TURN, Analysis, analyse, breaks, motion_at
-from reportgen.case import Case
+from reportgen.case import Calculation
 from reportgen.catalogue.machine import Machine
 from reportgen.document.curves import axis, curves_of_motion, over_a_turn, over_the_cycle, torque_chart
 from reportgen.document.figures import MM, drawing_scale, looks, short
@@ -71,7 +71,7 @@ DIGITS, MOST_DECIMALS = 5, 5
 POLE = Track(np.zeros(1, complex))
 
 
-def film(case: Case) -> Film:
+def film(case: Calculation) -> Film:
     """All that moves on the page of a case."""
     return _Samples(case.drawn).film()
 
@@ -80,7 +80,7 @@ def film(case: Case) -> Film:
 class _Samples:
     """A case at the samples of its cycle."""
 
-    case: Case
+    case: Calculation
 
     @property
     def machine(self) -> Machine:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import singledispatch
 from typing import Any
 
-from reportgen.case import Case, ExerciseCase, Opened
+from reportgen.case import Calculation
 
 # Importing a module registers its figures, tables and functions.
 from reportgen.document import (  # noqa: F401
@@ -27,28 +26,13 @@ from reportgen.document.report import Report
 from reportgen.document.tree import Block, Contents, Cover, Document, PageBreak, Words
 
 
-def open_report(case: Case) -> Report:
-    """The report of a case with all figures, tables and functions that its templates may call."""
+def open_report(case: Calculation) -> Report:
+    """The report of a machine with all figures, tables and functions that its templates may call."""
     return Report(case)
 
 
-@singledispatch
-def compose(case: Opened) -> Document:
-    """The finished, numbered document of a case; raises `TemplateError` for a fault in its words."""
-    raise TypeError(type(case).__name__)
-
-
-@compose.register
-def of_exercise(case: ExerciseCase) -> Document:
-    """The solution of an exercise; no machine needs what it is made with."""
-    from reportgen.document.exercise import solution
-
-    return solution(case)
-
-
-@compose.register
-def of_machine(case: Case) -> Document:
-    """The report of a machine."""
+def compose(case: Calculation) -> Document:
+    """The finished, numbered report of a machine; raises `TemplateError` for a fault in its words."""
     report = open_report(case)
     words, names = report.words, report.names()
     blocks: list[Block] = [_cover(report)]

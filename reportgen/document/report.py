@@ -15,7 +15,7 @@ import numpy as np
 
 from reportgen.analysis import FULL_TURN, Analysis, analyse
 from reportgen.assignment import Assignment
-from reportgen.case import Case
+from reportgen.case import Calculation
 from reportgen.catalogue.loads import Applied, Piston, Torque
 from reportgen.catalogue.machine import Machine, Position
 from reportgen.document.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
@@ -65,7 +65,7 @@ class Report:
     On a drawing sheet curves have an `area` and round scales, and long tables a `form`.
     """
 
-    case: Case
+    case: Calculation
     area: Area | None = None
     form: Form = USUAL_FORM
 

@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Flag, Interval, Line
 from reportgen.assignment.reading import placed, read_model
-from reportgen.case import Case
+from reportgen.case import Opened
 from reportgen.errors import Finding
 from reportgen.figures import frame
 from reportgen.figures.scene import Scene
@@ -122,7 +122,7 @@ def _findings(cell: _Cell, index: int, block: _File) -> Iterator[Finding]:
             yield Finding("block-field", (*where, "text"), {"text": name, **close_or_known(name, sorted(FIELDS))})
 
 
-def fields_of(case: Case) -> dict[str, str]:
+def fields_of(case: Opened) -> dict[str, str]:
     """What the assignment says for a title block; the sheet adds its number, scale and format."""
     given = case.assignment.report
     organisation = ", ".join(part for part in (given.university, given.faculty, given.department) if part)

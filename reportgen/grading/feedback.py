@@ -8,11 +8,12 @@ from itertools import groupby
 from string import Formatter
 from typing import Any
 
-from reportgen.answers.key import Key, Row, shown_number, words_of
+from reportgen.answers.key import shown_number, words_of
 from reportgen.answers.key_files import band, band_decimals
 from reportgen.answers.paper import DASH, cells, fields, heading, paper, paragraph, student_rows
 from reportgen.answers.sheet import NAMES, asked_positions, given_entry, grid, info_page, page, rows_shown
 from reportgen.document import tree
+from reportgen.document.key import Key, Row
 from reportgen.document.tree import Block, Column, Document, Inline, InlineMath, Inlines, Paragraph, Table, Text, plain
 from reportgen.errors import Problem
 from reportgen.grading.marks import Marked, Marking, Verdict, points_of

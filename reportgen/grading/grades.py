@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from statistics import fmean, median
 from typing import Any
 
-from reportgen.answers.key import Key, symbol_text
+from reportgen.answers.key import symbol_text
 from reportgen.answers.paper import DASH, cells, heading, paper, paragraph
-from reportgen.answers.wording import capitalised
+from reportgen.document.key import Key, capitalised
 from reportgen.document.tree import TEXT_WIDTH, Block, Column, Document, Figure, InlineMath, Table, Text
 from reportgen.figures.charts import bars, histogram
 from reportgen.figures.scene import Content

@@ -20,7 +20,7 @@ from itertools import combinations
 import numpy as np
 
 from reportgen.answers.bands import is_direction
-from reportgen.answers.key import Key, Role, Row
+from reportgen.document.key import Key, Role, Row
 from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Cells, Flag, Marked, Place, Submission, Verdict
 from reportgen.grading.mistakes import WRONG_DATUM

@@ -8,11 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.analysis import Analysis
 from reportgen.answers.bands import computed_bands, drawn_bands, is_chosen_length, is_direction
-from reportgen.answers.key import Key, Role, Row, make_key
-from reportgen.assignment import Assignment
-from reportgen.case import Case, opened
+from reportgen.document.case import Case, Pitfalls
+from reportgen.document.key import Key, Role, Row
 from reportgen.grading.marks import Place, Policy
 from reportgen.ledger.core import Ledger, standing_on
 from reportgen.notation import vocabulary
@@ -31,8 +29,9 @@ class Guide:
 
     key: Key
     ledger: Ledger
-    analysis: Analysis | None
-    """Of a machine; an exercise has none."""
+    pitfalls: Pitfalls
+    count: int
+    """Positions of one turn."""
     policy: Policy
 
     @cached_property
@@ -156,11 +155,6 @@ class Guide:
         rows = (self.rows[before] for before in self.before[id] if before in self.rows)
         return any((row.id, self.place(row, position)) in places for row in rows)
 
-    @property
-    def count(self) -> int:
-        """Positions of one turn."""
-        return self.analysis.machine.count if self.analysis else 1
-
     @cached_property
     def _repeated(self) -> dict[str, bool]:
         return {
@@ -179,11 +173,9 @@ class Guide:
         return (position - 1) % self.count + 1 if self.repeats(row) else position
 
 
-def open_guide(assignment: Assignment, policy: Policy | None = None) -> Guide:
+def open_guide(case: Case, policy: Policy | None = None) -> Guide:
     """The marking guide of an assignment, computed as its report is."""
-    case = opened(assignment)
-    analysis = case.analysis if isinstance(case, Case) else None
-    return Guide(make_key(case), case.ledger, analysis, policy or Policy())
+    return Guide(case.key(), case.ledger, case.pitfalls, case.positions_of_a_turn, policy or Policy())
 
 
 def makes_scale(ledger: Ledger, id: str, scale: str) -> bool:

@@ -17,8 +17,9 @@ import numpy as np
 
 from reportgen.answers.asking import Ask
 from reportgen.answers.bands import half_unit
-from reportgen.answers.key import Row, symbol_text, words_of
-from reportgen.catalogue import load
+from reportgen.answers.key import symbol_text, words_of
+from reportgen.document.case import Case
+from reportgen.document.key import Row
 from reportgen.grading.guard import Classmate, guard
 from reportgen.grading.guide import Guide, Values, open_guide
 from reportgen.grading.marks import Cells, Flag, Marked, Marking, Place, Policy, Submission, Verdict
@@ -30,7 +31,6 @@ from reportgen.grading.remarks import not_from_own
 from reportgen.grading.submission import read_submission
 from reportgen.grading.working import Working, lay_out
 from reportgen.ledger.core import Ledger
-from reportgen.notation.numbers import Language
 
 SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
     slips_of_writing,
@@ -157,14 +157,12 @@ NEAREST = 4
 """How many of the quantities that one is worked out from are named."""
 
 
-def compare(
-    file: Path, sheet: Path, hint: bool = False, language: Language | None = None
-) -> tuple[tuple[str, ...], bool]:
+def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...], bool]:
     """Lines that say where a sheet leaves its assignment, and whether it agrees as far as it is filled in.
 
-    Raises `AssignmentError` if the assignment or the sheet cannot be read.
+    Raises `AssignmentError` if the sheet cannot be read.
     """
-    guide = open_guide(load(file, language), Policy(guard=False))
+    guide = open_guide(case, Policy(guard=False))
     submission = read_submission(sheet, guide.key, guide.key.language)
     # What the sheet has no row for is not missing.
     guide = replace(guide, key=Ask(()).of(guide.key, submission.rows))

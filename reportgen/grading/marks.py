@@ -14,11 +14,11 @@ from pydantic import Field
 
 from reportgen.answers.asking import Ask
 from reportgen.answers.bands import DIGITS, PAPER_ERROR
-from reportgen.answers.key import Key
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Interval, Text, Whole, quantity
 from reportgen.assignment.fields import Flag as TrueOrFalse
 from reportgen.assignment.reading import read_model
+from reportgen.document.key import Key
 from reportgen.errors import Mark, Problem
 from reportgen.notation.numbers import Language
 from reportgen.units import Given

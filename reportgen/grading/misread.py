@@ -88,12 +88,11 @@ def _times(factor: float) -> Change:
 
 def _data(guide: Guide) -> Iterator[str]:
     """Given data, and loads of a given size, that are not asked for."""
-    loads = {load.name for load in guide.analysis.applied} if guide.analysis else set()
     for id, family in guide.ledger.families.items():
         # A ratio is given as 1/3.6, which the ledger works out.
         given = not guide.ledger.inputs[id]
         unseen = not (family.hidden or family.is_plane or id in guide.rows)
-        if given and unseen and (len(family.values) == 1 or id in loads) and np.any(family.values):
+        if given and unseen and (len(family.values) == 1 or id in guide.pitfalls.applied) and np.any(family.values):
             yield id
 
 

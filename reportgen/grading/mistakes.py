@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import takewhile
 
 import numpy as np
 
@@ -82,9 +81,9 @@ def _changes_of(guide: Guide, family: Family, scales: Values) -> Iterator[tuple[
     id = family.id
     if family.definition is not None:
         yield from _in_a_definition(guide, family, family.definition, scales)
-    elif family.kind == "pressure":
-        yield from _in_reading_a_pressure(guide, id)
-    if (rod := _whole_rod(guide, id)) is not None:
+    for name, reading in guide.pitfalls.readings.get(id, ()):
+        yield name, _replaced_by(reading)
+    if (rod := guide.pitfalls.whole.get(id)) is not None:
         yield "wrong-end", lambda value, values: values[rod] - value
     if is_direction(id):
         yield "direction-reversed", lambda value, _: value + np.pi
@@ -166,36 +165,6 @@ def _power(guide: Guide, definition: Expression, scale: str) -> int:
         if ratio.size and np.allclose(ratio, 2.0**power):
             return power
     return 0
-
-
-def _in_reading_a_pressure(guide: Guide, id: str) -> Iterator[tuple[str, Change]]:
-    """The pressure of another piston, or of another stroke at the piston's own place."""
-    gas = guide.analysis.gas if guide.analysis else {}
-    here = next((state for state in gas.values() if f"p.{state.piston.link}" == id), None)
-    if here is None:
-        return
-    for state in gas.values():
-        if state is not here:
-            yield "other-piston", _replaced_by(state.pressure)
-    piston = here.piston
-    for angle in (here.angle + 2 * np.pi, -here.angle, 2 * np.pi - here.angle):
-        pressure = piston.law.table.pressure(angle, here.fraction, piston.dead_centres)
-        yield "wrong-stroke", _replaced_by(pressure)
-
-
-def _whole_rod(guide: Guide, id: str) -> str | None:
-    """The length of the rod on which `l.AS2` places a mass centre."""
-    if guide.analysis is None:
-        return None
-    linkage = guide.analysis.machine.linkage
-    centres = {body.centre for body in linkage.inertias}
-    for dyad in linkage.dyads:
-        ends = [end for end in (dyad.start, dyad.end) if id in {f"l.{end}{centre}" for centre in centres}]
-        for end in ends:
-            names = {f"l.{end}{dyad.middle}", f"l.{dyad.middle}{end}"}
-            earlier = takewhile(lambda name: name != id, guide.ledger.families)
-            return next((name for name in earlier if name in names), None)
-    return None
 
 
 # --- changes ----------------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ from itertools import combinations
 import numpy as np
 
 from reportgen.answers.bands import is_direction
-from reportgen.answers.key import Role
+from reportgen.document.key import Role
 from reportgen.grading.guide import Guide, Values
 from reportgen.grading.marks import Cells, Marked, Place, Verdict
 from reportgen.grading.mistakes import NO_CORIOLIS, OF_POSITION, Mistake, general_mistakes, mistakes_in

@@ -68,9 +68,9 @@ def _candidates(guide: Guide) -> Iterator[Mistake]:
                 yield from _either("force-left-out", "force-reversed", source.of, id)
             elif source.definition is not None:
                 yield from _either("part-left-out", "part-reversed", refs(source.definition)[0], id)
-    for load in guide.analysis.loads if guide.analysis else ():
-        vector = f"F.{load.name}"
-        yield from _either("load-forgotten", "load-reversed", load.name, vector if vector in ledger else load.name)
+    for load in guide.pitfalls.loads:
+        vector = f"F.{load}"
+        yield from _either("load-forgotten", "load-reversed", load, vector if vector in ledger else load)
 
 
 def _either(left_out: str, reversed_: str, where: str, id: str) -> Iterator[Mistake]:

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from reportgen import units
-from reportgen.answers.key import Key
+from reportgen.document.key import Key
 from reportgen.errors import Fault, Mark, Problem
 from reportgen.grading.marks import Answer, Place, Submission
 from reportgen.notation.numbers import Language

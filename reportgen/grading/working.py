@@ -9,7 +9,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from reportgen.answers.bands import half_unit
-from reportgen.answers.key import Role, Row
+from reportgen.document.key import Role, Row
 from reportgen.grading.drawn_scales import CONFIRMED, drawn_at, in_use
 from reportgen.grading.guide import Guide, Values, makes_scale
 from reportgen.grading.marks import Place, Submission

@@ -19,8 +19,6 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.flywheel import Flywheel
-from reportgen.ledger.forces.polygon import Polygon
 from reportgen.notation import vocabulary
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import (
@@ -70,9 +68,6 @@ class Ledger:
     cancellations: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
     """Units whose printed form depends on the language, e.g. rpm."""
-    polygons: tuple[Polygon, ...] = ()
-    """The force plans: one for each group, the driver's last; none without loads."""
-    flywheel: Flywheel | None = None
     lines: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """The ids of what the report sets out together, by the names that the machine's sheet gives."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -28,9 +29,21 @@ TERMS = 4
 """More terms than these are no longer one line of a page."""
 
 
+@dataclass(frozen=True, slots=True)
+class Written:
+    """What stands of an analysis: its ledger, the force plans that are laid out in it, and its flywheel if it has one.
+
+    There is a plan for each group, the driver's is the last; none without loads.
+    """
+
+    ledger: Ledger
+    polygons: tuple[Polygon, ...] = ()
+    flywheel: flywheel.Flywheel | None = None
+
+
 def write_ledger(
     analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = (), printed: bool = True
-) -> Ledger:
+) -> Written:
     """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
 
     The plans of the `worked` positions fill their paper, of all positions if none is named.  For numbers that are
@@ -50,7 +63,8 @@ def write_ledger(
     cancellations: tuple[str, ...] = ()
     if printed:
         decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
-    return Ledger(q.families, decimals, machine.positions, cancellations, units or {}, polygons, regulated, q.lines)
+    ledger = Ledger(q.families, decimals, machine.positions, cancellations, units or {}, q.lines)
+    return Written(ledger, polygons, regulated)
 
 
 def enter_plans(

@@ -10,14 +10,10 @@ import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from pathlib import Path
 from typing import Any
 
-from reportgen import api
-from reportgen.assignment import Assignment
-from reportgen.case import Case, ExerciseCase, opened
 from reportgen.document import tree
-from reportgen.document.outline import compose
+from reportgen.document.case import Case
 from reportgen.errors import AssignmentError, ReportgenError
 from reportgen.notation.numbers import Language
 from reportgen.pages import panel
@@ -61,11 +57,11 @@ class Edition:
 
 @dataclass
 class Desk:
-    """Makes the editions of one file.  `told` is called with each finished report's case and document."""
+    """Makes the editions of a file, which `opens`.  `told` is called with each finished report's case and document."""
 
-    path: Path
+    opens: Callable[[], Case]
     language: Language | None = None
-    told: Callable[[Case | ExerciseCase, tree.Document], None] = lambda case, document: None
+    told: Callable[[Case, tree.Document], None] = lambda case, document: None
     changed: threading.Condition = field(default_factory=threading.Condition)
     closed: bool = False
 
@@ -74,7 +70,7 @@ class Desk:
         self.edition = Edition(first, load_words(search_path(first)))
         self._asked = 0
         self._worker = threading.Thread(target=self._write_reports, daemon=True)
-        self._to_write: tuple[int, Case | ExerciseCase] | None = None
+        self._to_write: tuple[int, Case] | None = None
 
     def open(self) -> None:
         """Make the first edition."""
@@ -98,7 +94,7 @@ class Desk:
         self._asked += 1
         number = self._asked
         try:
-            case = opened(self._assignment())
+            case = self.opens()
             moving = panel(case)
             language, words = case.assignment.language, case.words
         except Exception as error:
@@ -110,9 +106,6 @@ class Desk:
         with self.changed:
             self._to_write = number, case
             self.changed.notify_all()
-
-    def _assignment(self) -> Assignment:
-        return api.load(self.path, self.language)
 
     def _write_reports(self) -> None:
         """Write the report of the latest case, again and again."""
@@ -128,7 +121,7 @@ class Desk:
                 self._to_write = None
             number, case = wanted
             try:
-                document = compose(case)
+                document = case.document()
                 if number != self._asked:
                     continue
                 written = html.report(document)
@@ -139,7 +132,7 @@ class Desk:
                 if number == self._asked:
                     self._publish(fault=self._in_words(error), busy=False)
 
-    def _overtaken(self, wanted: tuple[int, Case | ExerciseCase]) -> bool:
+    def _overtaken(self, wanted: tuple[int, Case]) -> bool:
         """Whether another report is to be written than this one, or none."""
         return self.closed or self._to_write is not wanted
 

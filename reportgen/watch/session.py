@@ -9,17 +9,17 @@ import sys
 import threading
 import webbrowser
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TextIO
 
-from reportgen import api
-from reportgen.case import Case, ExerciseCase
+from reportgen.document.case import Case
 from reportgen.document.tree import Document
-from reportgen.errors import ReportgenError
+from reportgen.files import reported
 from reportgen.notation.numbers import Language
 from reportgen.watch.edition import Desk
 from reportgen.watch.server import Server
-from reportgen.words import templates, word
+from reportgen.words import templates
 
 QUIET, LONGEST = 20, 200
 """Changes are taken together until nothing changes for the first time (ms), and no longer than the second."""
@@ -29,26 +29,33 @@ HEARING = 0.5
 _ONE_AT_A_TIME = threading.Lock()
 
 
+Opener = Callable[[Path, Language | None], Case]
+"""Opens the case of an assignment file; raises `AssignmentError` with its faults."""
+
+
+def nobody(case: Case, document: Document) -> None:
+    """Takes no notice of a finished report."""
+
+
 def watch(
     path: Path,
+    opens: Opener,
     language: Language | None = None,
-    out: Path = Path("out"),
-    pdf: bool = False,
+    told: Callable[[Case, Document], None] = nobody,
     browser: bool = True,
     port: int = 0,
     stream: TextIO = sys.stdout,
 ) -> None:
-    """Serve the page of a file and renew it until the program is interrupted.
+    """Serve the page of a file and renew it until the program is interrupted; `told` of each finished report.
 
     A faulty file has a page that tells its faults.  Raises `AssignmentError` if there is no file, `OutputError`.
     """
     if not path.exists():
         # A name mistyped is no file to wait for.
-        api.load(path, language)
+        opens(path, language)
     path = path.absolute()
-    renewed = _pdf_writer(path, out, stream) if pdf else _nobody
-    desk = Desk(path, language, renewed)
-    with api.reported():
+    desk = Desk(partial(opens, path, language), language, told)
+    with reported():
         server = Server(desk, port)
     stop = threading.Event()
     threads = [threading.Thread(target=server.serve_forever, args=(0.1,), daemon=True)]
@@ -95,21 +102,3 @@ def _follow(root: Path, wanted: Path | None, desk: Desk, stop: threading.Event) 
     ):
         with _ONE_AT_A_TIME:
             desk.renew()
-
-
-def _nobody(case: Case | ExerciseCase, document: Document) -> None:
-    """Takes no notice of a finished report."""
-
-
-def _pdf_writer(path: Path, out: Path, stream: TextIO) -> Callable[[Case | ExerciseCase, Document], None]:
-    """Writes each finished report as PDF, too, whole or not at all; says in a line what keeps it from that."""
-
-    def write(case: Case | ExerciseCase, document: Document) -> None:
-        try:
-            written = api.put(out / path.stem, {"report.pdf": api.typeset(document, "typst")[1]})
-            print(*written, file=stream, flush=True)
-        except ReportgenError as error:
-            text = word("system", case.assignment.language, text=error)
-            print(f"reportgen: {text}", file=sys.stderr, flush=True)
-
-    return write

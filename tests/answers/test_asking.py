@@ -10,10 +10,10 @@ from openpyxl import load_workbook
 
 from reportgen import api
 from reportgen.answers.asking import EVERYTHING, Ask
-from reportgen.answers.key import Key, make_key
-from reportgen.answers.paper import answer_tables, task
+from reportgen.answers.paper import answer_tables
 from reportgen.answers.sheet import answer_book
-from reportgen.case import open_case
+from reportgen.cases import open_case, opened
+from reportgen.document.key import Key
 from reportgen.document.tree import PageBreak, text_of
 from reportgen.errors import AssignmentError
 from reportgen.grading.guide import open_guide
@@ -68,9 +68,9 @@ def test_paper_and_file_ask_for_the_same(tmp_path: Path) -> None:
 
 def test_each_section_can_be_printed_by_itself(tmp_path: Path) -> None:
     case = open_case("assignments/slider-crank-01.yaml", "en")
-    asked = Ask().of(make_key(case))
+    asked = Ask().of(case.key())
     sections = len({row.part for row in asked.asked})
-    plain, parted = (task(case, asked, by_section) for by_section in (False, True))
+    plain, parted = (case.task(asked, by_section) for by_section in (False, True))
     breaks = [sum(isinstance(block, PageBreak) for block in tree.blocks) for tree in (plain, parted)]
     assert breaks[1] - breaks[0] == sections - 1
     path = tmp_path / "sheet.xlsx"
@@ -123,7 +123,7 @@ def test_what_is_not_asked_for_but_filled_in_is_judged_and_earns_nothing(tmp_pat
     assignment = tmp_path / "a" / "slider-crank-01.yaml"
     assignment.parent.mkdir()
     assignment.write_bytes(Path("assignments/slider-crank-01.yaml").read_bytes())
-    guide = open_guide(api.load(assignment))
+    guide = open_guide(open_case(assignment))
     work = students.written(guide, students.worked_out(guide, None, None))
     path = tmp_path / "slider-crank-01.xlsx"
     path.write_bytes(write_xlsx(students.filled_book(guide.key, work)))
@@ -143,7 +143,7 @@ def test_what_is_not_asked_for_but_filled_in_is_judged_and_earns_nothing(tmp_pat
 
 def test_a_sheet_made_before_rows_had_words_is_read(tmp_path: Path) -> None:
     """Its columns are found by their heads: without the words of the rows the values stand one column earlier."""
-    guide = open_guide(students.assignment("four-bar-01", (2,)))
+    guide = open_guide(opened(students.assignment("four-bar-01", (2,))))
     rows = csv_rows(guide.key)
     head = next(row for row in rows if "Tên đại lượng" in row)
     at, last = head.index("Tên đại lượng"), len(head) - 1
@@ -174,9 +174,9 @@ def test_the_batch_makes_tasks_anew_when_another_choice_is_ordered() -> None:
 @pytest.mark.parametrize(("language", "enter"), [("en", "enter them"), ("vi", "hãy ghi vào phiếu")])
 def test_a_task_speaks_of_scales_only_where_they_are_asked_for(language: Language, enter: str) -> None:
     case = open_case("assignments/slider-crank-01.yaml", language)
-    full = make_key(case)
-    assert enter in text_of(task(case, full))
-    assert enter not in text_of(task(case, Ask().of(full)))
+    full = case.key()
+    assert enter in text_of(case.task(full))
+    assert enter not in text_of(case.task(Ask().of(full)))
 
 
 def test_a_pattern_that_fits_nothing_is_a_located_fault(tmp_path: Path) -> None:

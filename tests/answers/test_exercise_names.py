@@ -9,7 +9,7 @@ import pytest
 
 from reportgen import api
 from reportgen.answers.wording import phrase
-from reportgen.case import ExerciseCase
+from reportgen.exercise_case import ExerciseCase
 from reportgen.notation import vocabulary
 from reportgen.notation.vocabulary import Chapter
 

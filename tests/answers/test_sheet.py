@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from openpyxl import load_workbook
 
-from reportgen.answers.key import Key, Role, make_key
-from reportgen.answers.paper import answer_tables, task
+from reportgen.answers.paper import answer_tables
 from reportgen.answers.sheet import answer_book, number_format
+from reportgen.document.key import Key, Role
 from reportgen.document.tree import Document, Table, plain, text_of
 from reportgen.notation.numbers import Language, write
 from reportgen.workbook import write_xlsx
@@ -96,8 +96,8 @@ def test_paper_does_not_tell_where_a_direction_does_not_exist() -> None:
 
 def handout(name: str, language: Language) -> tuple[Key, Document]:
     case = built.case(built.ROOT / "assignments" / f"{name}.yaml", language)
-    key = make_key(case)
-    return key, task(case, key)
+    key = case.key()
+    return key, case.task(key)
 
 
 NAMES = ("engine-twin-05", "slider-crank-01", "shaper-01", "linkage-8", "linkage-slide", "four-bar-01")

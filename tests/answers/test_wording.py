@@ -9,8 +9,8 @@ from typing import get_args
 
 import pytest
 
-from reportgen.answers.key import Key, make_key
 from reportgen.answers.paper import answer_tables
+from reportgen.document.key import Key
 from reportgen.document.tree import plain
 from reportgen.notation import vocabulary
 from reportgen.notation.numbers import Language
@@ -22,7 +22,7 @@ FILES = sorted(path.stem for path in Path("assignments").glob("*.yaml"))
 
 @cache
 def key(name: str, language: Language) -> Key:
-    return make_key(built.case(built.ROOT / "assignments" / f"{name}.yaml", language))
+    return built.case(built.ROOT / "assignments" / f"{name}.yaml", language).key()
 
 
 @pytest.mark.parametrize("name", FILES)

@@ -13,10 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from reportgen import api
 from reportgen.api import Engine
 from reportgen.batch.run import Order, locked, run_batch, watching
-from reportgen.errors import AssignmentError
+from reportgen.errors import AssignmentError, OutputError
 from reportgen.notation.numbers import Language
 from tests.batch.classes import Batch, here, tree, write_class
 from tests.batch.little import little
@@ -177,8 +176,8 @@ def test_a_full_disk_stops_the_batch(tmp_path: Path, monkeypatch: pytest.MonkeyP
     def full(target: Path, content: bytes) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(target))
 
-    monkeypatch.setattr(api, "replace", full)
-    with pytest.raises(api.OutputError, match="No space") as raised:
+    monkeypatch.setattr("reportgen.batch.run.put_file", full)
+    with pytest.raises(OutputError, match="No space") as raised:
         batch.run()
     assert raised.value.exit_code == 3
 
@@ -194,7 +193,7 @@ def test_a_folder_that_cannot_be_written_costs_one_student(tmp_path: Path) -> No
 
 def test_one_batch_at_a_time_writes_to_a_folder(tmp_path: Path) -> None:
     batch = Batch(tmp_path, {"K1": "seconds: 0"})
-    with locked(batch.out, "en"), pytest.raises(api.OutputError, match="another batch"):
+    with locked(batch.out, "en"), pytest.raises(OutputError, match="another batch"):
         batch.run()
     assert batch.run().exit_code == 0
 

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing
 from dataclasses import replace
 from functools import partial
@@ -18,11 +18,11 @@ from typing import Any
 
 import pytest
 
-from reportgen import api
 from reportgen.api import Engine, Maker
 from reportgen.batch import pool as pools
 from reportgen.batch.pool import Job, local, making, run_job
 from reportgen.batch.run import Order, run_batch
+from reportgen.files import put_file
 from reportgen.notation.numbers import Language
 from tests.batch.classes import Batch, tree, write_class
 from tests.batch.little import little
@@ -112,7 +112,7 @@ def lingering(path: Path, _engine: Engine, _language: Language | None) -> Mappin
     """K2 tells in a file where it works and goes on for ever; K1 ends once it has been told."""
     told_in = Path(path.read_text(encoding="utf-8"))
     if path.stem == "K2":
-        api.replace(told_in, str(path.parent).encode())
+        put_file(told_in, str(path.parent).encode())
         time.sleep(600)
     while not told_in.exists():
         time.sleep(0.01)
@@ -157,6 +157,12 @@ class Process:
         return self.process.wait(seconds)
 
 
+def putting(monkeypatch: pytest.MonkeyPatch, put: Callable[[Path, bytes], None]) -> None:
+    """Let a batch put its files and its manifest in place so."""
+    monkeypatch.setattr("reportgen.batch.run.put_file", put)
+    monkeypatch.setattr("reportgen.batch.manifest.put_file", put)
+
+
 class Killed(BaseException):
     """What nothing in the program catches, as it could not catch its end."""
 
@@ -167,7 +173,7 @@ def test_an_end_at_any_file_is_made_good(tmp_path: Path, monkeypatch: pytest.Mon
     students = {f"K{k}": "seconds: 0" for k in range(3)}
     straight = Batch(tmp_path, students, "straight")
     straight.run()
-    put = api.replace
+    put = put_file
     ends = 0
     for end in range(100):
         puts = iter(range(100))
@@ -182,7 +188,7 @@ def test_an_end_at_any_file_is_made_good(tmp_path: Path, monkeypatch: pytest.Mon
                 raise Killed
 
         batch = Batch(tmp_path, students, f"ended at {end}")
-        monkeypatch.setattr(api, "replace", ending)
+        putting(monkeypatch, ending)
         try:
             batch.run()
         except Killed:
@@ -190,7 +196,7 @@ def test_an_end_at_any_file_is_made_good(tmp_path: Path, monkeypatch: pytest.Mon
         else:
             break
         done = batch.students("done")
-        monkeypatch.setattr(api, "replace", put)
+        putting(monkeypatch, put)
         batch.run()
         assert set(done) <= set(batch.students("kept"))
         assert tree(batch.out) == tree(straight.out)

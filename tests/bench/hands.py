@@ -33,7 +33,7 @@ NAMEABLE = {"omega.1", "R", "F", "m.2", "n", "H", "G2", "D", "s", "M.eq", "R.12.
 def honest(name: str, sheets: int) -> list[tuple[str, str]]:
     """Sheets without a mistake at every scale and bluntness: how many lose a mark."""
     guide, losing, worked = hands.asked(students.guide(name, WORKED)), 0, 0
-    scales = ({}, *SCALES) if guide.analysis.machine.kind in hands.DRAWING else ({},)
+    scales = ({}, *SCALES) if guide.key.kind in hands.DRAWING else ({},)
     for seed in range(sheets * (len(SCALES) + 1) // len(scales)):
         for scale in scales:
             for blunt in (0.3e-3, 0.5e-3):

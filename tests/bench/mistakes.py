@@ -10,6 +10,7 @@ import sys
 
 import numpy as np
 
+from reportgen.cases import opened
 from tests.grading import students
 from tests.grading.test_mistakes import MACHINES, WORKED, Rates, possible_mistakes
 
@@ -19,7 +20,7 @@ def main(variants: int) -> None:
     for name in MACHINES:
         rates = Rates()
         for _ in range(variants):
-            guide = students.open_guide(students.varied(name, rng, WORKED))
+            guide = students.open_guide(opened(students.varied(name, rng, WORKED)))
             for mistake in possible_mistakes(guide):
                 rates.inject(guide, mistake, rng)
         print(f"{name}, {variants} random variants\n{rates}\n", flush=True)

@@ -20,9 +20,8 @@ import numpy as np
 
 from reportgen import api
 from reportgen.answers.asking import Ask
-from reportgen.answers.key import make_key
 from reportgen.answers.sheet import answer_book
-from reportgen.case import opened
+from reportgen.cases import open_case, opened
 from reportgen.grading.guide import open_guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Policy
@@ -38,15 +37,15 @@ ROUNDS = 5
 
 def one_student(path: Path = SAMPLE) -> dict[str, float]:
     """Medians in ms of what is made for one student, from the assignment file on."""
-    guide = open_guide(api.load(path), Policy())
+    guide = open_guide(open_case(path), Policy())
     rng = np.random.default_rng(1)
     sheets = [students.written(guide, students.worked_out(guide, None, rng)) for _ in range(ROUNDS)]
     handed = iter(sheets)
     tasks: dict[str, Callable[[], Any]] = {
         "solve": lambda: api.solve(api.load(path)),
-        "key": lambda: make_key(opened(api.load(path))),
+        "key": lambda: opened(api.load(path)).key(),
         "sheet": lambda: write_xlsx(answer_book(Ask().of(guide.key))),
-        "guide": lambda: open_guide(api.load(path), Policy()),
+        "guide": lambda: open_guide(open_case(path), Policy()),
         "mark": lambda: mark(guide, next(handed)),
     }
     return {name: median(_timed(task) for _ in range(ROUNDS)) for name, task in tasks.items()}

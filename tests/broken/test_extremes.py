@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.case import Case
+from reportgen.cases import MachineCase
 from reportgen.catalogue import check
 
 SLIDER = """\
@@ -102,7 +102,7 @@ def transmitted(degrees: float) -> dict[str, tuple[str, str, str]]:
 @pytest.mark.parametrize("degrees", [0.11, 1.0])
 def test_what_is_accepted_works_out_to_nine_figures(tmp_path: Path, name: str, degrees: float) -> None:
     """The quadrature settles, both torques agree, and the energy of the cycle is balanced."""
-    analysis = Case(api.load(put(tmp_path, *transmitted(degrees)[name]))).analysis
+    analysis = MachineCase(api.load(put(tmp_path, *transmitted(degrees)[name]))).analysis
     size = np.abs(analysis.torque).max()
     assert np.abs(analysis.torque - analysis.torque_by_work).max() <= 1e-9 * size
     assert analysis.summary.energy_error < 1e-9

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.case import open_case
+from reportgen.cases import open_case
 from reportgen.document.mirrors import mirrored
 from reportgen.document.plans import motion_plan
 from reportgen.document.report import Report

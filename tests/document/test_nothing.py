@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.case import Case
+from reportgen.cases import MachineCase
 from reportgen.document.outline import compose
 from reportgen.document.tree import text_of
 
@@ -35,7 +35,7 @@ TOLD = {
 }
 
 
-def case(tmp_path: Path, name: str, *, masses: bool = False, loads: bool = False, language: str = "en") -> Case:
+def case(tmp_path: Path, name: str, *, masses: bool = False, loads: bool = False, language: str = "en") -> MachineCase:
     """The case of a sample whose masses or loads are all zero."""
     text = (SAMPLES / f"{name}.yaml").read_text(encoding="utf-8")
     if masses:
@@ -45,7 +45,7 @@ def case(tmp_path: Path, name: str, *, masses: bool = False, loads: bool = False
         text = ROWS.sub(lambda row: f"{row[1]}: [{re.sub('[-0-9.e]+', '0', row[2])}]", text)
     file = tmp_path / f"{name}.yaml"
     file.write_text(text, encoding="utf-8")
-    return Case(api.load(file, "vi" if language == "vi" else "en"))
+    return MachineCase(api.load(file, "vi" if language == "vi" else "en"))
 
 
 @pytest.mark.parametrize("language", ["en", "vi"])
@@ -65,7 +65,7 @@ def test_what_is_left_still_loads_the_machine(tmp_path: Path, name: str, masses:
         # One piston of two is left with its force.
         file = tmp_path / "v.yaml"
         file.write_text((SAMPLES / f"{name}.yaml").read_text("utf-8").replace("PC: 5600 N", "PC: 0 N"), "utf-8")
-        opened = Case(api.load(file, "en"))
+        opened = MachineCase(api.load(file, "en"))
     assert opened.analysis.loads
     torque, by_work = opened.analysis.torque, opened.analysis.torque_by_work
     assert np.abs(torque - by_work).max() < 1e-9 * np.abs(torque).max()
@@ -81,7 +81,7 @@ def test_a_diagram_below_zero_is_drawn(tmp_path: Path) -> None:
     text = ROWS.sub(lambda row: f"{row[1]}: [{re.sub('[-0-9.]+', '-5', row[2])}]", text)
     file = tmp_path / "a.yaml"
     file.write_text(text, encoding="utf-8")
-    opened = Case(api.load(file, "en"))
+    opened = MachineCase(api.load(file, "en"))
     force = opened.ledger["P3"].values
     assert force == pytest.approx(np.full(16, -5e4 * np.pi * 0.098**2 / 4))
     assert "tab.gas" not in text_of(compose(opened))
@@ -105,7 +105,7 @@ def test_a_force_across_the_guide_hands_nothing_on_to_the_crank(tmp_path: Path) 
     """The guide holds all of it: rod and crank are free of forces, so that there is no polar diagram to draw."""
     file = tmp_path / "a.yaml"
     file.write_text(ACROSS, encoding="utf-8")
-    opened = Case(api.load(file, "en"))
+    opened = MachineCase(api.load(file, "en"))
     assert np.abs(opened.analysis.torque).max() < 1e-9
     text = text_of(compose(opened))
     assert "the groups hand no force on to the crank" in text

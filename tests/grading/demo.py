@@ -14,10 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
-from reportgen import api
-from reportgen.answers.key import Key
 from reportgen.answers.sheet import NAMES, asked_positions
 from reportgen.batch.variants import make_variants
+from reportgen.cases import open_case
+from reportgen.document.key import Key
 from reportgen.grading.guide import Guide, open_guide
 from reportgen.grading.marks import Answer, Place, Submission
 from reportgen.grading.mistakes import mistakes_in
@@ -119,7 +119,7 @@ def write() -> None:
     SHEETS.mkdir()
     with tempfile.TemporaryDirectory() as folder:
         make_variants(DEMO / "spec.yaml", DEMO / "roster.csv", Path(folder), False, None)
-        guides = {path.stem: open_guide(api.load(path)) for path in sorted(Path(folder).glob("*.yaml"))}
+        guides = {path.stem: open_guide(open_case(path)) for path in sorted(Path(folder).glob("*.yaml"))}
         sheets = {id: filled(guides[id], *slip, seed) for seed, (id, slip) in enumerate(sorted(SLIPS.items()))}
         sheets |= {id: sheets[source] for id, source in COPIED.items()}
         for number, (id, sheet) in enumerate(sorted(sheets.items())):

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from reportgen.answers.asking import Ask
-from reportgen.answers.key import Role
+from reportgen.cases import opened
+from reportgen.document.key import Role
 from reportgen.errors import Mark
 from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Answer, Submission
@@ -31,7 +32,7 @@ WRONG_AT = 4
 
 def asked(guide: Guide) -> Guide:
     """A guide to what a student hands in: the whole sheet if it was worked out by drawing, or what a class is asked."""
-    return guide if guide.analysis.machine.kind in DRAWING else replace(guide, key=Ask().of(guide.key))
+    return guide if guide.key.kind in DRAWING else replace(guide, key=Ask().of(guide.key))
 
 
 def task(guide: Guide, position: int) -> Task:
@@ -69,7 +70,7 @@ def handed_in(guide: Guide, worked: Mapping[int, Hand | Vectors]) -> Submission:
 
 def at_work(guide: Guide, position: int, **how: Any) -> Hand | Vectors:
     """A student's work at one position: by drawing on the machines of `DRAWING`, by vectors on all others."""
-    if guide.analysis.machine.kind in DRAWING:
+    if guide.key.kind in DRAWING:
         return Hand(task(guide, position), **how)
     return vectors(guide, position, **how)
 
@@ -104,11 +105,12 @@ def vectors(guide: Guide, position: int, **how: Any) -> Vectors:
         return float(family.values[position - 1 if len(family.values) > 1 else 0].real)
 
     given = {id: si(id) for id, family in ledger.families.items() if not (family.is_plane or family.kind == "segment")}
-    given["turn"] = float(np.sign(guide.analysis.machine.turn))
+    first, second = ledger["phi.1" if "phi.1" in ledger else "s.1"].values[:2]
+    given["turn"] = float(np.sign(np.sin(second - first)))
     forces = {id.removeprefix("mu.R"): si(id) for id in ledger.families if id.startswith("mu.R")}
     paper = Paper(si("mu.l"), si("mu.v"), si("mu.a"), forces)
     work = Vectors(given, paper, turn=int(given["turn"]), **how)
-    WAYS[guide.analysis.machine.kind](work)
+    WAYS[guide.key.kind](work)
     return work
 
 
@@ -190,7 +192,7 @@ def variants(count: int, rng: np.random.Generator, name: str = TWIN) -> list[Gui
     found = []
     for number in range(count):
         drawn = {id: str(rng.choice(values)) for id, values in DRAWN[name].items()}
-        guide = asked(students.open_guide(students.assignment(name, PLACES, **drawn)))
+        guide = asked(students.open_guide(opened(students.assignment(name, PLACES, **drawn))))
         found.append(replace(guide, key=replace(guide.key, id=f"SV{number:02}")))
     return found
 
@@ -205,7 +207,7 @@ def honest(guide: Guide, rng: np.random.Generator, mistake: str = "") -> Submiss
     """The sheet of a member of a class who worked alone, with one mistake or none."""
     how = {"blunt": float(rng.choice(BLUNT)), "figures": int(rng.choice([3, 4])), "seed": int(rng.integers(1 << 30))}
     changes = {mistake: MISTAKES[mistake]} if mistake else {}
-    if guide.analysis.machine.kind in DRAWING:
+    if guide.key.kind in DRAWING:
         how["by_lengths"] = bool(rng.integers(2))
     return work(guide, PLACES, changes=changes, **how)
 

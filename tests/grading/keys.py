@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.answers.key import Key, Role, Row
 from reportgen.answers.sheet import HEAD, answer_book
+from reportgen.document.key import Key, Role, Row
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import Language
 from reportgen.notation.vocabulary import Chapter

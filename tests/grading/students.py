@@ -16,9 +16,11 @@ import yaml
 
 from reportgen import api
 from reportgen.answers.bands import PAPER_ERROR, measuring_errors
-from reportgen.answers.key import Key, Row, words_of
+from reportgen.answers.key import words_of
 from reportgen.answers.sheet import asked_positions, grid, info_page, page, rows_shown
 from reportgen.assignment import Assignment
+from reportgen.cases import opened
+from reportgen.document.key import Key, Row
 from reportgen.errors import AssignmentError, Mark
 from reportgen.grading.guide import Guide, open_guide
 from reportgen.grading.marks import Answer, Submission
@@ -76,7 +78,7 @@ def assignment(name: str, worked: tuple[int, ...] | None = None, **parameters: s
 
 @cache
 def guide(name: str, worked: tuple[int, ...] | None = None) -> Guide:
-    return open_guide(assignment(name, worked))
+    return open_guide(opened(assignment(name, worked)))
 
 
 def sheet(guide: Guide, cell: Cell) -> Submission:

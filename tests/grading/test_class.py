@@ -10,11 +10,10 @@ import pymupdf
 import pytest
 
 from reportgen.answers.asking import EVERYTHING, Ask
-from reportgen.answers.key import make_key
 from reportgen.batch import assess
 from reportgen.batch.assess import Graded
 from reportgen.batch.variants import make_variants
-from reportgen.case import open_case
+from reportgen.cases import open_case
 from reportgen.grading.marking import compare
 from reportgen.grading.marks import Policy, read_policy
 from reportgen.grading.mistakes import WRONG_DATUM
@@ -172,14 +171,14 @@ def test_answers_are_kept_back_if_the_policy_says_so(graded: Graded, tmp_path: P
 
 
 def test_comparing_names_the_first_divergence_without_marks_or_answers(assignments: Path) -> None:
-    lines, agrees = compare(assignments / "K225520103007.yaml", demo.SHEETS / "K225520103007.xlsx", language="en")
+    lines, agrees = compare(open_case(assignments / "K225520103007.yaml", "en"), demo.SHEETS / "K225520103007.xlsx")
     assert not agrees
     assert "v_CB at position 2" in lines[0]
     assert ".xlsx:Answers!F" in lines[0] or ".xlsx:Bài làm!F" in lines[0]
-    guide = assess.open_guide(assess.api.load(assignments / "K225520103007.yaml"))
+    guide = assess.open_guide(open_case(assignments / "K225520103007.yaml"))
     right = guide.key.row("v.CB").values[1]
     hinted, _ = compare(
-        assignments / "K225520103007.yaml", demo.SHEETS / "K225520103007.xlsx", hint=True, language="en"
+        open_case(assignments / "K225520103007.yaml", "en"), demo.SHEETS / "K225520103007.xlsx", hint=True
     )
     assert "scale was forgotten" in "\n".join(hinted)
     for line in (*lines, *hinted):
@@ -189,11 +188,11 @@ def test_comparing_names_the_first_divergence_without_marks_or_answers(assignmen
 
 def test_comparing_an_empty_or_right_sheet(assignments: Path, tmp_path: Path) -> None:
     file = assignments / "K225520103001.yaml"
-    lines, agrees = compare(file, demo.SHEETS / "K225520103001.xlsx", language="en")
+    lines, agrees = compare(open_case(file, "en"), demo.SHEETS / "K225520103001.xlsx")
     assert (agrees, len(lines)) == (True, 1)
     empty = tmp_path / "empty.csv"
-    empty.write_bytes(write_csv(csv_rows(make_key(open_case(file)))))
-    lines, agrees = compare(file, empty, language="en")
+    empty.write_bytes(write_csv(csv_rows(open_case(file).key())))
+    lines, agrees = compare(open_case(file, "en"), empty)
     assert agrees
     assert "still missing" in lines[0]
 

@@ -8,11 +8,10 @@ import pymupdf
 import pytest
 
 from reportgen import api
-from reportgen.answers.key import make_key
 from reportgen.batch import assess
 from reportgen.batch.assess import Graded
 from reportgen.batch.variants import make_variants
-from reportgen.case import open_any
+from reportgen.cases import open_case
 from reportgen.grading.guide import open_guide
 from reportgen.grading.marking import compare
 from reportgen.grading.marks import Policy
@@ -60,7 +59,7 @@ def graded(drawn: tuple[str, Path]) -> Graded:
     name, folder = drawn
     (folder / "sheets").mkdir()
     for path in sorted((folder / "variants").glob("S*.yaml")):
-        guide = open_guide(api.load(path))
+        guide = open_guide(open_case(path))
         where = SLIP[name]
         slip = Mistake("doubled", where, {where: lambda value, _: value * 2}) if path.stem == "S01" else None
         sheet = students.written(guide, students.worked_out(guide, slip))
@@ -70,7 +69,7 @@ def graded(drawn: tuple[str, Path]) -> Graded:
 
 def test_variants_differ_and_can_be_worked_out(drawn: tuple[str, Path]) -> None:
     paths = sorted((drawn[1] / "variants").glob("S*.yaml"))
-    answers = {tuple(round(float(row.values[0]), 9) for row in make_key(open_any(path)).asked) for path in paths}
+    answers = {tuple(round(float(row.values[0]), 9) for row in open_case(path).key().asked) for path in paths}
     assert len(answers) > STUDENTS / 2
 
 
@@ -89,9 +88,9 @@ def test_a_slip_costs_one_mark_and_is_followed_through(drawn: tuple[str, Path], 
 def test_comparing_names_the_slip_and_no_answer(drawn: tuple[str, Path], graded: Graded) -> None:
     folder = drawn[1]
     file = folder / "variants" / "S01.yaml"
-    lines, agrees = compare(file, folder / "sheets" / "S01.xlsx", hint=True, language="en")
+    lines, agrees = compare(open_case(file, "en"), folder / "sheets" / "S01.xlsx", hint=True)
     assert not agrees
-    right = make_key(open_any(file, "en")).row(SLIP[drawn[0]])
+    right = open_case(file, "en").key().row(SLIP[drawn[0]])
     assert f"{float(right.values[0]):.3g}" not in "\n".join(lines)
 
 
@@ -100,7 +99,7 @@ def test_the_task_holds_no_answer(drawn: tuple[str, Path]) -> None:
     file = drawn[1] / "variants" / "S02.yaml"
     task, key = api.task_files(file, "typst", "en")["task.pdf"], api.key_files(file, "typst", "en", ("pdf",))["key.pdf"]
     texts = ["".join(page.get_text() for page in pymupdf.open(stream=pdf)) for pdf in (task, key)]
-    rows = make_key(open_any(file, "en")).asked
+    rows = open_case(file, "en").key().asked
     shown = [write(abs(float(row.values[0])), row.decimals, "en") for row in rows if row.decimals is not None]
     telling = [text for text in shown if len(text.replace(".", "").strip("0")) >= 4]
     assert telling

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from reportgen.cases import opened
 from reportgen.grading.guard import Classmate
 from reportgen.grading.guide import Guide
 from reportgen.grading.marking import mark
@@ -34,7 +35,7 @@ def mine() -> Guide:
 
 
 def other(**parameters: str) -> Guide:
-    return students.open_guide(students.assignment("engine-twin-05", WORKED, **parameters))
+    return students.open_guide(opened(students.assignment("engine-twin-05", WORKED, **parameters)))
 
 
 @dataclass(frozen=True)

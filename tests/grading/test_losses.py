@@ -74,7 +74,7 @@ def test_a_normal_part_left_out_is_one_mistake_with_a_name() -> None:
 def test_a_working_load_forgotten_is_one_mistake_with_a_name(machine: str) -> None:
     """The load is printed on the task, so no cell of the sheet shows it."""
     guide = students.guide(machine, (2,))
-    load = next(one.name for one in guide.analysis.loads if not one.name.startswith(("G", "Pqt")))
+    load = next(one for one in guide.pitfalls.loads if not one.startswith(("G", "Pqt")))
     world = students.worked_out(guide, Mistake("", load, {load: lambda value, _: value * 0}))
     marking = mark(guide, students.written(guide, world))
     assert 1 <= lost(marking) <= MOST

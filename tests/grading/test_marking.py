@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reportgen.answers.key import Row
+from reportgen.cases import opened
+from reportgen.document.key import Row
 from reportgen.grading.guide import open_guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking, Policy, Verdict
@@ -183,7 +184,7 @@ def test_computed_band_holds_three_figures_through_the_chain() -> None:
 
     All earn; two in a hundred may lie beyond three deviations, where long chains share their errors.
     """
-    guide = open_guide(students.assignment(TWIN, (AT,)), Policy(paper=0.0))
+    guide = open_guide(opened(students.assignment(TWIN, (AT,))), Policy(paper=0.0))
 
     def rounding(value: np.ndarray, _: object) -> np.ndarray:
         return np.array([students.figures(one) for one in value])

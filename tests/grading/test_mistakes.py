@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
+from reportgen.cases import opened
 from reportgen.grading.guide import Guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking, Submission
@@ -100,7 +101,7 @@ def test_named_mistakes_are_found() -> None:
     rng = np.random.default_rng(20261121)
     rates = Rates()
     for name in MACHINES:
-        guide = students.open_guide(students.varied(name, rng, WORKED))
+        guide = students.open_guide(opened(students.varied(name, rng, WORKED)))
         possible = possible_mistakes(guide)
         for name in sorted({mistake.name for mistake in possible}):
             of_it = [mistake for mistake in possible if mistake.name == name]

@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reportgen.answers.key import Row
-from reportgen.answers.results import results
-from reportgen.case import Case
+from reportgen.cases import MachineCase
+from reportgen.document.key import Row
 from reportgen.grading.guide import Guide, open_guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking, Verdict
@@ -40,9 +39,10 @@ TURN_OF_X = "positive along y, which is x turned by 90° in the direction of rot
 def opened(name: str) -> tuple[Guide, list[Position]]:
     """The guide of an English sheet and the vectors at its positions."""
     assignment = students.assignment(name, WORKED).with_language("en")
-    guide = open_guide(assignment)
-    fixed = {name: {"p": [at.real, at.imag]} for name, at in guide.analysis.machine.linkage.ground.items()}
-    return guide, [{**one, "points": {**fixed, **one["points"]}} for one in results(Case(assignment))["positions"]]
+    case = MachineCase(assignment)
+    fixed = {name: {"p": [at.real, at.imag]} for name, at in case.analysis.machine.linkage.ground.items()}
+    positions = case.results()["positions"]
+    return open_guide(case), [{**one, "points": {**fixed, **one["points"]}} for one in positions]
 
 
 def vector(pair: list[float]) -> complex:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
+from reportgen.cases import opened
 from reportgen.grading.guide import Guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking, Policy
@@ -93,7 +94,7 @@ def test_value_beside_its_cell(guide: Guide) -> None:
 
 
 def test_slips_are_named_without_the_guard_too() -> None:
-    guide = students.open_guide(students.assignment("four-bar-01", (2,)), Policy(guard=False))
+    guide = students.open_guide(opened(students.assignment("four-bar-01", (2,))), Policy(guard=False))
     marking = marked(guide, lambda row, k, value: students.figures(value, 2) if row.id == "l.BE" else value)
     assert names(marking) == {"too-few-figures"}
 

@@ -14,8 +14,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
-from reportgen.answers.key import Key
 from reportgen.answers.sheet import answer_book
+from reportgen.document.key import Key
 from reportgen.errors import AssignmentError
 from reportgen.grading.marks import Submission
 from reportgen.grading.submission import decimal_mark, is_blank, read_number, read_submission

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from reportgen import api
-from reportgen.case import Case
+from reportgen.cases import MachineCase
 from reportgen.errors import ReportgenError
 
 MEASURE = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?(?:e-?\d+)?)(?= ?(?:mm|cm|m|kg|g|N|rpm|rad/s|N/cm2|MPa)\b)")
@@ -18,7 +18,7 @@ DIGITS = 3
 TRIES = 60
 
 
-def cases(file: Path, count: int, folder: Path) -> Iterator[Case]:
+def cases(file: Path, count: int, folder: Path) -> Iterator[MachineCase]:
     """So many variants whose machines run; those that are refused are passed over."""
     head, parameters = re.split(r"(?m)^parameters:", file.read_text(encoding="utf-8"))
     found = 0
@@ -31,7 +31,7 @@ def cases(file: Path, count: int, folder: Path) -> Iterator[Case]:
         variant = folder / f"{file.stem}-{seed}.yaml"
         variant.write_text(f"{head}parameters:{MEASURE.sub(changed, parameters)}", encoding="utf-8")
         try:
-            case = Case(api.load(variant))
+            case = MachineCase(api.load(variant))
             assert case.ledger.families
         except ReportgenError:
             continue

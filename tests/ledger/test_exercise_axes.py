@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.case import ExerciseCase
 from reportgen.document.exercise_axes import COORDINATES, Axes
 from reportgen.document.exercise_figures import FIGURES
 from reportgen.document.exercise_steps import Solution
+from reportgen.exercise_case import ExerciseCase
 from reportgen.figures.scene import Arrow
 from reportgen.ledger.instant.steps import Axis, Step
 from reportgen.ledger.instant.vectors import Vector

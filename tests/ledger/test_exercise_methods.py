@@ -11,11 +11,11 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from reportgen import catalogue
-from reportgen.case import ExerciseCase
 from reportgen.catalogue.plane_motion_centres import lay_out
 from reportgen.catalogue.plane_motion_file import Method
 from reportgen.catalogue.plane_motion_methods import why_not
 from reportgen.errors import AssignmentError
+from reportgen.exercise_case import ExerciseCase
 from reportgen.ledger.instant.methods import belongs
 from reportgen.ledger.instant.write import Worked, work_out
 

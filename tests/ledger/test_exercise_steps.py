@@ -9,8 +9,8 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from reportgen import catalogue
-from reportgen.case import ExerciseCase
 from reportgen.errors import AssignmentError
+from reportgen.exercise_case import ExerciseCase
 
 TWO_CRANKS = """\
 kind: plane-motion

@@ -9,10 +9,10 @@ from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 
 from reportgen import catalogue
-from reportgen.case import ExerciseCase
 from reportgen.document.exercise import solution
 from reportgen.document.tree import text_of
 from reportgen.errors import AssignmentError
+from reportgen.exercise_case import ExerciseCase
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.numbers import Language, write
 

@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from reportgen import catalogue
-from reportgen.case import ExerciseCase
+from reportgen.exercise_case import ExerciseCase
 
 TRAIN = """\
 kind: plane-motion

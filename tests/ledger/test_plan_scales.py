@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from reportgen.answers.key import Row
-from reportgen.case import Case
+from reportgen.cases import MachineCase
+from reportgen.document.key import Row
 from reportgen.document.outline import open_report
 from reportgen.document.plans import force_plan, motion_plan
 from reportgen.figures.plan import Plan
@@ -27,7 +27,7 @@ FINER = 2.0
 
 
 @pytest.fixture(params=built.FILES, ids=lambda file: file.stem, scope="module")
-def case(request: pytest.FixtureRequest) -> Case:
+def case(request: pytest.FixtureRequest) -> MachineCase:
     return built.case(request.param, built.own_language(request.param))
 
 
@@ -46,7 +46,7 @@ def has_room(plan: tuple[float, float], growth: float, box: tuple[float, float])
     return all(own * growth <= side * MM * (1 + 1e-9) for own, side in zip(plan, box, strict=True))
 
 
-def test_worked_force_plans_are_100_mm_long_or_as_long_as_the_page_allows(case: Case) -> None:
+def test_worked_force_plans_are_100_mm_long_or_as_long_as_the_page_allows(case: MachineCase) -> None:
     report = open_report(case)
     for k in report.worked_forces:
         for polygon in case.polygons:
@@ -58,7 +58,7 @@ def test_worked_force_plans_are_100_mm_long_or_as_long_as_the_page_allows(case: 
 
 
 @pytest.mark.parametrize("what", ["v", "a"])
-def test_worked_motion_plans_are_60_mm_long_or_as_long_as_the_sheets_allow(case: Case, what: What) -> None:
+def test_worked_motion_plans_are_60_mm_long_or_as_long_as_the_sheets_allow(case: MachineCase, what: What) -> None:
     report = open_report(case)
     every = [size(motion_plan(report, what, k)) for k in range(1, report.count + 1)]
     largest = max(width for width, _ in every), max(height for _, height in every)
@@ -71,7 +71,7 @@ def test_worked_motion_plans_are_60_mm_long_or_as_long_as_the_sheets_allow(case:
         assert max(drawn) >= LEAST_MOTION * (1 - 1e-9) or limited
 
 
-def test_chosen_scales_are_of_the_series_and_of_one_size_for_all_velocities(case: Case) -> None:
+def test_chosen_scales_are_of_the_series_and_of_one_size_for_all_velocities(case: MachineCase) -> None:
     ledger = case.ledger
     chosen = [id for id in ledger.families if id.startswith("mu.R") or id in ("mu.v", "mu.a")]
     for id in chosen:
@@ -82,7 +82,7 @@ def test_chosen_scales_are_of_the_series_and_of_one_size_for_all_velocities(case
         assert id.startswith("mu.R") or len(ledger[id].values) == 1
 
 
-def test_printed_segments_times_the_printed_scale_of_their_position_are_the_forces(case: Case) -> None:
+def test_printed_segments_times_the_printed_scale_of_their_position_are_the_forces(case: MachineCase) -> None:
     """By vectors of the ledger alone: |F| / μ is the segment at every position, whatever scale it has."""
     ledger = case.ledger
     for polygon in case.polygons:

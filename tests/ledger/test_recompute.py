@@ -27,7 +27,7 @@ SLACK = 1.02
 def engine() -> Ledger:
     """The twin engine's ledger, 16 positions."""
     file = Path(__file__).parents[2] / "assignments" / "engine-twin-05.yaml"
-    return write_ledger(api.analyse(api.load(file)))
+    return write_ledger(api.analyse(api.load(file))).ledger
 
 
 def assert_recomputes(ledger: Ledger) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from reportgen.analysis import Analysis, analyse
-from reportgen.case import Case
+from reportgen.cases import MachineCase
 from reportgen.document.moving import film
 from reportgen.document.report import Report
 from reportgen.figures.moving import Film, Stage, Track
@@ -31,7 +31,7 @@ MM = 1e3
 class Made:
     """A page with what it was made of."""
 
-    case: Case
+    case: MachineCase
     text: str
     file: Path
 

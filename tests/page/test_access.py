@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
+from reportgen.cases import opened
 from reportgen.pages import page
 from tests.page import made
 from tests.page.browser import Browser, axe
@@ -20,7 +21,7 @@ PHONE, DESK = 390, 1440
 def exercise(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The page of an exercise, which has one instant."""
     target = tmp_path_factory.mktemp("exercise") / "page.html"
-    target.write_text(page(api.opened(api.load(EXERCISE))), encoding="utf-8")
+    target.write_text(page(opened(api.load(EXERCISE))), encoding="utf-8")
     return target
 
 

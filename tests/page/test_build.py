@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.case import Case
+from reportgen.cases import MachineCase, opened
 from reportgen.pages import page, panel
 from reportgen.workbook import read
 from tests.page.made import made
@@ -34,13 +34,13 @@ def command(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
 def test_the_sample_s_page_is_small_and_the_same_in_every_run() -> None:
     one = made(built.SAMPLE, "vi")
     assert len(one.text.encode()) < LARGEST
-    assert page(Case(one.case.assignment)) == one.text
+    assert page(MachineCase(one.case.assignment)) == one.text
 
 
 def test_what_moves_is_the_same_before_and_behind_the_report() -> None:
     """While a file is watched the moving part is made without a ledger of printed numbers."""
     assignment = built.assignment(SLIDE)
-    with_ledger, without = Case(assignment), Case(assignment)
+    with_ledger, without = MachineCase(assignment), MachineCase(assignment)
     assert with_ledger.ledger.decimals
     assert panel(with_ledger) == panel(without)
     assert "ledger" not in vars(without)
@@ -48,7 +48,7 @@ def test_what_moves_is_the_same_before_and_behind_the_report() -> None:
 
 @pytest.mark.parametrize("file", [SLIDE, EXERCISE], ids=lambda file: file.stem)
 def test_the_policy_allows_its_own_style_and_script_alone(file: Path) -> None:
-    text = page(api.opened(api.load(file)))
+    text = page(opened(api.load(file)))
     (policy,) = re.findall(r'http-equiv="Content-Security-Policy" content="([^"]+)"', text)
     policy = policy.replace("&#39;", "'")
     for name, part in (("style", "style-src"), ("script", "script-src")):

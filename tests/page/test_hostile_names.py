@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
+from reportgen.cases import opened
 from reportgen.pages import page
 from tests.page.browser import Browser
 from tests.reports import built
@@ -36,7 +37,7 @@ def hostile(tmp_path_factory: pytest.TempPathFactory) -> Path:
     file = folder / "given.yaml"
     file.write_text(yaml.safe_dump(given, allow_unicode=True), encoding="utf-8")
     target = folder / "page.html"
-    target.write_text(page(api.opened(api.load(file))), encoding="utf-8")
+    target.write_text(page(opened(api.load(file))), encoding="utf-8")
     return target
 
 

@@ -12,11 +12,13 @@ import urllib.error
 import urllib.request
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
+from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.watch.edition import Desk
 from reportgen.watch.server import Server
@@ -132,7 +134,7 @@ def test_the_pdf_is_renewed_too(file: Path, tmp_path: Path) -> None:
 
 @pytest.fixture
 def served(file: Path) -> Iterator[Server]:
-    desk = Desk(file)
+    desk = Desk(partial(open_case, file))
     server = Server(desk)
     threading.Thread(target=server.serve_forever, args=(0.05,), daemon=True).start()
     desk.open()

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reportgen import catalogue
-from reportgen.case import ExerciseCase
+from reportgen.exercise_case import ExerciseCase
 from reportgen.plane_motion.conditions import belt, given_epsilon, given_omega, pin
 from reportgen.plane_motion.motion import Motion
 from reportgen.plane_motion.solving import System

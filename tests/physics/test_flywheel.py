@@ -129,26 +129,26 @@ def test_a_constant_resistance_of_a_swinging_lever(tmp_path: Path) -> None:
     massless = "\n".join(line for line in text.splitlines() if not re.match(r"  (G2|G3|s3|J3):", line))
     file = tmp_path / "massless.yaml"
     file.write_text(massless, encoding="utf-8")
-    ledger = write_ledger(api.analyse(api.load(file)))
-    assert ledger.flywheel is not None
+    written = write_ledger(api.analyse(api.load(file)))
+    assert written.flywheel is not None
     theta, omega = math.asin(60 / 140), 150 * math.pi / 30
-    assert ledger.flywheel.constant == pytest.approx(24 * 4 * theta / (2 * math.pi), rel=1e-9)
-    assert "J.r" not in ledger
+    assert written.flywheel.constant == pytest.approx(24 * 4 * theta / (2 * math.pi), rel=1e-9)
+    assert "J.r" not in written.ledger
     # Excess work by hand: M_c φ − 24·(the lever's way), φ from where the crank points away from the pivot.
     # The lever turns back at φ = 90° ∓ θ before and after; its way is 2θ on each side of the far end.
     phi = np.linspace(0, 2 * math.pi, 200001)
     lever = np.unwrap(np.angle(140j + 60 * np.exp(1j * (phi + math.pi / 2))))
     way = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(lever)))))
-    excess = ledger.flywheel.constant * phi - 24 * way
+    excess = written.flywheel.constant * phi - 24 * way
     expected = (excess.max() - excess.min()) / (omega**2 / 25)
-    assert ledger.flywheel.moment == pytest.approx(expected, rel=1e-6)
+    assert written.flywheel.moment == pytest.approx(expected, rel=1e-6)
 
 
 def test_weights_alone_do_no_work(tmp_path: Path) -> None:
     text = (ASSIGNMENTS / "slotted-lever-02.yaml").read_text(encoding="utf-8")
     file = tmp_path / "idle.yaml"
     file.write_text(text.replace("  torque: {M: 24 N m}\n", ""), encoding="utf-8")
-    assert write_ledger(api.analyse(api.load(file))).number("M.c").value == 0
+    assert write_ledger(api.analyse(api.load(file))).ledger.number("M.c").value == 0
 
 
 def test_links_that_are_even_enough_need_no_flywheel() -> None:
@@ -174,16 +174,17 @@ def test_the_report_prints_what_was_found(machine: Machine) -> None:
             sheet.enter(family)
     sheet.give("unevenness", 1 / 50, "δ", "ratio")
     analysis = analyse(replace(machine, unevenness=1 / 50, sheet=sheet))
-    ledger = write_ledger(analysis)
-    assert ledger.flywheel is not None
+    written = write_ledger(analysis)
+    ledger, regulated = written.ledger, written.flywheel
+    assert regulated is not None
     expected = reduced_inertia(analysis.machine, analysis.motion)
     if expected.any():
         assert ledger["J.r"].values == pytest.approx(expected, rel=1e-12)
     else:
         assert "J.r" not in ledger
-    assert ledger["J.d"].values == pytest.approx([ledger.flywheel.moment], rel=1e-12)
-    at = np.searchsorted(ledger.flywheel.angle, analysis.cycle_angle - 1e-9)
-    assert ledger.flywheel.angle[at] == pytest.approx(analysis.cycle_angle, abs=1e-9)
+    assert ledger["J.d"].values == pytest.approx([regulated.moment], rel=1e-12)
+    at = np.searchsorted(regulated.angle, analysis.cycle_angle - 1e-9)
+    assert regulated.angle[at] == pytest.approx(analysis.cycle_angle, abs=1e-9)
 
 
 def test_a_sine_torque_on_constant_inertia() -> None:

@@ -27,7 +27,7 @@ WITH_CENTRES = (
 
 def solved(name: str) -> tuple[Analysis, Ledger, tuple[Side, ...]]:
     analysis = api.analyse(api.load(ASSIGNMENTS / f"{name}.yaml"))
-    return analysis, write_ledger(analysis), links_in_plane_motion(scheme(analysis.machine.linkage))
+    return analysis, write_ledger(analysis).ledger, links_in_plane_motion(scheme(analysis.machine.linkage))
 
 
 @pytest.mark.parametrize("name", WITH_CENTRES)
@@ -90,7 +90,7 @@ def test_a_textbook_rod_turns_about_the_corner_of_a_square(tmp_path: Path) -> No
         encoding="utf-8",
     )
     analysis = api.analyse(api.load(file))
-    ledger = write_ledger(analysis)
+    ledger = write_ledger(analysis).ledger
     assert ledger["ic.2"].values[0] == pytest.approx((1 + 1j) * 1.2 / math.sqrt(2), rel=1e-9)
     assert ledger["ic.seg.2.B"].values[0] == pytest.approx(0.2)
     assert ledger["ic.omega.2"].values[0] == pytest.approx(2.0, rel=1e-9)

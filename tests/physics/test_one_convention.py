@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.case import Case
+from reportgen.cases import MachineCase
 from reportgen.document.outline import open_report
 from reportgen.document.report import Report
 
@@ -41,7 +41,7 @@ def turning(name: str, direction: str, folder: Path) -> Report:
         text = re.sub(r"positions: *\{", f"positions: {{direction: {direction}, ", text)
     file = folder / f"{name}.yaml"
     file.write_text(text, encoding="utf-8")
-    return open_report(Case(api.load(file)))
+    return open_report(MachineCase(api.load(file)))
 
 
 @pytest.fixture(params=["anticlockwise", "clockwise"])

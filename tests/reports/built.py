@@ -14,7 +14,7 @@ import pytest
 
 from reportgen import api
 from reportgen.assignment import Assignment
-from reportgen.case import Case
+from reportgen.cases import MachineCase
 from reportgen.document import outline
 from reportgen.document.tree import Block, Document, Figure, List, Plate
 from reportgen.figures.scene import Scene
@@ -77,7 +77,7 @@ PAIRS = [pytest.param((path, language), marks=(needs_tex,), id=f"{path.stem}-{la
 class Written:
     """A report below the typesetter: what it was made of, and its tree."""
 
-    case: Case
+    case: MachineCase
     document: Document
     lines: frozenset[tuple[str, int | None]]
     """The quantities that have a worked line, with its position."""
@@ -122,10 +122,10 @@ class Report:
 
 def compose(assignment: Assignment) -> Written:
     """The tree of an assignment with all it stands on."""
-    return _composed(Case(assignment))
+    return _composed(MachineCase(assignment))
 
 
-def _composed(case: Case) -> Written:
+def _composed(case: MachineCase) -> Written:
     lines: set[tuple[str, int | None]] = set()
     chain = Ledger.chain
 
@@ -139,8 +139,8 @@ def _composed(case: Case) -> Written:
 
 
 @cache
-def case(path: Path, language: Language) -> Case:
-    return Case(assignment(path) if language == own_language(path) else api.load(path, language))
+def case(path: Path, language: Language) -> MachineCase:
+    return MachineCase(assignment(path) if language == own_language(path) else api.load(path, language))
 
 
 @cache

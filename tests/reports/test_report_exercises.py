@@ -12,10 +12,10 @@ import pytest
 
 from reportgen import api
 from reportgen.answers.results import print_tables
-from reportgen.case import ExerciseCase
 from reportgen.document.exercise import solution
 from reportgen.document.exercise_steps import lettered
 from reportgen.document.tree import Document, Equation, text_of
+from reportgen.exercise_case import ExerciseCase
 from reportgen.notation.expressions import Chain
 from reportgen.notation.numbers import write
 from tests.reports import built

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from reportgen.case import Case, open_case
+from reportgen.cases import MachineCase, open_case
 from reportgen.document.drawing_sheets import sheets_of
 from reportgen.document.drawn_plates import Plates
 from reportgen.document.outline import open_report
@@ -27,7 +27,7 @@ MACHINES = (
 class Laid:
     """A case with its sheets."""
 
-    case: Case
+    case: MachineCase
     sheets: list[Sheet]
 
 

@@ -64,7 +64,7 @@ def test_the_torque_balances_the_power_of_both_forces(published: Analysis) -> No
 def test_closed_formulas_give_the_plans(published: Analysis) -> None:
     from reportgen.ledger.report import write_ledger
 
-    ledger = write_ledger(published)
+    ledger = write_ledger(published).ledger
     for plan, formula in published.machine.compared:
         one, other = (np.abs(ledger[id].values) for id in (plan, formula))
         assert one == pytest.approx(other, abs=1e-9 * other.max()), plan

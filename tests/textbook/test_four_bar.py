@@ -59,7 +59,7 @@ def test_matrices_hold_and_give_the_plans_rates(tmp_path: Path, lengths: str, di
         f"{lengths}, branch: {branch}, frame: 25 deg, E: {{along: 30 mm, across: -20 mm}}, BF: 60 mm",
         f"count: 7, start: 12 deg, direction: {direction}",
     )
-    values = {id: family.values for id, family in write_ledger(analysis).families.items()}
+    values = {id: family.values for id, family in write_ledger(analysis).ledger.families.items()}
 
     def matrix(name: str) -> np.ndarray:
         rows = [[np.broadcast_to(values[f"{name}.{i}{j}"], 7) for j in "12"] for i in "12"]
@@ -98,7 +98,7 @@ def test_rates_are_derivatives_over_a_turn(tmp_path: Path) -> None:
 def test_swing_and_ratio_of_times(tmp_path: Path) -> None:
     """ψ and K from the formulas against the rocker's own course over a finely divided turn."""
     analysis = analysed(tmp_path, f"{PUBLISHED}, n: 10 rpm".replace(", omega1: 25 rad/s", ""), "count: 360")
-    values = {id: family.values for id, family in write_ledger(analysis).families.items()}
+    values = {id: family.values for id, family in write_ledger(analysis).ledger.families.items()}
     angle = analysis.motion.links[3].angle
     # At the ends of the swing the angle is stationary: a step of 1° changes it by less than 1e-4 of a radian.
     assert float(values["swing"][0]) == pytest.approx(np.ptp(angle), abs=1e-4)
@@ -110,7 +110,7 @@ def test_swing_and_ratio_of_times(tmp_path: Path) -> None:
 
 def test_two_cranks_have_no_extreme_positions(tmp_path: Path) -> None:
     analysis = analysed(tmp_path, f"{DRAG_LINK}, link3: crank", "count: 36")
-    assert not {"swing", "K"} & set(write_ledger(analysis).families)
+    assert not {"swing", "K"} & set(write_ledger(analysis).ledger.families)
     turned = np.ptp(analysis.motion.links[3].angle)
     assert turned > math.pi
 
@@ -118,7 +118,7 @@ def test_two_cranks_have_no_extreme_positions(tmp_path: Path) -> None:
 def test_a_torque_against_the_rocker_takes_the_work_that_it_does(tmp_path: Path) -> None:
     """Over a turn M·2ψ is taken up, whatever the masses do: the mean balancing torque is 2ψM/2π."""
     analysis = analysed(tmp_path, f"{PUBLISHED}, m2: 2 kg, m3: 1 kg, torque: {{M: 7 N m}}", "count: 12")
-    swing = float(write_ledger(analysis)["swing"].values[0])
+    swing = float(write_ledger(analysis).ledger["swing"].values[0])
     assert analysis.summary.work == pytest.approx(-7 * 2 * swing, rel=EXACT * 10)
     assert analysis.summary.mean_torque == pytest.approx(7 * 2 * swing / (2 * math.pi), rel=1e-9)
 

@@ -50,12 +50,12 @@ def solved() -> Analysis:
     ],
 )
 def test_printed_figures(solved: Analysis, id: str, printed: float, error: float) -> None:
-    assert float(write_ledger(solved)[id].at(2)) == pytest.approx(printed, rel=error)
+    assert float(write_ledger(solved).ledger[id].at(2)) == pytest.approx(printed, rel=error)
 
 
 def test_the_short_segment_of_the_coupler(solved: Analysis) -> None:
     """ac is drawn 12 mm long: v_AC and ω_AC are read to half a millimetre of it, aⁿ_AC to twice that."""
-    ledger, reading = write_ledger(solved), HALF_A_MILLIMETRE / 12
+    ledger, reading = write_ledger(solved).ledger, HALF_A_MILLIMETRE / 12
     assert float(ledger["v.CA"].at(2)) == pytest.approx(0.24, rel=reading)
     assert float(ledger["omega.2"].at(2)) == pytest.approx(2.6, rel=reading)
     assert float(ledger["a.CA.n"].at(2)) == pytest.approx(0.64, rel=2 * reading)

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import catalogue
-from reportgen.case import ExerciseCase
+from reportgen.exercise_case import ExerciseCase
 from reportgen.plane_motion.motion import Motion
 from tests.physics.displaced import Displaced
 

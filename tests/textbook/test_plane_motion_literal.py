@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import catalogue
-from reportgen.case import ExerciseCase
+from reportgen.exercise_case import ExerciseCase
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Expression
 

@@ -43,7 +43,7 @@ def test_motion_and_printed_formulas(start: str, guide: int, direction: str, tmp
     φ = first + 2 * math.pi * np.arange(24) / 24
     x, v, a = R * np.cos(φ), -SPEED * R * np.sin(φ), -(SPEED**2) * R * np.cos(φ)
     along = np.exp(1j * math.radians(guide))
-    yoke, ledger = analysis.motion.points["B"], write_ledger(analysis)
+    yoke, ledger = analysis.motion.points["B"], write_ledger(analysis).ledger
     for found, printed, expected, size in (
         (yoke.p, "f.x.B", x, R),
         (yoke.v, "f.v.B", v, SPEED * R),

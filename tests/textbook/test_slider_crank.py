@@ -53,7 +53,7 @@ def test_exact_answers_of_the_offset_example(offset: Analysis) -> None:
 
 
 def test_the_printed_formulas_give_the_exact_answers(offset: Analysis) -> None:
-    ledger = write_ledger(offset)
+    ledger = write_ledger(offset).ledger
     found = {id: float(ledger[id].at(2)) for id in ("phi.3", "beta.2", "f.omega.2", "f.eps.2", "f.a.C")}
     expected = {
         "phi.3": math.pi / 4,
@@ -83,7 +83,7 @@ def test_dead_centres_are_where_the_links_lie_in_line(direction: str, offset: in
 def test_closed_formulas_are_the_motion(offset: int, tmp_path: Path) -> None:
     text = f"  e: {offset} mm\n  s: 0.3\n  guide: -35 deg\npositions: {{count: 24, direction: clockwise}}\n"
     analysis = analysed(text, tmp_path)
-    ledger = write_ledger(analysis)
+    ledger = write_ledger(analysis).ledger
     along = np.exp(1j * math.radians(-35))
     slider, rod = analysis.motion.points["C"], analysis.motion.links[2]
     for id, values in {

@@ -68,7 +68,7 @@ def test_places_and_rates(where: str, pivot: complex, direction: str, tmp_path: 
 @pytest.mark.parametrize("where", [LEFT, RIGHT])
 def test_the_printed_formulas_give_the_motion_with_its_signs(where: str, direction: str, tmp_path: Path) -> None:
     analysis = analysed(tmp_path, f"{LENGTHS}, {where}", f"count: 24, start: 20 deg, direction: {direction}")
-    ledger, motion = write_ledger(analysis), analysis.motion
+    ledger, motion = write_ledger(analysis).ledger, analysis.motion
     # The formulas' y-axis is x turned in the direction of rotation; rates are positive upwards and anticlockwise.
     turn = 1 if direction == "anticlockwise" else -1
     for id, values in {

@@ -1,0 +1,159 @@
+"""The case of an assignment: that of a machine, unless its kind brings one of its own.
+
+A kind's module gives either `machine`, which makes a `Machine` of an assignment, or `case`, which makes a `Case`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import takewhile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from reportgen import catalogue
+from reportgen.analysis import Analysis, motion_at
+from reportgen.assignment import Assignment
+from reportgen.case import Calculation
+from reportgen.catalogue.machine import Machine
+from reportgen.document.case import Case, Pitfalls
+from reportgen.document.key import Key
+from reportgen.document.tree import Document
+from reportgen.figures.moving import Film
+from reportgen.figures.sheet import Sheet
+from reportgen.notation.numbers import Language
+from reportgen.notation.sheet import Family
+
+STEPS = 720
+"""Places in a turn, half a degree apart, that a machine must reach."""
+
+
+def opened(assignment: Assignment) -> Case:
+    """The case of an assignment."""
+    case: Case = getattr(catalogue.module(assignment.kind), "case", MachineCase)(assignment)
+    return case
+
+
+def open_case(path: Path | str, language: Language | None = None) -> Case:
+    """The case of an assignment file, in its own language or in `language`.
+
+    Raises `AssignmentError` with all faults of the file, located.
+    """
+    return opened(catalogue.load(path, language))
+
+
+@dataclass(frozen=True)
+class MachineCase(Calculation):
+    """A machine, as a `Case`."""
+
+    @cached_property
+    def families(self) -> Mapping[str, Family]:
+        from reportgen.ledger.report import enter_plans
+
+        return enter_plans(self.analysis, (), self.analysis.machine.formulas)[0].families
+
+    @property
+    def positions_of_a_turn(self) -> int:
+        return self.analysis.machine.count
+
+    @property
+    def speed(self) -> float:
+        return self.analysis.machine.speed
+
+    @property
+    def balance(self) -> np.ndarray | None:
+        return np.real(self.analysis.torque) if self.analysis.loads else None
+
+    @property
+    def pitfalls(self) -> Pitfalls:
+        analysis = self.analysis
+        return Pitfalls(
+            frozenset(load.name for load in analysis.applied),
+            tuple(load.name for load in analysis.loads),
+            _wrong_readings(analysis),
+            _whole_rods(analysis.machine, tuple(self.ledger.families)),
+        )
+
+    def fault(self) -> str:
+        try:
+            if not _turns(self.analysis.machine):
+                return "not-turning"
+            return "" if _finite(self.analysis) else "not-finite-results"
+        except np.linalg.LinAlgError:
+            return "not-finite-results"
+
+    def document(self) -> Document:
+        from reportgen.document.outline import compose
+
+        return compose(self)
+
+    def key(self) -> Key:
+        from reportgen.answers.key import machine_key
+
+        return machine_key(self)
+
+    def task(self, key: Key, by_section: bool = False) -> Document:
+        from reportgen.answers.paper import machine_task
+
+        return machine_task(self, key, by_section)
+
+    def results(self) -> dict[str, Any]:
+        from reportgen.answers.results import machine_results
+
+        return machine_results(self)
+
+    def film(self) -> Film:
+        from reportgen.document.moving import film
+
+        return film(self)
+
+    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[Sheet]:
+        from reportgen.document.drawing_sheets import drawing_sheets
+
+        return drawing_sheets(self, size, sets, block)
+
+
+def _turns(machine: Machine) -> bool:
+    """Whether the mechanism assembles all the way round (or along, for a sliding driver)."""
+    return bool(motion_at(machine, np.linspace(0.0, 2 * np.pi, STEPS, endpoint=bool(machine.span))).reachable.all())
+
+
+def _finite(analysis: Analysis) -> bool:
+    """Whether motion, reactions and both torques are finite at every position."""
+    motion = analysis.motion
+    arrays = [part for link in motion.links.values() for part in (link.angle, link.omega, link.epsilon)]
+    if analysis.loads:
+        arrays += [analysis.torque, analysis.torque_by_work]
+        arrays += [np.abs(reaction.force) for reaction in analysis.forces.reactions.values()]
+    return bool(motion.reachable.all()) and all(bool(np.isfinite(array).all()) for array in arrays)
+
+
+def _wrong_readings(analysis: Analysis) -> Mapping[str, list[tuple[str, np.ndarray]]]:
+    """The pressure of another piston, or of another stroke at the piston's own place."""
+    found: dict[str, list[tuple[str, np.ndarray]]] = {}
+    for here in analysis.gas.values():
+        piston = here.piston
+        others = [("other-piston", state.pressure) for state in analysis.gas.values() if state is not here]
+        strokes = (here.angle + 2 * np.pi, -here.angle, 2 * np.pi - here.angle)
+        table = piston.law.table
+        found[f"p.{piston.link}"] = others + [
+            ("wrong-stroke", table.pressure(angle, here.fraction, piston.dead_centres)) for angle in strokes
+        ]
+    return found
+
+
+def _whole_rods(machine: Machine, ids: tuple[str, ...]) -> Mapping[str, str]:
+    """The length of the rod on which `l.AS2` places a mass centre; of `ids`, those before it."""
+    centres = {body.centre for body in machine.linkage.inertias}
+    found: dict[str, str] = {}
+    for dyad in machine.linkage.dyads:
+        for end in (dyad.start, dyad.end):
+            names = {f"l.{end}{dyad.middle}", f"l.{dyad.middle}{end}"}
+            for id in (f"l.{end}{centre}" for centre in centres):
+                rod = next((name for name in takewhile(id.__ne__, ids) if name in names), "")
+                if id in ids and rod:
+                    found.setdefault(id, rod)
+    return found
