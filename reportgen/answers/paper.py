@@ -131,7 +131,7 @@ def of_exercise(case: ExerciseCase, key: Key, by_section: bool = False) -> Docum
     from reportgen.document.exercise import task_names
 
     tables = tuple(_sections(key) if by_section else answer_tables(key))
-    blocks = Prose(case.directories).render("exercise-task.md", {**task_names(case), "answer_tables": tables})
+    blocks = Prose(case.places).render("exercise-task", {**task_names(case), "answer_tables": tables})
     about = case.assignment.report
     owner = (*fields(student_rows(key)), *blocks)
     return paper(case.assignment.language, case.words, case.course, owner, about.student.name or "", key.variant)
@@ -144,7 +144,7 @@ def of_machine(case: Case, key: Key, by_section: bool = False) -> Document:
     prose, names, words, machine = report.prose, report.names(), case.words, case.analysis.machine
     every = range(1, machine.positions + 1)
     asked = asked_positions(key)
-    (title, *given) = prose.render("given.md", names)
+    (title, *given) = prose.render("given", names)
     names |= {
         "answer_tables": tuple(_sections(key) if by_section else answer_tables(key)),
         "asks_scales": any(row.role is Role.scale for row in key.asked),
@@ -157,7 +157,7 @@ def of_machine(case: Case, key: Key, by_section: bool = False) -> Document:
         Paragraph((tree.Strong((Text(case.title),)),), "center"),
         *fields(student_rows(key)),
         *given,
-        *prose.render("task.md", names),
+        *prose.render("task", names),
     ]
     return paper(
         case.assignment.language, words, case.course, blocks, about.student.name or "", case.assignment.variant

@@ -56,7 +56,7 @@ def of_machine(case: Case) -> Document:
         if section == "contents":
             blocks += [PageBreak(), Contents(words["document"]["contents"])]
         else:
-            blocks += report.prose.render(f"{section}.md", names)
+            blocks += report.prose.render(section, names)
     assignment = case.assignment
     return number(
         Document(
