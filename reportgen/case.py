@@ -31,7 +31,7 @@ class Opened:
     assignment: Assignment
 
     @property
-    def directories(self) -> tuple[Path, ...]:
+    def places(self) -> tuple[Path, ...]:
         """Where the words of this language, machine and school are looked for."""
         assignment = self.assignment
         return search_path(assignment.language, assignment.kind, assignment.report.school or "")
@@ -39,7 +39,7 @@ class Opened:
     @cached_property
     def words(self) -> Mapping[str, Any]:
         """The short words of `words.yaml`.  Raises `TemplateError`."""
-        return load_words(self.directories)
+        return load_words(self.places)
 
     @property
     def course(self) -> str:

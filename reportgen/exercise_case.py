@@ -121,7 +121,7 @@ class ExerciseCase(Opened):
         from reportgen.document.prose import Prose
 
         names = {**task_names(self), "answer_tables": empty_sheet(key, by_section)}
-        return task_paper(self, key, (), Prose(self.directories).render("exercise-task.md", names))
+        return task_paper(self, key, (), Prose(self.places).render("exercise-task", names))
 
     def results(self) -> dict[str, Any]:
         """Its one position has its number alone; null is what is not determined."""

@@ -1,7 +1,7 @@
 """Every word that is not in a template: texts of faults and of the command line, short words of the reports.
 
-They are YAML files in `templates/`: `<language>/messages.yaml` has what the program itself says,
-`words.yaml` what its documents say; a school's own words and those of one kind of machine go before the
+They are YAML in `templates/`: `<language>/messages.yaml` has what the program itself says, `<language>/words.yaml`
+what its documents say; those of a school and of one kind of machine, sections `words` of their files, go before the
 common ones.
 """
 
@@ -10,7 +10,8 @@ from __future__ import annotations
 import difflib
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cache, lru_cache
+from dataclasses import replace
+from functools import cache, lru_cache, reduce
 from hashlib import sha256
 from importlib import metadata
 from pathlib import Path
@@ -19,15 +20,17 @@ from typing import Any
 
 from reportgen.errors import AssignmentError, Fault, Mark, Problem, TemplateError
 from reportgen.notation.numbers import Language
-from reportgen.source import Table, plain, read_words
+from reportgen.sections import MACHINES, Passage, sections
+from reportgen.source import Source, Table, plain, read_own, read_words
 
 DEFAULT_LANGUAGE: Language = "vi"
 LONGEST_SHOWN = 40
 """How much of the file a message repeats, in characters."""
 
 FILE = "words.yaml"
+SECTION = "words"
 FILES = 32
-"""How many files of words are kept."""
+"""How many tables of words are kept."""
 
 
 @cache
@@ -57,40 +60,50 @@ def templates_hash() -> str:
 
 
 def schools() -> list[str]:
-    """The folders of templates that belong to a school, such as `tnut` with its `vi` and `en`."""
+    """The folders of templates that belong to a school, such as `tnut` with its `vi.md` and `en.md`."""
     return sorted(
         folder.name
         for folder in templates().iterdir()
-        if folder.name not in {"vi", "en", "frames"} and any((folder / name).is_dir() for name in ("vi", "en"))
+        if folder.name not in {"vi", "en", "frames"} and any((folder / f"{name}.md").is_file() for name in ("vi", "en"))
     )
 
 
 def search_path(language: Language, kind: str = "", school: str = "", root: Path | None = None) -> tuple[Path, ...]:
-    """The folders in which templates and words are looked for; the first that has a name wins.
+    """The places in which sections and words are looked for; the first that has a name wins.
 
-    A school's own words, then those of one kind of machine, then those common to all.
+    The file of a school, then that of one kind of machine, then the folder of the language.
     """
     root = root or templates()
     return (
-        *((root / school / language,) if school else ()),
-        *((root / language / kind,) if kind else ()),
+        *((root / school / f"{language}.md",) if school else ()),
+        *((kind_file(language, kind, root),) if kind else ()),
         root / language,
     )
 
 
-def load_words(directories: Sequence[Path]) -> Mapping[str, Any]:
-    """All words found in `directories` (see `search_path`): tables of tables, lists and words.
+def kind_file(language: Language, kind: str, root: Path | None = None) -> Path:
+    """The file with all words of one kind of machine."""
+    return (root or templates()) / language / MACHINES / f"{kind}.md"
 
-    A file nearer on the search path need only hold the words it changes.  Raises `TemplateError` with
-    file and line for what cannot be read, and where no directory has the file.
+
+def load_words(places: Sequence[Path]) -> Mapping[str, Any]:
+    """All words found in `places` (see `search_path`): tables of tables, lists and words.
+
+    A place nearer on the search path need only hold the words it changes.  Raises `TemplateError` with
+    file and line for what cannot be read, and where no place has any.
     """
-    files = [path for directory in directories if (path := directory / FILE).is_file()]
-    if not files:
-        raise TemplateError(f"{directories[-1] / FILE}: the file is missing")
-    words: Mapping[str, Any] = {}
-    for path in reversed(files):
-        words = _over(words, _read(path))
-    return words
+    tables = [table for place in reversed(places) if (table := _words_in(place)) is not None]
+    if not tables:
+        raise TemplateError(f"{places[-1]}: there are no words here")
+    return reduce(_over, tables)
+
+
+def _words_in(place: Path) -> Mapping[str, Any] | None:
+    """The words of a file of sections or of a folder."""
+    if place.suffix == ".md":
+        section = sections(place).get(SECTION)
+        return None if section is None else _as_written(section)
+    return _read(place / FILE) if (place / FILE).is_file() else None
 
 
 def _read(path: Path) -> Mapping[str, Any]:
@@ -101,13 +114,27 @@ def _read(path: Path) -> Mapping[str, Any]:
 @lru_cache(maxsize=FILES)
 def _as_of(path: Path, changed: int, size: int) -> Mapping[str, Any]:
     """A file's words, read once for as long as it stays the same; nobody changes them."""
-    source = read_words(path)
+    return _table(read_words(path))
+
+
+@lru_cache(maxsize=FILES)
+def _as_written(section: Passage) -> Mapping[str, Any]:
+    """The words that a section holds."""
+    return _table(read_own(section.text, str(section.file)), section.line)
+
+
+def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
+    """The table that a file is, or the part of one below its first lines."""
     if source.faults:
-        raise TemplateError("\n".join(f"{fault.mark}: {fault.code}" for fault in source.faults))
+        raise TemplateError("\n".join(f"{_below(fault.mark, above)}: {fault.code}" for fault in source.faults))
     if not isinstance(source.top, Table):
-        raise TemplateError(f"{Mark(str(path))}: a table of words is wanted here")
+        raise TemplateError(f"{_below(Mark(source.file), above)}: a table of words is wanted here")
     content: Mapping[str, Any] = plain(source.top)
     return content
+
+
+def _below(mark: Mark, above: int) -> Mark:
+    return replace(mark, line=mark.line + above)
 
 
 def _over(below: Mapping[str, Any], above: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -203,15 +203,14 @@ def test_a_school_overrides_one_section(tmp_path: Path) -> None:
     (words,) = [content for name, content in _FILE.findall(text_of("docs/templates.md")) if "my-school" in name]
     root = tmp_path / "templates"
     shutil.copytree(ROOT / "templates" / "en", root / "en")
-    school = root / "my-school" / "en"
-    school.mkdir(parents=True)
-    (school / "foreword.md").write_text(words, encoding="utf-8")
+    (root / "my-school").mkdir()
+    (root / "my-school" / "en.md").write_text(words, encoding="utf-8")
     prose = Prose(search_path("en", "engine-twin", school="my-school", root=root))
     names = {"machine_title": "A_B & *engine*", "signature": ()}
-    foreword = repr(prose.render("foreword.md", names))
+    foreword = repr(prose.render("foreword", names))
     assert "A_B & *engine*" in foreword
     assert "This report presents" not in foreword
-    assert prose.directories[1:] == search_path("en", "engine-twin", root=root)
+    assert prose.places[1:] == search_path("en", "engine-twin", root=root)
 
 
 def test_the_script_runs(tmp_path: Path) -> None:

@@ -29,13 +29,13 @@ def rendered(folder: Path) -> tuple[Block, ...]:
     """A template rendered as by a process that has not seen it yet."""
     prose._compiled.codes.clear()
     prose._environment.cache_clear()
-    return prose.Prose((folder,)).render("page.md", {"name": "O₁A \ue000 0 \ue001"})
+    return prose.Prose((folder,)).render("page", {"name": "O₁A \ue000 0 \ue001"})
 
 
 @pytest.fixture
 def words(tmp_path: Path) -> Path:
     (tmp_path / "words").mkdir()
-    (tmp_path / "words" / "page.md").write_text("# Độ dài {{ name }}\n\nMột câu.\n", encoding="utf-8")
+    (tmp_path / "words" / "report.md").write_text("%% page\n# Độ dài {{ name }}\n\nMột câu.\n", encoding="utf-8")
     return tmp_path / "words"
 
 
@@ -60,7 +60,7 @@ def test_a_template_reads_the_same_from_the_store(home: Path, words: Path) -> No
 
 def test_a_changed_template_is_compiled_anew(home: Path, words: Path) -> None:
     first = rendered(words)
-    (words / "page.md").write_text("# Khác\n", encoding="utf-8")
+    (words / "report.md").write_text("%% page\n# Khác\n", encoding="utf-8")
     assert rendered(words) != first
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from reportgen import api
 from reportgen.document.tree import text_of
+from reportgen.errors import TemplateError
 from reportgen.words import templates
 
 SAMPLE = Path(__file__).parent.parent / "assignments" / "engine-twin-05.yaml"
@@ -24,9 +25,9 @@ def with_school(folder: Path, name: str) -> Path:
 def test_a_school_overrides_one_section(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = tmp_path / "templates"
     shutil.copytree(templates(), root)
-    (root / "my-school" / "en").mkdir(parents=True)
-    (root / "my-school" / "en" / "foreword.md").write_text(
-        "# Preface {{ unnumbered() }}\n\nAs our department asks.\n", encoding="utf-8"
+    (root / "my-school").mkdir()
+    (root / "my-school" / "en.md").write_text(
+        "%% foreword\n# Preface {{ unnumbered() }}\n\nAs our department asks.\n", encoding="utf-8"
     )
     monkeypatch.setattr("reportgen.words.templates", lambda: root)
     text = text_of(api.document(api.load(with_school(tmp_path, "my-school"))))
@@ -37,9 +38,10 @@ def test_a_school_overrides_one_section(tmp_path: Path, monkeypatch: pytest.Monk
 def test_a_section_of_a_school_may_call_and_write_short(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = tmp_path / "templates"
     shutil.copytree(templates(), root)
-    (root / "my-school" / "en").mkdir(parents=True)
-    (root / "my-school" / "en" / "foreword.md").write_text(
-        "# Preface {{ unnumbered() }}\n\nFig. @fig.ours shows $A$, $O_1$ and $omega.1$ = {{ value('omega.1') }}.\n\n"
+    (root / "my-school").mkdir()
+    (root / "my-school" / "en.md").write_text(
+        "%% foreword\n# Preface {{ unnumbered() }}\n\n"
+        "Fig. @fig.ours shows $A$, $O_1$ and $omega.1$ = {{ value('omega.1') }}.\n\n"
         '{{ figure("scheme", "fig.ours", "Our machine") }}\n\n'
         '{{ tables("tab.ours", "Our speeds", ["v.B"], positions) }}\n',
         encoding="utf-8",
@@ -49,6 +51,19 @@ def test_a_section_of_a_school_may_call_and_write_short(tmp_path: Path, monkeypa
     assert "shows A, O_1 and ω_1 = " in text
     assert "Our machine" in text
     assert "Our speeds" in text
+
+
+def test_a_section_that_no_report_has_is_a_located_fault(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A misspelt name would change nothing, and nobody would know."""
+    root = tmp_path / "templates"
+    shutil.copytree(templates(), root)
+    (root / "my-school").mkdir()
+    (root / "my-school" / "en.md").write_text(
+        "%% dyads/senses\nOurs.\n\n%% cycle\nOurs.\n\n%% forewords\n# Preface\n", encoding="utf-8"
+    )
+    monkeypatch.setattr("reportgen.words.templates", lambda: root)
+    with pytest.raises(TemplateError, match=r"my-school/en\.md:7: no report has a section forewords"):
+        api.document(api.load(with_school(tmp_path, "my-school")))
 
 
 @pytest.mark.parametrize("name", ["nowhere", "vi", "../vi", "frames"])

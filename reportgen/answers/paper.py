@@ -124,7 +124,7 @@ def machine_task(case: Calculation, key: Key, by_section: bool = False) -> Docum
     prose, names, machine = report.prose, report.names(), case.analysis.machine
     every = range(1, machine.positions + 1)
     asked = asked_positions(key)
-    (title, *given) = prose.render("given.md", names)
+    (title, *given) = prose.render("given", names)
     names |= {
         "answer_tables": empty_sheet(key, by_section),
         "asks_scales": any(row.role is Role.scale for row in key.asked),
@@ -135,7 +135,7 @@ def machine_task(case: Calculation, key: Key, by_section: bool = False) -> Docum
         case,
         key,
         (title, Paragraph((tree.Strong((Text(case.title),)),), "center")),
-        (*given, *prose.render("task.md", names)),
+        (*given, *prose.render("task", names)),
     )
 
 

@@ -1,9 +1,9 @@
 """The machines the house knows: one module each, imported when its kind is asked for.
 
-A machine is found because its module is here and its words are in `templates/<language>/<kind>/`; the kind
-`slider-crank` is the module `slider_crank`.  A module gives `TURNS` of the driver in a cycle, the models
-`Parameters` and, if it has one, `Indicator`, and `CHECKS`; `added_positions` if a turn has more positions than the
-evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
+A machine is found because its module is here and its words are in `templates/<language>/catalogue/`; the kind
+`slider-crank` is the module `slider_crank` and the file `slider-crank.md`.  A module gives `TURNS` of the driver in
+a cycle, the models `Parameters` and, if it has one, `Indicator`, and `CHECKS`; `added_positions` if a turn has more
+positions than the evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
 
 A kind that is no machine gives `case` in place of `machine`, which makes a case of its own.
 """

@@ -49,7 +49,7 @@ ANSWER = (25.0, 65.0, 70.0)
 def solution(case: ExerciseCase) -> Document:
     """The finished, numbered document; raises `TemplateError`, and `NotOfferedError` where no steps are known."""
     words, assignment = case.words, case.assignment
-    blocks = Prose(case.directories).render("exercise.md", names(case))
+    blocks = Prose(case.places).render("exercise", names(case))
     return number(
         Document(
             assignment.language,

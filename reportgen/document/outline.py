@@ -40,7 +40,7 @@ def compose(case: Calculation) -> Document:
         if section == "contents":
             blocks += [PageBreak(), Contents(words["document"]["contents"])]
         else:
-            blocks += report.prose.render(f"{section}.md", names)
+            blocks += report.prose.render(section, names)
     assignment = case.assignment
     return number(
         Document(

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 import traceback
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from contextvars import ContextVar
 from dataclasses import dataclass, field
@@ -20,9 +20,9 @@ from pathlib import Path
 from pickle import UnpicklingError
 
 from jinja2 import (
+    BaseLoader,
     BytecodeCache,
     Environment,
-    FileSystemLoader,
     StrictUndefined,
     TemplateNotFound,
     TemplateSyntaxError,
@@ -42,6 +42,7 @@ from reportgen.kept import keep, kept
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Expression, Number
 from reportgen.notation.numbers import MINUS
+from reportgen.sections import find, home, refuse_strangers
 from reportgen.words import version
 
 _PRIVATE = re.compile("[\ue000-\ue004]")
@@ -68,22 +69,24 @@ class PointName(str):
 
 
 class Prose:
-    """Renders the templates found in `directories`; one object serves a whole report.
+    """Renders the sections found in `places`; one object serves a whole report.
 
-    Every template may call `ref(key, …)`, `key(name)` and `unnumbered()` (at the end of a heading),
-    `blank(label)`, and `inlines(words)` for what a macro or a `{% set %}` block made.
+    Every section may call `ref(key, …)`, `key(name)` and `unnumbered()` (at the end of a heading),
+    `blank(label)`, and `inlines(words)` for what a macro or a `{% set %}` block made.  Raises `TemplateError`
+    for a section of a school that would never be read.
     """
 
-    def __init__(self, directories: tuple[Path, ...]) -> None:
-        self.directories = directories
+    def __init__(self, places: tuple[Path, ...]) -> None:
+        refuse_strangers(places)
+        self.places = places
 
     def render(self, name: str, names: Mapping[str, object]) -> tuple[Block, ...]:
-        """The blocks of the template `name` ("foreword.md") with `names` filled in.
+        """The blocks of the section `name` ("foreword") with `names` filled in.
 
         Strings appear as they are, expressions as formulas, numbers with their unit, inlines and blocks
         as themselves, sequences item by item.  Raises `TemplateError` (`file:line: message`) on any fault.
         """
-        return markdown.blocks(_render(_environment(self.directories), name, names))
+        return markdown.blocks(_render(self.places, name, names))
 
     def inlines(self, words: str) -> Inlines:
         """What a macro, `caller()` or a `{% set %}` block made, as inlines: a caption written in a template.
@@ -128,11 +131,25 @@ def _kept_as(bucket: Bucket) -> str:
 _compiled = _Compiled()
 
 
+class _Sections(BaseLoader):
+    """Each section is a template, whose lines have the numbers that they have in their file."""
+
+    def __init__(self, places: tuple[Path, ...]) -> None:
+        self.places = places
+
+    def get_source(self, environment: Environment, template: str) -> tuple[str, str, Callable[[], bool]]:
+        found = find(template, self.places)
+        if found is None:
+            raise TemplateNotFound(template)
+        above = "{#" + "\n" * (found.line - 1) + "#}\n"  # a comment, of which nothing is left
+        return above + found.text, str(found.file), lambda: find(template, self.places) == found
+
+
 @lru_cache(maxsize=ENVIRONMENTS)
-def _environment(directories: tuple[Path, ...]) -> Environment:
-    """The environment of some folders with its compiled templates; a template that was changed is read again."""
+def _environment(places: tuple[Path, ...]) -> Environment:
+    """The environment of some places with its compiled sections; a section that was changed is read again."""
     result = Environment(
-        loader=FileSystemLoader(directories),
+        loader=_Sections(places),
         bytecode_cache=_compiled,
         extensions=[_Provenance],
         undefined=StrictUndefined,
@@ -149,17 +166,18 @@ def _environment(directories: tuple[Path, ...]) -> Environment:
     return result
 
 
-def _render(environment: Environment, name: str, names: Mapping[str, object]) -> Rendered:
-    """The template `name` with `names` filled in; raises `TemplateError` with file and line on any fault."""
+def _render(places: tuple[Path, ...], name: str, names: Mapping[str, object]) -> Rendered:
+    """The section `name` with `names` filled in; raises `TemplateError` with file and line on any fault."""
     values: list[Emitted] = []
     outer = _values.set(values)
     try:
-        output = environment.get_template(name).render(names)
+        output = _environment(places).get_template(name).render(names)
     except TemplateSyntaxError as error:
         raise TemplateError(f"{error.filename or error.name}:{error.lineno}: {error.message}") from error
     except TemplateNotFound as error:
-        file, line = _origin(error, name)
-        raise TemplateError(f"{file}:{line}: there is no template {error.name}") from error
+        own = next(place for place in places if place.is_relative_to(places[-1]))  # of the machine, if it has one
+        file, line = _origin(error, str(home(name, own)[0]))
+        raise TemplateError(f"{file}:{line}: there is no section {error.name}") from error
     except ReportgenError:
         raise
     except Exception as error:

@@ -73,7 +73,7 @@ class Report:
 
     @cached_property
     def prose(self) -> Prose:
-        return Prose(self.case.directories)
+        return Prose(self.case.places)
 
     @property
     def words(self) -> Mapping[str, Any]:

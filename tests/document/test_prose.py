@@ -31,6 +31,7 @@ from reportgen.document.tree import (
 )
 from reportgen.errors import TemplateError
 from reportgen.notation.expressions import Number, Symbol
+from reportgen.sections import home
 from reportgen.words import search_path, templates
 
 V_B = Symbol("v", "B")
@@ -52,17 +53,22 @@ NAMES: Mapping[str, object] = {
 Render = Callable[[str], tuple[Block, ...]]
 
 
+def written(folder: Path, **sections: str) -> Prose:
+    """A file `page.md` with these sections; the words of the first begin in line 2."""
+    file = folder / "page.md"
+    file.write_text("\n".join(f"%% {name}\n{words}" for name, words in sections.items()), encoding="utf-8")
+    return Prose((file,))
+
+
 @pytest.fixture
 def render(tmp_path: Path) -> Render:
-    (tmp_path / "macros.md").write_text(
+    macros = (
         "{% macro speed_of(point) %}*speed* of {{ point }}{% endmacro %}\n"
-        "{% macro pages(n) %}\n\nOne.\n\nTwo: {{ n }}.\n\n{% endmacro %}\n",
-        encoding="utf-8",
+        "{% macro pages(n) %}\n\nOne.\n\nTwo: {{ n }}.\n\n{% endmacro %}\n"
     )
 
     def rendered(template: str) -> tuple[Block, ...]:
-        (tmp_path / "page.md").write_text(template, encoding="utf-8")
-        return Prose((tmp_path,)).render("page.md", NAMES)
+        return written(tmp_path, page=template, macros=macros).render("page", NAMES)
 
     return rendered
 
@@ -111,10 +117,10 @@ def test_markdown_becomes_the_tree(render: Render, template: str, expected: list
             [List(tuple((says(InlineMath(V_B), " ", Text(str(i))),) for i in range(2)))],
         ),
         (
-            "{% import 'macros.md' as m %}\nThe {{ m.speed_of('*B*') }}.",
+            "{% import 'macros' as m %}\nThe {{ m.speed_of('*B*') }}.",
             [says("The ", Emph((Text("speed"),)), " of ", Text("*B*"), ".")],
         ),
-        ("{% import 'macros.md' as m %}\n{{ m.pages(vB) }}", [says("One."), says("Two: ", InlineMath(V_B), ".")]),
+        ("{% import 'macros' as m %}\n{{ m.pages(vB) }}", [says("One."), says("Two: ", InlineMath(V_B), ".")]),
         (
             "{% set x %}*em* {{ vB }}{% endset %}\n{{ x ~ '*no*' }}{{ x }}",
             [
@@ -153,25 +159,24 @@ def test_a_hostile_text_stays_text_by_any_way(render: Render, template: str) -> 
     assert render(template) == (says(HOSTILE),)
 
 
-def one_item(templates: Path) -> Prose:
-    (templates / "one.md").write_text("- *x* {{ user }}y\n", encoding="utf-8")
-    return Prose((templates,))
+def one_item(folder: Path) -> Prose:
+    return written(folder, one="- *x* {{ user }}y\n")
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=200, deadline=None)
 @given(user=st.text(min_size=1) | st.text(st.characters(categories=("Co", "Nd", "Cc", "Zs"))).filter(bool))
 def test_any_text_survives_as_one_inline(tmp_path: Path, user: str) -> None:
     """Any string at all, private-use characters among them, arrives unchanged as exactly one Text."""
-    blocks = one_item(tmp_path).render("one.md", {"user": user})
+    blocks = one_item(tmp_path).render("one", {"user": user})
     assert blocks == (List(((says(Emph((Text("x"),)), " ", Text(user), "y"),),)),)
 
 
 def test_a_text_cannot_imitate_a_token(render: Render, tmp_path: Path) -> None:
     forged = "\ue0000\ue001 \ue000:0\ue001 \ue002*x*\ue003*y*\ue004"
-    assert one_item(tmp_path).render("one.md", {"user": forged}) == (
+    assert one_item(tmp_path).render("one", {"user": forged}) == (
         List(((says(Emph((Text("x"),)), " ", Text(forged), "y"),),)),
     )
-    with pytest.raises(TemplateError, match=r"page\.md:2: private-use"):
+    with pytest.raises(TemplateError, match=r"page\.md:3: private-use"):
         render("a\nb \ue000")
 
 
@@ -210,15 +215,16 @@ def test_a_text_cannot_imitate_a_token(render: Render, tmp_path: Path) -> None:
         ("a\n\n- b\n- c `d`", 4, "inline code"),
         ("{% for i in [1, 2] %}\n- a\n{% endfor %}\n\nb `d`", 5, "inline code"),
         ("a\n\n##### b", 3, "level 5"),
-        ("a\n{% include 'none.md' %}", 2, "no template none.md"),
+        ("a\n{% include 'none' %}", 2, "no section none"),
         ("a\n{% filter truncate(9) %}{{ k }} long enough to be cut{% endfilter %}", 2, "in two"),
     ],
 )
 def test_a_fault_names_file_and_line(render: Render, template: str, line: int, words: str) -> None:
+    """The line of the file, not of the section, whose words begin below its heading."""
     with pytest.raises(TemplateError) as caught:
         render(template)
     message = str(caught.value)
-    assert f"page.md:{line}: " in message
+    assert f"page.md:{line + 1}: " in message
     assert words in message
 
 
@@ -226,19 +232,17 @@ def test_a_fault_in_a_called_function_is_placed_where_it_is_called(tmp_path: Pat
     def broken(name: str) -> object:
         return {"a": 1}[name]
 
-    (tmp_path / "page.md").write_text("\n\n{{ broken('b') }}", encoding="utf-8")
-    with pytest.raises(TemplateError, match=r"page\.md:3: KeyError: 'b'"):
-        Prose((tmp_path,)).render("page.md", {"broken": broken})
-    with pytest.raises(TemplateError, match="there is no template other"):
-        Prose((tmp_path,)).render("other.md", {})
+    prose = written(tmp_path, page="\n\n{{ broken('b') }}")
+    with pytest.raises(TemplateError, match=r"page\.md:4: KeyError: 'b'"):
+        prose.render("page", {"broken": broken})
+    with pytest.raises(TemplateError, match=r"page\.md:1: there is no section other"):
+        prose.render("other", {})
 
 
 def test_a_function_may_render_another_template(tmp_path: Path) -> None:
     """A rendering within a rendering keeps its values apart."""
-    (tmp_path / "outer.md").write_text("{{ 'a' }}\n\n{{ inner() }}\n\n{{ 'c' }}", encoding="utf-8")
-    (tmp_path / "inner.md").write_text("{{ 'b' }}", encoding="utf-8")
-    prose = Prose((tmp_path,))
-    blocks = prose.render("outer.md", {"inner": lambda: prose.render("inner.md", {})})
+    prose = written(tmp_path, outer="{{ 'a' }}\n\n{{ inner() }}\n\n{{ 'c' }}", inner="{{ 'b' }}")
+    blocks = prose.render("outer", {"inner": lambda: prose.render("inner", {})})
     assert blocks == (says("a"), says("b"), says("c"))
 
 
@@ -253,15 +257,16 @@ def test_a_caption_is_one_line(render: Render) -> None:
 
 
 def test_the_nearest_words_win(tmp_path: Path) -> None:
-    """A school's section before the machine's, that before the common one; by file name."""
+    """A school's section before the machine's, that before the common one; by the section's name."""
     path = search_path("vi", kind="engine", school="school", root=tmp_path)
-    for directory, names in zip(path, ("a", "ab", "abc"), strict=True):
-        directory.mkdir(parents=True, exist_ok=True)
-        for name in names:
-            (directory / f"{name}.md").write_text(str(directory.relative_to(tmp_path)), encoding="utf-8")
+    for place, names in zip(path, ("a", "ab", "abc"), strict=True):
+        file, _ = home("a", place)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        where = file.relative_to(tmp_path)
+        file.write_text("\n".join(f"%% {name}\n{where}\n" for name in names), encoding="utf-8")
     prose = Prose(path)
-    found = [prose.render(f"{name}.md", {}) for name in "abc"]
-    assert found == [(says("school/vi"),), (says("vi/engine"),), (says("vi"),)]
+    found = [prose.render(name, {}) for name in "abc"]
+    assert found == [(says("school/vi.md"),), (says("vi/catalogue/engine.md"),), (says("vi/report.md"),)]
     assert search_path("en", root=tmp_path) == (tmp_path / "en",)
 
 
@@ -272,6 +277,16 @@ def test_the_templates_are_found() -> None:
 def test_a_template_changed_between_reports_is_read_again(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     for second, word in enumerate(("one", "two")):
-        page.write_text(word, encoding="utf-8")
+        prose = written(tmp_path, page=word)
         os.utime(page, (second, second))
-        assert Prose((tmp_path,)).render("page.md", {}) == (Paragraph((Text(word),)),)
+        assert prose.render("page", {}) == (Paragraph((Text(word),)),)
+
+
+def test_words_that_come_nearer_are_seen(tmp_path: Path) -> None:
+    """Also while the environment of the search path is kept."""
+    path = search_path("vi", school="school", root=tmp_path)
+    for place, word in ((path[1], "one"), (path[0], "two")):
+        file, _ = home("page", place)
+        file.parent.mkdir()
+        file.write_text(f"%% page\n{word}\n", encoding="utf-8")
+        assert Prose(path).render("page", {}) == (says(word),)

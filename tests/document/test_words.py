@@ -12,23 +12,27 @@ from reportgen.words import load_words, search_path
 
 def test_words_of_a_school_stand_before_the_common_ones(tmp_path: Path) -> None:
     path = search_path("vi", school="school", root=tmp_path)
-    for directory, text in zip(
-        path,
-        (
-            "figure: {plan: Sơ đồ}\nstrokes: [Một]\n",
-            "figure:\n  plan: Họa đồ\n  scheme: Lược đồ\nyes: Có\nstrokes: [Hút, Nén]\n",
-        ),
-        strict=True,
-    ):
-        directory.mkdir(parents=True)
-        (directory / "words.yaml").write_text(text, encoding="utf-8")
+    *_, common = path
+    common.mkdir()
+    (tmp_path / "school").mkdir()
+    (tmp_path / "school" / "vi.md").write_text(
+        "%% foreword\nLời nói đầu\n\n%% words\nfigure: {plan: Sơ đồ}\nstrokes: [Một]\n", encoding="utf-8"
+    )
+    (common / "words.yaml").write_text(
+        "figure:\n  plan: Họa đồ\n  scheme: Lược đồ\nyes: Có\nstrokes: [Hút, Nén]\n", encoding="utf-8"
+    )
     assert load_words(path) == {"figure": {"plan": "Sơ đồ", "scheme": "Lược đồ"}, "yes": "Có", "strokes": ["Một"]}
 
 
-@pytest.mark.parametrize(
-    ("text", "place"),
-    [("x", "1:1: a table"), ("- x", "1:1: a table"), ("", "1:1: empty"), ("a: 1\na: 2\n", "2:1: duplicate-key")],
-)
+UNREADABLE = [
+    ("x", "1:1: a table"),
+    ("- x", "1:1: a table"),
+    ("", "1:1: empty"),
+    ("a: 1\na: 2\n", "2:1: duplicate-key"),
+]
+
+
+@pytest.mark.parametrize(("text", "place"), UNREADABLE)
 def test_what_cannot_be_read_is_a_fault_with_its_place(tmp_path: Path, text: str, place: str) -> None:
     (tmp_path / "words.yaml").write_text(text, encoding="utf-8")
     with pytest.raises(TemplateError) as caught:
@@ -36,8 +40,18 @@ def test_what_cannot_be_read_is_a_fault_with_its_place(tmp_path: Path, text: str
     assert f"words.yaml:{place}" in str(caught.value)
 
 
+@pytest.mark.parametrize(("text", "place"), UNREADABLE)
+def test_a_fault_in_a_section_of_words_has_its_place_in_the_file(tmp_path: Path, text: str, place: str) -> None:
+    file = tmp_path / "pump.md"
+    file.write_text(f"%% given\n# Assignment\n\n%% words\n{text}", encoding="utf-8")
+    line, _, rest = place.partition(":")
+    with pytest.raises(TemplateError) as caught:
+        load_words((file,))
+    assert f"pump.md:{int(line) + 4}:{rest}" in str(caught.value)
+
+
 def test_a_language_without_words_is_a_fault(tmp_path: Path) -> None:
-    with pytest.raises(TemplateError, match=r"words\.yaml: the file is missing"):
+    with pytest.raises(TemplateError, match=r"there are no words here"):
         load_words((tmp_path,))
 
 

@@ -31,9 +31,11 @@ from reportgen.document.tree import (
     formula,
     plain,
 )
-from reportgen.kinds import kinds
+from reportgen.kinds import SAMPLE, kinds
 from reportgen.mechanism.structure import DyadKind
-from reportgen.words import load_words, search_path
+from reportgen.notation.numbers import Language
+from reportgen.sections import Passage, sections
+from reportgen.words import SECTION, kind_file, load_words, search_path
 from tests.reports import built
 from tests.reports.built import Written
 
@@ -138,13 +140,27 @@ def test_every_template_has_its_twin() -> None:
     assert templates("vi").keys() == templates("en").keys()
 
 
+FILES = sorted(name for name in templates("vi") if name.endswith(".md"))
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_twins_have_the_same_sections_in_the_same_order(name: str) -> None:
+    vi, en = (list(sections(templates(language)[name])) for language in ("vi", "en"))
+    assert vi == en
+
+
 GRAMMAR = {"lowered"}
 """Functions that only fit a name into a sentence; so do conditions about singular and plural."""
 
 
-def calls(path: Path) -> set[str]:
-    """Functions, loops, included templates and keys that a template uses; not its texts and grammar."""
-    tree = Environment().parse(path.read_text(encoding="utf-8"))
+def called_sections(file: Path) -> dict[str, Passage]:
+    """The sections of a file that are templates."""
+    return {name: each for name, each in sections(file).items() if name not in {SECTION, SAMPLE}}
+
+
+def calls(section: Passage) -> set[str]:
+    """Functions, loops, included sections and keys that a section uses; not its texts and grammar."""
+    tree = Environment().parse(section.text)
     result: set[str] = set()
     for node in tree.find_all(nodes.Node):
         match node:
@@ -159,10 +175,10 @@ def calls(path: Path) -> set[str]:
     return result
 
 
-@pytest.mark.parametrize("name", sorted(name for name in templates("vi") if name.endswith(".md")))
+@pytest.mark.parametrize("name", FILES)
 def test_twins_call_the_same(name: str) -> None:
-    vi, en = (calls(templates(language)[name]) for language in ("vi", "en"))
-    assert vi == en
+    vi, en = (called_sections(templates(language)[name]) for language in ("vi", "en"))
+    assert [section for section in vi if calls(vi[section]) != calls(en[section])] == []
 
 
 def leaves(words: Mapping[str, Any], above: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
@@ -186,28 +202,27 @@ ONE_SIDED = {("cover", "months")}
 """English dates name the month; Vietnamese ones count it."""
 
 
-@pytest.mark.parametrize("kind", ["", *kinds()])
-@pytest.mark.parametrize("file", ["words.yaml", "messages.yaml"])
-def test_both_languages_have_the_same_words(kind: str, file: str) -> None:
-    vi, en = (built_words(language, kind, file) for language in ("vi", "en"))
+@pytest.mark.parametrize("name", ["words.yaml", "messages.yaml", *kinds()])
+def test_both_languages_have_the_same_words(name: str) -> None:
+    vi, en = (shape_of_words(built_words(language, name)) for language in ("vi", "en"))
     assert {keys for keys in vi ^ en if keys[:-1] not in ONE_SIDED} == set()
 
 
-def built_words(language: str, kind: str, file: str) -> set[tuple[Any, ...]]:
+def built_words(language: Language, name: str) -> Mapping[str, Any]:
+    """The words of a file, or of the section of a kind."""
     import yaml
 
-    path = TEMPLATES / language / kind / file
-    return shape_of_words(yaml.safe_load(path.read_text(encoding="utf-8"))) if path.is_file() else set()
+    file = TEMPLATES / language / name
+    text = file.read_text(encoding="utf-8") if file.suffix else sections(kind_file(language, name))[SECTION].text
+    words: Mapping[str, Any] = yaml.safe_load(text)
+    return words
 
 
 def test_every_word_is_used() -> None:
     """Where the code reads a table by a computed key, the table's keys are those that can be computed."""
-    sources = [
-        *(built.ROOT / "reportgen").rglob("*.py"),
-        *TEMPLATES.rglob("*.md"),
-        *(TEMPLATES / "frames" / "html").iterdir(),
-    ]
-    code = "\n".join(path.read_text(encoding="utf-8") for path in sources)
+    sources = [*(built.ROOT / "reportgen").rglob("*.py"), *(TEMPLATES / "frames" / "html").iterdir()]
+    called = [section.text for file in TEMPLATES.rglob("*.md") for section in called_sections(file).values()]
+    code = "\n".join([*(path.read_text(encoding="utf-8") for path in sources), *called])
     words = load_words(search_path("en"))
     assert words["document"].keys() == {field.name for field in fields(Words)}
     assert words["groups"].keys() == set(get_args(DyadKind))
