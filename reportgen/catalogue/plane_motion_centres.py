@@ -12,14 +12,8 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from reportgen.catalogue import plane_motion_file as file
-from reportgen.catalogue.plane_motion_places import (
-    Geometry,
-    belt_ends,
-    contact_of_discs,
-    contact_on_line,
-    direction,
-    unit,
-)
+from reportgen.catalogue.plane_motion_places import Geometry, unit
+from reportgen.notation.constructions import meet
 from reportgen.plane_motion.conditions import GROUND
 from reportgen.plane_motion.motion import Motion
 from reportgen.plane_motion.ways import parallel, perpendicular
@@ -69,6 +63,11 @@ class Layout:
     """The points in which discs touch, by the index of their joint."""
     belts: dict[int, tuple[str, str]] = field(default_factory=dict)
     """The two ends of a straight part of each belt, by the index of its joint."""
+
+    @property
+    def geometry(self) -> Geometry:
+        """The lines of the file, its contacts and belts."""
+        return Geometry(self.given, self.points)
 
     def point_at(self, at: complex, letter: str) -> str:
         """The name of the point at a place, a new one if none is declared there."""
@@ -140,21 +139,21 @@ def _enter(found: Layout, joint: file.Joint, index: int) -> None:
             body = max(bodies)
             found.centres[body] = Centre(body, "pivot", at, known[at])
         case file.SlotJoint(point=point, on=0):
-            found.ways[point] = found.slots[point] = direction(joint, known)
+            found.ways[point] = found.slots[point] = found.geometry.direction(joint)
         case file.Slider(body=body, on=0):
-            found.centres[body] = Centre(body, "translation", way=direction(joint, known))
+            found.centres[body] = Centre(body, "translation", way=found.geometry.direction(joint))
         case file.Translation(body=body):
             found.centres.setdefault(body, Centre(body, "translation"))
         case file.RollingOnLine(disc=body, on=carrier):
-            touch = found.point_at(contact_on_line(joint, index, given, known), "K")
+            touch = found.point_at(found.geometry.contact_on_line(joint), "K")
             found.contacts[index] = touch
             disc = given.disc(body)
             if carrier == GROUND and disc is not None:
                 found.centres[body] = Centre(body, "contact", touch, known[touch])
-                found.slots[disc.centre] = direction(joint, known)
+                found.slots[disc.centre] = found.geometry.direction(joint)
             _share(found, touch, body, carrier)
         case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
-            touch = found.point_at(contact_of_discs(joint, index, given, known), "K")
+            touch = found.point_at(found.geometry.contact_of_discs(joint), "K")
             found.contacts[index] = touch
             if GROUND in discs:
                 body = max(discs)
@@ -166,7 +165,7 @@ def _enter(found: Layout, joint: file.Joint, index: int) -> None:
 
 def _belt_ends(found: Layout, joint: file.Belt, index: int) -> None:
     """The points in which a straight part of a belt touches its discs, each a point of its disc."""
-    ends = belt_ends(Geometry(found.given, found.points), joint)
+    ends = found.geometry.belt_ends(joint)
     names = tuple(found.point_at(at, "K") for at in ends)
     found.belts[index] = names[0], names[1]
     for name, body in zip(names, joint.discs, strict=True):
@@ -200,8 +199,7 @@ def _by_normals(found: Layout, body: int, one: str, other: str) -> Centre | None
         if abs(p - q) < NEAR or perpendicular(u, (p - q) / abs(p - q)):
             return None
         return Centre(body, "translation", points=(one, other), way=u)
-    n, m = 1j * u, 1j * w
-    at = p + n * (((q - p).conjugate() * m).imag / (n.conjugate() * m).imag)
+    at = meet(p, 1j * u, q, 1j * w)
     return Centre(body, "normals", name_of_centre(found, body, at), at, (one, other))
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import cmath
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
 from reportgen.catalogue import plane_motion_file as file
-from reportgen.catalogue.linkage_file import place
 from reportgen.errors import Finding, Where
+from reportgen.notation.constructions import circle_circle, circle_line, cross, foot, meet, real_root
 from reportgen.plane_motion import conditions as on
 from reportgen.plane_motion.conditions import Condition
 from reportgen.plane_motion.solving import System
@@ -21,8 +20,6 @@ TOUCHING = 1e-6
 """Discs and lines whose distance is off by less than this share of the radius touch."""
 PARALLEL = 1e-9
 ROUND = 1e-12
-
-Places = dict[str, complex]
 
 
 class MisplacedError(Exception):
@@ -41,124 +38,17 @@ def unit(angle: float) -> complex:
     return cmath.exp(1j * angle)
 
 
-def places(given: file.Parameters) -> Places:
-    """The points in the order of the file.  Raises `MisplacedError` for the first that has no place."""
-    found: Places = {}
-    for name, point in given.points.items():
-        found[name] = _place(name, point, found)
-    return found
-
-
-def _place(name: str, point: file.PointAt, known: Places) -> complex:
-    where = ("points", name)
-
-    def at(other: str, *key: str | int) -> complex:
-        if other not in known:
-            raise MisplacedError("no-such-point", *where, *key, text=other, known=", ".join(known) or "–")
-        return known[other]
-
-    if point.at is not None:
-        return place(point.at)
-    if point.lines is not None:
-        one, two = point.lines
-        p, u = at(one.through, "lines", 0, "through"), unit(one.angle.si)
-        q, w = at(two.through, "lines", 1, "through"), unit(two.angle.si)
-        across = (u.conjugate() * w).imag
-        if abs(across) < PARALLEL:
-            raise MisplacedError("lines-parallel", *where, "lines", text=name)
-        return p + u * (((q - p).conjugate() * w).imag / across)
-    if point.distances is not None:
-        first, second = (at(end.from_, "distances", index, "from") for index, end in enumerate(point.distances))
-        r1, r2 = (end.distance.si for end in point.distances)
-        span = abs(second - first)
-        if span < PARALLEL or not abs(r1 - r2) <= span * (1 + ROUND) or span * (1 - ROUND) > r1 + r2:
-            raise MisplacedError("circles-apart", *where, "distances", text=name)
-        along = (r1**2 - r2**2 + span**2) / (2 * span)
-        across = math.sqrt(max(r1**2 - along**2, 0.0)) * (1 if point.side == "left" else -1)
-        return first + (second - first) / span * complex(along, across)
-    assert point.from_ is not None
-    assert point.distance is not None
-    centre, radius = at(point.from_, "from"), point.distance.si
-    if point.angle is not None:
-        return centre + radius * unit(point.angle.si)
-    assert point.on is not None
-    start, u = at(point.on.through, "on", "through"), unit(point.on.angle.si)
-    foot = start + u * (u.conjugate() * (centre - start)).real
-    off = float(radius**2 - abs(centre - foot) ** 2)
-    if off < 0:
-        raise MisplacedError("out-of-reach", *where, "distance", text=name)
-    return foot + (1 if point.end == "far" else -1) * u * math.sqrt(off)
-
-
-def direction(line: file.Directed, known: Mapping[str, complex]) -> complex:
-    """The unit vector of a line."""
-    if line.along is not None:
-        way = known[line.along[1]] - known[line.along[0]]
-        return way / abs(way)
-    assert line.angle is not None
-    return unit(line.angle.si)
-
-
-def contact_on_line(joint: file.RollingOnLine, index: int, given: file.Parameters, known: Places) -> complex:
-    """Where a disc touches its line.  Raises `MisplacedError` for one that does not."""
-    disc = given.disc(joint.disc)
-    assert disc is not None
-    u, centre = direction(joint, known), known[disc.centre]
-    foot = known[joint.through] + u * (u.conjugate() * (centre - known[joint.through])).real
-    if abs(abs(centre - foot) - disc.radius.si) > TOUCHING * disc.radius.si:
-        raise MisplacedError(
-            "no-contact",
-            *("joints", index),
-            text=str(joint.disc),
-            distance=f"{abs(centre - foot) * 1e3:.6g}",
-            radius=f"{disc.radius.si * 1e3:.6g}",
-        )
-    return foot
-
-
-def contact_of_discs(
-    joint: file.RollingOnCircle | file.Gears, index: int, given: file.Parameters, known: Places
-) -> complex:
-    """Where two discs touch, outside or inside.  Raises `MisplacedError` for discs that do not."""
-    one, other = (given.disc(body) for body in joint.discs)
-    assert one is not None
-    assert other is not None
-    way = known[other.centre] - known[one.centre]
-    first, second, apart = one.radius.si, other.radius.si, abs(way)
-    for wanted, reach in ((first + second, first), (first - second, first), (second - first, -first)):
-        if wanted > 0 and abs(apart - wanted) <= TOUCHING * (first + second):
-            return known[one.centre] + way / apart * reach
-    raise MisplacedError(
-        "no-contact-of-discs",
-        *("joints", index),
-        text=str(joint.discs[0]),
-        other=str(joint.discs[1]),
-        distance=f"{apart * 1e3:.6g}",
-        radii=f"{first * 1e3:.6g}, {second * 1e3:.6g}",
-    )
-
-
-def belt_ends(geometry: Geometry, joint: file.Belt) -> tuple[Any, Any]:
-    """Where a belt leaves one disc, to the left of the way to the other, and where it comes to the other."""
-    one, other = (geometry.given.disc(body) for body in joint.discs)
-    assert one is not None
-    assert other is not None
-    first, second = geometry.points[one.centre], geometry.points[other.centre]
-    r1, r2 = geometry.size(one.radius), geometry.size(other.radius)
-    reach = -r2 if joint.crossed else r2
-    apart = abs(second - first)
-    share = (r1 - reach) / apart
-    way = (second - first) / apart
-    out = way * share + 1j * way * geometry.root(1 - share**2)
-    return first + out * r1, second + out * reach
-
-
 class Geometry:
-    """The points and lines of a file in numbers; whoever works with symbols has another one."""
+    """The points and lines of a file in numbers; whoever works with symbols has another arithmetic.
+
+    What is constructed exists; whether it does is asked before, of the numbers.
+    """
 
     def __init__(self, given: file.Parameters, points: Mapping[str, Any]) -> None:
         self.given = given
         self.points = points
+
+    # --- the arithmetic
 
     def size(self, told: Given) -> Any:
         return told.si
@@ -166,22 +56,174 @@ class Geometry:
     def unit(self, angle: Given) -> Any:
         return unit(angle.si)
 
+    def point(self, x: Any, y: Any) -> Any:
+        return complex(x, y)
+
     def root(self, of: Any) -> Any:
-        return math.sqrt(of)
+        return real_root(of)
+
+    def is_inner(self, joint: file.RollingOnCircle | file.Gears) -> bool:
+        """Whether the first disc of a joint lies within the second."""
+        one, other = self.discs(joint)
+        apart, smaller = abs(self.points[other.centre] - self.points[one.centre]), other.radius.si - one.radius.si
+        return smaller > 0 and abs(apart - smaller) <= TOUCHING * (one.radius.si + other.radius.si)
+
+    # --- what is constructed
+
+    def place(self, point: file.PointAt) -> Any:
+        """Where a point is, from the points before it."""
+        if point.at is not None:
+            return self.point(*map(self.size, point.at))
+        if point.lines is not None:
+            one, two = point.lines
+            first, second = self.points[one.through], self.points[two.through]
+            return meet(first, self.unit(one.angle), second, self.unit(two.angle))
+        if point.distances is not None:
+            (c1, r1), (c2, r2) = ((self.points[one.from_], self.size(one.distance)) for one in point.distances)
+            return circle_circle(c1, r1, c2, r2, 1 if point.side == "left" else -1, self.root)
+        assert point.from_ is not None
+        assert point.distance is not None
+        centre, radius = self.points[point.from_], self.size(point.distance)
+        if point.angle is not None:
+            return centre + self.unit(point.angle) * radius
+        assert point.on is not None
+        start, u = self.points[point.on.through], self.unit(point.on.angle)
+        return circle_line(centre, radius, start, u, 1 if point.end == "far" else -1, self.root)
 
     def direction(self, line: file.Directed) -> Any:
-        return direction(line, self.points)
+        """The unit vector of a line."""
+        if line.along is not None:
+            start, end = (self.points[name] for name in line.along)
+            return (end - start) / abs(end - start)
+        assert line.angle is not None
+        return self.unit(line.angle)
 
-    def contact_on_line(self, joint: file.RollingOnLine, index: int) -> Any:
-        return contact_on_line(joint, index, self.given, dict(self.points))
+    def disc(self, body: int) -> file.Disc:
+        """The disc that a body is.  Raises `ValueError` for one that is none."""
+        disc = self.given.disc(body)
+        if disc is None:
+            raise ValueError(f"body {body} is no disc")
+        return disc
 
-    def contact_of_discs(self, joint: file.RollingOnCircle | file.Gears, index: int) -> Any:
-        return contact_of_discs(joint, index, self.given, dict(self.points))
+    def discs(self, joint: file.RollingOnCircle | file.Gears | file.Belt) -> tuple[file.Disc, file.Disc]:
+        one, other = joint.discs
+        return self.disc(one), self.disc(other)
+
+    def contact_on_line(self, joint: file.RollingOnLine) -> Any:
+        """Where a disc touches its line."""
+        return foot(self.points[self.disc(joint.disc).centre], self.points[joint.through], self.direction(joint))
+
+    def contact_of_discs(self, joint: file.RollingOnCircle | file.Gears) -> Any:
+        """Where two discs touch on the line of their centres: away from the second's if the first lies within it."""
+        one, other = self.discs(joint)
+        start, end, radius = self.points[one.centre], self.points[other.centre], self.size(one.radius)
+        return start + (end - start) / abs(end - start) * (-radius if self.is_inner(joint) else radius)
+
+    def belt_ends(self, joint: file.Belt) -> tuple[Any, Any]:
+        """Where a belt leaves one disc, to the left of the way to the other, and where it comes to the other."""
+        one, other = self.discs(joint)
+        first, second = self.points[one.centre], self.points[other.centre]
+        r1, r2 = self.size(one.radius), self.size(other.radius)
+        reach = -r2 if joint.crossed else r2
+        apart = abs(second - first)
+        share = (r1 - reach) / apart
+        along = (second - first) / apart
+        out = along * share + 1j * along * self.root(1 - share**2)
+        return first + out * r1, second + out * reach
+
+
+# --- whether it exists ----------------------------------------------------------------------------
+
+
+def placed(given: file.Parameters) -> Geometry:
+    """The geometry of a file, its points placed in their order.
+
+    Raises `MisplacedError` for the first point that has no place, else for the first contact or belt that is none.
+    """
+    points: dict[str, complex] = {}
+    geometry = Geometry(given, points)
+    for name, point in given.points.items():
+        _require_place(name, point, geometry)
+        points[name] = complex(geometry.place(point))
+    for index, joint in enumerate(given.joints):
+        match joint:
+            case file.RollingOnLine():
+                _require_contact_on_line(joint, index, geometry)
+            case file.RollingOnCircle() | file.Gears():
+                _require_contact_of_discs(joint, index, geometry)
+            case file.Belt():
+                _require_length(joint, index, geometry)
+    return geometry
+
+
+def _require_place(name: str, point: file.PointAt, geometry: Geometry) -> None:
+    where, known = ("points", name), geometry.points
+
+    def at(other: str, *key: str | int) -> complex:
+        if other not in known:
+            raise MisplacedError("no-such-point", *where, *key, text=other, known=", ".join(known) or "–")
+        return complex(known[other])
+
+    if point.at is not None:
+        return
+    if point.lines is not None:
+        for index, line in enumerate(point.lines):
+            at(line.through, "lines", index, "through")
+        if abs(cross(*(unit(line.angle.si) for line in point.lines))) < PARALLEL:
+            raise MisplacedError("lines-parallel", *where, "lines", text=name)
+    elif point.distances is not None:
+        first, second = (at(end.from_, "distances", index, "from") for index, end in enumerate(point.distances))
+        r1, r2 = (end.distance.si for end in point.distances)
+        span = abs(second - first)
+        if span < PARALLEL or not abs(r1 - r2) <= span * (1 + ROUND) or span * (1 - ROUND) > r1 + r2:
+            raise MisplacedError("circles-apart", *where, "distances", text=name)
+    elif point.from_ is not None and point.distance is not None:
+        centre = at(point.from_, "from")
+        if point.on is not None and point.angle is None:
+            off = foot(centre, at(point.on.through, "on", "through"), unit(point.on.angle.si)) - centre
+            if point.distance.si < abs(off):
+                raise MisplacedError("out-of-reach", *where, "distance", text=name)
+
+
+def _require_contact_on_line(joint: file.RollingOnLine, index: int, geometry: Geometry) -> None:
+    disc = geometry.disc(joint.disc)
+    apart = abs(geometry.points[disc.centre] - geometry.contact_on_line(joint))
+    if abs(apart - disc.radius.si) > TOUCHING * disc.radius.si:
+        sizes = {"distance": f"{apart * 1e3:.6g}", "radius": f"{disc.radius.si * 1e3:.6g}"}
+        raise MisplacedError("no-contact", "joints", index, text=str(joint.disc), **sizes)
+
+
+def _require_contact_of_discs(joint: file.RollingOnCircle | file.Gears, index: int, geometry: Geometry) -> None:
+    one, other = geometry.discs(joint)
+    first, second = one.radius.si, other.radius.si
+    apart = abs(geometry.points[other.centre] - geometry.points[one.centre])
+    reaches = (first + second, abs(first - second))
+    if not any(reach > 0 and abs(apart - reach) <= TOUCHING * (first + second) for reach in reaches):
+        raise MisplacedError(
+            "no-contact-of-discs",
+            *("joints", index),
+            text=str(joint.discs[0]),
+            other=str(joint.discs[1]),
+            distance=f"{apart * 1e3:.6g}",
+            radii=f"{first * 1e3:.6g}, {second * 1e3:.6g}",
+        )
+
+
+def _require_length(joint: file.Belt, index: int, geometry: Geometry) -> None:
+    one, other = geometry.discs(joint)
+    first, second = one.radius.si, other.radius.si
+    least = first + second if joint.crossed else abs(first - second)
+    if abs(geometry.points[other.centre] - geometry.points[one.centre]) <= least:
+        discs = {"text": str(joint.discs[0]), "other": str(joint.discs[1])}
+        raise MisplacedError("belt-too-short", "joints", index, **discs)
+
+
+# --- the conditions -------------------------------------------------------------------------------
 
 
 def system(given: file.Parameters) -> System:
     """The whole system of a file that is in order.  Raises `MisplacedError`."""
-    geometry = Geometry(given, places(given))
+    geometry = placed(given)
     bare = System(geometry.points, carried(given), ())
     return replace(bare, conditions=tuple(conditions(geometry, bare)))
 
@@ -215,7 +257,7 @@ def named(given: file.Parameters) -> dict[str, tuple[Where, str]]:
 
 
 def _joint(joint: file.Joint, index: int, geometry: Geometry, bare: System) -> tuple[Condition, ...]:
-    given, known = geometry.given, geometry.points
+    known = geometry.points
     name = name_of(index, "joints", *joint.called)
     match joint:
         case file.Pin(at=at, bodies=bodies):
@@ -229,36 +271,22 @@ def _joint(joint: file.Joint, index: int, geometry: Geometry, bare: System) -> t
         case file.Translation(body=body):
             return on.no_turning(name, body)
         case file.RollingOnLine(disc=body, on=carrier):
-            disc = given.disc(body)
-            assert disc is not None
-            touch = geometry.contact_on_line(joint, index)
+            disc, touch = geometry.disc(body), geometry.contact_on_line(joint)
             return on.rolling_on_line(name, body, known[disc.centre], geometry.size(disc.radius), touch, carrier)
         case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
             one, other = discs
-            touch = geometry.contact_of_discs(joint, index)
-            first, second = given.disc(one), given.disc(other)
-            assert first is not None
-            assert second is not None
+            first, second = geometry.discs(joint)
+            touch = geometry.contact_of_discs(joint)
             make = on.meshing if isinstance(joint, file.Gears) else on.rolling_on_circle
             return make(name, one, known[first.centre], other, known[second.centre], touch)
         case file.Belt(discs=discs):
-            first, second = (given.disc(body) for body in discs)
-            assert first is not None
-            assert second is not None
-            if abs(bare.points[second.centre] - bare.points[first.centre]) <= _least(joint, first, second):
-                raise MisplacedError("belt-too-short", "joints", index, text=str(discs[0]), other=str(discs[1]))
+            first, second = geometry.discs(joint)
             centres = known[first.centre], known[second.centre]
-            return on.belt(name, belt_ends(geometry, joint), centres, *discs)
+            return on.belt(name, geometry.belt_ends(joint), centres, *discs)
         case file.Cord(points=points):
             a, b = points
             ends = known[a], bare.body_of(a), known[b], bare.body_of(b)
             return on.distance(name, *ends)
-
-
-def _least(joint: file.Belt, first: file.Disc, second: file.Disc) -> float:
-    """The distance of the centres that two discs with a belt have to exceed."""
-    sum_of = first.radius.si + second.radius.si
-    return sum_of if joint.crossed else abs(first.radius.si - second.radius.si)
 
 
 def _rate(rate: file.GivenRate, index: int, geometry: Geometry, bare: System) -> Iterator[Condition]:

@@ -9,7 +9,6 @@ import numpy as np
 
 from reportgen.case import ExerciseCase
 from reportgen.catalogue import plane_motion_file as file
-from reportgen.catalogue.plane_motion_places import direction
 from reportgen.document.exercise_axes import Axes
 from reportgen.figures import instant, style
 from reportgen.figures.scene import Scene
@@ -120,7 +119,7 @@ def _racks(case: ExerciseCase, scale: float) -> Iterator[tuple[complex, complex]
     layout = case.worked.layout
     for index, joint in enumerate(case.exercise.given.joints):
         if isinstance(joint, file.RollingOnLine) and joint.on != GROUND:
-            yield layout.points[layout.contacts[index]] * scale, direction(joint, layout.points)
+            yield layout.points[layout.contacts[index]] * scale, layout.geometry.direction(joint)
 
 
 def _rails(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iterator[instant.Rail]:
@@ -128,20 +127,20 @@ def _rails(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iter
     racks = [*_racks(case, scale)]
     for joint in given.joints:
         if isinstance(joint, file.SlotJoint):
-            yield instant.Rail(points[joint.point], direction(joint, system.points), joint.on == GROUND)
+            yield instant.Rail(points[joint.point], case.worked.layout.geometry.direction(joint), joint.on == GROUND)
         elif isinstance(joint, file.Slider):
             first = system.bodies[joint.body][0]
             # A rack is drawn as the line that a disc rolls along.
             if any(abs(points[first] - at) < instant.TOGETHER for at, _ in racks):
                 continue
-            yield instant.Rail(points[first], direction(joint, system.points), joint.on == GROUND)
+            yield instant.Rail(points[first], case.worked.layout.geometry.direction(joint), joint.on == GROUND)
 
 
 def _slots(case: ExerciseCase, points: dict[str, complex]) -> Iterator[tuple[complex, complex]]:
     """The lines of moving bodies along which points slide, on to beyond the block, with an arm to a point beside."""
     given, system = case.exercise.given, case.exercise.motion.system
     for joint in given.slots:
-        u, at = direction(joint, system.points), points[joint.point]
+        u, at = case.worked.layout.geometry.direction(joint), points[joint.point]
         along = [0.0, *((u.conjugate() * (points[name] - at)).real for name in system.bodies[joint.on])]
         yield at + (min(along) - instant.BEYOND) * u, at + (max(along) + instant.BEYOND) * u
         beside = (points[name] for name in system.bodies[joint.on])

@@ -13,11 +13,12 @@ from typing import Any, cast
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion import Exercise
-from reportgen.catalogue.plane_motion_places import Geometry, carried, conditions, contact_of_discs
+from reportgen.catalogue.plane_motion_places import Geometry, carried, conditions
 from reportgen.catalogue.plane_motion_symbols import Literal
 from reportgen.ledger.instant import algebra
 from reportgen.ledger.instant.algebra import Algebraic, Plane
 from reportgen.ledger.instant.write import Worked
+from reportgen.notation.constructions import dot
 from reportgen.notation.expressions import Expression
 from reportgen.plane_motion.conditions import GROUND, Condition, Rates, Velocities
 from reportgen.plane_motion.solving import System
@@ -43,12 +44,11 @@ class LiteralGeometry(Geometry):
     """The points and lines of a file by symbols."""
 
     def __init__(self, exercise: Exercise) -> None:
-        super().__init__(exercise.given, {})
-        self.numbers = dict(exercise.motion.system.points)
-        places: dict[str, Plane] = {}
+        points: dict[str, Plane] = {}
+        super().__init__(exercise.given, points)
+        self.numbers = Geometry(exercise.given, exercise.motion.system.points)
         for name, point in exercise.given.points.items():
-            places[name] = self._place(name, point, places)
-        self.points = places
+            points[name] = self.place(point)
 
     def size(self, told_of: Given) -> Algebraic:
         return told(told_of)
@@ -56,62 +56,14 @@ class LiteralGeometry(Geometry):
     def unit(self, angle: Given) -> Plane:
         return algebra.exact_unit(math.degrees(angle.si))
 
+    def point(self, x: Algebraic, y: Algebraic) -> Plane:
+        return Plane(x, y)
+
     def root(self, of: Algebraic) -> Algebraic:
         return algebra.root(of)
 
-    def direction(self, line: file.Directed) -> Plane:
-        if line.along is not None:
-            way = self.points[line.along[1]] - self.points[line.along[0]]
-            return Plane.of(way / abs(way))
-        assert line.angle is not None
-        return self.unit(line.angle)
-
-    def contact_on_line(self, joint: file.RollingOnLine, index: int) -> Plane:
-        disc = self.given.disc(joint.disc)
-        assert disc is not None
-        return self._foot(self.points[disc.centre], self.points[joint.through], self.direction(joint))
-
-    def contact_of_discs(self, joint: file.RollingOnCircle | file.Gears, index: int) -> Plane:
-        one, other = (self.given.disc(body) for body in joint.discs)
-        assert one is not None
-        assert other is not None
-        touch = contact_of_discs(joint, index, self.given, self.numbers)
-        start, way = self.points[one.centre], self.points[other.centre] - self.points[one.centre]
-        numbers = self.numbers[other.centre] - self.numbers[one.centre]
-        beyond = (numbers.conjugate() * (touch - self.numbers[one.centre])).real > 0
-        reach = self.size(one.radius) if beyond else -self.size(one.radius)
-        return Plane.of(start + way / abs(way) * reach)
-
-    def _foot(self, point: Plane, start: Plane, u: Plane) -> Plane:
-        return start + u * Plane.of((u.conjugate() * (point - start)).real)
-
-    def _place(self, name: str, point: file.PointAt, known: Mapping[str, Plane]) -> Plane:
-        if point.at is not None:
-            return Plane(self.size(point.at[0]), self.size(point.at[1]))
-        if point.lines is not None:
-            one, two = point.lines
-            p, u = known[one.through], self.unit(one.angle)
-            q, w = known[two.through], self.unit(two.angle)
-            return p + Plane.of(u * (((q - p).conjugate() * w).imag / (u.conjugate() * w).imag))
-        if point.distances is not None:
-            first, second = (known[one.from_] for one in point.distances)
-            r1, r2 = (self.size(one.distance) for one in point.distances)
-            span = abs(second - first)
-            along = (r1**2 - r2**2 + span**2) / (2 * span)
-            across = algebra.root(r1**2 - along**2)
-            aside = Plane(along, across if point.side == "left" else -across)
-            return first + Plane.of((second - first) / span * aside)
-        assert point.from_ is not None
-        assert point.distance is not None
-        centre, radius = known[point.from_], self.size(point.distance)
-        if point.angle is not None:
-            return centre + Plane.of(self.unit(point.angle) * radius)
-        assert point.on is not None
-        u = self.unit(point.on.angle)
-        foot = self._foot(centre, known[point.on.through], u)
-        off = centre - foot
-        reach = algebra.root(radius**2 - off.real**2 - off.imag**2)
-        return foot + Plane.of(u * (reach if point.end == "far" else -reach))
+    def is_inner(self, joint: file.RollingOnCircle | file.Gears) -> bool:
+        return self.numbers.is_inner(joint)
 
 
 class LiteralMotion:
@@ -132,7 +84,9 @@ class LiteralMotion:
         motion, equations = self.velocities, []
         for one in self.conditions:
             if one.drift is not None:
-                inward = (motion.omega(part.body) ** 2 * _dot(part.direction, part.point) for part in one.components)
+                inward = (
+                    motion.omega(part.body) ** 2 * dot(Plane.of(part.direction), part.point) for part in one.components
+                )
                 equations.append((one, one.drift(motion) + sum(inward)))
         return self._solve(equations)
 
@@ -161,17 +115,13 @@ class LiteralMotion:
         for part in condition.components:
             if part.body != GROUND:
                 at, way = 3 * self.bodies.index(part.body), Plane.of(part.direction)
-                row[at] += _dot(way, 1j * part.point)
+                row[at] += dot(way, 1j * part.point)
                 row[at + 1] += way.real
                 row[at + 2] += way.imag
         for body, factor in condition.turns:
             if body != GROUND:
                 row[3 * self.bodies.index(body)] += algebra.exact(factor)
         return row
-
-
-def _dot(one: Any, other: Any) -> Algebraic:
-    return (Plane.of(one).conjugate() * other).real
 
 
 def _short(of: Any, simplify: Callable[[Any], Algebraic], most: int = LONGEST) -> Algebraic | None:
@@ -244,9 +194,9 @@ class LiteralBoard:
         for index, joint in enumerate(self.exercise.given.joints):
             match joint:
                 case file.RollingOnLine():
-                    found[layout.contacts[index]] = geometry.contact_on_line(joint, index)
+                    found[layout.contacts[index]] = geometry.contact_on_line(joint)
                 case file.RollingOnCircle() | file.Gears():
-                    found[layout.contacts[index]] = geometry.contact_of_discs(joint, index)
+                    found[layout.contacts[index]] = geometry.contact_of_discs(joint)
         for body, centre in self.worked.layout.centres.items():
             if centre.rule in ("normals", "rate", "contact") and self.motion.velocities.omega(body) != 0:
                 rates = self.motion.velocities.of(body)

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from itertools import permutations
 
 from reportgen.catalogue import plane_motion_file as file
-from reportgen.catalogue.plane_motion_places import direction
 from reportgen.ledger.instant.parts import Parts
 from reportgen.ledger.instant.steps import Step
 from reportgen.ledger.instant.vectors import Vector
@@ -56,7 +55,7 @@ def _along(parts: Parts, body: int) -> complex:
     layout, ways = parts.board.layout, []
     for joint in layout.given.joints:
         if isinstance(joint, file.RollingOnLine) and joint.disc == body and joint.on != GROUND:
-            centre, way = layout.centres.get(joint.on), direction(joint, layout.points)
+            centre, way = layout.centres.get(joint.on), layout.geometry.direction(joint)
             if centre is None or centre.rule != "translation" or not centre.by_joint or not parallel(centre.way, way):
                 return 0j
             ways.append(way)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from reportgen.catalogue import plane_motion_file as file
-from reportgen.catalogue.plane_motion_places import direction
 from reportgen.ledger.instant.parts import Parts, known_path
 from reportgen.ledger.instant.steps import Axis, Equation, Step
 from reportgen.ledger.instant.vectors import Vector, solved_for, towards
@@ -19,7 +18,7 @@ def by_slot(parts: Parts, joint: file.SlotJoint) -> bool:
     base = _base(parts, body, point)
     if not base or not (board.knows(f"omega.{body}") and board.knows(f"v.{point}.r")):
         return False
-    u, motion = direction(joint, board.layout.points), board.motion
+    u, motion = board.layout.geometry.direction(joint), board.motion
     arm = board.way(board.layout.points[point] - board.layout.points[base])
     told = board.knows(f"eps.{body}")
     path = known_path(parts, point, body) if told and point not in parts.of else None

@@ -8,7 +8,6 @@ from itertools import combinations, permutations
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_centres import NEAR, Centre, Layout
-from reportgen.catalogue.plane_motion_places import direction
 from reportgen.ledger.instant.steps import Axis, Equation, Step
 from reportgen.ledger.instant.vectors import Vector, solved_for, towards
 from reportgen.notation.expressions import Ref, Symbol
@@ -258,7 +257,7 @@ def _slot(board: Board, joint: file.SlotJoint) -> bool:
     base = _base(board, body)
     if base is None or not (board.knows(f"v.{point}") or board.knows(f"omega.{body}")):
         return False
-    u = direction(joint, layout.points)
+    u = layout.geometry.direction(joint)
     arm_way = layout.points[point] - layout.points[base]
     if abs(arm_way) < NEAR or (not board.knows(f"omega.{body}") and perpendicular(u, arm_way / abs(arm_way))):
         # As the body turns, its own point moves along the line alone, which tells nothing of how fast.

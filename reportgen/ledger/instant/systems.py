@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from reportgen.catalogue.plane_motion_places import direction
 from reportgen.ledger.instant.parts import Parts
 from reportgen.ledger.instant.speeds import Board
 from reportgen.ledger.instant.steps import Step
@@ -91,7 +90,7 @@ class Loops:
                 base = next((name for name in members.get(joint.on, ()) if name in self.points), None)
                 if base is not None:
                     own = self.points[base].plus(self.turned(joint.on, joint.point, base))
-                    yield self.points[joint.point].plus(own, -1.0), 1j * direction(joint, self.board.layout.points)
+                    yield self.points[joint.point].plus(own, -1.0), 1j * self.board.layout.geometry.direction(joint)
 
     def turned(self, body: int, name: str, base: str) -> Reached:
         """What the rotation of a body adds from one of its points to another."""
