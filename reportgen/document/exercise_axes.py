@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from reportgen.catalogue.plane_motion_centres import NEAR
 from reportgen.figures import instant
-from reportgen.ledger.instant.steps import Axis, Step
+from reportgen.ledger.instant.board import Axis, Step
 from reportgen.ledger.instant.write import Worked
 from reportgen.notation.expressions import Symbol
 from reportgen.plane_motion.ways import parallel

@@ -15,8 +15,7 @@ from reportgen.catalogue.plane_motion_symbols import symbol
 from reportgen.document.exercise_axes import COORDINATES, Axes
 from reportgen.document.prose import PointName
 from reportgen.document.tree import Equation, InlineMath, Inlines, Text, Value
-from reportgen.ledger.instant.steps import Step
-from reportgen.ledger.instant.vectors import Vector
+from reportgen.ledger.instant.board import Step, Vector
 from reportgen.ledger.instant.write import Worked
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol, Term, VectorEquation, refs, substitute

@@ -13,8 +13,7 @@ from reportgen.document.exercise_axes import COORDINATES, Axes
 from reportgen.document.exercise_figures import FIGURES
 from reportgen.document.exercise_steps import Solution
 from reportgen.figures.scene import Arrow
-from reportgen.ledger.instant.steps import Axis, Step
-from reportgen.ledger.instant.vectors import Vector
+from reportgen.ledger.instant.board import Axis, Step, Vector
 from reportgen.ledger.instant.write import Worked
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import refs

@@ -7,16 +7,15 @@ from itertools import permutations
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_places import unit
-from reportgen.ledger.instant.parts import Parts, Path, enter_normal, enter_tangential, known_path, relative
+from reportgen.ledger.instant.board import Board, Equation, Projected, Step, Vector, components
+from reportgen.ledger.instant.parts import Parts, Path, enter_end, enter_normal, enter_tangential, known_path, relative
 from reportgen.ledger.instant.racks import by_rack
 from reportgen.ledger.instant.slot_accelerations import by_slot
-from reportgen.ledger.instant.speeds import Board, enter_blocks
-from reportgen.ledger.instant.steps import COORDINATES, Axis, Equation, Step
+from reportgen.ledger.instant.speeds import enter_blocks
 from reportgen.ledger.instant.trains import by_train
-from reportgen.ledger.instant.vectors import Vector, components, size_of, solved_for
-from reportgen.notation.expressions import Symbol, sqrt, total
+from reportgen.notation.expressions import sqrt
 from reportgen.plane_motion.conditions import GROUND
-from reportgen.plane_motion.ways import parallel
+from reportgen.plane_motion.ways import parallel, perpendicular
 
 
 def enter_accelerations(board: Board, together: Callable[[Parts], bool]) -> None:
@@ -91,7 +90,7 @@ def _points(parts: Parts, body: int, names: list[str]) -> bool:
     point = new[0]
     normal, tangential = relative(parts, body, point, base)
     lines = enter_normal(parts, body, point, base, normal) + enter_tangential(parts, body, point, base, tangential)
-    own = parts.nonzero(normal, tangential)
+    own = parts.board.nonzero(normal, tangential)
     parts.of[point] = (*parts.of[base], *own)
     equation = Equation((), parts.of[point])
     kind = "acceleration-point" if parts.of[base] else "acceleration-pivot"
@@ -122,26 +121,20 @@ def _by_base(parts: Parts, body: int, names: list[str]) -> bool:
 
 
 def _two_unknown(parts: Parts, body: int, point: str, base: str, path: Path) -> bool:
-    known, unknown, lines = path.known, path.unknown, path.lines
+    """a_P = a_B + aⁿ + aᵗ with two unknown sizes: along BP there is no aᵗ, and across it there is no aⁿ."""
     board, q = parts.board, parts.board.q
     normal, tangential = relative(parts, body, point, base)
-    across = board.way(board.layout.points[point] - board.layout.points[base])
-    if abs((across.conjugate() * unknown.way).real) < 1e-9:
+    line = board.way(board.layout.points[point] - board.layout.points[base])
+    if perpendicular(line, path.unknown.way):
         return False
-    lines += enter_normal(parts, body, point, base, normal)
-    bases = (*parts.of[base], *parts.nonzero(normal))
-    equation = Equation((*known, unknown), (*bases, tangential), (unknown.id, tangential.id))
-    q.define(unknown.id, solved_for(q, unknown.way, across, bases, known))
-    # Now only the tangential acceleration about the base is unknown: perpendicular to the line.
-    q.define(tangential.id, solved_for(q, tangential.way, tangential.way, (*known, unknown), bases))
-    q.define(f"eps.{body}", q[tangential.id] / board.length(base, point))
-    lines += (unknown.id, tangential.id, f"eps.{body}")
-    parts.of[point] = (*known, *parts.nonzero(unknown))
-    if path.body and not board.knows(f"eps.{path.body}"):
-        q.define(f"eps.{path.body}", q[unknown.id] / board.length(path.base, point))
-        lines += (f"eps.{path.body}",)
-    axes = Axis("ξ", across, point), Axis("η", tangential.way, point)
-    board.steps.append(Step("acceleration-base", lines, body, point, base, equation, axes))
+    lines = path.lines + enter_normal(parts, body, point, base, normal)
+    bases = (*parts.of[base], *board.nonzero(normal))
+    equation = Projected(board, (*path.known, path.unknown), (*bases, tangential), lines)
+    equation.find(path.unknown, line, "ξ", point)
+    size = equation.find(tangential, tangential.way, "η", point)
+    equation.then(q.define(f"eps.{body}", size / board.length(base, point)))
+    enter_end(parts, point, path, equation)
+    equation.step("acceleration-base", body, point, base)
     return True
 
 
@@ -191,19 +184,12 @@ def _free(parts: Parts, body: int, names: list[str]) -> bool:
     if board.knows(f"omega.{body}") or len(known) < 2 or body in board.layout.centres:
         return False
     base, point = known[0], known[1]
-    arm = board.length(base, point)
+    arm, line = board.length(base, point), board.way(board.layout.points[point] - board.layout.points[base])
     normal, tangential = relative(parts, body, point, base)
-    equation = Equation(parts.of[point], (*parts.of[base], normal, tangential), (normal.id, tangential.id))
-    q.define(normal.id, solved_for(q, normal.way, normal.way, parts.of[point], parts.of[base]))
-    q.define(f"omega.{body}", sqrt(q[normal.id] / arm))
-    q.define(tangential.id, solved_for(q, tangential.way, tangential.way, parts.of[point], parts.of[base]))
-    q.define(f"eps.{body}", q[tangential.id] / arm)
-    lines = (normal.id, f"omega.{body}", tangential.id, f"eps.{body}")
-    axes = (
-        Axis("ξ", board.way(board.layout.points[point] - board.layout.points[base]), point),
-        Axis("η", tangential.way, point),
-    )
-    board.steps.append(Step("acceleration-free", lines, body, point, base, equation, axes))
+    equation = Projected(board, parts.of[point], (*parts.of[base], normal, tangential))
+    equation.then(q.define(f"omega.{body}", sqrt(equation.find(normal, line, "ξ", point) / arm)))
+    equation.then(q.define(f"eps.{body}", equation.find(tangential, tangential.way, "η", point) / arm))
+    equation.step("acceleration-free", body, point, base)
     return True
 
 
@@ -212,28 +198,15 @@ def _free(parts: Parts, body: int, names: list[str]) -> bool:
 
 def _whole(parts: Parts, point: str) -> None:
     """The size of an acceleration from its parts: of one, of two at a right angle, or of its components."""
-    board, q, vectors = parts.board, parts.board.q, parts.nonzero(*parts.of[point])
+    board, q, vectors = parts.board, parts.board.q, parts.board.nonzero(*parts.of[point])
     if not vectors:
         q.give(f"a.{point}", 0.0)
         return
-    axes: tuple[Axis, ...] = ()
+    whole = Projected(board, (), vectors)
     if len(vectors) == 1:
-        q.define(f"a.{point}", q[vectors[0].id])
-        lines: tuple[str, ...] = (f"a.{point}",)
-    elif len(vectors) == 2 and abs((vectors[0].way.conjugate() * vectors[1].way).real) < 1e-9:
-        q.define(f"a.{point}", sqrt(q[vectors[0].id] ** 2 + q[vectors[1].id] ** 2))
-        lines = (f"a.{point}",)
+        whole.then(q.define(f"a.{point}", q[vectors[0].id]))
+    elif len(vectors) == 2 and perpendicular(vectors[0].way, vectors[1].way):
+        whole.then(q.define(f"a.{point}", sqrt(q[vectors[0].id] ** 2 + q[vectors[1].id] ** 2)))
     else:
-        lines = ()
-        sides = []
-        for axis, name in COORDINATES:
-            terms = components(q, vectors, axis)
-            if terms:
-                one = q.define(f"a.{point}.{name}", total(terms), Symbol("a", f"{point}{name}"), "acceleration")
-                sides.append(one)
-                axes += (Axis(name, axis, point),)
-                lines += (one.id,)
-        q.define(f"a.{point}", size_of(q, sides))
-        lines += (f"a.{point}",)
-    equation = Equation((), vectors)
-    board.steps.append(Step("acceleration-whole", lines, point=point, equation=equation, axes=axes))
+        whole.find_sum("a", point)
+    whole.step("acceleration-whole", GROUND, point)

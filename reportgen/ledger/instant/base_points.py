@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from reportgen.ledger.instant.speeds import Board
-from reportgen.ledger.instant.steps import COORDINATES, Axis, Equation, Step
-from reportgen.ledger.instant.vectors import Vector, components, size_of, solved_for
-from reportgen.notation.expressions import Symbol, total
+from reportgen.ledger.instant.board import Board, Projected, Vector
 from reportgen.plane_motion.ways import perpendicular
 
 
@@ -60,27 +57,19 @@ def _rate(board: Board, body: int, point: str, base: str) -> bool:
     if not line or (new and perpendicular(way, line)):
         return False
     whole, relative = Vector(f"v.{point}", way), Vector(f"v.{point}{base}", 1j * line * (1 if turn >= 0 else -1))
-    bases = (board.velocity(base),) if q.si(f"v.{base}") else ()
-    unknown = (whole.id, relative.id) if new else (relative.id,)
-    equation = Equation((whole,), (*bases, relative), unknown)
-    lines: tuple[str, ...] = ()
-    axes: tuple[Axis, ...] = ()
-    if new:
-        axes = (Axis("ξ", line, point),)
-        lines = (q.define(whole.id, solved_for(q, way, line, bases, ())).id,)
-    elif not bases and not q.si(whole.id):
+    bases = board.nonzero(board.velocity(base))
+    if not new and not bases and not q.si(whole.id):
         return False
-    wholes = (whole,) if q.si(whole.id) else ()
+    equation = Projected(board, (whole,), (*bases, relative))
+    if new:
+        equation.find(whole, line, "ξ", point)
     if turn:
-        q.define(relative.id, solved_for(q, relative.way, relative.way, wholes, bases))
-        q.define(f"omega.{body}", q[relative.id] / board.length(base, point))
-        axes = (*axes, Axis("η", relative.way, point))
-        lines = (*lines, relative.id, f"omega.{body}")
+        size = equation.find(relative, relative.way, "η", point)
+        equation.then(q.define(f"omega.{body}", size / board.length(base, point)))
     else:
         q.give(f"omega.{body}", 0.0)
     kind = "base-rate" if turn else "base-translation"
-    kind = kind if new else "base-known"
-    board.steps.append(Step(kind, lines, body, point, base, equation, axes))
+    equation.step(kind if new else "base-known", body, point, base)
     return True
 
 
@@ -90,25 +79,18 @@ def _relative(board: Board, body: int, point: str, base: str) -> Vector:
 
 
 def _point(board: Board, body: int, point: str, base: str) -> bool:
+    """v_B = v_A + v_BA with v_A and ω known, by its components along x and y."""
     q, relative = board.q, _relative(board, body, point, base)
     lines: tuple[str, ...] = ()
     if not board.knows(relative.id):
         lines = (q.define(relative.id, q[f"omega.{body}"] * board.length(base, point)).id,)
-    parts = [one for one in (board.velocity(base), relative) if q.si(one.id)]
-    sides, axes = [], []
-    for axis, name in COORDINATES:
-        if terms := components(q, parts, axis):
-            one = q.define(f"v.{point}.{name}", total(terms), Symbol("v", f"{point}{name}"), "velocity")
-            sides.append(one)
-            axes.append(Axis(name, axis, point))
-            lines = (*lines, one.id)
-    if not sides:
+    parts = board.nonzero(board.velocity(base), relative)
+    if not parts:
         q.give(f"v.{point}", 0.0)
         return True
-    q.define(f"v.{point}", size_of(q, sides))
-    whole = board.velocity(point)
-    equation = Equation((whole,), tuple(parts), (whole.id,))
-    board.steps.append(Step("base-point", (*lines, whole.id), body, point, base, equation, tuple(axes)))
+    equation = Projected(board, (board.velocity(point),), parts, lines)
+    equation.find_sum("v", point)
+    equation.step("base-point", body, point, base)
     return True
 
 
@@ -122,13 +104,10 @@ def _between(board: Board, body: int, other: int, point: str) -> bool:
     line = board.way(board.layout.points[point] - board.layout.points[bases[1]])
     if not (first.way and second.way) or abs((line.conjugate() * first.way).real) < 1e-9:
         return False
-    one, two = ((board.velocity(base),) if q.si(f"v.{base}") else () for base in bases)
-    equation = Equation((*one, first), (*two, second), (first.id, second.id))
-    q.define(first.id, solved_for(q, first.way, line, two, one))
-    q.define(second.id, solved_for(q, second.way, second.way, (*one, first), two))
-    lines = [first.id, second.id]
-    for turning, vector, base in zip((body, other), (first, second), bases, strict=True):
-        lines.append(q.define(f"omega.{turning}", q[vector.id] / board.length(base, point)).id)
-    axes = Axis("ξ", line, point), Axis("η", second.way, point)
-    board.steps.append(Step("two-bases", tuple(lines), body, point, bases[0], equation, axes))
+    one, two = (board.nonzero(board.velocity(base)) for base in bases)
+    equation = Projected(board, (*one, first), (*two, second))
+    sizes = equation.find(first, line, "ξ", point), equation.find(second, second.way, "η", point)
+    for turning, size, base in zip((body, other), sizes, bases, strict=True):
+        equation.then(q.define(f"omega.{turning}", size / board.length(base, point)))
+    equation.step("two-bases", body, point, bases[0])
     return True

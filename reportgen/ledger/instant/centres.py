@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from reportgen.catalogue.plane_motion_centres import NEAR, Centre, name_of_centre
-from reportgen.ledger.instant.speeds import Board
-from reportgen.ledger.instant.steps import Step
+from reportgen.ledger.instant.board import Board, Step
 from reportgen.notation.expressions import Symbol
 
 

@@ -6,10 +6,10 @@ from collections.abc import Callable, Mapping
 
 from reportgen.catalogue.plane_motion_file import Method
 from reportgen.ledger.instant.base_points import by_base_point, from_base_point
+from reportgen.ledger.instant.board import Board, Step
 from reportgen.ledger.instant.projections import by_projection
 from reportgen.ledger.instant.proportion import enter_proportion
-from reportgen.ledger.instant.speeds import Board, about_joints, by_centre, by_moving_frame, derive
-from reportgen.ledger.instant.steps import Step
+from reportgen.ledger.instant.speeds import about_joints, by_centre, by_moving_frame, derive
 from reportgen.ledger.instant.systems import solve_velocities_together
 from reportgen.ledger.instant.trains import by_train
 

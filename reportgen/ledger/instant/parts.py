@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from reportgen.ledger.instant.speeds import Board
-from reportgen.ledger.instant.vectors import Vector
+from reportgen.ledger.instant.board import Board, Projected, Vector
 from reportgen.plane_motion.conditions import GROUND
 
 
@@ -18,10 +17,6 @@ class Parts:
 
     def vector(self, id: str, value: complex) -> Vector:
         return Vector(id, self.board.way(value))
-
-    def nonzero(self, *vectors: Vector) -> tuple[Vector, ...]:
-        """Those of the vectors that are on the board and are not nothing."""
-        return tuple(one for one in vectors if self.board.knows(one.id) and self.board.q.si(one.id))
 
 
 def relative(parts: Parts, body: int, point: str, base: str) -> tuple[Vector, Vector]:
@@ -83,12 +78,20 @@ def known_path(parts: Parts, point: str, body: int) -> Path | None:
         if other != body and centre.rule == "pivot" and point in layout.own(other) and board.knows(f"omega.{other}"):
             normal, tangential = relative(parts, other, point, centre.name)
             lines = enter_normal(parts, other, point, centre.name, normal)
-            return Path(parts.nonzero(normal), tangential, other, centre.name, lines)
+            return Path(parts.board.nonzero(normal), tangential, other, centre.name, lines)
     for other in layout.members:
         names = layout.own(other)
         base = next((name for name in names if name in parts.of), "")
         if other != body and point in names and base and board.knows(f"omega.{other}"):
             normal, tangential = relative(parts, other, point, base)
             lines = enter_normal(parts, other, point, base, normal)
-            return Path((*parts.of[base], *parts.nonzero(normal)), tangential, other, base, lines)
+            return Path((*parts.of[base], *parts.board.nonzero(normal)), tangential, other, base, lines)
     return None
+
+
+def enter_end(parts: Parts, point: str, path: Path, equation: Projected) -> None:
+    """The whole acceleration of a point whose unknown part has been found, and the rate of the body it is about."""
+    board, size = parts.board, parts.board.q[path.unknown.id]
+    parts.of[point] = (*path.known, *board.nonzero(path.unknown))
+    if path.body and not board.knows(f"eps.{path.body}"):
+        equation.then(board.q.define(f"eps.{path.body}", size / board.length(path.base, point)))

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from itertools import permutations
 
-from reportgen.ledger.instant.speeds import Board
-from reportgen.ledger.instant.steps import Axis, Step
-from reportgen.ledger.instant.vectors import Vector, solved_for
+from reportgen.ledger.instant.board import Board, Projected, Vector
 from reportgen.plane_motion.ways import perpendicular
 
 
@@ -21,10 +19,9 @@ def by_projection(board: Board) -> bool:
                 continue
             line = board.way(layout.points[point] - layout.points[base])
             if line and not perpendicular(layout.ways[point], line):
-                way = board.way(board.at(point)) or layout.ways[point]
-                known = [Vector(f"v.{base}", board.way(board.at(base)))]
-                board.q.define(f"v.{point}", solved_for(board.q, way, line, known, ()))
-                axis = Axis("ξ", line, point)
-                board.steps.append(Step("projection", (f"v.{point}",), body, point, base, axes=(axis,)))
+                whole = Vector(f"v.{point}", board.way(board.at(point)) or layout.ways[point])
+                equation = Projected(board, (whole,), (board.velocity(base), Vector(f"v.{point}{base}", 1j * line)))
+                equation.find(whole, line, "ξ", point)
+                equation.step("projection", body, point, base)
                 return True
     return False

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from itertools import combinations
 
-from reportgen.ledger.instant.speeds import Board, derive, is_across
-from reportgen.ledger.instant.steps import Step
+from reportgen.ledger.instant.board import Board, Step
+from reportgen.ledger.instant.speeds import derive, is_across
 from reportgen.notation.expressions import Expression, Fraction, Product, Ref, Symbol, signed
 from reportgen.notation.sheet import Sheet
 

@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from itertools import permutations
 
 from reportgen.catalogue import plane_motion_file as file
+from reportgen.ledger.instant.board import Step, Vector
 from reportgen.ledger.instant.parts import Parts
-from reportgen.ledger.instant.steps import Step
-from reportgen.ledger.instant.vectors import Vector
 from reportgen.notation.expressions import Expression, Negative, Ref, signed, total
 from reportgen.plane_motion.conditions import GROUND
 from reportgen.plane_motion.ways import parallel
@@ -84,7 +83,7 @@ def _node(parts: Parts, name: str, shares: str, u: complex) -> Node:
 
 def _size(parts: Parts, node: Node) -> Ref | None:
     """The size of a node's acceleration; None where it has none."""
-    vectors = parts.nonzero(*parts.of[node.shares]) if node.shares else ()
+    vectors = parts.board.nonzero(*parts.of[node.shares]) if node.shares else ()
     return parts.board.q[vectors[0].id] if vectors else None
 
 

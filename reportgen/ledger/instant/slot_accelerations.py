@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from reportgen.catalogue import plane_motion_file as file
-from reportgen.ledger.instant.parts import Parts, known_path
-from reportgen.ledger.instant.steps import Axis, Equation, Step
-from reportgen.ledger.instant.vectors import Vector, solved_for, towards
+from reportgen.ledger.instant.board import Projected, Vector
+from reportgen.ledger.instant.parts import Parts, enter_end, known_path
 from reportgen.plane_motion.ways import parallel, perpendicular
 
 
@@ -41,25 +40,17 @@ def by_slot(parts: Parts, joint: file.SlotJoint) -> bool:
             lines += (q.define(coriolis.id, 2 * q[f"omega.{body}"] * q[f"v.{point}.r"]).id,)
     if told and q.si(f"eps.{body}"):
         lines += (q.define(tangential.id, q[f"eps.{body}"] * length).id,)
-    known = (*parts.of[base], *parts.nonzero(normal, coriolis, *((tangential,) if told else ())))
+    known = (*parts.of[base], *board.nonzero(normal, coriolis, *((tangential,) if told else ())))
     if path is None:
-        equation = Equation(parts.of[point], (*known, tangential, sliding), (tangential.id, sliding.id))
-        q.define(tangential.id, solved_for(q, tangential.way, 1j * u, parts.of[point], known))
-        q.define(f"eps.{body}", q[tangential.id] / length)
-        lines += (tangential.id, f"eps.{body}")
-        axis = Axis("η", towards(1j * u, tangential.way), point)
+        equation = Projected(board, parts.of[point], (*known, tangential, sliding), lines)
+        size = equation.find(tangential, 1j * u, "η", point)
+        equation.then(q.define(f"eps.{body}", size / length))
+        equation.step("acceleration-slot", body, point, base)
     else:
-        unknown = path.unknown
-        equation = Equation((*path.known, unknown), (*known, sliding), (unknown.id, sliding.id))
-        q.define(unknown.id, solved_for(q, unknown.way, 1j * u, known, path.known))
-        lines += (unknown.id,)
-        if path.body and not board.knows(f"eps.{path.body}"):
-            q.define(f"eps.{path.body}", q[unknown.id] / board.length(path.base, point))
-            lines += (f"eps.{path.body}",)
-        axis = Axis("η", towards(1j * u, unknown.way), point)
-        parts.of[point] = (*path.known, *parts.nonzero(unknown))
-    kind = "acceleration-slot" if path is None else "acceleration-slot-point"
-    board.steps.append(Step(kind, lines, body, point, base, equation, (axis,)))
+        equation = Projected(board, (*path.known, path.unknown), (*known, sliding), lines)
+        equation.find(path.unknown, 1j * u, "η", point)
+        enter_end(parts, point, path, equation)
+        equation.step("acceleration-slot-point", body, point, base)
     return True
 
 

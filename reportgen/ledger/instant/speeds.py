@@ -3,89 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
 from itertools import combinations, permutations
 
 from reportgen.catalogue import plane_motion_file as file
-from reportgen.catalogue.plane_motion_centres import NEAR, Centre, Layout
-from reportgen.ledger.instant.steps import Axis, Equation, Step
-from reportgen.ledger.instant.vectors import Vector, solved_for, towards
-from reportgen.notation.expressions import Ref, Symbol
-from reportgen.notation.sheet import Family, Sheet, is_short
-from reportgen.plane_motion.motion import Motion
+from reportgen.catalogue.plane_motion_centres import NEAR, Centre
+from reportgen.ledger.instant.board import Board, Projected, Step, Vector, towards
+from reportgen.notation.expressions import Symbol
 from reportgen.plane_motion.ways import parallel, perpendicular
-
-
-class Quantities(Sheet):
-    """A sheet on which a rate is nothing that is so beside the rates of the whole system: what floats leave of 0."""
-
-    def __init__(self, positions: int, motion: Motion) -> None:
-        super().__init__(positions)
-        # A hundred thousandth: what is small beside the other rates keeps its figures.
-        fast, steep = motion.fastest * 1e-5, motion.steepest * 1e-5
-        self.scales = {
-            "velocity": fast,
-            "angular velocity": fast / motion.size,
-            "acceleration": steep,
-            "angular acceleration": steep / motion.size,
-        }
-
-    def enter(self, family: Family) -> Ref:
-        return super().enter(replace(family, scale=family.scale or self.scales.get(family.kind, 0.0)))
-
-    def si(self, quantity: str | Ref) -> float:
-        return float(self.families[quantity if isinstance(quantity, str) else quantity.id].at(None))
-
-
-@dataclass
-class Board:
-    """What stands on the board so far: the sheet with its numbers, and the steps that led to them."""
-
-    q: Sheet
-    layout: Layout
-    steps: list[Step] = field(default_factory=list)
-
-    @property
-    def motion(self) -> Motion:
-        return self.layout.motion
-
-    def length(self, one: str, other: str, one_at: complex | None = None) -> Ref:
-        """The distance of two points, by the name l.OA."""
-        for id in (f"l.{one}{other}", f"l.{other}{one}"):
-            if id in self.q:
-                return self.q[id]
-        start = self.layout.points[one] if one_at is None else one_at
-        value = abs(self.layout.points[other] - start)
-        return self.q.give(f"l.{one}{other}", value, exact=is_short(value))
-
-    def given(self, id: str, value: float, symbol: Symbol | str = "", kind: str = "") -> Ref:
-        """A size that the file gives."""
-        return self.q.give(id, abs(value), symbol, kind, exact=is_short(abs(value)))
-
-    def knows(self, id: str) -> bool:
-        return id in self.q
-
-    def way(self, vector: complex) -> complex:
-        """The direction of a vector; 0 for none."""
-        return vector / abs(vector) if vector else 0j
-
-    def velocity(self, point: str) -> Vector:
-        """The velocity of a point that is on the board."""
-        return Vector(f"v.{point}", self.way(self.at(point)))
-
-    def at(self, point: str, body: int | None = None) -> complex:
-        """The velocity of a point, a point of contact among them, as it moves with its own body or with another."""
-        own = self.home(point) if body is None else body
-        motion = self.motion
-        v = motion.velocities.at(own, self.layout.points[point])
-        return 0j if abs(v) < 1e-9 * motion.fastest else complex(v)
-
-    def home(self, point: str) -> int:
-        """The body that a point's motion is that of."""
-        system = self.motion.system
-        if point in system.points and system.body_of(point):
-            return int(system.body_of(point))
-        return next((body for body, names in self.layout.members.items() if point in names), 0)
 
 
 def enter_given(board: Board) -> None:
@@ -262,43 +186,26 @@ def _slot(board: Board, joint: file.SlotJoint) -> bool:
     if abs(arm_way) < NEAR or (not board.knows(f"omega.{body}") and perpendicular(u, arm_way / abs(arm_way))):
         # As the body turns, its own point moves along the line alone, which tells nothing of how fast.
         return False
+    known_rate, new = board.knows(f"omega.{body}"), not board.knows(f"v.{point}")
+    if new and (point not in layout.ways or parallel(layout.ways[point], u)):
+        return False
     own = board.at(point, body)
     turning = Vector(f"v.{point}{base}", board.way(own - board.at(base, body)))
     sliding = Vector(f"v.{point}.r", board.way(board.at(point) - own))
-    whole = board.velocity(point)
-    bases = (board.velocity(base),) if q.si(f"v.{base}") else ()
-    arm = board.length(base, point)
-    known_rate = board.knows(f"omega.{body}")
-    axes: tuple[Axis, ...] = ()
-    if known_rate:
-        q.define(turning.id, q[f"omega.{body}"] * arm)
-        if not board.knows(whole.id):
-            if point not in layout.ways or parallel(layout.ways[point], u):
-                return False
-            unknown = (whole.id, sliding.id)
-            equation = Equation((whole,), (*bases, turning, sliding), unknown)
-            q.define(whole.id, solved_for(q, whole.way, 1j * u, (*bases, turning), ()))
-            axes = (Axis("η", towards(1j * u, whole.way), point),)
-            lines: tuple[str, ...] = (turning.id, whole.id)
-        else:
-            equation = Equation((whole,), (*bases, turning, sliding), (sliding.id,))
-            lines = (turning.id,)
-    else:
-        equation = Equation((whole,), (*bases, turning, sliding), (turning.id, sliding.id))
-        q.define(turning.id, solved_for(q, turning.way, 1j * u, (whole,), bases))
-        axes = (Axis("η", towards(1j * u, turning.way), point),)
-        q.define(f"omega.{body}", q[turning.id] / arm)
-        lines = (turning.id, f"omega.{body}")
+    bases, whole, arm = board.nonzero(board.velocity(base)), board.velocity(point), board.length(base, point)
+    lines = (q.define(turning.id, q[f"omega.{body}"] * arm).id,) if known_rate else ()
+    equation = Projected(board, (whole,), (*bases, turning, sliding), lines)
+    if new:
+        equation.find(whole, 1j * u, "η", point)
+    elif not known_rate:
+        size = equation.find(turning, 1j * u, "η", point)
+        equation.then(q.define(f"omega.{body}", size / arm))
+    symbol = Symbol("v", point, "r")
     if sliding.way:
-        q.define(
-            sliding.id, solved_for(q, sliding.way, u, (whole,), (*bases, turning)), Symbol("v", point, "r"), "velocity"
-        )
-        axes = (*axes, Axis("ξ", towards(u, arm_way), point))
-        lines = (*lines, sliding.id)
+        equation.find(sliding, towards(u, arm_way), "ξ", point, symbol, "velocity")
     else:
-        q.give(sliding.id, 0.0, Symbol("v", point, "r"), "velocity")
-    kind = "slot-speed" if known_rate else "slot-rate"
-    board.steps.append(Step(kind, lines, body, point, base, equation, axes))
+        q.give(sliding.id, 0.0, symbol, "velocity")
+    equation.step("slot-speed" if known_rate else "slot-rate", body, point, base)
     return True
 
 

@@ -12,9 +12,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from reportgen.ledger.instant.board import Board, Step
 from reportgen.ledger.instant.parts import Parts
-from reportgen.ledger.instant.speeds import Board
-from reportgen.ledger.instant.steps import Step
 from reportgen.notation.expressions import Chain, Expression, Negative, Number, Product, Symbol, call, total
 
 FIGURES = 4

@@ -13,8 +13,7 @@ from itertools import permutations
 
 from reportgen.catalogue import plane_motion_file as file
 from reportgen.catalogue.plane_motion_centres import Layout
-from reportgen.ledger.instant.speeds import Board
-from reportgen.ledger.instant.steps import Step
+from reportgen.ledger.instant.board import Board, Step
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Chain, Expression, Negative, Product, Ref, Sum, Symbol, signed, total
 from reportgen.plane_motion.conditions import GROUND

@@ -13,10 +13,10 @@ from reportgen.catalogue.plane_motion_file import Asked, Method
 from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.instant.accelerations import enter_accelerations
+from reportgen.ledger.instant.board import Board, Quantities, Step
 from reportgen.ledger.instant.centres import enter_centre
 from reportgen.ledger.instant.methods import belongs, find_velocities
-from reportgen.ledger.instant.speeds import Board, Quantities, enter_given
-from reportgen.ledger.instant.steps import Step
+from reportgen.ledger.instant.speeds import enter_given
 from reportgen.ledger.instant.systems import solve_accelerations_together
 from reportgen.notation.expressions import Symbol, refs
 from reportgen.notation.sheet import Sheet
