@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     import numpy as np
 
     from reportgen.analysis import Analysis
-    from reportgen.catalogue.plane_motion import Exercise
+    from reportgen.exercise.literal import LiteralBoard
+    from reportgen.exercise.plane_motion import Exercise
+    from reportgen.exercise.solution import Worked
     from reportgen.flywheel import Flywheel
     from reportgen.ledger.core import Ledger
     from reportgen.ledger.forces.polygon import Polygon
-    from reportgen.ledger.instant.literal import LiteralBoard
-    from reportgen.ledger.instant.write import Worked
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,7 @@ class ExerciseCase(Opened):
 
         Raises `NotOfferedError` if no steps that are known here lead to something that is asked.
         """
-        from reportgen.ledger.instant.write import work_out
+        from reportgen.exercise.solution import work_out
 
         first = next(iter(self.exercise.given.methods), None)
         worked = work_out(self.exercise, self.words["units"], self.words["symbols"], first)
@@ -147,7 +147,7 @@ class ExerciseCase(Opened):
 
         Raises `NotOfferedError` for a method of which no steps are known here.
         """
-        from reportgen.ledger.instant.write import work_out
+        from reportgen.exercise.solution import work_out
 
         rest = self.exercise.given.methods[1:]
         each = (work_out(self.exercise, self.words["units"], self.words["symbols"], one, True) for one in rest)
@@ -163,7 +163,7 @@ class ExerciseCase(Opened):
         """The quantities of the solution by symbols; None where the file has none."""
         if not self.exercise.given.literal:
             return None
-        from reportgen.ledger.instant.literal import LiteralBoard
+        from reportgen.exercise.literal import LiteralBoard
 
         return LiteralBoard(self.exercise, self.worked)
 

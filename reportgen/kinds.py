@@ -12,11 +12,14 @@ from reportgen.words import FILE, load_words, templates
 
 @cache
 def kinds() -> Mapping[str, str]:
-    """The module of every kind, by the name that stands in a file, in alphabetical order."""
-    modules = (path.stem for path in sorted((Path(__file__).parent / "catalogue").glob("*.py")))
-    named = {module.replace("_", "-"): module for module in modules}
-    words = templates() / "vi"
-    return {kind: module for kind, module in named.items() if (words / kind / FILE).is_file()}
+    """The module of every kind, dotted, by the name that stands in a file, in alphabetical order.
+
+    A kind is a module in a room of the package that is called as its words are; in the catalogue before any other room.
+    """
+    package, words = Path(__file__).parent, templates() / "vi"
+    modules = sorted(package.glob("*/*.py"), key=lambda path: path.parent.name == "catalogue")
+    named = {path.stem.replace("_", "-"): f"{package.name}.{path.parent.name}.{path.stem}" for path in modules}
+    return {kind: named[kind] for kind in sorted(named) if (words / kind / FILE).is_file()}
 
 
 def title(name: str, language: Language) -> str:

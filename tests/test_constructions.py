@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reportgen.ledger.instant import algebra
-from reportgen.ledger.instant.algebra import Plane
+from reportgen.exercise import algebra
+from reportgen.exercise.algebra import Plane
 from reportgen.notation import constructions
 from reportgen.notation.constructions import circle_circle, circle_line, foot, leg, meet
 

@@ -128,7 +128,7 @@ def task(case: Opened, key: Key, by_section: bool = False) -> Document:
 @task.register
 def of_exercise(case: ExerciseCase, key: Key, by_section: bool = False) -> Document:
     """The task of an exercise: what is given and asked, the system, and the sheet."""
-    from reportgen.document.exercise import task_names
+    from reportgen.exercise.document import task_names
 
     tables = tuple(_sections(key) if by_section else answer_tables(key))
     blocks = Prose(case.directories).render("exercise-task.md", {**task_names(case), "answer_tables": tables})

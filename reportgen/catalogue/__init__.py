@@ -5,7 +5,8 @@ A machine is found because its module is here and its words are in `templates/<l
 `Parameters` and, if it has one, `Indicator`, and `CHECKS`; `added_positions` if a turn has more positions than the
 evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
 
-A kind that is no machine but one instant of a system says `MAKES = "exercise"`, and makes one by `exercise`.
+A kind that is no machine has its module in a room of its own, found by its words likewise; one that is an instant of a
+system says `MAKES = "exercise"`, and makes one by `exercise`.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from reportgen.words import as_error
 
 def module(kind: str) -> ModuleType:
     """The module of a kind; raises `KeyError` for a kind nobody knows."""
-    return import_module(f"{__name__}.{kinds()[kind]}")
+    return import_module(kinds()[kind])
 
 
 Makes = Literal["machine", "exercise"]

@@ -41,7 +41,7 @@ def compose(case: Opened) -> Document:
 @compose.register
 def of_exercise(case: ExerciseCase) -> Document:
     """The solution of an exercise; no machine needs what it is made with."""
-    from reportgen.document.exercise import solution
+    from reportgen.exercise.document import solution
 
     return solution(case)
 
