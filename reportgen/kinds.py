@@ -17,10 +17,14 @@ SAMPLE = "new"
 
 @cache
 def kinds() -> Mapping[str, str]:
-    """The module of every kind, by the name that stands in a file, in alphabetical order."""
-    modules = (path.stem for path in sorted((Path(__file__).parent / "catalogue").glob("*.py")))
-    named = {module.replace("_", "-"): module for module in modules}
-    return {kind: module for kind, module in named.items() if kind_file("vi", kind).is_file()}
+    """The module of every kind, dotted, by the name that stands in a file, in alphabetical order.
+
+    A kind is a module in a room of the package that is called as its words are; in the catalogue before any other room.
+    """
+    package = Path(__file__).parent
+    modules = sorted(package.glob("*/*.py"), key=lambda path: path.parent.name == "catalogue")
+    named = {path.stem.replace("_", "-"): f"{package.name}.{path.parent.name}.{path.stem}" for path in modules}
+    return {kind: named[kind] for kind in sorted(named) if kind_file("vi", kind).is_file()}
 
 
 def title(name: str, language: Language) -> str:

@@ -5,7 +5,8 @@ A machine is found because its module is here and its words are in `templates/<l
 a cycle, the models `Parameters` and, if it has one, `Indicator`, and `CHECKS`; `added_positions` if a turn has more
 positions than the evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
 
-A kind that is no machine gives `case` in place of `machine`, which makes a case of its own.
+A kind that is no machine has its module in a room of its own, found by its words likewise; it gives `case` in place of
+`machine`, which makes a case of its own.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ from reportgen.words import as_error
 
 def module(kind: str) -> ModuleType:
     """The module of a kind; raises `KeyError` for a kind nobody knows."""
-    return import_module(f"{__name__}.{kinds()[kind]}")
+    return import_module(kinds()[kind])
 
 
 def kind(name: str) -> Kind:

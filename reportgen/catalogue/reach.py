@@ -13,9 +13,10 @@ import numpy as np
 
 from reportgen.catalogue.loads import FULL_TURN, Flags, MotionAt, NotToAndFro, course, halved
 from reportgen.errors import Finding, Where
-from reportgen.mechanism.dyads import SINGULAR, Complexes, Floats, cross, unit
+from reportgen.mechanism.dyads import SINGULAR, Complexes, Floats, unit
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import GROUND, Crank, Dyad, Guide, Linkage
+from reportgen.notation.constructions import cross
 from reportgen.notation.numbers import nice_down
 
 MM = 1e3

@@ -23,7 +23,7 @@ from reportgen.figures.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.mechanism.forces import Load, as_single_force, percussion_meeting
 from reportgen.mechanism.structure import DRIVER
-from reportgen.notation import vocabulary
+from reportgen.notation import constructions, vocabulary
 from reportgen.notation.expressions import Chain, Expression, Symbol, size
 
 
@@ -258,7 +258,7 @@ def _foot(report: Report, group: GroupView, link: int, k: int) -> Draft:
     scale, ledger = drawing_scale(report), report.ledger
     pivot, block = (complex(report.analysis.motion.points[name].p[k - 1]) * scale for name in (group.T, group.Q))
     along = complex(ledger[f"slot.{link}"].at(k))
-    at = block + ((pivot - block) / along).real * along
+    at = complex(constructions.foot(pivot, block, along))
     marks = (Line(pivot, at, CONSTRUCTION), Line(at, block, CONSTRUCTION), Circle(at, 0.6, VISIBLE, PAPER))
     return Draft(marks, (label(at, Symbol("H", str(link)), gap=1.2),))
 

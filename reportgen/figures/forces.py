@@ -21,6 +21,7 @@ from reportgen.figures.scene import Arc, Arrow, Circle, Content, Item, Line, Pol
 from reportgen.figures.scheme import Looks, mechanism, skeleton
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import Linkage
+from reportgen.notation import constructions
 from reportgen.notation.expressions import Symbol
 
 SHORTEST, STEP, LONGEST = 13.0, 6.5, 26.0
@@ -204,8 +205,7 @@ def draw_couples(couples: Sequence[Couple]) -> Draft:
 
 def foot(about: complex, start: complex, end: complex) -> complex:
     """The foot of the perpendicular from `about` on the line through two points."""
-    u = unit(end - start)
-    return start + u * ((about - start) * u.conjugate()).real
+    return complex(constructions.foot(about, start, unit(end - start)))
 
 
 def _parallel(one: complex, other: complex) -> bool:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.mechanism.structure import Dyad, DyadKind
+from reportgen.notation.constructions import SquareRoot, along_line, circle_circle, cross, shares
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -44,24 +45,10 @@ def unit(angle: Floats | float) -> Complexes:
     return np.asarray(np.exp(1j * np.asarray(angle, dtype=np.float64)), dtype=np.complex128)
 
 
-def cross(a: Complexes | complex, b: Complexes | complex) -> Floats:
-    """a × b = aₓb_y − a_y bₓ, the component along z."""
-    a, b = np.asarray(a), np.asarray(b)
-    return np.asarray(a.real * b.imag - a.imag * b.real, dtype=np.float64)
-
-
-def dot(a: Complexes | complex, b: Complexes | complex) -> Floats:
-    """a · b = aₓbₓ + a_y b_y."""
-    a, b = np.asarray(a), np.asarray(b)
-    return np.asarray(a.real * b.real + a.imag * b.imag, dtype=np.float64)
-
-
 def solve2(u: Complexes | complex, w: Complexes | complex, rhs: Complexes | complex) -> tuple[Floats, Floats]:
     """The real x, y with x·u + y·w = rhs; nan where u and w are parallel to within `SINGULAR`."""
-    area = cross(u, w)
-    regular = np.abs(area) > SINGULAR * np.abs(u) * np.abs(w)
-    area = np.where(regular, area, np.nan)
-    return cross(rhs, w) / area, cross(u, rhs) / area
+    regular = np.abs(cross(u, w)) > SINGULAR * np.abs(u) * np.abs(w)
+    return shares(rhs, np.where(regular, u, np.nan), w)
 
 
 # --- groups ---------------------------------------------------------------------------------------
@@ -150,21 +137,21 @@ def assemble(dyad: Dyad, start: End, end: End, sign: Floats) -> Assembled:
     raise TypeError(f"dyad {dyad.links}: the ends do not fit the kind {dyad.kind}")
 
 
-def _root(square: Floats, scale: Floats | float) -> Floats:
-    """Square root, nan where the square is negative by more than rounding of `scale`²."""
-    scale2 = np.square(scale)
-    return np.sqrt(np.where((square < 0) & (square >= -TOUCHING * scale2), 0.0, np.where(square < 0, np.nan, square)))
+def _root(scale: Floats | float) -> SquareRoot:
+    """The square root that is nan where the square is negative by more than rounding of `scale`²."""
+
+    def root(square: Floats) -> Floats:
+        touching = (square < 0) & (square >= -TOUCHING * np.square(scale))
+        return np.sqrt(np.where(touching, 0.0, np.where(square < 0, np.nan, square)))
+
+    return root
 
 
 def _rrr(dyad: Dyad, p: PointMotion, t: PointMotion, sign: Floats) -> Assembled:
     """v_P + iω_i PQ = v_T + iω_j TQ."""
     first, second = dyad.lengths
-    way = t.p - p.p
-    span = np.abs(way)
     with np.errstate(divide="ignore", invalid="ignore"):
-        along = (first**2 - second**2 + span**2) / (2 * span)
-        across = _root(first**2 - along**2, first)
-        q = p.p + way / span * (along + 1j * sign * across)
+        q = circle_circle(p.p, first, t.p, second, sign, _root(first))
     r, s = q - p.p, q - t.p
     omega_i, omega_j = solve2(1j * r, -1j * s, t.v - p.v)
     epsilon_i, epsilon_j = solve2(1j * r, -1j * s, t.a - p.a + omega_i**2 * r - omega_j**2 * s)
@@ -177,9 +164,7 @@ def _rrp(dyad: Dyad, p: PointMotion, rail: Rail, sign: Floats) -> Assembled:
     """v_P + iω_i PQ = v_Qk + ṡ d, with 2iω_k ṡ d (Coriolis) on a turning guide."""
     length = dyad.lengths[0]
     d = rail.direction
-    foot = dot(p.p - rail.at.p, d)
-    height = cross(p.p - rail.at.p, d)
-    s = foot + sign * _root(length**2 - height**2, length)
+    s = along_line(p.p, length, rail.at.p, d, sign, _root(length))
     q = rail.at.p + s * d
     r = q - p.p
     under = rail.carried(q)
@@ -198,7 +183,7 @@ def _rpr(dyad: Dyad, p: PointMotion, t: PointMotion, sign: Floats) -> Assembled:
     r = p.p - t.p
     # A pin met by its own slider's centre leaves the direction to rounding.
     r = np.where(np.abs(r) > COINCIDENT * (np.abs(p.p) + np.abs(t.p)), r, np.nan)
-    s = sign * _root(np.abs(r) ** 2 - offset**2, np.abs(r))
+    s = sign * _root(np.abs(r))(np.abs(r) ** 2 - offset**2)
     with np.errstate(divide="ignore", invalid="ignore"):
         u = unit(np.angle(r / (s + 1j * offset)))
     omega, rate = solve2(1j * r, u, p.v - t.v)

@@ -15,9 +15,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from reportgen.mechanism.dyads import Complexes, Floats, cross, dot, solve2
+from reportgen.mechanism.dyads import Complexes, Floats, solve2
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import DRIVER, GROUND, Dyad, Joint, Linkage, joints
+from reportgen.notation.constructions import cross, dot
 
 CONVERGED = 1e-12
 ORDER = 16
@@ -39,7 +40,7 @@ class Load:
 
     def moment(self, about: Complexes | complex) -> Floats:
         """Moment about a point: (point − about) × force + couple."""
-        return cross(self.point - about, self.force) + self.couple
+        return np.asarray(cross(self.point - about, self.force) + self.couple)
 
 
 def weights(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
@@ -197,7 +198,7 @@ class _Wrench(NamedTuple):
     couple: Floats | float
 
     def moment(self, about: Complexes) -> Floats:
-        return cross(self.point - about, self.force) + self.couple
+        return np.asarray(cross(self.point - about, self.force) + self.couple)
 
 
 def reaction_name(source: int, target: int) -> str:

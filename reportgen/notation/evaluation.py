@@ -1,17 +1,14 @@
-"""The values of expressions: functions by their names, and constructions of plane geometry.
-
-What a plan solves by drawing (`meet`, `circle_line`, `circle_circle`) takes and gives points of the plane as
-complex numbers.
-"""
+"""The values of expressions: functions by their names, constructions of plane geometry among them."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Any
 
 import numpy as np
 
+from reportgen.notation import constructions
+from reportgen.notation.constructions import Value
 from reportgen.notation.expressions import (
     Call,
     Chain,
@@ -27,38 +24,10 @@ from reportgen.notation.expressions import (
     Symbol,
 )
 
-Value = Any
-"""A float, a complex number, or an array of either: every function is indifferent to the shape."""
-
-
-def cross(a: Value, b: Value) -> Value:
-    """z-component of a × b for plane vectors as complex numbers."""
-    return np.imag(np.conj(a) * b)
-
-
-def dot(a: Value, b: Value) -> Value:
-    """Scalar product of plane vectors as complex numbers."""
-    return np.real(np.conj(a) * b)
-
-
-def meet(p: Value, u: Value, q: Value, w: Value) -> Value:
-    """Where the line through p along u meets the line through q along w."""
-    return p + u * cross(q - p, w) / cross(u, w)
-
 
 def circle_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value) -> Value:
-    """Where the circle meets the line through p along u; sign +1 takes the farther end along u."""
-    u = u / np.abs(u)
-    foot = p + u * dot(centre - p, u)
-    return foot + sign * u * np.sqrt(radius**2 - np.abs(centre - foot) ** 2 + 0j).real
-
-
-def circle_circle(c1: Value, r1: Value, c2: Value, r2: Value, sign: Value) -> Value:
-    """Where two circles meet; sign +1 takes the point to the left of the way from c1 to c2."""
-    span = np.abs(c2 - c1)
-    along = (r1**2 - r2**2 + span**2) / (2 * span)
-    across = np.sqrt(r1**2 - along**2 + 0j).real
-    return c1 + (c2 - c1) / span * (along + 1j * sign * across)
+    """Where a circle meets the line through p along u, a vector of any length."""
+    return constructions.circle_line(centre, radius, p, u / abs(u), sign)
 
 
 def quotient(a: Value, b: Value) -> Value:
@@ -117,11 +86,11 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "arg": np.angle,
     "heading": heading,
     "cis": lambda angle: np.exp(1j * np.asarray(angle)),
-    "cross": cross,
-    "dot": dot,
-    "meet": meet,
+    "cross": constructions.cross,
+    "dot": constructions.dot,
+    "meet": constructions.meet,
     "circle_line": circle_line,
-    "circle_circle": circle_circle,
+    "circle_circle": constructions.circle_circle,
     "turned": lambda vector: 1j * vector,
     "min": np.minimum,
     "max": np.maximum,

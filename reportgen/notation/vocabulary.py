@@ -18,7 +18,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from reportgen.notation.evaluation import Value
+from reportgen.notation.constructions import Value
 from reportgen.notation.expressions import Symbol
 
 

@@ -13,10 +13,10 @@ import newton_euler as ne
 import numpy as np
 from hypothesis import strategies as st
 
-from reportgen.mechanism.dyads import cross, dot
 from reportgen.mechanism.forces import Load
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
+from reportgen.notation.constructions import cross, dot
 
 KINDS: tuple[DyadKind, ...] = ("RRR", "RRP", "RPR", "PRP", "RPP")
 REFERENCE = 0.7

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reportgen.mechanism.dyads import cross
 from reportgen.mechanism.forces import (
     Load,
     as_single_force,
@@ -21,6 +20,7 @@ from reportgen.mechanism.forces import (
 )
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints, mobility
+from reportgen.notation.constructions import cross
 
 COUNT = 256
 """Positions of a turn: the machines' spectra fall below rounding long before the 128th harmonic."""

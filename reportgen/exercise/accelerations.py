@@ -1,0 +1,344 @@
+"""Accelerations, step by step: by the base point, each vector equation with two unknown sizes, projected on an axis.
+
+Of a point the vectors are known that add up to its acceleration; of one on a known path all but the size of the last.
+Of one that slides along a line of a moving body, Coriolis' acceleration is among them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from reportgen.exercise import file
+from reportgen.exercise.board import Board, Equation, Projected, Step, Vector, components
+from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.places import direction_of, parallel, perpendicular, unit
+from reportgen.notation.expressions import sqrt
+
+
+@dataclass
+class Parts:
+    """The accelerations of points as vectors that add up to them; none for a point at rest or in uniform motion."""
+
+    board: Board
+    of: dict[str, tuple[Vector, ...]] = field(default_factory=dict)
+
+    def vector(self, id: str, value: complex) -> Vector:
+        return Vector(id, direction_of(value))
+
+
+def relative(parts: Parts, body: int, point: str, base: str) -> tuple[Vector, Vector]:
+    """The normal and the tangential acceleration of a point about another of its body, as vectors."""
+    board = parts.board
+    arm = board.layout.points[point] - board.layout.points[base]
+    eps = board.motion.epsilon(body)
+    pivot = board.layout.centres.get(body)
+    fixed = pivot is not None and pivot.rule == "pivot" and pivot.name == base
+    name = point if fixed else f"{point}{base}"
+    return parts.vector(f"a.{name}.n", -arm), parts.vector(f"a.{name}.t", 1j * arm * (1 if eps >= 0 else -1))
+
+
+def enter_normal(parts: Parts, body: int, point: str, base: str, normal: Vector) -> tuple[str, ...]:
+    """aⁿ = ω² l; no line where the body does not turn."""
+    return _enter_part(parts, normal.id, f"omega.{body}", 2, base, point)
+
+
+def enter_tangential(parts: Parts, body: int, point: str, base: str, tangential: Vector) -> tuple[str, ...]:
+    """aᵗ = ε l; no line where the angular velocity does not change."""
+    return _enter_part(parts, tangential.id, f"eps.{body}", 1, base, point)
+
+
+def _enter_part(parts: Parts, id: str, rate: str, power: int, base: str, point: str) -> tuple[str, ...]:
+    """A part of an acceleration from a rate of the body; the ids of its lines, none where the part is nothing."""
+    board = parts.board
+    if board.knows(id):
+        return ()
+    if board.q.si(rate) == 0:
+        board.q.give(id, 0.0)
+        return ()
+    arm = board.length(base, point)
+    board.q.define(id, (board.q[rate] if power == 1 else board.q[rate] ** power) * arm)
+    return (arm.id, id)
+
+
+@dataclass(frozen=True)
+class Path:
+    """What is known of the acceleration of a point, its part of unknown size, the body and base that it is about."""
+
+    known: tuple[Vector, ...]
+    unknown: Vector
+    body: int = GROUND
+    base: str = ""
+    lines: tuple[str, ...] = ()
+
+
+def known_path(parts: Parts, point: str, body: int) -> Path | None:
+    """What is known of the acceleration of a point on a known path, its unknown part, and the body it turns with.
+
+    On a straight line of the ground nothing is known; about a pivot, or another known point, the normal acceleration.
+    """
+    board, layout = parts.board, parts.board.layout
+    actual = board.motion.a(point) if point in board.motion.system.points else 0j
+    if point in layout.slots:
+        u = layout.slots[point]
+        return Path((), Vector(f"a.{point}", u if (u.conjugate() * actual).real >= 0 else -u))
+    for other, centre in layout.centres.items():
+        if other != body and centre.rule == "pivot" and point in layout.own(other) and board.knows(f"omega.{other}"):
+            normal, tangential = relative(parts, other, point, centre.name)
+            lines = enter_normal(parts, other, point, centre.name, normal)
+            return Path(parts.board.nonzero(normal), tangential, other, centre.name, lines)
+    for other in layout.members:
+        names = layout.own(other)
+        base = next((name for name in names if name in parts.of), "")
+        if other != body and point in names and base and board.knows(f"omega.{other}"):
+            normal, tangential = relative(parts, other, point, base)
+            lines = enter_normal(parts, other, point, base, normal)
+            return Path((*parts.of[base], *parts.board.nonzero(normal)), tangential, other, base, lines)
+    return None
+
+
+def enter_end(parts: Parts, point: str, path: Path, equation: Projected) -> None:
+    """The whole acceleration of a point whose unknown part has been found, and the rate of the body it is about."""
+    board, size = parts.board, parts.board.q[path.unknown.id]
+    parts.of[point] = (*path.known, *board.nonzero(path.unknown))
+    if path.body and not board.knows(f"eps.{path.body}"):
+        equation.then(board.q.define(f"eps.{path.body}", size / board.length(path.base, point)))
+
+
+Finder = Callable[[Parts], bool]
+"""Enters one more rate of a body, or the acceleration of one more point; whether there was one."""
+
+
+def enter_accelerations(board: Board, finders: Sequence[Finder]) -> None:
+    """Given rates first; then every rate that follows from them and the velocities, by the first finder that can."""
+    parts = Parts(board)
+    _given(parts)
+    while any(find(parts) for find in finders):
+        pass
+    for asked in board.layout.given.find:
+        if asked.what == "a" and asked.of in parts.of and not board.knows(asked.id):
+            _whole(parts, asked.of)
+
+
+def _given(parts: Parts) -> None:
+    board = parts.board
+    for rate in board.layout.given.given:
+        match rate:
+            case file.EpsilonOf(body=body, value=value):
+                board.given(f"eps.{body}", value.si)
+            case file.AccelerationOf(point=point, size=size, direction=angle) if size is not None:
+                board.given(f"a.{point}", size.si)
+                direction = unit(angle.si) * (1 if size.si >= 0 else -1)
+                parts.of[point] = (Vector(f"a.{point}", direction),) if size.si else ()
+            case file.FromRest(point=point, acceleration=acceleration, direction=angle):
+                parts.of[point] = (Vector(f"a.{point}", unit(angle.si) * (1 if acceleration.si >= 0 else -1)),)
+    for body, centre in board.layout.centres.items():
+        if centre.rule == "pivot":
+            parts.of[centre.name] = ()
+        if centre.rule == "translation" and not board.knows(f"eps.{body}") and _held(board, body):
+            board.q.give(f"eps.{body}", 0.0)
+
+
+def _held(board: Board, body: int) -> bool:
+    """Whether a joint keeps a body from turning, not only at the instant."""
+    joints = board.layout.given.joints
+    return any(
+        one.body == body and (isinstance(one, file.Translation) or one.on == GROUND)
+        for one in joints
+        if isinstance(one, file.Slider | file.Translation)
+    )
+
+
+def about_points(parts: Parts) -> bool:
+    """One more body whose rate, or one of whose points becomes known about others of its points."""
+    for body in parts.board.layout.members:
+        names = parts.board.layout.own(body)
+        if _free(parts, body, names) or _rolling(parts, body) or _points(parts, body, names):
+            return True
+        if _by_base(parts, body, names):
+            return True
+    return False
+
+
+def by_slots(parts: Parts) -> bool:
+    """One more rate by way of a line on a moving body along which a point slides."""
+    return any(by_slot(parts, joint) for joint in parts.board.layout.given.slots)
+
+
+# --- about a known point --------------------------------------------------------------------------
+
+
+def _points(parts: Parts, body: int, names: list[str]) -> bool:
+    """The accelerations of points of a body whose ω and ε are known, about one whose acceleration is."""
+    board = parts.board
+    # The base point whose acceleration has the fewest parts, as the centre of a wheel or a pivot.
+    known = [name for name in _with_pivot(parts, body, names) if name in parts.of]
+    base = min(known, key=lambda name: len(parts.of[name]), default=None)
+    new = [name for name in names if name not in parts.of]
+    if base is None or not new or not (board.knows(f"omega.{body}") and board.knows(f"eps.{body}")):
+        return False
+    point = new[0]
+    normal, tangential = relative(parts, body, point, base)
+    lines = enter_normal(parts, body, point, base, normal) + enter_tangential(parts, body, point, base, tangential)
+    own = parts.board.nonzero(normal, tangential)
+    parts.of[point] = (*parts.of[base], *own)
+    equation = Equation((), parts.of[point])
+    kind = "acceleration-point" if parts.of[base] else "acceleration-pivot"
+    board.steps.append(Step(kind, lines, body, point, base, equation))
+    return True
+
+
+def _with_pivot(parts: Parts, body: int, names: list[str]) -> list[str]:
+    """The points of a body, its pivot first."""
+    centre = parts.board.layout.centres.get(body)
+    return [centre.name, *names] if centre is not None and centre.rule == "pivot" else names
+
+
+# --- two unknown sizes ----------------------------------------------------------------------------
+
+
+def _by_base(parts: Parts, body: int, names: list[str]) -> bool:
+    """ε of a body from one point with a known acceleration and another on a known path: projected on their line."""
+    board = parts.board
+    if board.knows(f"eps.{body}") or not board.knows(f"omega.{body}"):
+        return False
+    bases = [name for name in names if name in parts.of]
+    for base in bases:
+        for point in names:
+            if point not in parts.of and (path := known_path(parts, point, body)) is not None:
+                return _two_unknown(parts, body, point, base, path)
+    return False
+
+
+def _two_unknown(parts: Parts, body: int, point: str, base: str, path: Path) -> bool:
+    """a_P = a_B + aⁿ + aᵗ with two unknown sizes: along BP there is no aᵗ, and across it there is no aⁿ."""
+    board, q = parts.board, parts.board.q
+    normal, tangential = relative(parts, body, point, base)
+    line = direction_of(board.layout.points[point] - board.layout.points[base])
+    if perpendicular(line, path.unknown.direction):
+        return False
+    lines = path.lines + enter_normal(parts, body, point, base, normal)
+    bases = (*parts.of[base], *board.nonzero(normal))
+    equation = Projected(board, (*path.known, path.unknown), (*bases, tangential), lines)
+    equation.find(path.unknown, line, "ξ", point)
+    size = equation.find(tangential, tangential.direction, "η", point)
+    equation.then(q.define(f"eps.{body}", size / board.length(base, point)))
+    enter_end(parts, point, path, equation)
+    equation.step("acceleration-base", body, point, base)
+    return True
+
+
+# --- discs, free bodies, slots --------------------------------------------------------------------
+
+
+def _rolling(parts: Parts, body: int) -> bool:
+    """ε = aᵗ/r of a disc that rolls on the ground: what the acceleration of its centre is along the way it rolls."""
+    board, q = parts.board, parts.board.q
+    centre, disc = board.layout.centres.get(body), board.layout.given.disc(body)
+    if centre is None or disc is None or centre.rule != "contact" or board.knows(f"eps.{body}"):
+        return False
+    if disc.centre not in parts.of:
+        return False
+    along = 1j * direction_of(board.layout.points[disc.centre] - centre.at)
+    terms = [one for one in parts.of[disc.centre] if parallel(one.direction, along)]
+    if len(terms) > 1 or any(components(q, [one], along) for one in parts.of[disc.centre] if one not in terms):
+        return False
+    radius = board.length(centre.name, disc.centre, centre.at)
+    if terms:
+        q.define(f"eps.{body}", q[terms[0].id] / radius)
+    else:
+        q.give(f"eps.{body}", 0.0)
+    board.steps.append(Step("acceleration-rolling", (radius.id, f"eps.{body}"), body, disc.centre, centre.name))
+    return True
+
+
+def _free(parts: Parts, body: int, names: list[str]) -> bool:
+    """ω and ε of a body from the accelerations of two of its points."""
+    board, q = parts.board, parts.board.q
+    known = [name for name in names if name in parts.of]
+    if board.knows(f"omega.{body}") or len(known) < 2 or body in board.layout.centres:
+        return False
+    base, point = known[0], known[1]
+    arm, line = board.length(base, point), direction_of(board.layout.points[point] - board.layout.points[base])
+    normal, tangential = relative(parts, body, point, base)
+    equation = Projected(board, parts.of[point], (*parts.of[base], normal, tangential))
+    equation.then(q.define(f"omega.{body}", sqrt(equation.find(normal, line, "ξ", point) / arm)))
+    equation.then(q.define(f"eps.{body}", equation.find(tangential, tangential.direction, "η", point) / arm))
+    equation.step("acceleration-free", body, point, base)
+    return True
+
+
+# --- the whole of a point's acceleration ------------------------------------------------------------
+
+
+def _whole(parts: Parts, point: str) -> None:
+    """The size of an acceleration from its parts: of one, of two at a right angle, or of its components."""
+    board, q, vectors = parts.board, parts.board.q, parts.board.nonzero(*parts.of[point])
+    if not vectors:
+        q.give(f"a.{point}", 0.0)
+        return
+    whole = Projected(board, (), vectors)
+    if len(vectors) == 1:
+        whole.then(q.define(f"a.{point}", q[vectors[0].id]))
+    elif len(vectors) == 2 and perpendicular(vectors[0].direction, vectors[1].direction):
+        whole.then(q.define(f"a.{point}", sqrt(q[vectors[0].id] ** 2 + q[vectors[1].id] ** 2)))
+    else:
+        whole.find_sum("a", point)
+    whole.step("acceleration-whole", GROUND, point)
+
+
+# --- along the line of a moving body --------------------------------------------------------------
+
+
+def by_slot(parts: Parts, joint: file.SlotJoint) -> bool:
+    """ε of a body from the acceleration of a point that slides along its line, or from ε that of the point.
+
+    Both sides are projected on the normal to the line, along which the relative acceleration is nothing.
+    """
+    board, q, body, point = parts.board, parts.board.q, joint.on, joint.point
+    base = _base_of_slot(parts, body, point)
+    if not base or not (board.knows(f"omega.{body}") and board.knows(f"v.{point}.r")):
+        return False
+    u, motion = board.layout.geometry.direction(joint), board.motion
+    arm = direction_of(board.layout.points[point] - board.layout.points[base])
+    told = board.knows(f"eps.{body}")
+    path = known_path(parts, point, body) if told and point not in parts.of else None
+    if (point in parts.of) == told or (told and path is None) or not arm:
+        return False
+    if perpendicular(1j * arm, 1j * u) if path is None else parallel(path.unknown.direction, u):
+        return False
+    name = f"{point}e" if parts.of[base] == () else f"{point}{base}"
+    gliding = board.at(point) - board.at(point, body)
+    along = motion.a(point) - motion.a(point, body) - 2j * motion.omega(body) * gliding
+    normal = Vector(f"a.{name}.n", -arm)
+    tangential = Vector(f"a.{name}.t", 1j * arm * (1 if motion.epsilon(body) >= 0 else -1))
+    coriolis = Vector(f"a.{point}.k", direction_of(2j * motion.omega(body) * gliding))
+    sliding = Vector(f"a.{point}.r", direction_of(complex((u.conjugate() * along).real) * u))
+    lines = () if path is None else path.lines
+    length = board.length(base, point)
+    if q.si(f"omega.{body}"):
+        lines += (q.define(normal.id, q[f"omega.{body}"] ** 2 * length).id,)
+        if q.si(f"v.{point}.r"):
+            lines += (q.define(coriolis.id, 2 * q[f"omega.{body}"] * q[f"v.{point}.r"]).id,)
+    if told and q.si(f"eps.{body}"):
+        lines += (q.define(tangential.id, q[f"eps.{body}"] * length).id,)
+    known = (*parts.of[base], *board.nonzero(normal, coriolis, *((tangential,) if told else ())))
+    if path is None:
+        equation = Projected(board, parts.of[point], (*known, tangential, sliding), lines)
+        size = equation.find(tangential, 1j * u, "η", point)
+        equation.then(q.define(f"eps.{body}", size / length))
+        equation.step("acceleration-slot", body, point, base)
+    else:
+        equation = Projected(board, (*path.known, path.unknown), (*known, sliding), lines)
+        equation.find(path.unknown, 1j * u, "η", point)
+        enter_end(parts, point, path, equation)
+        equation.step("acceleration-slot-point", body, point, base)
+    return True
+
+
+def _base_of_slot(parts: Parts, body: int, point: str) -> str:
+    """A point of a body, its pivot first, whose acceleration is known; not the one that slides."""
+    centre = parts.board.layout.centres.get(body)
+    if centre is not None and centre.rule == "pivot":
+        return centre.name
+    return next((name for name in parts.board.layout.own(body) if name in parts.of and name != point), "")

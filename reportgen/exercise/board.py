@@ -1,0 +1,277 @@
+"""What stands on the board: quantities with their numbers, vectors, steps, and equations solved by projection."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+from reportgen.exercise.centres import Layout
+from reportgen.exercise.places import SAME, direction_of, parallel
+from reportgen.exercise.solving import Motion
+from reportgen.notation.expressions import Chain, Expression, Negative, Number, Product, Ref, Symbol, cos, sqrt, total
+from reportgen.notation.sheet import Family, Sheet, is_short
+
+# --- steps, as data for whoever writes them out ---------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Vector:
+    """A vector by the id of its size, which is positive, and its direction (of length 1)."""
+
+    id: str
+    direction: complex
+
+
+@dataclass(frozen=True, slots=True)
+class Equation:
+    """Σ left = Σ right, vectors; `unknown` are the ids of the two whose sizes are not known yet."""
+
+    left: tuple[Vector, ...]
+    right: tuple[Vector, ...]
+    unknown: tuple[str, ...] = ()
+
+
+Letter = Literal["ξ", "η", "x", "y"]
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """An axis that vectors are projected on, through a point, towards `direction`.
+
+    ξ lies along the line that the words of the step name, away from the base point, and η perpendicular to it; x and y
+    are those of the coordinates.
+    """
+
+    letter: Letter
+    direction: complex
+    point: str
+
+    @property
+    def along(self) -> complex:
+        """The direction of ξ, of which η is the other axis."""
+        return self.direction if self.letter == "ξ" else self.direction / 1j
+
+
+COORDINATES: tuple[tuple[complex, Letter], ...] = ((1 + 0j, "x"), (1j, "y"))
+"""The axes of the coordinates, each by its direction and its letter."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What is done of which body and points, and the ids of the lines that are worked out in it.
+
+    `kind` is the name of its words.
+    """
+
+    kind: str
+    ids: tuple[str, ...]
+    body: int = 0
+    point: str = ""
+    base: str = ""
+    equation: Equation | None = None
+    axes: tuple[Axis, ...] = ()
+    """What the equation is projected on, in the order of the lines."""
+    frame: int = 0
+    """The moving body that the motion is seen from."""
+    system: tuple[Chain, ...] = ()
+    """Equations that are solved together, with their numbers."""
+    results: tuple[Chain, ...] = ()
+    """What they come to, with signs."""
+
+    @property
+    def of_accelerations(self) -> bool:
+        return self.kind.startswith(("acceleration", "system-eps", "train-eps", "block-eps"))
+
+
+# --- the board ------------------------------------------------------------------------------------
+
+
+class Quantities(Sheet):
+    """A sheet on which a rate is nothing that is so beside the rates of the whole system: what floats leave of 0."""
+
+    def __init__(self, positions: int, motion: Motion) -> None:
+        super().__init__(positions)
+        # A hundred thousandth: what is small beside the other rates keeps its figures.
+        fast, steep = motion.fastest * 1e-5, motion.steepest * 1e-5
+        self.scales = {
+            "velocity": fast,
+            "angular velocity": fast / motion.size,
+            "acceleration": steep,
+            "angular acceleration": steep / motion.size,
+        }
+
+    def enter(self, family: Family) -> Ref:
+        return super().enter(replace(family, scale=family.scale or self.scales.get(family.kind, 0.0)))
+
+    def si(self, quantity: str | Ref) -> float:
+        return float(self.families[quantity if isinstance(quantity, str) else quantity.id].at(None))
+
+
+@dataclass
+class Board:
+    """What stands on the board so far: the sheet with its numbers, and the steps that led to them."""
+
+    q: Sheet
+    layout: Layout
+    steps: list[Step] = field(default_factory=list)
+
+    @property
+    def motion(self) -> Motion:
+        return self.layout.motion
+
+    def length(self, one: str, other: str, one_at: complex | None = None) -> Ref:
+        """The distance of two points, by the name l.OA."""
+        for id in (f"l.{one}{other}", f"l.{other}{one}"):
+            if id in self.q:
+                return self.q[id]
+        start = self.layout.points[one] if one_at is None else one_at
+        value = abs(self.layout.points[other] - start)
+        return self.q.give(f"l.{one}{other}", value, exact=is_short(value))
+
+    def given(self, id: str, value: float, symbol: Symbol | str = "", kind: str = "") -> Ref:
+        """A size that the file gives."""
+        return self.q.give(id, abs(value), symbol, kind, exact=is_short(abs(value)))
+
+    def knows(self, id: str) -> bool:
+        return id in self.q
+
+    def nonzero(self, *vectors: Vector) -> tuple[Vector, ...]:
+        """Those of the vectors that are on the board and are not nothing."""
+        return tuple(one for one in vectors if self.knows(one.id) and self.q.si(one.id))
+
+    def velocity(self, point: str) -> Vector:
+        """The velocity of a point that is on the board."""
+        return Vector(f"v.{point}", direction_of(self.at(point)))
+
+    def at(self, point: str, body: int | None = None) -> complex:
+        """The velocity of a point, a point of contact among them, as it moves with its own body or with another."""
+        own = self.home(point) if body is None else body
+        motion = self.motion
+        v = motion.velocities.at(own, self.layout.points[point])
+        return 0j if abs(v) < 1e-9 * motion.fastest else complex(v)
+
+    def home(self, point: str) -> int:
+        """The body that a point's motion is that of."""
+        system = self.motion.system
+        if point in system.points and system.body_of(point):
+            return int(system.body_of(point))
+        return next((body for body, names in self.layout.members.items() if point in names), 0)
+
+
+# --- vectors along an axis ------------------------------------------------------------------------
+
+
+def along(q: Sheet, vector: Vector, axis: complex) -> Expression | None:
+    """The component of a vector along an axis, as it is written: v cos 30° with its sign; None where it is nothing."""
+    cosine = (axis.conjugate() * vector.direction).real
+    if abs(cosine) < SAME or q.si(vector.id) == 0:
+        return None
+    size: Expression = q[vector.id]
+    if abs(cosine) < 1 - SAME**2 / 2 and not parallel(vector.direction, axis):
+        size = Product((size, cos(angle(q, math.acos(min(abs(cosine), 1.0))))))
+    return size if cosine > 0 else Negative(size)
+
+
+def components(q: Sheet, vectors: Iterable[Vector], axis: complex) -> list[Expression]:
+    """The components along an axis of those vectors that have one."""
+    found = (along(q, vector, axis) for vector in vectors)
+    return [one for one in found if one is not None]
+
+
+def solved_for(
+    q: Sheet, unknown: complex, axis: complex, known: Sequence[Vector], opposite: Sequence[Vector]
+) -> Expression:
+    """The size of a vector of direction `unknown` from Σ opposite + unknown = Σ known, projected on an axis.
+
+    The axis points so that the unknown's component is positive.
+    """
+    axis = towards(axis, unknown)
+    cosine = (axis.conjugate() * unknown).real
+    terms = components(q, known, axis)
+    terms += [one.of if isinstance(one, Negative) else Negative(one) for one in components(q, opposite, axis)]
+    sum_of = total(_positive_first(terms)) if terms else Number(0.0)
+    if parallel(unknown, axis):
+        return sum_of
+    return sum_of / cos(angle(q, math.acos(min(cosine, 1.0))))
+
+
+def size_of(q: Sheet, sides: Sequence[Ref]) -> Expression:
+    """The size of a vector from its components along axes at right angles; one alone is the size but for its sign."""
+    if len(sides) == 1:
+        return sides[0] if q.si(sides[0]) >= 0 else Negative(sides[0])
+    return sqrt(total([one**2 for one in sides]))
+
+
+def towards(axis: complex, direction: complex) -> complex:
+    """The axis, or its opposite, along which a vector of that direction has a positive component."""
+    return axis if (axis.conjugate() * direction).real > 0 else -axis
+
+
+def _positive_first(terms: list[Expression]) -> list[Expression]:
+    """The terms with a plus before those with a minus."""
+    return sorted(terms, key=lambda term: isinstance(term, Negative))
+
+
+def angle(q: Sheet, value: float) -> Expression:
+    """An angle (radians) as it stands in a formula: a round one as its degrees, any other by a symbol α of its own."""
+    degrees = math.degrees(value)
+    if abs(degrees - round(degrees, 2)) < 1e-9:
+        return Number(round(degrees, 2), None, "°")
+    others = [id for id in q.families if id.startswith("alpha.")]
+    same = (id for id in others if abs(q.si(id) - value) < SAME)
+    id = next(same, "")
+    number = str(len(others) + 1)
+    return Ref(id) if id else q.give(f"alpha.{number}", value, Symbol("α", number), "angle", exact=False)
+
+
+# --- equations ------------------------------------------------------------------------------------
+
+
+class Projected:
+    """Σ left = Σ right, with the lines that are worked out of it and the axes that it is projected on.
+
+    What the board does not know at the beginning is unknown in it.
+    """
+
+    def __init__(
+        self, board: Board, left: tuple[Vector, ...], right: tuple[Vector, ...], lines: tuple[str, ...] = ()
+    ) -> None:
+        unknown = tuple(one.id for one in (*left, *right) if not board.knows(one.id))
+        self.board, self.equation = board, Equation(left, right, unknown)
+        self.lines, self.axes = lines, tuple[Axis, ...]()
+
+    def find(
+        self, vector: Vector, axis: complex, letter: Letter, point: str, symbol: Symbol | str = "", kind: str = ""
+    ) -> Ref:
+        """Enters the size of a vector by projection on an axis through a point, to which any other unknown is normal.
+
+        ξ is drawn as it is given, η towards what is found.
+        """
+        left, right = self.equation.left, self.equation.right
+        here, there = (left, right) if vector in left else (right, left)
+        others = [one for one in here if one != vector]
+        found = solved_for(self.board.q, vector.direction, axis, there, others)
+        self.axes += (Axis(letter, axis if letter == "ξ" else towards(axis, vector.direction), point),)
+        return self.then(self.board.q.define(vector.id, found, symbol, kind))
+
+    def find_sum(self, what: str, point: str) -> None:
+        """Enters the size of what the right side adds up to, v or a of a point, from its components along x and y."""
+        q, kind, sides = self.board.q, {"v": "velocity", "a": "acceleration"}[what], []
+        for axis, letter in COORDINATES:
+            if terms := components(q, self.equation.right, axis):
+                side = q.define(f"{what}.{point}.{letter}", total(terms), Symbol(what, f"{point}{letter}"), kind)
+                sides.append(self.then(side))
+                self.axes += (Axis(letter, axis, point),)
+        self.then(q.define(f"{what}.{point}", size_of(q, sides)))
+
+    def then(self, line: Ref) -> Ref:
+        """Puts a line that follows behind those before it."""
+        self.lines += (line.id,)
+        return line
+
+    def step(self, kind: str, body: int, point: str, base: str = "") -> None:
+        """Puts the step on the board that all this was."""
+        step = Step(kind, self.lines, body, point, base, equation=self.equation, axes=self.axes)
+        self.board.steps.append(step)

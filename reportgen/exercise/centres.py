@@ -1,0 +1,249 @@
+"""Where bodies have their instant centres, by the rules of the board; found before any speed is.
+
+A body pinned to the ground turns about the pin; one that rolls on the ground about the point of contact.  Elsewhere
+the directions of two velocities tell: the centre is where their normals meet, and where they are parallel, and not
+perpendicular to the line of the points, the body is in translation at the instant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import Literal
+
+from reportgen.exercise import file
+from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.places import Geometry, parallel, perpendicular, unit
+from reportgen.exercise.solving import Motion
+from reportgen.notation.constructions import meet
+
+Rule = Literal["pivot", "contact", "normals", "rate", "translation"]
+NEAR = 1e-9
+"""Points nearer than this (m) are one."""
+LETTERS = "PQIK"
+
+
+@dataclass(frozen=True, slots=True)
+class Centre:
+    """The instant centre of a body: by which rule, its name and place, and the points whose normals meet there.
+
+    By the rule `rate` it lies on one normal, at the distance v/ω of a body whose rotation is known already.
+
+    In translation it is infinitely far: `direction` is then the direction of all velocities, 0 where it is not known.
+    """
+
+    body: int
+    rule: Rule
+    name: str = ""
+    at: complex = 0j
+    points: tuple[str, ...] = ()
+    direction: complex = 0j
+
+    @property
+    def by_joint(self) -> bool:
+        """Whether a joint makes the body turn about a fixed point or move in translation, at any instant."""
+        return self.rule == "pivot" or (self.rule == "translation" and not self.points)
+
+
+@dataclass
+class Layout:
+    """Bodies with all points that move with them, the directions of their velocities, and the instant centres."""
+
+    given: file.Parameters
+    motion: Motion
+    points: dict[str, complex] = field(default_factory=dict)
+    members: dict[int, list[str]] = field(default_factory=dict)
+    directions: dict[str, complex] = field(default_factory=dict)
+    """Along which line a point moves; the sense is not known yet."""
+    centres: dict[int, Centre] = field(default_factory=dict)
+    slots: dict[str, complex] = field(default_factory=dict)
+    """Points that are guided along a straight line of the ground."""
+    contacts: dict[int, str] = field(default_factory=dict)
+    """The points in which discs touch, by the index of their joint."""
+    belts: dict[int, tuple[str, str]] = field(default_factory=dict)
+    """The two ends of a straight part of each belt, by the index of its joint."""
+
+    @property
+    def geometry(self) -> Geometry:
+        """The lines of the file, its contacts and belts."""
+        return Geometry(self.given, self.points)
+
+    def point_at(self, at: complex, letter: str) -> str:
+        """The name of the point at a place, a new one if none is declared there."""
+        for name, place in self.points.items():
+            if abs(place - at) < NEAR:
+                return name
+        number = next(n for n in range(1, 100) if f"{letter}{n}" not in self.points)
+        self.points[f"{letter}{number}"] = at
+        return f"{letter}{number}"
+
+    def turn_on_ground(self, bodies: Iterable[int]) -> bool:
+        """Whether all bodies turn about fixed points."""
+        return all(body in self.centres and self.centres[body].rule == "pivot" for body in bodies)
+
+    def rims(self) -> Iterator[tuple[tuple[int, ...], tuple[str, ...]]]:
+        """Pairs of discs, each with the point of its rim in which it meets the other or the belt to it."""
+        for index, joint in enumerate(self.given.joints):
+            if isinstance(joint, file.RollingOnCircle | file.Gears):
+                yield joint.discs, (self.contacts[index], self.contacts[index])
+            elif isinstance(joint, file.Belt):
+                yield joint.discs, self.belts[index]
+
+    def own(self, body: int) -> list[str]:
+        """The points that stay on a body: not those in which it only touches another one at the instant."""
+        touching = {*self.contacts.values(), *(end for ends in self.belts.values() for end in ends)}
+        declared = self.given.bodies[body].carried
+        return [name for name in self.members[body] if name in declared or name not in touching]
+
+    def arm(self, centre: Centre, point: str) -> complex:
+        return self.points[point] - centre.at
+
+    def is_centre(self, centre: Centre, point: str) -> bool:
+        return abs(self.arm(centre, point)) < NEAR
+
+
+def lay_out(given: file.Parameters, motion: Motion) -> Layout:
+    """Everything about directions and centres that the joints and the given directions tell."""
+    system = motion.system
+    found = Layout(given, motion, dict(system.points), {body: [] for body in system.bodies})
+    for body, names in system.bodies.items():
+        found.members[body] += [name for name in names if _moves_alike(given, body, system.body_of(name), name)]
+    for index, joint in enumerate(given.joints):
+        _enter(found, joint, index)
+    for rate in given.given:
+        if isinstance(rate, file.VelocityOf | file.FromRest):
+            found.directions[rate.point] = unit(rate.direction.si)
+    while _next_centre(found) or _next_directions(found):
+        pass
+    return found
+
+
+def _moves_alike(given: file.Parameters, body: int, owner: int, point: str) -> bool:
+    """Whether a point of a body is the same as that of its owner: pinned together, over however many bodies."""
+    reached, waiting = {owner}, [owner]
+    while waiting:
+        one = waiting.pop()
+        for joint in given.joints:
+            if isinstance(joint, file.Pin) and joint.at == point and one in joint.bodies:
+                new = {*joint.bodies} - reached
+                reached |= new
+                waiting += new
+    return body in reached
+
+
+def _enter(found: Layout, joint: file.Joint, index: int) -> None:
+    given, known = found.given, found.points
+    match joint:
+        case file.Pin(at=at, bodies=bodies) if GROUND in bodies:
+            body = max(bodies)
+            found.centres[body] = Centre(body, "pivot", at, known[at])
+        case file.SlotJoint(point=point, on=0):
+            found.directions[point] = found.slots[point] = found.geometry.direction(joint)
+        case file.Slider(body=body, on=0):
+            found.centres[body] = Centre(body, "translation", direction=found.geometry.direction(joint))
+        case file.Translation(body=body):
+            found.centres.setdefault(body, Centre(body, "translation"))
+        case file.RollingOnLine(disc=body, on=carrier):
+            touch = found.point_at(found.geometry.contact_on_line(joint), "K")
+            found.contacts[index] = touch
+            disc = given.disc(body)
+            if carrier == GROUND and disc is not None:
+                found.centres[body] = Centre(body, "contact", touch, known[touch])
+                found.slots[disc.centre] = found.geometry.direction(joint)
+            _share(found, touch, body, carrier)
+        case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
+            touch = found.point_at(found.geometry.contact_of_discs(joint), "K")
+            found.contacts[index] = touch
+            if GROUND in discs:
+                body = max(discs)
+                found.centres[body] = Centre(body, "contact", touch, known[touch])
+            _share(found, touch, *discs)
+        case file.Belt():
+            _belt_ends(found, joint, index)
+
+
+def _belt_ends(found: Layout, joint: file.Belt, index: int) -> None:
+    """The points in which a straight part of a belt touches its discs, each a point of its disc."""
+    ends = found.geometry.belt_ends(joint)
+    names = tuple(found.point_at(at, "K") for at in ends)
+    found.belts[index] = names[0], names[1]
+    for name, body in zip(names, joint.discs, strict=True):
+        _share(found, name, body)
+
+
+def _share(found: Layout, point: str, *bodies: int) -> None:
+    """A point of contact moves alike with both bodies."""
+    for body in bodies:
+        if body != GROUND and point not in found.members[body]:
+            found.members[body].append(point)
+
+
+def _next_centre(found: Layout) -> bool:
+    """Finds the centre of one more body from directions; whether there was one."""
+    for body, names in found.members.items():
+        if body in found.centres:
+            continue
+        known = [name for name in names if name in found.directions]
+        for one, other in _pairs(known):
+            centre = _by_normals(found, body, one, other)
+            if centre is not None:
+                found.centres[body] = centre
+                return True
+    return False
+
+
+def _by_normals(found: Layout, body: int, one: str, other: str) -> Centre | None:
+    p, q, u, w = found.points[one], found.points[other], found.directions[one], found.directions[other]
+    if parallel(u, w):
+        if abs(p - q) < NEAR or perpendicular(u, (p - q) / abs(p - q)):
+            return None
+        return Centre(body, "translation", points=(one, other), direction=u)
+    at = meet(p, 1j * u, q, 1j * w)
+    return Centre(body, "normals", name_of_centre(found, body, at), at, (one, other))
+
+
+def name_of_centre(found: Layout, body: int, at: complex) -> str:
+    """The name of the point that an instant centre is, or one of its own."""
+    letter = next(one for one in LETTERS if not any(name[0] == one for name in found.given.points))
+    return next((name for name, place in found.points.items() if abs(place - at) < NEAR), f"{letter}{body}")
+
+
+def _next_directions(found: Layout) -> bool:
+    """Finds the directions of the points of bodies whose centres are known; whether any was new."""
+    new = {
+        name: direction
+        for body, centre in found.centres.items()
+        for name in found.members[body]
+        if name not in found.directions and (direction := _direction(found, centre, name)) != 0
+    }
+    if not new:
+        new = dict(_by_projection(found))
+    found.directions.update(new)
+    return bool(new)
+
+
+def _by_projection(found: Layout) -> Iterator[tuple[str, complex]]:
+    """Points of a body whose velocity has no component along the line to a point that moves across that line."""
+    for body, names in found.members.items():
+        known = [name for name in names if name in found.directions]
+        for name in names if body not in found.centres else ():
+            if name not in found.directions:
+                for other in known:
+                    line = found.points[name] - found.points[other]
+                    if abs(line) > NEAR and perpendicular(found.directions[other], line / abs(line)):
+                        yield name, found.directions[other]
+
+
+def _direction(found: Layout, centre: Centre, name: str) -> complex:
+    if centre.rule == "translation":
+        return centre.direction
+    if found.is_centre(centre, name):
+        return 0j
+    arm = found.arm(centre, name)
+    return 1j * arm / abs(arm)
+
+
+def _pairs(names: list[str]) -> Iterator[tuple[str, str]]:
+    for index, one in enumerate(names):
+        for other in names[index + 1 :]:
+            yield one, other

@@ -1,0 +1,377 @@
+"""What a `plane-motion` file declares: points, bodies, joints, what is given at the instant and what is to be found."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, TypeAdapter, ValidationError, model_validator
+
+from reportgen.assignment.common import Part
+from reportgen.assignment.fields import Angle, Flag, Reader, Whole, fault, quantity
+from reportgen.catalogue.linkage_file import MOST_NAMES, Name
+from reportgen.exercise.symbols import MOST_SYMBOLS, SymbolName, SymbolValue, Told, Value, stated
+from reportgen.units import Given
+
+LAST_BODY = 40
+_ASKED = re.compile(r"(?P<what>v|a|omega|eps|centre)\.(?P<of>[A-Z][0-9]{0,2}|[0-9]{1,2})")
+
+Number = Annotated[int, Whole(1, LAST_BODY)]
+NumberOrGround = Annotated[int, Whole(0, LAST_BODY)]
+Bodies = Annotated[tuple[NumberOrGround, ...], Field(min_length=2, max_length=2)]
+Ends = Annotated[tuple[Name, ...], Field(min_length=2, max_length=2)]
+Length = Annotated[Given, Told(quantity("mm", least=0.1, below=1e5))]
+Coordinate = Annotated[Given, Told(quantity("mm", above=-1e5, below=1e5, tiny=1e-4))]
+Place = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=2)]
+Speed = Annotated[Given, Told(quantity("m/s", least=-1e4, most=1e4, tiny=1e-9))]
+Acceleration = Annotated[Given, Told(quantity("m/s2", least=-1e6, most=1e6, tiny=1e-9))]
+Omega = Annotated[Given, Told(quantity("rad/s", least=-1e5, most=1e5, tiny=1e-9))]
+Epsilon = Annotated[Given, Told(quantity("rad/s2", least=-1e7, most=1e7, tiny=1e-9))]
+STATED = frozenset({"at", "distance", "radius", "size", "value", "acceleration"})
+"""The keys behind which symbols may stand."""
+Time = Annotated[Given, quantity("s", above=0, most=1e5, tiny=1e-6)]
+
+
+# --- points and bodies ----------------------------------------------------------------------------
+
+
+class Through(Part):
+    """A straight line through a point that is placed already, at an angle from +x."""
+
+    through: Name
+    angle: Angle
+
+
+class Away(Part):
+    """A distance from a point that is placed already."""
+
+    from_: Name = Field(alias="from")
+    distance: Length
+
+
+class PointAt(Part):
+    """Where a point is: at coordinates, at a distance and an angle from another point, or where two lines meet.
+
+    With `on` instead of the angle it lies on a line at that distance, at its far or near end; with `distances` it is
+    at two distances from two points, to the left or the right of the way from the first to the second.
+    """
+
+    at: Place | None = None
+    from_: Name | None = Field(default=None, alias="from")
+    distance: Length | None = None
+    angle: Angle | None = None
+    on: Through | None = None
+    end: Literal["far", "near"] = "far"
+    distances: Annotated[tuple[Away, ...] | None, Field(min_length=2, max_length=2)] = None
+    side: Literal["left", "right"] = "left"
+    lines: Annotated[tuple[Through, ...] | None, Field(min_length=2, max_length=2)] = None
+
+
+class Disc(Part):
+    """A disc, a wheel or a gear's pitch circle."""
+
+    centre: Name
+    radius: Length
+
+
+class BodyOf(Part):
+    """The points that move with a body, and its disc if it is one."""
+
+    points: Annotated[tuple[Name, ...], Field(max_length=MOST_NAMES)] = ()
+    disc: Disc | None = None
+
+    @property
+    def carried(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys((*self.points, *((self.disc.centre,) if self.disc else ()))))
+
+
+# What a message calls a joint or a given quantity is its `called`.
+
+
+# --- joints ---------------------------------------------------------------------------------------
+
+
+class Pin(Part):
+    """Two bodies turn about a common point; 0 is the ground."""
+
+    type: Literal["pin"]
+    at: Name
+    bodies: Bodies
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("pin", self.at)
+
+
+class Directed(Part):
+    """A direction: an angle from +x, or along the line of two points."""
+
+    angle: Angle | None = None
+    along: Ends | None = None
+
+
+class SlotJoint(Directed):
+    """A point of a body moves along a straight line of another, or of the ground; the body may turn."""
+
+    type: Literal["slot"]
+    point: Name
+    body: Number
+    on: NumberOrGround = 0
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("slot", self.point)
+
+
+class Slider(Directed):
+    """A body moves along a straight guide of another, or of the ground, without turning against it."""
+
+    type: Literal["slider"]
+    body: Number
+    on: NumberOrGround = 0
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("slider", self.body)
+
+
+class Translation(Part):
+    """A body that does not turn."""
+
+    type: Literal["translation"]
+    body: Number
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("translation", self.body)
+
+
+class RollingOnLine(Directed):
+    """A disc rolls without slip on a straight line through a point, of another body or of the ground."""
+
+    type: Literal["rolling on line"]
+    disc: Number
+    on: NumberOrGround = 0
+    through: Name
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("disc", self.disc)
+
+
+class RollingOnCircle(Part):
+    """Two discs roll on each other without slip, outside or inside, and stay in touch."""
+
+    type: Literal["rolling on circle"]
+    discs: Bodies
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("discs", *self.discs)
+
+
+class Gears(Part):
+    """Two discs roll on each other without slip; their centres are held by something else."""
+
+    type: Literal["gears"]
+    discs: Bodies
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("gears", *self.discs)
+
+
+class Belt(Part):
+    """A belt about two discs, which does not slip; a crossed one turns them in opposite senses.
+
+    Something else holds the centres of the discs at their distance.
+    """
+
+    type: Literal["belt"]
+    discs: Bodies
+    crossed: Annotated[bool, Flag()] = False
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("belt", *self.discs)
+
+
+class Cord(Part):
+    """Two points keep their distance: a taut cord, or a rod of which nothing is asked."""
+
+    type: Literal["cord"]
+    points: Ends
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("cord", *self.points)
+
+
+Joint = Annotated[
+    Pin | SlotJoint | Slider | Translation | RollingOnLine | RollingOnCircle | Gears | Belt | Cord,
+    Field(discriminator="type"),
+]
+
+
+# --- what is given --------------------------------------------------------------------------------
+
+
+class VelocityOf(Part):
+    """The velocity of a point, by size and direction; without a size only its line of action is known."""
+
+    type: Literal["velocity"]
+    point: Name
+    size: Speed | None = None
+    direction: Angle
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("velocity", self.point)
+
+
+class AccelerationOf(Part):
+    """The acceleration of a point, by size and direction; without a size only its line of action is known."""
+
+    type: Literal["acceleration"]
+    point: Name
+    size: Acceleration | None = None
+    direction: Angle
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("acceleration", self.point)
+
+
+class OmegaOf(Part):
+    """The angular velocity of a body, anticlockwise positive."""
+
+    type: Literal["omega"]
+    body: Number
+    value: Omega
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("omega", self.body)
+
+
+class EpsilonOf(Part):
+    """The angular acceleration of a body, anticlockwise positive."""
+
+    type: Literal["epsilon"]
+    body: Number
+    value: Epsilon
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("epsilon", self.body)
+
+
+class FromRest(Part):
+    """A point has moved along a straight line from rest, with a constant acceleration, for some time."""
+
+    type: Literal["from rest"]
+    point: Name
+    acceleration: Acceleration
+    time: Time
+    direction: Angle
+
+    @property
+    def called(self) -> tuple[object, ...]:
+        return ("from rest", self.point)
+
+
+GivenRate = Annotated[VelocityOf | AccelerationOf | OmegaOf | EpsilonOf | FromRest, Field(discriminator="type")]
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A quantity to be found: of a point `v`, `a`; of a body `omega`, `eps`, `centre`."""
+
+    what: str
+    of: str
+
+    @property
+    def id(self) -> str:
+        return f"{self.what}.{self.of}"
+
+    @property
+    def of_body(self) -> bool:
+        return self.what in ("omega", "eps", "centre")
+
+    @property
+    def body(self) -> int:
+        return int(self.of)
+
+
+@dataclass(frozen=True, slots=True)
+class AskedId(Reader):
+    """v.B, a.B of a point; omega.2, eps.2, centre.2 of a body."""
+
+    def read(self, value: object) -> Asked:
+        found = _ASKED.fullmatch(value) if isinstance(value, str) else None
+        asked = Asked(found["what"], found["of"]) if found else None
+        if asked is None or asked.of_body != asked.of.isdigit():
+            raise fault("no-asked-quantity", text=str(value))
+        return asked
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "string", "pattern": f"^{_ASKED.pattern.replace('?P<what>', '').replace('?P<of>', '')}$"}
+
+
+Method = Literal["instant centre", "base point", "projection", "moving frame"]
+
+
+SymbolTable = Annotated[
+    dict[Annotated[str, SymbolName()], Annotated[Value, SymbolValue()]], Field(max_length=MOST_SYMBOLS)
+]
+
+
+class Parameters(Part):
+    """One instant of a system of bodies in plane motion."""
+
+    symbols: SymbolTable = Field(default_factory=dict)
+    points: Annotated[dict[Name, PointAt], Field(min_length=1, max_length=MOST_NAMES)]
+    bodies: Annotated[dict[NumberOrGround, BodyOf], Field(min_length=1, max_length=LAST_BODY)]
+    joints: Annotated[tuple[Joint, ...], Field(max_length=MOST_NAMES)] = ()
+    given: Annotated[tuple[GivenRate, ...], Field(min_length=1, max_length=MOST_NAMES)]
+    find: Annotated[tuple[Annotated[Asked, AskedId()], ...], Field(min_length=1, max_length=MOST_NAMES)]
+    methods: Annotated[tuple[Method, ...], Field(max_length=4)] = ()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_symbols(cls, content: Any) -> Any:
+        """What may be stated by symbols takes them along to where it is read."""
+        told = content.get("symbols") if isinstance(content, dict) else None
+        if not isinstance(told, dict):
+            return content
+        try:
+            symbols = TypeAdapter(SymbolTable).validate_python(told)
+        except ValidationError:
+            # Told where the symbols themselves are read.
+            symbols = {}
+        return {
+            key: stated(one, symbols, STATED) if key in {"points", "bodies", "given"} else one
+            for key, one in content.items()
+        }
+
+    @property
+    def literal(self) -> bool:
+        """Whether the solution is one by symbols."""
+        return bool(self.symbols)
+
+    @property
+    def slots(self) -> tuple[SlotJoint, ...]:
+        """Points that move along lines of moving bodies; of a slider it is the first point of its body."""
+        found = []
+        for joint in self.joints:
+            if isinstance(joint, SlotJoint) and joint.on:
+                found.append(joint)
+            elif isinstance(joint, Slider) and joint.on:
+                point = self.bodies[joint.body].carried[0]
+                slot = SlotJoint.model_construct(type="slot", point=point, body=joint.body, on=joint.on)
+                found.append(slot.model_copy(update={"angle": joint.angle, "along": joint.along}))
+        return tuple(found)
+
+    def disc(self, body: int) -> Disc | None:
+        return self.bodies[body].disc if body in self.bodies else None

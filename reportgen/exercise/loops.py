@@ -1,0 +1,308 @@
+"""Rates that no vector equation gives alone: all loops of the bodies left over.
+
+From points whose rates are known each body leads on to its other points, with its own rotation as an unknown.  Where a
+point is reached twice, both rates agree; where a point is guided, nothing goes across its guide: linear equations.
+
+A lever whose two ends are driven from one shaft, and whose middle has a known velocity, needs no such system: the
+velocities of both ends are written as v = k ω of the shaft, with k made of lengths alone; the known velocity divides
+them as its point divides the lever, which gives ω.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+
+import numpy as np
+
+from reportgen.exercise.accelerations import Parts
+from reportgen.exercise.board import Board, Step
+from reportgen.exercise.places import direction_of
+from reportgen.exercise.speeds import derive, is_across
+from reportgen.notation.expressions import (
+    Chain,
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Product,
+    Ref,
+    Symbol,
+    call,
+    signed,
+    total,
+)
+from reportgen.notation.sheet import Sheet
+
+FIGURES = 4
+"""Significant figures of the numbers in a system."""
+SMALL = 1e-9
+
+Known = tuple[str, int]
+"""A quantity of the board and its power: v.A, or ω² as omega.2 with 2."""
+
+
+@dataclass(frozen=True)
+class Reached:
+    """The rate of a point: Σ known quantity × vector + Σ unknown rotation × vector."""
+
+    known: Mapping[Known, complex]
+    unknown: Mapping[int, complex]
+
+    def plus(self, other: Reached, factor: float = 1.0) -> Reached:
+        known, unknown = dict(self.known), dict(self.unknown)
+        for one, vector in other.known.items():
+            known[one] = known.get(one, 0j) + factor * vector
+        for body, vector in other.unknown.items():
+            unknown[body] = unknown.get(body, 0j) + factor * vector
+        return Reached(known, unknown)
+
+
+NOTHING = Reached({}, {})
+
+
+@dataclass
+class Loops:
+    """The points that were reached, and what was found to be nothing."""
+
+    board: Board
+    what: str
+    """The rotation that is unknown: omega or eps."""
+    points: dict[str, Reached]
+    closed: list[Reached] = field(default_factory=list)
+
+    def lead_on(self) -> None:
+        """From every body with a point reached to its other points, each body once."""
+        waiting = dict(self.bodies())
+        while True:
+            body = next((one for one, names in waiting.items() if any(name in self.points for name in names)), None)
+            if body is None:
+                return
+            names = waiting.pop(body)
+            base = next(name for name in names if name in self.points)
+            for name in names:
+                if name != base:
+                    there = self.points[base].plus(self.turned(body, name, base))
+                    if name in self.points:
+                        self.closed.append(there.plus(self.points[name], -1.0))
+                    else:
+                        self.points[name] = there
+
+    def bodies(self) -> Iterator[tuple[int, list[str]]]:
+        layout = self.board.layout
+        for body in layout.members:
+            # Points of contact move alike at the instant; their accelerations differ.
+            names = layout.members[body] if self.what == "omega" else layout.own(body)
+            centre = layout.centres.get(body)
+            pivot = [centre.name] if centre is not None and centre.rule == "pivot" else []
+            guided = centre is not None and centre.by_joint and not pivot
+            if self.board.knows(f"omega.{body}") if self.what == "eps" else not guided:
+                yield body, [*pivot, *(name for name in names if name not in pivot)]
+
+    def across_slots(self) -> Iterator[tuple[Reached, complex]]:
+        """What a point on a line of a moving body does across that line, against the body's own point there."""
+        members = dict(self.bodies())
+        for joint in self.board.layout.given.slots:
+            if joint.point in self.points:
+                base = next((name for name in members.get(joint.on, ()) if name in self.points), None)
+                if base is not None:
+                    own = self.points[base].plus(self.turned(joint.on, joint.point, base))
+                    yield self.points[joint.point].plus(own, -1.0), 1j * self.board.layout.geometry.direction(joint)
+
+    def turned(self, body: int, name: str, base: str) -> Reached:
+        """What the rotation of a body adds from one of its points to another."""
+        board, id = self.board, f"{self.what}.{body}"
+        arm = board.layout.points[name] - board.layout.points[base]
+        known: dict[Known, complex] = {}
+        if self.what == "eps":
+            known[(f"omega.{body}", 2)] = -arm
+        if not board.knows(id):
+            return Reached(known, {body: 1j * arm})
+        rate = board.motion.omega(body) if self.what == "omega" else board.motion.epsilon(body)
+        known[(id, 1)] = 1j * arm * math.copysign(1.0, rate)
+        return Reached(known, {})
+
+
+def solve_velocities_together(board: Board) -> bool:
+    """The angular velocities of all bodies that are reached; whether there were any."""
+    known = [name for name in board.layout.points if board.knows(f"v.{name}")]
+    start = {name: Reached({(f"v.{name}", 1): direction_of(board.at(name))}, {}) for name in known}
+    start |= {one.name: NOTHING for one in board.layout.centres.values() if one.rule in ("pivot", "contact")}
+    loops = Loops(board, "omega", start)
+    loops.lead_on()
+    directions = {name: u for name, u in board.layout.directions.items() if not board.knows(f"v.{name}")}
+    return _solved(loops, directions, [*loops.across_slots()])
+
+
+def solve_accelerations_together(parts: Parts) -> bool:
+    """The angular accelerations of all bodies that are reached; whether there were any."""
+    board = parts.board
+    start = {
+        name: Reached({(one.id, 1): one.direction for one in vectors}, {})
+        for name, vectors in parts.of.items()
+        if all(board.knows(one.id) for one in vectors)
+    }
+    loops = Loops(board, "eps", dict(start))
+    loops.lead_on()
+    return _solved(loops, {name: u for name, u in board.layout.slots.items() if name not in parts.of})
+
+
+def _solved(loops: Loops, directions: Mapping[str, complex], more: Sequence[tuple[Reached, complex]] = ()) -> bool:
+    equations = [*more, *((one, axis) for one in loops.closed for axis in (1 + 0j, 1j))]
+    equations += [(loops.points[name], 1j * u) for name, u in directions.items() if name in loops.points]
+    bodies = sorted({body for one, _ in equations for body in one.unknown})
+    quantities = list(dict.fromkeys(known for one, _ in equations for known in one.known))
+    if not bodies:
+        return False
+    left = np.array([[_along(one.unknown.get(body, 0j), axis) for body in bodies] for one, axis in equations])
+    right = np.array([[-_along(one.known.get(known, 0j), axis) for known in quantities] for one, axis in equations])
+    chosen = _independent(left)
+    if len(chosen) < len(bodies):
+        return False
+    shares = np.linalg.solve(left[chosen], right[chosen])
+    board, ids = loops.board, []
+    values = np.array([board.q.si(id) ** power for id, power in quantities])
+    for body, row in zip(bodies, shares, strict=True):
+        ids.append(_enter_rotation(loops, body, dict(zip(quantities, row, strict=True))))
+    rows = tuple(_row(loops.what, bodies, left[index], float(right[index] @ values)) for index in chosen)
+    results = tuple(
+        Chain((_symbol(loops.what, body), _number(float(row @ values), "rad/s" if loops.what == "omega" else "rad/s²")))
+        for body, row in zip(bodies, shares, strict=True)
+    )
+    board.steps.append(Step(f"system-{loops.what}", tuple(ids), system=rows, results=results))
+    return True
+
+
+def _independent(left: np.ndarray) -> list[int]:
+    """The first equations that do not follow from those before them, as many as there are unknowns."""
+    kept: list[int] = []
+    largest = np.abs(left).max(initial=0.0)
+    for index in range(len(left)):
+        trial = left[[*kept, index]]
+        if np.linalg.matrix_rank(trial, tol=SMALL * max(largest, SMALL)) == len(trial):
+            kept.append(index)
+        if len(kept) == left.shape[1]:
+            break
+    return kept
+
+
+def _enter_rotation(loops: Loops, body: int, shares: Mapping[Known, float]) -> str:
+    """The size of a rotation from what is known, with factors that the places alone tell."""
+    q, motion, id = loops.board.q, loops.board.motion, f"{loops.what}.{body}"
+    rate = motion.omega(body) if loops.what == "omega" else motion.epsilon(body)
+    terms: list[Expression] = []
+    for (of, power), share in shares.items():
+        if abs(share) > SMALL:
+            factor = q.give(f"share.{id}.{of}", math.copysign(1.0, rate) * share, Symbol("c"), "ratio", hidden=True)
+            terms.append(Product((factor, q[of] if power == 1 else q[of] ** power)))
+    # As a construction it has no line of its own: the system is set out, and its solution told.
+    q.define(id, call("re", total(terms) if terms else Number(0.0)))
+    return id
+
+
+def _along(vector: complex, axis: complex) -> float:
+    return float((axis.conjugate() * vector).real)
+
+
+def _row(what: str, bodies: list[int], factors: np.ndarray, value: float) -> Chain:
+    """An equation of the system with its numbers."""
+    largest = float(np.abs(factors).max())
+    terms: list[Expression] = []
+    for body, factor in zip(bodies, factors, strict=True):
+        if abs(factor) > SMALL * largest:
+            term = Product((_number(abs(float(factor))), _symbol(what, body)))
+            terms.append(term if factor > 0 else Negative(term))
+    return Chain((total(sorted(terms, key=lambda one: isinstance(one, Negative))), _number(value)))
+
+
+def _symbol(what: str, body: int) -> Symbol:
+    return Symbol("ω" if what == "omega" else "ε", str(body))
+
+
+def _number(value: float, unit: str = "") -> Number:
+    """A number with so many significant figures."""
+    if abs(value) < 1e-12:
+        return Number(0.0, None, unit)
+    return Number(value, max(0, FIGURES - 1 - math.floor(math.log10(abs(value)))), unit)
+
+
+Ratio = tuple[tuple[Ref, ...], tuple[Ref, ...]]
+"""The lengths above and below the line of a fraction."""
+
+
+# --- in proportion to one shaft -------------------------------------------------------------------
+
+
+def enter_proportion(board: Board) -> bool:
+    """Finds the angular velocity of one more body through a lever; whether there was one."""
+    for body, centre in board.layout.centres.items():
+        if centre.rule != "pivot" or board.knows(f"omega.{body}") or not board.motion.omega(body):
+            continue
+        trial = Board(Sheet(board.q.positions), board.layout)
+        trial.given(f"omega.{body}", board.motion.omega(body))
+        while derive(trial):
+            pass
+        for lever, names in board.layout.members.items():
+            if lever not in board.layout.centres and _through_lever(board, trial, body, lever, names):
+                return True
+    return False
+
+
+def _through_lever(board: Board, trial: Board, body: int, lever: int, names: list[str]) -> bool:
+    """ω of a body from a lever with a point M known, whose points P and Q move in proportion to ω."""
+    driven = [name for name in names if trial.knows(f"v.{name}")]
+    known = [name for name in names if board.knows(f"v.{name}") and board.q.si(f"v.{name}")]
+    for p, q in combinations(driven, 2):
+        for m in known:
+            if m not in (p, q) and is_across(board, p, q, m):
+                _enter_proportion(board, trial, body, lever, (p, q, m))
+                return True
+    return False
+
+
+def _enter_proportion(board: Board, trial: Board, body: int, lever: int, names: tuple[str, str, str]) -> None:
+    """v_M PQ = v_P MQ + v_Q PM, each with its sense, and M between P and Q or beyond them."""
+    p, q, m = names
+    line = board.layout.points[q] - board.layout.points[p]
+    share = ((board.layout.points[m] - board.layout.points[p]) / line).real
+    sense = board.at(m)
+    ids = [_factor(board, trial, name, f"omega.{body}") for name in (p, q)]
+    parts: list[Expression] = []
+    for id, name, far, part in zip(ids, (p, q), (q, p), (1 - share, share), strict=True):
+        along = (sense.conjugate() * board.at(name)).real
+        parts.append(signed(along * part, board.q[id] * board.length(m, far)))
+    parts.sort(key=lambda part: not isinstance(part, Product))
+    whole = board.q[f"v.{m}"] * board.length(p, q)
+    board.q.define(f"omega.{body}", whole / (parts[0] + parts[1]))
+    board.steps.append(Step("proportion", (*ids, f"omega.{body}"), lever, m, p))
+
+
+def _factor(board: Board, trial: Board, name: str, shaft: str) -> str:
+    """Enters k of a point, v = k ω, as a product of lengths; gives its id."""
+    above, below = _ratio(trial, f"v.{name}", shaft)
+    for length in (*above, *below):
+        if length.id not in board.q:
+            board.q.enter(trial.q.families[length.id])
+    top = above[0] if len(above) == 1 else Product(above)
+    bottom = below[0] if len(below) == 1 else Product(below)
+    board.q.define(f"k.{name}", Fraction(top, bottom) if below else top, Symbol("k", name), "length")
+    return f"k.{name}"
+
+
+def _ratio(trial: Board, id: str, shaft: str) -> Ratio:
+    """The lengths that a rate has over the shaft's; every step from body to body multiplies or divides by one."""
+    if id == shaft:
+        return (), ()
+    match trial.q.families[id].definition:
+        case Ref(other):
+            return _ratio(trial, other, shaft)
+        case Product((Ref(rate), Ref() as length)):
+            above, below = _ratio(trial, rate, shaft)
+            return (*above, length), below
+        case Fraction(Ref(speed), Ref() as length):
+            above, below = _ratio(trial, speed, shaft)
+            return above, (*below, length)
+        case other:
+            raise ValueError(f"{id} is no multiple of {shaft}: {other}")

@@ -1,0 +1,334 @@
+"""Where the points of a plane-motion exercise are, what its lines are, and the conditions that its joints make."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+from reportgen.errors import Finding, Where
+from reportgen.exercise import conditions as on
+from reportgen.exercise import file
+from reportgen.exercise.conditions import Condition
+from reportgen.exercise.solving import System
+from reportgen.notation.constructions import circle_circle, circle_line, cross, foot, meet, real_root
+from reportgen.units import Given
+
+TOP: Where = ("parameters",)
+TOUCHING = 1e-6
+"""Discs and lines whose distance is off by less than this share of the radius touch."""
+PARALLEL = 1e-9
+ROUND = 1e-12
+SAME = 1e-9
+"""Directions nearer than this (radians) are one."""
+
+
+class MisplacedError(Exception):
+    """What a point, a line or a contact is at fault with."""
+
+    def __init__(self, code: str, *where: str | int, **arguments: str) -> None:
+        super().__init__(code)
+        self.finding = Finding(code, (*TOP, *where), arguments)
+
+
+def unit(angle: float) -> complex:
+    """The unit vector at an angle; whole quarters of a turn are exact."""
+    quarters = angle / (cmath.pi / 2)
+    if abs(quarters - round(quarters)) < 1e-12:
+        return (1 + 0j, 1j, -1 + 0j, -1j)[round(quarters) % 4]
+    return cmath.exp(1j * angle)
+
+
+def direction_of(vector: complex) -> complex:
+    """The direction of a vector; 0 for none."""
+    return vector / abs(vector) if vector else 0j
+
+
+def perpendicular(one: complex, other: complex) -> bool:
+    """Whether two directions are at a right angle."""
+    return abs((one.conjugate() * other).real) < SAME
+
+
+def parallel(one: complex, other: complex) -> bool:
+    """Whether two directions are one or opposite."""
+    return abs((one.conjugate() * other).imag) < SAME
+
+
+class Geometry:
+    """The points and lines of a file in numbers; whoever works with symbols has another arithmetic.
+
+    What is constructed exists; whether it does is asked before, of the numbers.
+    """
+
+    def __init__(self, given: file.Parameters, points: Mapping[str, Any]) -> None:
+        self.given = given
+        self.points = points
+
+    # --- the arithmetic
+
+    def size(self, told: Given) -> Any:
+        return told.si
+
+    def unit(self, angle: Given) -> Any:
+        return unit(angle.si)
+
+    def point(self, x: Any, y: Any) -> Any:
+        return complex(x, y)
+
+    def root(self, of: Any) -> Any:
+        return real_root(of)
+
+    def is_inner(self, joint: file.RollingOnCircle | file.Gears) -> bool:
+        """Whether the first disc of a joint lies within the second."""
+        one, other = self.discs(joint)
+        apart, smaller = abs(self.points[other.centre] - self.points[one.centre]), other.radius.si - one.radius.si
+        return smaller > 0 and abs(apart - smaller) <= TOUCHING * (one.radius.si + other.radius.si)
+
+    # --- what is constructed
+
+    def place(self, point: file.PointAt) -> Any:
+        """Where a point is, from the points before it."""
+        if point.at is not None:
+            return self.point(*map(self.size, point.at))
+        if point.lines is not None:
+            one, two = point.lines
+            first, second = self.points[one.through], self.points[two.through]
+            return meet(first, self.unit(one.angle), second, self.unit(two.angle))
+        if point.distances is not None:
+            (c1, r1), (c2, r2) = ((self.points[one.from_], self.size(one.distance)) for one in point.distances)
+            return circle_circle(c1, r1, c2, r2, 1 if point.side == "left" else -1, self.root)
+        assert point.from_ is not None
+        assert point.distance is not None
+        centre, radius = self.points[point.from_], self.size(point.distance)
+        if point.angle is not None:
+            return centre + self.unit(point.angle) * radius
+        assert point.on is not None
+        start, u = self.points[point.on.through], self.unit(point.on.angle)
+        return circle_line(centre, radius, start, u, 1 if point.end == "far" else -1, self.root)
+
+    def direction(self, line: file.Directed) -> Any:
+        """The unit vector of a line."""
+        if line.along is not None:
+            start, end = (self.points[name] for name in line.along)
+            return (end - start) / abs(end - start)
+        assert line.angle is not None
+        return self.unit(line.angle)
+
+    def disc(self, body: int) -> file.Disc:
+        """The disc that a body is.  Raises `ValueError` for one that is none."""
+        disc = self.given.disc(body)
+        if disc is None:
+            raise ValueError(f"body {body} is no disc")
+        return disc
+
+    def discs(self, joint: file.RollingOnCircle | file.Gears | file.Belt) -> tuple[file.Disc, file.Disc]:
+        one, other = joint.discs
+        return self.disc(one), self.disc(other)
+
+    def contact_on_line(self, joint: file.RollingOnLine) -> Any:
+        """Where a disc touches its line."""
+        return foot(self.points[self.disc(joint.disc).centre], self.points[joint.through], self.direction(joint))
+
+    def contact_of_discs(self, joint: file.RollingOnCircle | file.Gears) -> Any:
+        """Where two discs touch on the line of their centres: away from the second's if the first lies within it."""
+        one, other = self.discs(joint)
+        start, end, radius = self.points[one.centre], self.points[other.centre], self.size(one.radius)
+        return start + (end - start) / abs(end - start) * (-radius if self.is_inner(joint) else radius)
+
+    def belt_ends(self, joint: file.Belt) -> tuple[Any, Any]:
+        """Where a belt leaves one disc, to the left of the way to the other, and where it comes to the other."""
+        one, other = self.discs(joint)
+        first, second = self.points[one.centre], self.points[other.centre]
+        r1, r2 = self.size(one.radius), self.size(other.radius)
+        reach = -r2 if joint.crossed else r2
+        apart = abs(second - first)
+        share = (r1 - reach) / apart
+        along = (second - first) / apart
+        out = along * share + 1j * along * self.root(1 - share**2)
+        return first + out * r1, second + out * reach
+
+
+# --- whether it exists ----------------------------------------------------------------------------
+
+
+def placed(given: file.Parameters) -> Geometry:
+    """The geometry of a file, its points placed in their order.
+
+    Raises `MisplacedError` for the first point that has no place, else for the first contact or belt that is none.
+    """
+    points: dict[str, complex] = {}
+    geometry = Geometry(given, points)
+    for name, point in given.points.items():
+        _require_place(name, point, geometry)
+        points[name] = complex(geometry.place(point))
+    for index, joint in enumerate(given.joints):
+        match joint:
+            case file.RollingOnLine():
+                _require_contact_on_line(joint, index, geometry)
+            case file.RollingOnCircle() | file.Gears():
+                _require_contact_of_discs(joint, index, geometry)
+            case file.Belt():
+                _require_length(joint, index, geometry)
+    return geometry
+
+
+def _require_place(name: str, point: file.PointAt, geometry: Geometry) -> None:
+    where, known = ("points", name), geometry.points
+
+    def at(other: str, *key: str | int) -> complex:
+        if other not in known:
+            raise MisplacedError("no-such-point", *where, *key, text=other, known=", ".join(known) or "–")
+        return complex(known[other])
+
+    if point.at is not None:
+        return
+    if point.lines is not None:
+        for index, line in enumerate(point.lines):
+            at(line.through, "lines", index, "through")
+        if abs(cross(*(unit(line.angle.si) for line in point.lines))) < PARALLEL:
+            raise MisplacedError("lines-parallel", *where, "lines", text=name)
+    elif point.distances is not None:
+        first, second = (at(end.from_, "distances", index, "from") for index, end in enumerate(point.distances))
+        r1, r2 = (end.distance.si for end in point.distances)
+        span = abs(second - first)
+        if span < PARALLEL or not abs(r1 - r2) <= span * (1 + ROUND) or span * (1 - ROUND) > r1 + r2:
+            raise MisplacedError("circles-apart", *where, "distances", text=name)
+    elif point.from_ is not None and point.distance is not None:
+        centre = at(point.from_, "from")
+        if point.on is not None and point.angle is None:
+            off = foot(centre, at(point.on.through, "on", "through"), unit(point.on.angle.si)) - centre
+            if point.distance.si < abs(off):
+                raise MisplacedError("out-of-reach", *where, "distance", text=name)
+
+
+def _require_contact_on_line(joint: file.RollingOnLine, index: int, geometry: Geometry) -> None:
+    disc = geometry.disc(joint.disc)
+    apart = abs(geometry.points[disc.centre] - geometry.contact_on_line(joint))
+    if abs(apart - disc.radius.si) > TOUCHING * disc.radius.si:
+        sizes = {"distance": f"{apart * 1e3:.6g}", "radius": f"{disc.radius.si * 1e3:.6g}"}
+        raise MisplacedError("no-contact", "joints", index, text=str(joint.disc), **sizes)
+
+
+def _require_contact_of_discs(joint: file.RollingOnCircle | file.Gears, index: int, geometry: Geometry) -> None:
+    one, other = geometry.discs(joint)
+    first, second = one.radius.si, other.radius.si
+    apart = abs(geometry.points[other.centre] - geometry.points[one.centre])
+    reaches = (first + second, abs(first - second))
+    if not any(reach > 0 and abs(apart - reach) <= TOUCHING * (first + second) for reach in reaches):
+        raise MisplacedError(
+            "no-contact-of-discs",
+            *("joints", index),
+            text=str(joint.discs[0]),
+            other=str(joint.discs[1]),
+            distance=f"{apart * 1e3:.6g}",
+            radii=f"{first * 1e3:.6g}, {second * 1e3:.6g}",
+        )
+
+
+def _require_length(joint: file.Belt, index: int, geometry: Geometry) -> None:
+    one, other = geometry.discs(joint)
+    first, second = one.radius.si, other.radius.si
+    least = first + second if joint.crossed else abs(first - second)
+    if abs(geometry.points[other.centre] - geometry.points[one.centre]) <= least:
+        discs = {"text": str(joint.discs[0]), "other": str(joint.discs[1])}
+        raise MisplacedError("belt-too-short", "joints", index, **discs)
+
+
+# --- the conditions -------------------------------------------------------------------------------
+
+
+def system(given: file.Parameters) -> System:
+    """The whole system of a file that is in order.  Raises `MisplacedError`."""
+    geometry = placed(given)
+    bare = System(geometry.points, carried(given), ())
+    return replace(bare, conditions=tuple(conditions(geometry, bare)))
+
+
+def carried(given: file.Parameters) -> dict[int, tuple[str, ...]]:
+    """The points that move with each body but the ground."""
+    return {number: body.carried for number, body in given.bodies.items() if number}
+
+
+def conditions(geometry: Geometry, bare: System) -> Iterator[Condition]:
+    """What the joints and the given quantities say of the rates of the bodies."""
+    for index, joint in enumerate(geometry.given.joints):
+        yield from _joint(joint, index, geometry, bare)
+    for index, rate in enumerate(geometry.given.given):
+        yield from _rate(rate, index, geometry, bare)
+
+
+def name_of(index: int, section: str, *called: object) -> str:
+    """The name of the conditions of a joint or of a given quantity: joints[2] (pin A)."""
+    return f"{section}[{index}] ({' '.join(map(str, called))})"
+
+
+def named(given: file.Parameters) -> dict[str, tuple[Where, str]]:
+    """Where each joint and each given quantity stands, and what a message calls it, by the name of its conditions."""
+    listed = {"joints": given.joints, "given": given.given}
+    return {
+        name_of(index, section, *one.called): ((*TOP, section, index), " ".join(map(str, one.called)))
+        for section, several in listed.items()
+        for index, one in enumerate(several)
+    }
+
+
+def _joint(joint: file.Joint, index: int, geometry: Geometry, bare: System) -> tuple[Condition, ...]:
+    known = geometry.points
+    name = name_of(index, "joints", *joint.called)
+    match joint:
+        case file.Pin(at=at, bodies=bodies):
+            one, other = bodies
+            return on.pin(name, known[at], one, other)
+        case file.SlotJoint(point=point, body=body, on=carrier):
+            return on.slot(name, known[point], body, carrier, geometry.direction(joint))
+        case file.Slider(body=body, on=carrier):
+            some = known[bare.bodies[body][0]]
+            return (*on.slot(name, some, body, carrier, geometry.direction(joint)), *on.no_turning(name, body, carrier))
+        case file.Translation(body=body):
+            return on.no_turning(name, body)
+        case file.RollingOnLine(disc=body, on=carrier):
+            disc, touch = geometry.disc(body), geometry.contact_on_line(joint)
+            return on.rolling_on_line(name, body, known[disc.centre], geometry.size(disc.radius), touch, carrier)
+        case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
+            one, other = discs
+            first, second = geometry.discs(joint)
+            touch = geometry.contact_of_discs(joint)
+            make = on.meshing if isinstance(joint, file.Gears) else on.rolling_on_circle
+            return make(name, one, known[first.centre], other, known[second.centre], touch)
+        case file.Belt(discs=discs):
+            first, second = geometry.discs(joint)
+            centres = known[first.centre], known[second.centre]
+            return on.belt(name, geometry.belt_ends(joint), centres, *discs)
+        case file.Cord(points=points):
+            a, b = points
+            ends = known[a], bare.body_of(a), known[b], bare.body_of(b)
+            return on.distance(name, *ends)
+
+
+def _rate(rate: file.GivenRate, index: int, geometry: Geometry, bare: System) -> Iterator[Condition]:
+    name = name_of(index, "given", *rate.called)
+    size, unit = geometry.size, geometry.unit
+    match rate:
+        case file.OmegaOf(body=body, value=value):
+            yield on.given_omega(name, body, size(value))
+        case file.EpsilonOf(body=body, value=value):
+            yield on.given_epsilon(name, body, size(value))
+        case file.VelocityOf(point=point, direction=angle) | file.AccelerationOf(point=point, direction=angle):
+            make = on.given_velocity if isinstance(rate, file.VelocityOf) else on.given_acceleration
+            along = None if rate.size is None else size(rate.size)
+            yield from _vector(make, name, bare, point, unit(angle), along)
+        case file.FromRest(point=point, acceleration=acceleration, time=time, direction=angle):
+            u = unit(angle)
+            yield from _vector(on.given_velocity, name, bare, point, u, size(acceleration) * size(time))
+            yield from _vector(on.given_acceleration, name, bare, point, u, size(acceleration))
+
+
+def _vector(
+    make: on.GivenComponent, name: str, bare: System, point: str, along: complex, size: float | None
+) -> Iterator[Condition]:
+    """A vector of known direction: nothing across it, and along it its size if that is known."""
+    at, body = bare.points[point], bare.body_of(point)
+    yield make(name, at, body, 1j * along, 0.0)
+    if size is not None:
+        yield make(name, at, body, along, size)

@@ -1,0 +1,256 @@
+"""Exercise → Ledger: the numbers of all steps that lead to what is asked, with their definitions and decimals.
+
+The methods by which velocities are found are the steps that are each one's own, in the order in which they are tried.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from reportgen.exercise.accelerations import Parts, about_points, by_slots, enter_accelerations
+from reportgen.exercise.board import Board, Quantities, Step
+from reportgen.exercise.centres import NEAR, Centre, Layout, lay_out, name_of_centre
+from reportgen.exercise.file import Asked, Method
+from reportgen.exercise.loops import enter_proportion, solve_accelerations_together, solve_velocities_together
+from reportgen.exercise.plane_motion import Exercise
+from reportgen.exercise.speeds import (
+    about_joints,
+    by_base_point,
+    by_centre,
+    by_moving_frame,
+    by_projection,
+    derive,
+    enter_blocks,
+    enter_given,
+    from_base_point,
+)
+from reportgen.exercise.trains import by_rack, by_rims, by_train
+from reportgen.ledger.core import Ledger
+from reportgen.ledger.decimals import choose_decimals
+from reportgen.notation.expressions import Symbol, refs
+from reportgen.notation.sheet import Sheet
+
+ROUND = 1e-9
+"""An angle this little below a whole turn (degrees) is none."""
+SAME, NOTHING = 1e-6, 1e-9
+"""Values that differ by this share, or in SI units by this much, are one."""
+POSITIONS = 1
+"""The instant."""
+
+
+@dataclass(frozen=True)
+class Worked:
+    """The ledger of an exercise, its layout, and the steps in their order.
+
+    `missing` are the ids of what is asked and no step leads to.
+    """
+
+    ledger: Ledger
+    layout: Layout
+    steps: tuple[Step, ...]
+    missing: tuple[str, ...]
+    method: Method | None = None
+
+    @property
+    def by_method(self) -> bool:
+        """Whether a step of it is its method's own."""
+        return self.method is None or any(belongs(step, self.method) for step in self.steps)
+
+
+def work_out(
+    exercise: Exercise,
+    units: Mapping[str, str],
+    names: Mapping[str, str],
+    method: Method | None = None,
+    velocities_alone: bool = False,
+) -> Worked:
+    """The exercise worked out step by step; what nothing asked stands on is left out.
+
+    `units` and `names` are the units and the indices of symbols as a language has them.  Velocities are found by the
+    `method` if one is named; where they alone are wanted, by no other.
+    """
+    board = Board(Quantities(POSITIONS, exercise.motion), lay_out(exercise.given, exercise.motion))
+    enter_given(board)
+    find_velocities(board, method, alone=velocities_alone)
+    if not velocities_alone:
+        enter_accelerations(board, ACCELERATIONS)
+    missing = [one.id for one in exercise.asked if one.what != "centre" and not _leads_to(board, one)]
+    for asked in exercise.asked:
+        if asked.what == "centre":
+            missing += [] if enter_centre(board, asked.body) else [asked.id]
+    for asked in exercise.asked:
+        _signed(board, asked.id)
+        if asked.what in ("v", "a"):
+            _directed(board, asked)
+    wanted = [one.id for one in exercise.asked]
+    wanted += [id for id in board.q.families if id.startswith(("centre.", "turn.", "dir."))]
+    wanted += [id for step in board.steps if step.kind == "centre-rate" for id in step.ids]
+    if velocities_alone and not any(one.what in ("v", "omega") for one in exercise.asked):
+        wanted += [id for id in board.q.families if id.startswith(("v.", "omega."))]
+    needed = _with_ancestors(board, wanted)
+    steps = tuple(step for step in board.steps if _leads_on(step, needed))
+    # A step that is taken is written out whole.
+    needed |= _with_ancestors(board, [id for step in steps for id in step.ids])
+    steps = tuple(step for step in board.steps if _leads_on(step, needed))
+    q = Sheet(POSITIONS)
+    for id, family in board.q.families.items():
+        if id in needed:
+            q.enter(family)
+    decimals, cancellations = choose_decimals(q.families, (), set(), (1,))
+    ledger = Ledger(q.families, decimals, POSITIONS, cancellations, units).in_language(names)
+    return Worked(ledger, board.layout, steps, tuple(missing), method)
+
+
+def _leads_to(board: Board, asked: Asked) -> bool:
+    """Whether the steps lead to what is asked: to the value that the whole system gives, and to no other."""
+    motion = board.motion
+    if asked.id not in board.q:
+        return False
+    match asked.what:
+        case "omega":
+            value: complex = motion.omega(asked.body)
+        case "eps":
+            value = motion.epsilon(asked.body)
+        case what:
+            value = motion.v(asked.of) if what == "v" else motion.a(asked.of)
+    return math.isclose(board.q.si(asked.id), abs(value), rel_tol=SAME, abs_tol=NOTHING)
+
+
+def _signed(board: Board, id: str) -> None:
+    """A rotation with its sign, positive anticlockwise, beside its size that is worked out."""
+    what, _, body = id.partition(".")
+    if what in ("omega", "eps") and id in board.q and board.q.families[id].definition is not None:
+        motion = board.motion
+        rate = motion.omega(int(body)) if what == "omega" else motion.epsilon(int(body))
+        board.q.define(f"turn.{id}", board.q[id] if rate >= 0 else -board.q[id], of=id)
+
+
+def _directed(board: Board, asked: Asked) -> None:
+    """Where an asked vector goes, as its angle from +x in [0, 2π), beside its size; a vector of no length has none."""
+    motion = board.motion
+    vector = motion.v(asked.of) if asked.what == "v" else motion.a(asked.of)
+    if vector and asked.id in board.q and board.q.families[asked.id].definition is not None:
+        angle = (math.degrees(cmath.phase(vector)) + ROUND) % 360.0 - ROUND
+        turned = board.q.give(f"way.{asked.id}", math.radians(angle), Symbol("α"), "angle", hidden=True)
+        board.q.define(f"dir.{asked.id}", turned, scale=1.0, of=asked.id)
+
+
+def _with_ancestors(board: Board, ids: Sequence[str]) -> set[str]:
+    """Those of the ids that are on the board, and everything that they stand on."""
+    families = board.q.families
+    waiting = [id for id in ids if id in families]
+    found: set[str] = set()
+    while waiting:
+        id = waiting.pop()
+        if id not in found:
+            found.add(id)
+            definition = families[id].definition
+            waiting += () if definition is None else refs(definition)
+    return found
+
+
+def _leads_on(step: Step, needed: set[str]) -> bool:
+    """Whether a step works out anything that is needed, or says why something needed is nothing."""
+    worked = [id for id in step.ids if not id.startswith("l.")]
+    return any(id in needed for id in worked or [f"v.{step.point}"])
+
+
+# --- methods: the steps that are each one's own, and in which order they are tried ----------------
+
+
+Finder = Callable[[Board], bool]
+"""Enters one more velocity, or those of one more body; whether there was one."""
+
+CHOSEN: tuple[Finder, ...] = (derive, by_base_point, enter_proportion, by_train, solve_velocities_together)
+"""Chosen well for each step: the instant centre wherever there is one; all that is left over together."""
+
+ACCELERATIONS: tuple[Callable[[Parts], bool], ...] = (
+    about_points,
+    by_rims,
+    lambda parts: by_train(parts.board, "eps"),
+    by_rack,
+    by_slots,
+    lambda parts: enter_blocks(parts.board, "eps"),
+    solve_accelerations_together,
+)
+"""By the base point, by radii, along the lines of moving bodies; all that is left over together."""
+
+OWN: Mapping[Method, tuple[Finder, ...]] = {
+    "instant centre": (by_centre, enter_proportion),
+    "base point": (from_base_point, by_base_point),
+    "projection": (by_projection,),
+    "moving frame": (by_moving_frame,),
+}
+
+_KINDS: Mapping[Method, tuple[str, ...]] = {
+    "instant centre": (
+        "rate-contact",
+        "rate-normals",
+        "rate-parallel",
+        "speed-",
+        "translation",
+        "at-rest",
+        "proportion",
+    ),
+    "base point": ("base-", "two-bases"),
+    "projection": ("projection",),
+    "moving frame": ("slot-",),
+}
+
+
+def belongs(step: Step, method: Method) -> bool:
+    """Whether a step is one of the method's own."""
+    return step.kind != "speed-pivot" and step.kind.startswith(_KINDS[method])
+
+
+def find_velocities(board: Board, method: Method | None, alone: bool = False) -> None:
+    """Enters all velocities that the method leads to, and unless it stands alone, those that others then lead to.
+
+    What a joint makes turn about a fixed point or move in translation belongs to every method, and so does the motion
+    along the line of a moving body, for which there is no other one; a moving frame in its turn may be carried by
+    bodies of any motion.
+    """
+    finders = CHOSEN
+    if method is not None:
+        own = (about_joints, *OWN[method], by_moving_frame)
+        finders = own if alone and method != "moving frame" else (*own, *CHOSEN)
+    while any(find(board) for find in finders):
+        pass
+
+
+# --- instant centres that are asked ---------------------------------------------------------------
+
+
+def enter_centre(board: Board, body: int) -> bool:
+    """Enters the coordinates of a body's instant centre; whether it is known, which one infinitely far is, too."""
+    if body not in board.layout.centres:
+        _from_rate(board, body)
+    centre = board.layout.centres.get(body)
+    if centre is None:
+        return False
+    if centre.rule != "translation":
+        for axis, value in (("x", centre.at.real), ("y", centre.at.imag)):
+            size = board.motion.size
+            board.q.give(f"centre.{body}.{axis}", value, Symbol(axis, centre.name), "length", exact=False, scale=size)
+    return True
+
+
+def _from_rate(board: Board, body: int) -> None:
+    """The centre on the normal to a known velocity, at the distance v/ω; infinitely far in translation."""
+    layout, q = board.layout, board.q
+    known = [name for name in layout.members[body] if board.knows(f"v.{name}")]
+    if not board.knows(f"omega.{body}") or not known:
+        return
+    at = board.motion.centre(body)
+    if at is None:
+        layout.centres[body] = Centre(body, "translation")
+        return
+    name = name_of_centre(layout, body, at)
+    away = next((one for one in known if abs(layout.points[one] - at) > NEAR), "")
+    layout.centres[body] = Centre(body, "rate", name, at, (away,) if away else ())
+    if away:
+        length = q.define(f"l.{name}{away}", q[f"v.{away}"] / q[f"omega.{body}"])
+        board.steps.append(Step("centre-rate", (length.id,), body, away, name))

@@ -1,0 +1,340 @@
+"""The velocities, then the accelerations of all bodies from their conditions, as two linear systems.
+
+Both have one matrix but for the given quantities.  Conditions are taken in the order of the file.  One that follows
+from those before it is a passive one where its value fits, else it *contradicts* those it follows from.  What the
+conditions leave open is the null space of the matrix: a quantity that some motion of it changes is *undetermined*.
+`Motion` asks for both and tells the rates of bodies and points, and the centres of rotation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from reportgen.exercise.conditions import GROUND, STILL, Component, Condition, Rates, Velocities
+
+SMALL = 1e-9
+"""Below this share of its scale a number is nothing."""
+
+Row = np.ndarray
+
+
+@dataclass(frozen=True)
+class System:
+    """Points by name, bodies by number with the points that move with them, and conditions in the order of the file."""
+
+    points: Mapping[str, complex]
+    bodies: Mapping[int, tuple[str, ...]]
+    conditions: tuple[Condition, ...]
+
+    def body_of(self, point: str) -> int:
+        """The body that a point's motion is that of: the first that carries it; the ground where none does."""
+        return next((body for body, points in self.bodies.items() if point in points), GROUND)
+
+
+@dataclass(frozen=True)
+class Conflict:
+    """A condition that those of the other names rule out, by what the file calls them."""
+
+    name: str
+    others: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Solved:
+    """Rates of all bodies, or why there are none.
+
+    `free` are the motions that the conditions leave open, one a row, over the unknowns of `Unknowns`.
+    """
+
+    rates: Mapping[int, Rates]
+    conflicts: tuple[Conflict, ...]
+    free: np.ndarray
+    unknowns: Unknowns
+
+    def determines_turn(self, body: int) -> bool:
+        return self._fixed(self.unknowns.row(Condition("", turns=((body, 1.0),))))
+
+    def determines_point(self, body: int, point: complex) -> bool:
+        axes = (Condition("", (Component(body, point, axis),)) for axis in (1 + 0j, 1j))
+        return all(self._fixed(self.unknowns.row(axis)) for axis in axes)
+
+    def _fixed(self, row: Row) -> bool:
+        return bool(np.all(np.abs(self.free @ row) < SMALL * max(float(np.linalg.norm(row)), SMALL)))
+
+
+@dataclass(frozen=True)
+class Unknowns:
+    """What is unknown: of each body its turn (times the size of the system) and two components at the middle.
+
+    Lengths are measured from the middle of all points in units of their spread, so that the matrix is of the order 1.
+    `squared` are bodies whose ω² is an unknown too.
+    """
+
+    bodies: tuple[int, ...]
+    middle: complex
+    size: float
+    squared: tuple[int, ...] = ()
+
+    @property
+    def count(self) -> int:
+        return 3 * len(self.bodies) + len(self.squared)
+
+    def place(self, point: complex) -> complex:
+        return (point - self.middle) / self.size
+
+    def row(self, condition: Condition) -> Row:
+        row = np.zeros(self.count)
+        for part in condition.components:
+            if part.body == GROUND:
+                continue
+            at, place = 3 * self.bodies.index(part.body), self.place(part.point)
+            unit = part.direction.conjugate()
+            row[at] += (unit * 1j * place).real
+            row[at + 1] += part.direction.real
+            row[at + 2] += part.direction.imag
+            if part.body in self.squared:
+                row[3 * len(self.bodies) + self.squared.index(part.body)] -= (unit * place).real
+        for body, factor in condition.turns:
+            if body != GROUND:
+                row[3 * self.bodies.index(body)] += factor
+        return row
+
+    def scaled(self, condition: Condition, value: float) -> float:
+        """The value of a condition in the units of the unknowns: turns are ω times the size of the system."""
+        return value * self.size if condition.turns else value
+
+    def rates(self, values: np.ndarray) -> dict[int, Rates]:
+        found: dict[int, Rates] = {}
+        for index, body in enumerate(self.bodies):
+            turn, x, y = values[3 * index : 3 * index + 3]
+            found[body] = Rates(turn / self.size, complex(x, y) - 1j * turn / self.size * self.middle)
+        return found
+
+    def squares(self, values: np.ndarray) -> dict[int, float]:
+        """ω² of the bodies in `squared`."""
+        last = values[3 * len(self.bodies) :]
+        return {body: float(value) / self.size for body, value in zip(self.squared, last, strict=True)}
+
+
+def unknowns_of(system: System) -> Unknowns:
+    places = np.array(list(system.points.values()))
+    middle = complex(places.mean())
+    size = float(np.abs(places - middle).max())
+    return Unknowns(tuple(system.bodies), middle, size if size > 0 else 1.0)
+
+
+def solve_velocities(system: System) -> Solved:
+    """The angular velocities and velocities of all bodies, with what stays open and what contradicts itself."""
+    unknowns = unknowns_of(system)
+    told = [(one, one.velocity) for one in system.conditions if one.velocity is not None]
+    return _solve(unknowns, told)[0]
+
+
+@dataclass(frozen=True)
+class Accelerations:
+    """What the accelerations come to; `velocities` with the angular velocities that only they determine.
+
+    Bodies that are `parting` could have them only with a negative ω²: their points would move away from each other.
+    """
+
+    solved: Solved
+    velocities: Solved
+    parting: tuple[int, ...] = ()
+
+
+def solve_accelerations(system: System, velocities: Solved) -> Accelerations:
+    """The angular accelerations and accelerations of all bodies, after their velocities.
+
+    A body without joints whose angular velocity is not known may have its accelerations given: then ω² is an unknown
+    as ε is, and ω is its positive root, since accelerations do not tell the sense of rotation.
+    """
+    squared = tuple(body for body in system.bodies if _turns_unknown(system, velocities, body))
+    unknowns = replace(velocities.unknowns, squared=squared)
+    known = {body: STILL if body in squared else rates for body, rates in velocities.rates.items()}
+    motion = Velocities(known)
+    told: list[tuple[Condition, float]] = []
+    for one in system.conditions:
+        if one.drift is not None:
+            inward = (motion.omega(part.body) ** 2 * _along(part, unknowns.middle) for part in one.components)
+            told.append((one, one.drift(motion) + sum(inward)))
+    solved, found = _solve(unknowns, told)
+    squares = unknowns.squares(found)
+    turned = {
+        body: replace(rates, turn=float(np.sqrt(max(squares[body], 0.0)))) if body in squares else rates
+        for body, rates in velocities.rates.items()
+    }
+    # From the middle to the origin: a(0) = a(m) − iε m + ω² m.
+    at_origin = {
+        body: replace(rates, origin=rates.origin + squares.get(body, motion.omega(body) ** 2) * unknowns.middle)
+        for body, rates in solved.rates.items()
+    }
+    least = -SMALL * float(np.abs(found).max(initial=0.0)) / unknowns.size
+    parting = () if solved.free.size else tuple(body for body, square in squares.items() if square < least)
+    return Accelerations(replace(solved, rates=at_origin), replace(velocities, rates=turned), parting)
+
+
+def _along(part: Component, middle: complex) -> float:
+    """The component of the way from the middle to a point."""
+    return (part.direction.conjugate() * (part.point - middle)).real
+
+
+def _turns_unknown(system: System, velocities: Solved, body: int) -> bool:
+    """Whether a body hangs on no joint and nothing tells how it turns."""
+    joined = any(one.velocity is not None and one.drift is not None and _names(one, body) for one in system.conditions)
+    return not joined and not velocities.determines_turn(body)
+
+
+def _names(condition: Condition, body: int) -> bool:
+    return any(part.body == body for part in condition.components) or any(turn[0] == body for turn in condition.turns)
+
+
+def _solve(unknowns: Unknowns, told: Sequence[tuple[Condition, float]]) -> tuple[Solved, np.ndarray]:
+    matrix = np.array([unknowns.row(one) for one, _ in told]).reshape(len(told), unknowns.count)
+    values = np.array([unknowns.scaled(one, value) for one, value in told])
+    found = np.linalg.lstsq(matrix, values, rcond=SMALL)[0] if len(told) else np.zeros(unknowns.count)
+    _, sizes, motions = np.linalg.svd(matrix) if len(told) else (None, np.zeros(0), np.eye(unknowns.count))
+    rank = int((sizes > SMALL * max(sizes, default=0.0)).sum())
+    conflicts = tuple(_conflicts([one.name for one, _ in told], matrix, values))
+    return Solved(unknowns.rates(found), conflicts, motions[rank:], unknowns), found
+
+
+def _conflicts(names: Sequence[str], matrix: np.ndarray, values: np.ndarray) -> Iterable[Conflict]:
+    """Conditions whose left side follows from those before them, while their value does not."""
+    kept: list[int] = []
+    largest = float(np.abs(values).max(initial=0.0))
+    for index, row in enumerate(matrix):
+        above = matrix[kept]
+        shares = np.linalg.lstsq(above.T, row, rcond=SMALL)[0] if kept else np.zeros(0)
+        if float(np.linalg.norm(row - shares @ above if kept else row)) > SMALL:
+            kept.append(index)
+        elif abs(values[index] - shares @ values[kept]) > SMALL * max(largest, SMALL):
+            others = (names[one] for one, share in zip(kept, shares, strict=True) if abs(share) > SMALL)
+            yield Conflict(names[index], tuple(name for name in dict.fromkeys(others) if name != names[index]))
+
+
+# --- the motion -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A system with its velocities and its accelerations, each solved when it is first asked for."""
+
+    system: System
+
+    @cached_property
+    def _first(self) -> Solved:
+        return solve_velocities(self.system)
+
+    @cached_property
+    def _second(self) -> Accelerations:
+        return solve_accelerations(self.system, self._first)
+
+    @cached_property
+    def velocities(self) -> Velocities:
+        return Velocities(self._second.velocities.rates)
+
+    # --- what is determined
+
+    @property
+    def velocity_conflicts(self) -> tuple[Conflict, ...]:
+        return self._first.conflicts
+
+    @property
+    def acceleration_conflicts(self) -> tuple[Conflict, ...]:
+        """Conditions that rule each other out in the accelerations, where the velocities are in order."""
+        return () if self._first.conflicts else self._second.solved.conflicts
+
+    @property
+    def parting(self) -> tuple[int, ...]:
+        """Bodies whose points have accelerations away from each other, which no rigid body can have."""
+        return () if self._first.conflicts else self._second.parting
+
+    def knows_omega(self, body: int) -> bool:
+        return body == GROUND or self._first.determines_turn(body) or self._knows_square(body)
+
+    def knows_velocity(self, point: str) -> bool:
+        body = self.system.body_of(point)
+        return body == GROUND or self._first.determines_point(body, self.system.points[point])
+
+    def knows_epsilon(self, body: int) -> bool:
+        return body == GROUND or (self.knows_omega(body) and self._second.solved.determines_turn(body))
+
+    def knows_acceleration(self, point: str) -> bool:
+        body = self.system.body_of(point)
+        at = self.system.points[point]
+        return body == GROUND or (self.knows_omega(body) and self._second.solved.determines_point(body, at))
+
+    def knows_centre(self, body: int) -> bool:
+        """Whether the whole velocity of a body is known."""
+        places = {self.system.points[point] for point in self.system.bodies.get(body, ())}
+        return body != GROUND and all(self._first.determines_point(body, place) for place in places)
+
+    def _knows_square(self, body: int) -> bool:
+        """Whether the accelerations tell ω² of a body, and with it all of its motion but its sense."""
+        solved = self._second.solved
+        return body in solved.unknowns.squared and not solved.free.size
+
+    # --- rates: what is nothing beside the others is 0
+
+    def omega(self, body: int) -> float:
+        return _without_dust(self.velocities.omega(body), self.fastest / self.size).real
+
+    def epsilon(self, body: int) -> float:
+        return _without_dust(self._acceleration_of(body).turn, self.steepest / self.size).real
+
+    def v(self, point: str, body: int | None = None) -> complex:
+        """The velocity of a point, as it moves with its own body or with another."""
+        own = self.system.body_of(point) if body is None else body
+        return _without_dust(self.velocities.at(own, self.system.points[point]), self.fastest)
+
+    def a(self, point: str, body: int | None = None) -> complex:
+        """The acceleration of a point, as it moves with its own body or with another."""
+        own = self.system.body_of(point) if body is None else body
+        return _without_dust(self._acceleration_at(own, self.system.points[point]), self.steepest)
+
+    @property
+    def size(self) -> float:
+        """How far the points lie from their middle."""
+        return self._first.unknowns.size
+
+    @cached_property
+    def fastest(self) -> float:
+        """The scale of the velocities."""
+        middle = self._first.unknowns.middle
+        each = ((abs(self.velocities.at(body, middle)), self.velocities.omega(body)) for body in self.system.bodies)
+        return max((speed + abs(turn) * self.size for speed, turn in each), default=0.0)
+
+    @cached_property
+    def steepest(self) -> float:
+        """The scale of the accelerations."""
+        middle, bodies = self._first.unknowns.middle, self.system.bodies
+        each = (
+            abs(self._acceleration_at(body, middle)) + abs(self._acceleration_of(body).turn) * self.size
+            for body in bodies
+        )
+        return max(each, default=0.0)
+
+    def _acceleration_at(self, body: int, at: complex) -> complex:
+        rates = self._acceleration_of(body)
+        return rates.origin + 1j * rates.turn * at - self.velocities.omega(body) ** 2 * at
+
+    def _acceleration_of(self, body: int) -> Rates:
+        return STILL if body == GROUND else self._second.solved.rates[body]
+
+    def centre(self, body: int) -> complex | None:
+        """The instant centre of a body; None where it is in translation, whose centre is infinitely far."""
+        rates = self.velocities.of(body)
+        if self.omega(body) == 0:
+            return None
+        return _without_dust(1j * rates.origin / rates.turn, self.size)
+
+
+def _without_dust(value: complex, scale: float) -> complex:
+    """A vector whose components are 0 where they are nothing beside the scale."""
+    least = SMALL * scale
+    value = complex(value)
+    return complex(value.real if abs(value.real) > least else 0.0, value.imag if abs(value.imag) > least else 0.0)

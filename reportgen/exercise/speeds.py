@@ -1,0 +1,354 @@
+"""Velocities, step by step: from a body whose rates are known over its points to the next body.
+
+About fixed points and instant centres, by a base point, by projection, and along the lines of moving bodies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import combinations, permutations
+
+from reportgen.exercise import file
+from reportgen.exercise.board import Board, Projected, Step, Vector, towards
+from reportgen.exercise.centres import NEAR, Centre
+from reportgen.exercise.places import direction_of, parallel, perpendicular
+from reportgen.notation.expressions import Symbol
+
+
+def enter_given(board: Board) -> None:
+    """The rates that the file gives."""
+    q = board.q
+    for rate in board.layout.given.given:
+        match rate:
+            case file.OmegaOf(body=body, value=value):
+                board.given(f"omega.{body}", value.si)
+            case file.VelocityOf(point=point, size=size) if size is not None:
+                board.given(f"v.{point}", size.si)
+            case file.FromRest(point=point, acceleration=acceleration, time=time):
+                a = board.given(f"a.{point}", acceleration.si)
+                t = board.given("t", time.si, symbol=Symbol("t"), kind="time")
+                q.define(f"v.{point}", a * t)
+                board.steps.append(Step("from-rest", (f"v.{point}",), point=point))
+
+
+def derive(board: Board) -> bool:
+    """One more body whose rate, or whose points' velocities become known; whether there was one."""
+    known = _about(board, board.layout.centres.values()) or _by_belt(board)
+    return known or by_parallels(board) or by_moving_frame(board)
+
+
+def about_joints(board: Board) -> bool:
+    """The same of a body that a joint makes turn about a fixed point or move in translation, by no method."""
+    return _about(board, (one for one in board.layout.centres.values() if one.by_joint)) or _by_belt(board)
+
+
+def by_centre(board: Board) -> bool:
+    """The same of a body in plane motion, about its instant centre."""
+    return _about(board, (one for one in board.layout.centres.values() if not one.by_joint)) or by_parallels(board)
+
+
+def by_parallels(board: Board) -> bool:
+    """ω of one more body from two parallel velocities."""
+    return any(_parallel(board, body, names) for body, names in board.layout.members.items())
+
+
+def by_moving_frame(board: Board) -> bool:
+    """One more point along a line of a moving body."""
+    given = board.layout.given
+    return any(_slot(board, joint) for joint in given.slots) or enter_blocks(board, "omega")
+
+
+def enter_blocks(board: Board, what: str) -> bool:
+    """One more body that turns as the one does along whose guide it slides; `what` is omega or eps."""
+    for joint in board.layout.given.joints:
+        if isinstance(joint, file.Slider) and joint.on:
+            for known, new in permutations((joint.body, joint.on)):
+                if board.knows(f"{what}.{known}") and not board.knows(f"{what}.{new}"):
+                    id = board.q.define(f"{what}.{new}", board.q[f"{what}.{known}"]).id
+                    board.steps.append(Step(f"block-{what}", (id,), new, frame=known))
+                    return True
+    return False
+
+
+def _by_belt(board: Board) -> bool:
+    """The rim of one more disc that turns about a fixed centre moves as fast as the belt."""
+    for index, ends in board.layout.belts.items():
+        joint = board.layout.given.joints[index]
+        if not (isinstance(joint, file.Belt) and board.layout.turn_on_ground(joint.discs)):
+            continue
+        for (base, _), (point, body) in permutations(zip(ends, joint.discs, strict=True)):
+            if board.knows(f"v.{base}") and not board.knows(f"v.{point}"):
+                board.q.define(f"v.{point}", board.q[f"v.{base}"])
+                board.steps.append(Step("belt", (f"v.{point}",), body, point, base))
+                return True
+    return False
+
+
+def _about(board: Board, centres: Iterable[Centre]) -> bool:
+    for centre in centres:
+        if centre.rule == "translation":
+            if _translation(board, centre.body, centre):
+                return True
+        elif _rate(board, centre.body, centre) or _points(board, centre.body, centre):
+            return True
+    return False
+
+
+def _translation(board: Board, body: int, centre: Centre) -> bool:
+    """All points have one velocity."""
+    q, names = board.q, board.layout.members[body]
+    known = next((name for name in names if board.knows(f"v.{name}")), "")
+    new = [name for name in names if known and not board.knows(f"v.{name}")]
+    if not known or (not new and board.knows(f"omega.{body}")):
+        return False
+    if not board.knows(f"omega.{body}"):
+        q.give(f"omega.{body}", 0.0)
+    ids = tuple(q.define(f"v.{name}", q[f"v.{known}"]).id for name in new)
+    if ids or centre.points:
+        board.steps.append(Step("translation", ids, body, ", ".join(new), known))
+    return True
+
+
+def _rate(board: Board, body: int, centre: Centre) -> bool:
+    """ω = v/l from one velocity, about the centre."""
+    if board.knows(f"omega.{body}"):
+        return False
+    names = board.layout.members[body]
+    known = [name for name in names if board.knows(f"v.{name}") and not board.layout.is_centre(centre, name)]
+    if not known:
+        return False
+    arm = board.length(centre.name, known[0], centre.at)
+    board.q.define(f"omega.{body}", board.q[f"v.{known[0]}"] / arm)
+    board.steps.append(Step(f"rate-{centre.rule}", (arm.id, f"omega.{body}"), body, known[0], centre.name))
+    return True
+
+
+def _points(board: Board, body: int, centre: Centre) -> bool:
+    """v = ω l of every point, about the centre; what is at the centre is at rest."""
+    q, layout = board.q, board.layout
+    new = [name for name in layout.members[body] if not board.knows(f"v.{name}")]
+    if not new or not board.knows(f"omega.{body}"):
+        return False
+    for name in new:
+        if layout.is_centre(centre, name):
+            q.give(f"v.{name}", 0.0)
+            kind = "at-rest" if centre.rule == "normals" else ""
+            ids: tuple[str, ...] = ()
+        else:
+            arm = board.length(centre.name, name, centre.at)
+            q.define(f"v.{name}", q[f"omega.{body}"] * arm)
+            kind, ids = f"speed-{centre.rule}", (arm.id, f"v.{name}")
+        if kind:
+            board.steps.append(Step(kind, ids, body, name, centre.name))
+    return True
+
+
+def is_across(board: Board, *names: str) -> bool:
+    """Whether points lie on one line and their velocities are all perpendicular to it."""
+    points, directions = board.layout.points, board.layout.directions
+    line = direction_of(points[names[1]] - points[names[0]])
+    if not line or any(name not in directions for name in names):
+        return False
+    in_line = all(abs((line.conjugate() * (points[name] - points[names[0]])).imag) < NEAR for name in names)
+    return in_line and all(perpendicular(directions[name], line) for name in names)
+
+
+def _parallel(board: Board, body: int, names: list[str]) -> bool:
+    """ω from two velocities that are perpendicular to the line of their points."""
+    q = board.q
+    if body in board.layout.centres:
+        return False
+    known = [name for name in names if board.knows(f"v.{name}")]
+    for one, other in combinations(known, 2):
+        if not is_across(board, one, other):
+            continue
+        if not board.knows(f"omega.{body}"):
+            v, w = board.at(one), board.at(other)
+            first, second = (one, other) if abs(v) >= abs(w) else (other, one)
+            same = (v.conjugate() * w).real >= 0
+            difference = q[f"v.{first}"] - q[f"v.{second}"] if same else q[f"v.{first}"] + q[f"v.{second}"]
+            q.define(f"omega.{body}", difference / board.length(one, other))
+            board.steps.append(Step("rate-parallel", (f"omega.{body}",), body, one, other))
+            return True
+    return False
+
+
+# --- a point along the line of a moving body --------------------------------------------------------
+
+
+def _slot(board: Board, joint: file.SlotJoint) -> bool:
+    """v_P = v_X + v_PX + v_r for a point P on a line of a body with a known point X, with two unknown sizes."""
+    body, point, q, layout = joint.on, joint.point, board.q, board.layout
+    if board.knows(f"v.{point}.r"):
+        return False
+    base = _base(board, body)
+    if base is None or not (board.knows(f"v.{point}") or board.knows(f"omega.{body}")):
+        return False
+    u = layout.geometry.direction(joint)
+    arm_way = layout.points[point] - layout.points[base]
+    if abs(arm_way) < NEAR or (not board.knows(f"omega.{body}") and perpendicular(u, arm_way / abs(arm_way))):
+        # As the body turns, its own point moves along the line alone, which tells nothing of how fast.
+        return False
+    known_rate, new = board.knows(f"omega.{body}"), not board.knows(f"v.{point}")
+    if new and (point not in layout.directions or parallel(layout.directions[point], u)):
+        return False
+    own = board.at(point, body)
+    turning = Vector(f"v.{point}{base}", direction_of(own - board.at(base, body)))
+    sliding = Vector(f"v.{point}.r", direction_of(board.at(point) - own))
+    bases, whole, arm = board.nonzero(board.velocity(base)), board.velocity(point), board.length(base, point)
+    lines = (q.define(turning.id, q[f"omega.{body}"] * arm).id,) if known_rate else ()
+    equation = Projected(board, (whole,), (*bases, turning, sliding), lines)
+    if new:
+        equation.find(whole, 1j * u, "η", point)
+    elif not known_rate:
+        size = equation.find(turning, 1j * u, "η", point)
+        equation.then(q.define(f"omega.{body}", size / arm))
+    symbol = Symbol("v", point, "r")
+    if sliding.direction:
+        equation.find(sliding, towards(u, arm_way), "ξ", point, symbol, "velocity")
+    else:
+        q.give(sliding.id, 0.0, symbol, "velocity")
+    equation.step("slot-speed" if known_rate else "slot-rate", body, point, base)
+    return True
+
+
+def _base(board: Board, body: int) -> str | None:
+    """A point of a body whose velocity is known: its pivot, or one that another body carries."""
+    centre = board.layout.centres.get(body)
+    if centre is not None and centre.rule in ("pivot", "contact"):
+        if not board.knows(f"v.{centre.name}"):
+            board.q.give(f"v.{centre.name}", 0.0)
+        return centre.name
+    return next((name for name in board.layout.members[body] if board.knows(f"v.{name}")), None)
+
+
+# --- by a base point ------------------------------------------------------------------------------
+
+
+def by_base_point(board: Board) -> bool:
+    """One more velocity v_M = v_A + v_MA of a body that turns at a known rate, or the rates of two such bodies."""
+    bodies = {body: names for body, names in board.layout.members.items() if body not in board.layout.centres}
+    for body, names in bodies.items():
+        known = [name for name in names if board.knows(f"v.{name}")]
+        # A base point that is worked out by components itself comes last.
+        base = min(known, key=lambda name: board.knows(f"v.{name}.x") or board.knows(f"v.{name}.y"), default="")
+        new = next((name for name in names if name not in known), "")
+        if base and new and board.knows(f"omega.{body}") and _point(board, body, new, base):
+            return True
+    for body, names in bodies.items():
+        for other, others in bodies.items():
+            shared = [name for name in names if name in others and not board.knows(f"v.{name}")]
+            if body < other and shared and _between(board, body, other, shared[0]):
+                return True
+    return False
+
+
+def from_base_point(board: Board) -> bool:
+    """One more body in plane motion whose ω follows from a base point, or one more point of one whose ω is known."""
+    layout = board.layout
+    for body, names in layout.members.items():
+        centre = layout.centres.get(body)
+        if centre is not None and centre.by_joint:
+            continue
+        if centre is not None and centre.rule == "contact" and not board.knows(f"v.{centre.name}"):
+            board.q.give(f"v.{centre.name}", 0.0)
+        known = [name for name in names if board.knows(f"v.{name}")]
+        new = [name for name in names if not board.knows(f"v.{name}")]
+        if board.knows(f"omega.{body}"):
+            moving = [name for name in known if board.q.si(f"v.{name}")]
+            if known and new and _point(board, body, new[0], (moving or known)[0]):
+                return True
+            continue
+        for base in sorted(known, key=lambda name: board.q.si(f"v.{name}") == 0):
+            guided = [name for name in new if name in layout.directions]
+            if any(_rate_from_base(board, body, point, base) for point in (*known, *guided) if point != base):
+                return True
+    return False
+
+
+def _rate_from_base(board: Board, body: int, point: str, base: str) -> bool:
+    """ω from v_B = v_A + v_BA, with v_B known, or its line: projected on AB, then on the perpendicular to it."""
+    q, layout = board.q, board.layout
+    arm = layout.points[point] - layout.points[base]
+    line, new = direction_of(arm), not board.knows(f"v.{point}")
+    turn = board.motion.omega(body)
+    direction = direction_of(board.at(point)) or layout.directions.get(point, 0j)
+    if not line or (new and perpendicular(direction, line)):
+        return False
+    whole, relative = Vector(f"v.{point}", direction), Vector(f"v.{point}{base}", 1j * line * (1 if turn >= 0 else -1))
+    bases = board.nonzero(board.velocity(base))
+    if not new and not bases and not q.si(whole.id):
+        return False
+    equation = Projected(board, (whole,), (*bases, relative))
+    if new:
+        equation.find(whole, line, "ξ", point)
+    if turn:
+        size = equation.find(relative, relative.direction, "η", point)
+        equation.then(q.define(f"omega.{body}", size / board.length(base, point)))
+    else:
+        q.give(f"omega.{body}", 0.0)
+    kind = "base-rate" if turn else "base-translation"
+    equation.step(kind if new else "base-known", body, point, base)
+    return True
+
+
+def _relative(board: Board, body: int, point: str, base: str) -> Vector:
+    arm = board.layout.points[point] - board.layout.points[base]
+    return Vector(f"v.{point}{base}", direction_of(1j * board.motion.omega(body) * arm))
+
+
+def _point(board: Board, body: int, point: str, base: str) -> bool:
+    """v_B = v_A + v_BA with v_A and ω known, by its components along x and y."""
+    q, relative = board.q, _relative(board, body, point, base)
+    lines: tuple[str, ...] = ()
+    if not board.knows(relative.id):
+        lines = (q.define(relative.id, q[f"omega.{body}"] * board.length(base, point)).id,)
+    parts = board.nonzero(board.velocity(base), relative)
+    if not parts:
+        q.give(f"v.{point}", 0.0)
+        return True
+    equation = Projected(board, (board.velocity(point),), parts, lines)
+    equation.find_sum("v", point)
+    equation.step("base-point", body, point, base)
+    return True
+
+
+def _between(board: Board, body: int, other: int, point: str) -> bool:
+    """v_A + v_CA = v_B + v_CB: two unknown sizes, the first by projection on the line CB."""
+    q, members = board.q, board.layout.members
+    bases = [next((n for n in members[one] if board.knows(f"v.{n}")), "") for one in (body, other)]
+    if "" in bases or board.knows(f"omega.{body}") or board.knows(f"omega.{other}"):
+        return False
+    first, second = (_relative(board, one, point, base) for one, base in zip((body, other), bases, strict=True))
+    line = direction_of(board.layout.points[point] - board.layout.points[bases[1]])
+    if not (first.direction and second.direction) or abs((line.conjugate() * first.direction).real) < 1e-9:
+        return False
+    one, two = (board.nonzero(board.velocity(base)) for base in bases)
+    equation = Projected(board, (*one, first), (*two, second))
+    sizes = equation.find(first, line, "ξ", point), equation.find(second, second.direction, "η", point)
+    for turning, size, base in zip((body, other), sizes, bases, strict=True):
+        equation.then(q.define(f"omega.{turning}", size / board.length(base, point)))
+    equation.step("two-bases", body, point, bases[0])
+    return True
+
+
+# --- by projection --------------------------------------------------------------------------------
+
+
+def by_projection(board: Board) -> bool:
+    """v_B cos β = v_A cos α for one more point B that moves along a known line, not across AB."""
+    layout = board.layout
+    for body, names in layout.members.items():
+        if body in layout.centres and layout.centres[body].by_joint:
+            continue
+        for base, point in permutations(names, 2):
+            if not board.knows(f"v.{base}") or board.knows(f"v.{point}") or point not in layout.directions:
+                continue
+            line = direction_of(layout.points[point] - layout.points[base])
+            if line and not perpendicular(layout.directions[point], line):
+                whole = Vector(f"v.{point}", direction_of(board.at(point)) or layout.directions[point])
+                equation = Projected(board, (whole,), (board.velocity(base), Vector(f"v.{point}{base}", 1j * line)))
+                equation.find(whole, line, "ξ", point)
+                equation.step("projection", body, point, base)
+                return True
+    return False

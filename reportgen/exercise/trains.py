@@ -1,0 +1,246 @@
+"""Discs that drive each other, by gears, belts and racks: rates from radii.
+
+Seen from an arm that carries two discs both turn about fixed points, and their rims move equally fast at any time.  So
+the rotations against that of the arm are to each other as the radii are inversely, and so are their derivatives: the
+formula of Willis.
+
+Of a disc that rolls on bodies in translation, as between two racks, the velocities of the centre and of the points of
+contact differ along the racks by ω times their distance, at any time; so do their accelerations by ε times it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import permutations
+
+from reportgen.exercise import file
+from reportgen.exercise.accelerations import Parts
+from reportgen.exercise.board import Board, Step, Vector
+from reportgen.exercise.centres import Layout
+from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.places import parallel
+from reportgen.notation import vocabulary
+from reportgen.notation.expressions import Chain, Expression, Negative, Product, Ref, Sum, Symbol, signed, total
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Two discs on an arm, each with its centre and the point of its rim that meets the other one or the belt."""
+
+    arm: int
+    discs: tuple[int, int]
+    centres: tuple[str, str]
+    rims: tuple[str, str]
+    alike: bool
+    """Whether both turn in one sense against the arm, as in an inner meshing or by an open belt."""
+
+
+def pairs(layout: Layout) -> Iterator[Pair]:
+    """The pairs of discs whose centres one moving body carries."""
+    for index, joint in enumerate(layout.given.joints):
+        if not isinstance(joint, file.Gears | file.RollingOnCircle | file.Belt):
+            continue
+        found = [layout.given.disc(body) for body in joint.discs]
+        centres = tuple(disc.centre for disc in found if disc is not None)
+        arms = (body for body in layout.members if body not in joint.discs)
+        arm = next((body for body in arms if {*centres} <= {*layout.own(body), *_pivot(layout, body)}), None)
+        if arm is None or len(centres) != 2:
+            continue
+        if isinstance(joint, file.Belt):
+            rims, alike = layout.belts[index], not joint.crossed
+        else:
+            rims = (layout.contacts[index],) * 2
+            first, second = (layout.points[rims[0]] - layout.points[name] for name in centres)
+            alike = (first.conjugate() * second).real > 0
+        yield Pair(arm, (joint.discs[0], joint.discs[1]), (centres[0], centres[1]), rims, alike)
+
+
+def _pivot(layout: Layout, body: int) -> list[str]:
+    centre = layout.centres.get(body)
+    return [centre.name] if centre is not None and centre.rule == "pivot" else []
+
+
+def by_train(board: Board, what: str = "omega") -> bool:
+    """The rotation, `omega` or `eps`, of one more disc from that of another one and of their arm."""
+    for pair in pairs(board.layout):
+        for one, other in permutations(range(2)):
+            known, new = pair.discs[one], pair.discs[other]
+            told = known == GROUND or board.knows(f"{what}.{known}")
+            if told and new != GROUND and board.knows(f"{what}.{pair.arm}") and not board.knows(f"{what}.{new}"):
+                _enter(board, what, pair, one)
+                return True
+    return False
+
+
+def _enter(board: Board, what: str, pair: Pair, one: int) -> None:
+    """ω₂ = (ω_c (r₂ + r₁) − ω₁ r₁)/r₂ with the senses that the rotations have."""
+    q, known, new = board.q, pair.discs[one], pair.discs[1 - one]
+    radii = [board.length(centre, rim) for centre, rim in zip(pair.centres, pair.rims, strict=True)]
+    first, second = radii[one], radii[1 - one]
+    sense = math.copysign(1.0, _rate(board, what, new))
+    terms: list[Expression] = []
+    if arm := _rate(board, what, pair.arm):
+        apart = q.si(second.id) - q.si(first.id) if pair.alike else 1.0
+        reach = second + first if not pair.alike else second - first if apart > 0 else first - second
+        if abs(apart) > 1e-9:
+            terms.append(signed(sense * arm * apart, q[f"{what}.{pair.arm}"] * reach))
+    if rate := _rate(board, what, known):
+        terms.append(signed(sense * rate * (1 if pair.alike else -1), q[f"{what}.{known}"] * first))
+    terms.sort(key=lambda term: isinstance(term, Negative))
+    if terms:
+        q.define(f"{what}.{new}", total(terms) / second)
+    else:
+        q.give(f"{what}.{new}", 0.0)
+    ids = (first.id, second.id, f"{what}.{new}")
+    relation = _relation(what, pair, radii)
+    board.steps.append(Step(f"train-{what}", ids, new, pair.rims[1 - one], frame=pair.arm, system=(relation,)))
+
+
+def _rate(board: Board, what: str, body: int) -> float:
+    if body == GROUND:
+        return 0.0
+    return board.motion.omega(body) if what == "omega" else board.motion.epsilon(body)
+
+
+def _relation(what: str, pair: Pair, radii: list[Ref]) -> Chain:
+    """(ω₁ − ω_c) r₁ = −(ω₂ − ω_c) r₂."""
+    sides: list[Expression] = []
+    for body, radius in zip(pair.discs, radii, strict=True):
+        arm, r = _symbol(what, pair.arm), vocabulary.symbol(radius.id)
+        against = Sum((_symbol(what, body), Negative(arm)))
+        sides.append(Negative(Product((arm, r))) if body == GROUND else Product((against, r)))
+    first, second = sides
+    if not pair.alike:
+        second = second.of if isinstance(second, Negative) else Negative(second)
+    return Chain((first, second))
+
+
+def _symbol(what: str, body: int) -> Symbol:
+    return vocabulary.symbol(f"{what}.{body}")
+
+
+# --- accelerations ----------------------------------------------------------------------------------
+
+
+def by_rims(parts: Parts) -> bool:
+    """ε of one more of two discs with fixed centres, whose rims move alike at any time."""
+    board, q, layout = parts.board, parts.board.q, parts.board.layout
+    for bodies, ends in layout.rims():
+        if not layout.turn_on_ground(bodies):
+            continue
+        for (known, base), (new, point) in permutations(zip(bodies, ends, strict=True)):
+            if board.knows(f"eps.{known}") and not board.knows(f"eps.{new}"):
+                r1, r2 = (board.length(layout.centres[one].name, end) for one, end in ((known, base), (new, point)))
+                q.define(f"eps.{new}", q[f"eps.{known}"] * r1 / r2)
+                board.steps.append(Step("acceleration-rims", (r1.id, r2.id, f"eps.{new}"), new, point, base))
+                return True
+    return False
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """The centre of a disc or a point of contact: the point whose acceleration it shares along the racks.
+
+    That is the centre itself or a point of the rack; "" of the ground.  `value` is its acceleration along them.
+    """
+
+    name: str
+    shares: str
+    value: float
+    known: bool
+
+
+def by_rack(parts: Parts) -> bool:
+    """ε of one more disc, or the acceleration of its centre or of a rack; whether there was one."""
+    for body in parts.board.layout.members:
+        u = _along(parts, body)
+        nodes = [*_nodes(parts, body, u)] if u else []
+        for one, other in permutations(nodes, 2):
+            if not one.known or parts.board.layout.points[one.name] == parts.board.layout.points[other.name]:
+                continue
+            if other.known and not parts.board.knows(f"eps.{body}"):
+                _rate_of_disc(parts, body, u, one, other)
+                return True
+            if not other.known and parts.board.knows(f"eps.{body}"):
+                _acceleration_of(parts, body, u, one, other)
+                return True
+    return False
+
+
+def _along(parts: Parts, body: int) -> complex:
+    """The direction of the racks that a disc rolls on; 0 for a disc that rolls on none, or on other things too."""
+    layout, directions = parts.board.layout, []
+    for joint in layout.given.joints:
+        if isinstance(joint, file.RollingOnLine) and joint.disc == body and joint.on != GROUND:
+            rack, u = layout.centres.get(joint.on), layout.geometry.direction(joint)
+            if rack is None or rack.rule != "translation" or not rack.by_joint or not parallel(rack.direction, u):
+                return 0j
+            directions.append(u)
+    return directions[0] if directions and all(parallel(u, directions[0]) for u in directions) else 0j
+
+
+def _nodes(parts: Parts, body: int, u: complex) -> Iterator[Node]:
+    layout = parts.board.layout
+    disc = layout.given.disc(body)
+    assert disc is not None
+    yield _node(parts, disc.centre, disc.centre, u)
+    for index, joint in enumerate(layout.given.joints):
+        if isinstance(joint, file.RollingOnLine) and joint.disc == body:
+            own = layout.own(joint.on) if joint.on != GROUND else [""]
+            shares = next((name for name in own if name in parts.of), own[0] if own else "")
+            yield _node(parts, layout.contacts[index], shares, u)
+
+
+def _node(parts: Parts, name: str, shares: str, u: complex) -> Node:
+    if not shares:
+        return Node(name, "", 0.0, known=True)
+    value = (u.conjugate() * parts.board.motion.a(shares)).real
+    vectors = parts.of.get(shares)
+    return Node(name, shares, value, vectors is not None and len(vectors) < 2)
+
+
+def _size(parts: Parts, node: Node) -> Ref | None:
+    """The size of a node's acceleration; None where it has none."""
+    vectors = parts.board.nonzero(*parts.of[node.shares]) if node.shares else ()
+    return parts.board.q[vectors[0].id] if vectors else None
+
+
+def _turn(parts: Parts, u: complex, one: Node, other: Node) -> float:
+    """How far the other node is from the one across the racks, with the sign of what ε adds along them."""
+    points = parts.board.layout.points
+    return (u.conjugate() * 1j * (points[other.name] - points[one.name])).real
+
+
+def _rate_of_disc(parts: Parts, body: int, u: complex, one: Node, other: Node) -> None:
+    board, q = parts.board, parts.board.q
+    sense = math.copysign(1.0, board.motion.epsilon(body)) * math.copysign(1.0, _turn(parts, u, one, other))
+    sizes = ((_size(parts, other), other.value), (_size(parts, one), -one.value))
+    terms = [signed(sense * value, size) for size, value in sizes if size is not None]
+    arm = board.length(one.name, other.name)
+    if terms:
+        q.define(f"eps.{body}", _sum(terms) / arm)
+    else:
+        q.give(f"eps.{body}", 0.0)
+    board.steps.append(Step("acceleration-rack", (arm.id, f"eps.{body}"), body, other.name, one.name))
+
+
+def _acceleration_of(parts: Parts, body: int, u: complex, one: Node, other: Node) -> None:
+    board, q, id = parts.board, parts.board.q, f"a.{other.shares}"
+    sense, size = math.copysign(1.0, other.value), _size(parts, one)
+    terms = [signed(sense * one.value, size)] if size is not None else []
+    arm = board.length(one.name, other.name)
+    if q.si(f"eps.{body}"):
+        turning = board.motion.epsilon(body) * _turn(parts, u, one, other)
+        terms.append(signed(sense * turning, q[f"eps.{body}"] * arm))
+    if terms:
+        q.define(id, _sum(terms))
+    else:
+        q.give(id, 0.0)
+    parts.of[other.shares] = (Vector(id, sense * u),) if other.value else ()
+    board.steps.append(Step("acceleration-rack-point", (arm.id, id), body, other.shares, one.name))
+
+
+def _sum(terms: list[Expression]) -> Expression:
+    return total(sorted(terms, key=lambda term: isinstance(term, Negative)))

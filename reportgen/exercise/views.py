@@ -1,0 +1,330 @@
+"""The steps of an exercise's solution as templates name them: words' keys, points, equations, senses.
+
+How a quantity is shown, by numbers or by the symbols of the file, is decided here for the whole page; so is the letter
+of each axis that steps project on.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from reportgen.document.prose import PointName
+from reportgen.document.tree import Equation, InlineMath, Inlines, Text, Value
+from reportgen.exercise.board import Axis, Step, Vector
+from reportgen.exercise.case import ExerciseCase
+from reportgen.exercise.centres import NEAR
+from reportgen.exercise.places import parallel
+from reportgen.exercise.solution import Worked
+from reportgen.exercise.symbols import symbol
+from reportgen.notation import vocabulary
+from reportgen.notation.expressions import Chain, Expression, Number, Symbol, Term, VectorEquation, refs, substitute
+
+AT = 1
+"""The one position of an exercise."""
+MM = 1e3
+COORDINATES = ("x", "y")
+
+
+@dataclass(frozen=True)
+class StepView:
+    """A step as templates name it."""
+
+    kind: str
+    of_accelerations: bool
+    body: int
+    point: PointName
+    base: PointName
+    centre: PointName
+    one: PointName
+    other: PointName
+    """The points whose normals meet in the centre."""
+    lines: tuple[Equation, ...]
+    equation: tuple[Equation, ...]
+    angles: tuple[Inlines, ...]
+    sense: str
+    way: str
+    place: Inlines
+    """The coordinates of the instant centre."""
+    frame: int
+    """The body that the motion is seen from."""
+    system: tuple[Equation, ...]
+    results: tuple[Equation, ...]
+    along: Symbol
+    across: Symbol
+    """The axes of projection ξ and η."""
+    on_line: bool
+    """Whether the step projects on ξ."""
+    on_coordinates: bool
+    """Whether it projects on x or y."""
+    contact: PointName | str
+    """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
+
+
+@dataclass(frozen=True)
+class FurtherView:
+    """A further solution as templates name it."""
+
+    name: str
+    steps: tuple[StepView, ...]
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A solution of an exercise, as it is set out step by step."""
+
+    case: ExerciseCase
+    worked: Worked
+
+    @property
+    def steps(self) -> tuple[StepView, ...]:
+        return tuple(map(self._step, self.worked.steps))
+
+    def steps_beside(self, first: Worked) -> tuple[StepView, ...]:
+        """The steps without those that another solution has already."""
+        return tuple(self._step(step) for step in self.worked.steps if step not in first.steps)
+
+    @property
+    def axes(self) -> Axes:
+        """The axes of projection of all solutions of the case."""
+        return Axes((self.case.worked, *self.case.further))
+
+    @property
+    def method(self) -> str:
+        """What its method is called; "" where it is chosen for each step."""
+        return str(self.case.words["instant"]["methods"][self.worked.method]) if self.worked.method else ""
+
+    def _step(self, step: Step) -> StepView:
+        worked, motion = self.worked, self.case.exercise.motion
+        ledger, layout = worked.ledger, worked.layout
+        shown = [id for id in step.ids if id in ledger and not (id.startswith("l.") and self._declared(id))]
+        centre = layout.centres.get(step.body)
+        rate = motion.omega(step.body) if step.body else 0.0
+        if any(id.startswith("eps.") for id in shown):
+            rate = motion.epsilon(step.body)
+        rolling = centre is not None and centre.rule == "contact" and centre.name in (step.point, step.base)
+        others = (*(centre.points if centre is not None else ()), "", "")
+        angles = dict.fromkeys(id for one in shown for id in self._angles_of(one))
+        return StepView(
+            kind=step.kind,
+            of_accelerations=step.of_accelerations,
+            body=step.body,
+            point=PointName(step.point),
+            base=PointName(step.base),
+            centre=PointName(centre.name if centre is not None else ""),
+            one=PointName(others[0]),
+            other=PointName(others[1]),
+            lines=(Equation(tuple(map(self._chain, shown))),) if shown else (),
+            equation=(self._equation(step),) if step.equation is not None and step.equation.left else (),
+            angles=tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),
+            sense=self._sense(rate) if rate else str(self.case.words["instant"]["no_sense"]),
+            way=self._heading(step),
+            place=self._coordinates(step.body) if centre is not None and centre.rule in ("normals", "rate") else (),
+            frame=step.frame,
+            system=(Equation(step.system),) if step.system else (),
+            results=(Equation(step.results),) if step.results else (),
+            along=self.axes.symbol(step, "ξ"),
+            across=self.axes.symbol(step, "η"),
+            on_line=any(axis.letter == "ξ" for axis in step.axes),
+            on_coordinates=any(axis.letter in COORDINATES for axis in step.axes),
+            contact=PointName(centre.name) if rolling and centre is not None else "",
+        )
+
+    def _angles_of(self, id: str) -> list[str]:
+        definition = self.worked.ledger[id].definition
+        return [one for one in refs(definition) if one.startswith("alpha.")] if definition is not None else []
+
+    def _heading(self, step: Step) -> str:
+        """Where the velocity or the acceleration of the step's point goes, in words; "" for several points."""
+        motion, layout = self.case.exercise.motion, self.worked.layout
+        if step.kind.startswith("acceleration") and step.point in motion.system.points:
+            return self._towards(motion.a(step.point))
+        if step.point not in layout.points:
+            return ""
+        # A point of contact moves with the step's body.
+        known = step.point in motion.system.points
+        v = motion.v(step.point) if known else motion.velocities.at(step.body, layout.points[step.point])
+        return self._towards(v)
+
+    def _equation(self, step: Step) -> Equation:
+        assert step.equation is not None
+        sides = tuple(
+            tuple(self._term(one, one.id in step.equation.unknown) for one in side)
+            for side in (step.equation.left, step.equation.right)
+        )
+        return Equation((VectorEquation(sides, tuple(self.case.words["vector"]["rows"])),))
+
+    def _term(self, vector: Vector, unknown: bool) -> Term:
+        """A vector with what is known of it: its line, its sense by the angle from +x, its size."""
+        ledger = self.worked.ledger
+        degrees = round(math.degrees(cmath.phase(vector.direction)) % 360.0, 2) % 360.0
+        line = Number(round(degrees % 180.0, 2), None, "°")
+        symbol = ledger.symbol(vector.id) if vector.id in ledger else vocabulary.symbol(vector.id)
+        size: Expression | None = None if unknown or vector.id not in ledger else ledger.number(vector.id, AT)
+        if size is not None:
+            size = self._literal(vector.id) or size
+        sense = None if unknown else Number(degrees, None, "°")
+        return Term(vocabulary.vector(symbol), (line, sense, size))
+
+    @property
+    def put_in(self) -> bool:
+        """Whether numbers are put in, at the end of each line: also where the file wants none but an answer has one."""
+        wanted = all(one.put_in for one in self.case.exercise.given.symbols.values())
+        return wanted or any(shown is None for _, shown in self._by_symbols())
+
+    def _by_symbols(self) -> list[tuple[str, Expression | None]]:
+        """What is asked by the symbols of the file; None for what is too long."""
+        if self.case.literal is None:
+            return []
+        return [(one.id, self._literal(one.id)) for one in self.case.exercise.asked if one.what != "centre"]
+
+    def _literal(self, id: str) -> Expression | None:
+        """A quantity by the symbols of the file; None where it is not known so."""
+        found = self.case.literal[id] if self.case.literal is not None else None
+        return None if found is None else lettered(found)
+
+    def _chain(self, id: str) -> Chain:
+        """The worked line: with numbers, or with symbols, behind which numbers stand if they are put in."""
+        chain = self.worked.ledger.chain(id, AT)
+        if self.case.literal is None:
+            return chain
+        found = self._literal(id)
+        *formula, _ = chain.parts[:3] if len(chain.parts) > 2 else (chain.parts[0], None)
+        if self.worked.ledger[id].definition is None:
+            formula = [chain.parts[0]]
+        result = chain.parts[-1:] if self.put_in or (found is None and len(formula) == 1) else ()
+        if isinstance(found, Number) and found.value == 0 and result:
+            found = None
+        steps = [*formula, *([] if found is None else [found]), *result]
+        return Chain(tuple(one for place, one in enumerate(steps) if place == 0 or one != steps[place - 1]))
+
+    def _declared(self, id: str) -> bool:
+        """Whether a distance is one of declared points."""
+        centres = {one.name for one in self.worked.layout.centres.values() if one.rule in ("normals", "rate")}
+        return not any(id.startswith(f"l.{name}") for name in centres - set(self.case.exercise.given.points))
+
+    def _angle(self, radians: float) -> Inlines:
+        return (Value(Number(round(math.degrees(radians) % 360.0, 2), None, "°")),)
+
+    def _towards(self, vector: complex) -> str:
+        if vector == 0:
+            return "–"
+        degrees = round(math.degrees(cmath.phase(vector)) % 360.0, 2) % 360.0
+        quadrant, within = divmod(degrees, 90.0)
+        return str(self.case.words["headings"][int(2 * quadrant) + (within > 0)])
+
+    def _sense(self, value: float) -> str:
+        words = self.case.words["sense"]
+        return str(words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"])
+
+    def _coordinate(self, value: float) -> Number:
+        """A coordinate in mm, without the dust of floats."""
+        return Number(round(value * MM, 6 - math.ceil(math.log10(self.case.exercise.motion.size * MM))) + 0.0)
+
+    def _coordinates(self, body: int) -> Inlines:
+        """Where the instant centre of a body is: x and y, in numbers as in the table of points."""
+        centre = self.worked.layout.centres[body]
+        numbers = [Number(self._coordinate(part).value, None, "mm") for part in (centre.at.real, centre.at.imag)]
+        literal = self.case.literal
+        found = None if literal is None else literal.place(centre.name)
+        formulas = None if found is None else [*map(lettered, found)]
+        shown: list[Any] = []
+        for index, axis in enumerate("xy"):
+            parts: list[Expression] = [] if formulas is None else [formulas[index]]
+            # Nothing is 0, whatever its unit.
+            if not parts or (self.put_in and numbers[index].value):
+                parts.append(numbers[index])
+            chain = Chain((Symbol(axis, centre.name), *parts))
+            shown += [*([Text("; ")] if shown else []), InlineMath(chain, slashed=True)]
+        return tuple(shown)
+
+
+def lettered(formula: Expression) -> Expression:
+    """A formula over the names of symbols with the letters that are printed for them."""
+    return substitute(formula, lambda ref: symbol(ref.id))
+
+
+# --- axes: one number for each line, in the text as in the figures ---------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnAxis:
+    """An axis of projection towards `direction`, from `start` to `end` of the points it is about, which may be one."""
+
+    symbol: Symbol
+    direction: complex
+    start: complex
+    end: complex
+
+
+@dataclass(frozen=True)
+class Axes:
+    """The axes of all solutions of an exercise.
+
+    Axes ξ on one line are one axis, whichever step uses it, and each has its η at the point of its first step.
+    """
+
+    solutions: Sequence[Worked]
+
+    def symbol(self, step: Step, letter: str) -> Symbol:
+        """The letter of a step's axis, with a number where ξ lies on several lines."""
+        if not step.axes or step.axes[0].letter in COORDINATES:
+            return Symbol(letter)
+        return self._symbol(step.axes[0], letter)
+
+    def drawn(self, accelerations: bool, scale: float) -> Iterator[DrawnAxis]:
+        """The axes ξ and η of the steps for velocities or for accelerations; `scale` is the mm of a metre."""
+        letters: set[Symbol] = set()
+        for step, axis in self._of(accelerations):
+            symbol = self._symbol(axis, axis.letter)
+            if axis.letter not in COORDINATES and symbol not in letters:
+                letters.add(symbol)
+                at = self._at(self._first(axis).point)
+                along = [0.0, *self._on_it(step.body, axis.direction, at)]
+                ends = (scale * (at + reach * axis.direction) for reach in (min(along), max(along)))
+                yield DrawnAxis(symbol, axis.direction, *ends)
+
+    def has_coordinates(self, accelerations: bool) -> bool:
+        """Whether anything is projected on x or y."""
+        return any(axis.letter in COORDINATES for _, axis in self._of(accelerations))
+
+    def _on_it(self, body: int, direction: complex, at: complex) -> Iterator[float]:
+        """Where points of the body lie on an axis, which is to show beyond them."""
+        for name in self.solutions[0].layout.members.get(body, ()):
+            there = direction.conjugate() * (self._at(name) - at)
+            if abs(there.imag) < NEAR:
+                yield there.real
+
+    def _of(self, accelerations: bool | None = None) -> Iterator[tuple[Step, Axis]]:
+        for worked in self.solutions:
+            for step in worked.steps:
+                if accelerations is None or step.of_accelerations == accelerations:
+                    yield from ((step, axis) for axis in step.axes)
+
+    def _at(self, point: str) -> complex:
+        return self.solutions[0].layout.points[point]
+
+    def _lines(self) -> list[Axis]:
+        """One axis of each line of ξ."""
+        found: list[Axis] = []
+        for _, axis in self._of():
+            if axis.letter not in COORDINATES and not any(self._same(axis, one) for one in found):
+                found.append(axis)
+        return found
+
+    def _same(self, one: Axis, other: Axis) -> bool:
+        """Whether the ξ of both lie on one line."""
+        apart = self._at(other.point) - self._at(one.point)
+        return parallel(one.along, other.along) and abs((one.along.conjugate() * apart).imag) < NEAR
+
+    def _first(self, axis: Axis) -> Axis:
+        return next((one for one in self._lines() if self._same(axis, one)), axis)
+
+    def _symbol(self, axis: Axis, letter: str) -> Symbol:
+        lines = self._lines()
+        if axis.letter in COORDINATES or len(lines) == 1:
+            return Symbol(letter)
+        return Symbol(letter, str(1 + lines.index(self._first(axis))))

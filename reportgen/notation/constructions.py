@@ -1,0 +1,75 @@
+"""Constructions of plane geometry: what a compass and a ruler find.
+
+Points and vectors are complex numbers, arrays of them at every position, or vectors by symbols: whatever is added,
+multiplied and has `real`, `imag` and `conjugate`, so that drawing, computing and literal solutions share each formula.
+A `root` says what a square root of such sizes is, and what becomes of one that does not exist.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+Value = Any
+"""A size, a point or a vector; functions are indifferent to the shape."""
+
+SquareRoot = Callable[[Value], Value]
+
+
+def real_root(square: Value) -> Value:
+    """√ of a number, 0 where it is less: a circle that is just missed is touched."""
+    return np.sqrt(np.maximum(square, 0.0))
+
+
+def dot(a: Value, b: Value) -> Value:
+    """a · b = aₓbₓ + a_y b_y."""
+    return (a.conjugate() * b).real
+
+
+def cross(a: Value, b: Value) -> Value:
+    """a × b = aₓb_y − a_y bₓ, the component along z."""
+    return (a.conjugate() * b).imag
+
+
+def shares(whole: Value, u: Value, w: Value) -> tuple[Value, Value]:
+    """The real x, y with x·u + y·w = whole."""
+    area = cross(u, w)
+    return cross(whole, w) / area, cross(u, whole) / area
+
+
+def foot(point: Value, p: Value, u: Value) -> Value:
+    """The foot of the perpendicular from a point on the line through p along u, of length 1."""
+    return p + u * dot(u, point - p)
+
+
+def meet(p: Value, u: Value, q: Value, w: Value) -> Value:
+    """Where the line through p along u meets the line through q along w."""
+    return p + u * (cross(q - p, w) / cross(u, w))
+
+
+def leg(hypotenuse: Value, other: Value, root: SquareRoot = real_root) -> Value:
+    """The second leg of a right triangle, √((c − a)(c + a)): so a short one keeps its figures."""
+    return root((hypotenuse - other) * (hypotenuse + other))
+
+
+def along_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value, root: SquareRoot = real_root) -> Value:
+    """How far along the line through p along u, of length 1, a circle meets it: s = d·u ± √(r² − (d×u)²), d = c − p.
+
+    The sign +1 takes the farther end along u.
+    """
+    return dot(u, centre - p) + sign * leg(radius, cross(u, centre - p), root)
+
+
+def circle_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value, root: SquareRoot = real_root) -> Value:
+    """Where a circle meets the line through p along u, of length 1; sign +1 takes the farther end along u."""
+    return p + u * along_line(centre, radius, p, u, sign, root)
+
+
+def circle_circle(c1: Value, r1: Value, c2: Value, r2: Value, sign: Value, root: SquareRoot = real_root) -> Value:
+    """Where two circles meet, a point at two distances; sign +1 takes the one to the left of the way from c1 to c2."""
+    span = abs(c2 - c1)
+    u = (c2 - c1) / span
+    along = (r1**2 - r2**2 + span**2) / (2 * span)
+    return c1 + u * along + 1j * u * (sign * leg(r1, along, root))

@@ -1,1 +1,0 @@
-"""Plane motion of rigid bodies at one instant: what joins them, and the velocities and accelerations that follow."""
