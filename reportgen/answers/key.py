@@ -17,7 +17,7 @@ from reportgen.answers.bands import computed_bands, drawn_bands, is_chosen_lengt
 from reportgen.answers.trapezoid import is_workable, trapezoid_errors
 from reportgen.answers.wording import MAGNITUDE, capitalised, is_open, phrase, positive_sense
 from reportgen.case import Case, ExerciseCase, Opened
-from reportgen.document.outline import open_report
+from reportgen.document.report import Report
 from reportgen.document.tree import formula
 from reportgen.ledger.core import Ledger
 from reportgen.notation.expressions import Number, Symbol, refs
@@ -164,7 +164,7 @@ def make_key(case: Opened) -> Key:
 @make_key.register
 def of_machine(case: Case) -> Key:
     """The key of a machine, over all positions of its cycle."""
-    machine, report = case.analysis.machine, open_report(case)
+    machine, report = case.analysis.machine, Report(case)
     labels = tuple(str(machine.position(k)) for k in range(1, machine.positions + 1))
     printed = report.all_positions if report.thinned else ()
     span = Span(labels, machine.count, tuple(case.assignment.worked_positions), printed)
@@ -202,22 +202,22 @@ def _key(case: Opened, ledger: Ledger, span: Span, sense_of: Callable[[str], str
         workable = workable and (part is not Chapter.cycle or complete) and is_workable(ledger, id, by_rule)
         asked = (role is Role.scale and not is_round_scale(family)) or (role is Role.asked and workable)
         return Row(
-            id,
-            part,
-            role,
-            family.symbol,
-            family.kind,
-            ledger.units.get(family.how.unit, family.how.unit),
-            _decimals(ledger.decimals[id], values / scale),
-            values / scale,
-            on_paper[id] / scale,
-            by_rounding[id] / scale,
-            _asked_at(values, worked, span.count, family.kind == "force scale") if asked else (),
-            tuple(_sense(family, value, words["sense"]) for value in values),
-            family.of if family.is_signed_rotation else "",
-            phrase(id, ledger, words),
-            words["magnitude"] if sense == MAGNITUDE else sense,
-            is_open(values, sense),
+            id=id,
+            part=part,
+            role=role,
+            symbol=family.symbol,
+            kind=family.kind,
+            unit=ledger.units.get(family.how.unit, family.how.unit),
+            decimals=_decimals(ledger.decimals[id], values / scale),
+            values=values / scale,
+            drawn=on_paper[id] / scale,
+            computed=by_rounding[id] / scale,
+            positions=_asked_at(values, worked, span.count, family.kind == "force scale") if asked else (),
+            sense=tuple(_sense(family, value, words["sense"]) for value in values),
+            size=family.of if family.is_signed_rotation else "",
+            what=phrase(id, ledger, words),
+            positive=words["magnitude"] if sense == MAGNITUDE else sense,
+            open_sense=is_open(values, sense),
         )
 
     parts, families = list(Chapter), ledger.families.values()
@@ -227,14 +227,14 @@ def _key(case: Opened, ledger: Ledger, span: Span, sense_of: Callable[[str], str
     student = assignment.report.student
     fields = {"name": student.name, "id": student.id, "class": student.class_}
     return Key(
-        assignment.id,
-        assignment.kind,
-        assignment.variant,
-        assignment.language,
-        {name: text for name, text in fields.items() if text},
-        span.labels,
-        tuple(rows),
-        span.printed,
+        id=assignment.id,
+        kind=assignment.kind,
+        variant=assignment.variant,
+        language=assignment.language,
+        student={name: text for name, text in fields.items() if text},
+        labels=span.labels,
+        rows=tuple(rows),
+        printed=span.printed,
     )
 
 
