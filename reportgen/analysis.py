@@ -103,16 +103,16 @@ def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis
     loads = (*heavy, *inert, *applied)
     forces = solve_forces(linkage, motion, loads)
     return Analysis(
-        machine,
-        angles,
-        motion,
-        gas,
-        heavy,
-        inert,
-        applied,
-        forces,
-        forces.torque,
-        virtual_work_torque(linkage, motion, loads),
+        machine=machine,
+        cycle_angle=angles,
+        motion=motion,
+        gas=gas,
+        weights=heavy,
+        inertia=inert,
+        applied=applied,
+        forces=forces,
+        torque=forces.torque,
+        torque_by_work=virtual_work_torque(linkage, motion, loads),
     )
 
 

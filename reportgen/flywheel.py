@@ -74,7 +74,19 @@ def regulate(angle: Floats, torque: Floats, work: Floats, inertia: Floats, speed
     energy = fastest**2 * moment / 2 - upper
     squared = 2 * (energy + excess) / (moment + inertia) if moment > 0 else np.full(angle.shape, np.nan)
     return Flywheel(
-        angle, torque, -mean, inertia, excess, upper, lower, moment, np.sqrt(squared), fastest, slowest, high, low
+        angle=angle,
+        torque=torque,
+        constant=-mean,
+        inertia=inertia,
+        work=excess,
+        upper=upper,
+        lower=lower,
+        moment=moment,
+        speed=np.sqrt(squared),
+        fastest=fastest,
+        slowest=slowest,
+        high=high,
+        low=low,
     )
 
 

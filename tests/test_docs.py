@@ -304,14 +304,10 @@ def test_targets_of_make_that_are_named_exist(document: str) -> None:
     assert named <= targets
 
 
-def test_types_and_template_names_that_are_named_exist() -> None:
+def test_types_that_are_named_exist() -> None:
     code = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "reportgen").rglob("*.py"))
     for name in set(re.findall(r"`([A-Z][a-z][A-Za-z]*)s?`", text_of("ARCHITECTURE.md"))):
         assert re.search(rf"^class {name}\b", code, re.MULTILINE), name
-    names = section(text_of("docs/templates.md"), "## Names in templates")
-    rows = [line for line in names.splitlines() if line.startswith("| `")]
-    for name in re.findall(r"`(\w+)", "\n".join(row.split(" | ")[0] for row in rows)):
-        assert re.search(rf'(def {name}\(|"{name}"[:\]]|\b{name}=)', code), name
 
 
 def test_the_architecture_places_every_part() -> None:

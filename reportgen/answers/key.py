@@ -78,22 +78,22 @@ def make_key(case: Opened, ledger: Ledger, span: Span = INSTANT, sense_of: Calla
         workable = workable and (part is not Chapter.cycle or complete) and is_workable(ledger, id, by_rule)
         asked = (role is Role.scale and not is_round_scale(family)) or (role is Role.asked and workable)
         return Row(
-            id,
-            part,
-            role,
-            family.symbol,
-            family.kind,
-            ledger.units.get(family.how.unit, family.how.unit),
-            _decimals(ledger.decimals[id], values / scale),
-            values / scale,
-            on_paper[id] / scale,
-            by_rounding[id] / scale,
-            _asked_at(values, worked, span.count, family.kind == "force scale") if asked else (),
-            tuple(_sense(family, value, words["sense"]) for value in values),
-            family.of if family.is_signed_rotation else "",
-            phrase(id, ledger, words),
-            words["magnitude"] if sense == MAGNITUDE else sense,
-            is_open(values, sense),
+            id=id,
+            part=part,
+            role=role,
+            symbol=family.symbol,
+            kind=family.kind,
+            unit=ledger.units.get(family.how.unit, family.how.unit),
+            decimals=_decimals(ledger.decimals[id], values / scale),
+            values=values / scale,
+            drawn=on_paper[id] / scale,
+            computed=by_rounding[id] / scale,
+            positions=_asked_at(values, worked, span.count, family.kind == "force scale") if asked else (),
+            sense=tuple(_sense(family, value, words["sense"]) for value in values),
+            size=family.of if family.is_signed_rotation else "",
+            what=phrase(id, ledger, words),
+            positive=words["magnitude"] if sense == MAGNITUDE else sense,
+            open_sense=is_open(values, sense),
         )
 
     parts, families = list(Chapter), ledger.families.values()
@@ -103,14 +103,14 @@ def make_key(case: Opened, ledger: Ledger, span: Span = INSTANT, sense_of: Calla
     student = assignment.report.student
     fields = {"name": student.name, "id": student.id, "class": student.class_}
     return Key(
-        assignment.id,
-        assignment.kind,
-        assignment.variant,
-        assignment.language,
-        {name: text for name, text in fields.items() if text},
-        span.labels,
-        tuple(rows),
-        span.printed,
+        id=assignment.id,
+        kind=assignment.kind,
+        variant=assignment.variant,
+        language=assignment.language,
+        student={name: text for name, text in fields.items() if text},
+        labels=span.labels,
+        rows=tuple(rows),
+        printed=span.printed,
     )
 
 

@@ -10,11 +10,10 @@ from typing import Any
 from reportgen.answers.key import words_of
 from reportgen.answers.sheet import asked_positions, info_rows, open_cells
 from reportgen.case import Calculation, Opened
-from reportgen.document import tree
+from reportgen.document import namespace, tree
 from reportgen.document.key import Key, Role, Row
 from reportgen.document.numbering import number
-from reportgen.document.outline import open_report
-from reportgen.document.report import PLATES_UP_TO
+from reportgen.document.report import PLATES_UP_TO, Report
 from reportgen.document.tree import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
 from reportgen.figures.metrics import box
 from reportgen.notation.expressions import Number, Symbol
@@ -47,7 +46,17 @@ def paper(
     note = words["variant"].format(variant=variant) if variant else ""
     terms = words["document"]
     header, footer = (title, note), ("", terms["page"])
-    return number(Document(language, title, owner, header, footer, tree.Words(**terms), tuple(blocks)))
+    return number(
+        Document(
+            language=language,
+            title=title,
+            author=owner,
+            header=header,
+            footer=footer,
+            words=tree.Words(**terms),
+            blocks=tuple(blocks),
+        )
+    )
 
 
 def fields(pairs: Iterable[tuple[str, str]]) -> Iterable[Block]:
@@ -120,8 +129,8 @@ def machine_task(case: Calculation, key: Key, by_section: bool = False) -> Docum
 
     `by_section` puts each section of the sheet on pages of its own, headed by whose it is.  Raises `TemplateError`.
     """
-    report = open_report(case)
-    prose, names, machine = report.prose, report.names(), case.analysis.machine
+    report = Report(case)
+    prose, names, machine = report.prose, namespace.names(report), case.analysis.machine
     every = range(1, machine.positions + 1)
     asked = asked_positions(key)
     (title, *given) = prose.render("given", names)

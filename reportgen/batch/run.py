@@ -146,7 +146,17 @@ def _run(
             refused.append((student, read))
             continue
         for product, maker in makers.items():
-            job = Job(student.id, student.folder, product, maker, *read, how[product], temporary)
+            name, content = read
+            job = Job(
+                student.id,
+                student.folder,
+                product,
+                maker,
+                file=name,
+                content=content,
+                making=how[product],
+                scratch=temporary,
+            )
             entry = entries.get((job.student, product))
             (kept if entry is not None and entry.holds(job, out) else jobs).append(job)
     result.kept = len(kept)

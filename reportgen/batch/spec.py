@@ -165,7 +165,17 @@ def read_spec(path: Path, language: Language | None = None) -> Spec:
         if not faults:
             digest.update(file.read_bytes())
     salted = salt.text if salt else ""
-    spec = Spec(path, source.text, top, base, kind, tuple(axes), salted, digest.hexdigest(), language)
+    spec = Spec(
+        path=path,
+        text=source.text,
+        whole=top,
+        top=base,
+        kind=kind,
+        axes=tuple(axes),
+        salt=salted,
+        digest=digest.hexdigest(),
+        language=language,
+    )
     faults += _unreadable(spec)
     if faults:
         raise as_error(faults, language)

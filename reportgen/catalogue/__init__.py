@@ -39,12 +39,12 @@ def kind(name: str) -> Kind:
     shared = getattr(machine.Parameters, "checks", tuple)
     return Kind(
         name,
-        machine.Parameters,
-        getattr(machine, "Indicator", None),
-        machine.TURNS,
-        (*shared(), *machine.CHECKS),
-        getattr(machine, "added_positions", none_added),
-        getattr(machine, "INDICATOR_OPTIONAL", False),
+        parameters=machine.Parameters,
+        indicator=getattr(machine, "Indicator", None),
+        turns=machine.TURNS,
+        checks=(*shared(), *machine.CHECKS),
+        added=getattr(machine, "added_positions", none_added),
+        indicator_optional=getattr(machine, "INDICATOR_OPTIONAL", False),
         has_positions=getattr(machine, "HAS_POSITIONS", True),
     )
 

@@ -132,14 +132,26 @@ def machine(assignment: Assignment) -> Machine:
     phases = next(iter(possible.values())) if indicator.firing is None else possible[indicator.firing]
     top, bottom = 1j * (rod + radius), 1j * (rod - radius)
     pistons = tuple(
-        Piston(link, link - 1, pin, crank_pin, top, bottom, 0.0, math.pi, phase, given.D.si, indicator.table)
+        Piston(
+            link=link,
+            rod=link - 1,
+            pin=pin,
+            crank_pin=crank_pin,
+            top=top,
+            bottom=bottom,
+            top_angle=0.0,
+            bottom_angle=math.pi,
+            phase=phase,
+            bore=given.D.si,
+            indicator=indicator.table,
+        )
         for link, pin, crank_pin, phase in zip((3, 5), "BD", "AC", phases, strict=True)
     )
     steps = even_angles(positions, TURNS)
 
     def formulas(q: Sheet) -> None:
-        centred_slider(q, turn, 2, 3, "B", phases[0] + steps, "l.AS2", "S2")
-        centred_slider(q, turn, 4, 5, "D", phases[1] + steps, "l.CS4", "S4")
+        centred_slider(q, turn, 2, 3, "B", angle=phases[0] + steps, along="l.AS2", centre="S2")
+        centred_slider(q, turn, 4, 5, "D", angle=phases[1] + steps, along="l.CS4", centre="S4")
 
     plans = ("v.B", "omega.2", "v.S2", "a.B", "eps.2", "a.S2", "v.D", "omega.4", "v.S4", "a.D", "eps.4", "a.S4")
     return driven(

@@ -174,7 +174,9 @@ class RRR(Part):
         """The group as the mechanism core knows it."""
         first, middle, last = self.joints
         lengths = self.lengths[0].si, self.lengths[1].si
-        return Dyad("RRR", _pair(self.links), first, middle, last, lengths, 1 if self.side == "left" else -1)
+        return Dyad(
+            "RRR", _pair(self.links), first, middle, last, lengths=lengths, sign=1 if self.side == "left" else -1
+        )
 
 
 class RRP(Part):
@@ -191,7 +193,7 @@ class RRP(Part):
     def dyad(self) -> Dyad:
         """The group as the mechanism core knows it."""
         (start, middle), sign = self.joints, 1 if self.end == "far" else -1
-        return Dyad("RRP", _pair(self.links), start, middle, self.guide.line, (self.length.si, 0.0), sign)
+        return Dyad("RRP", _pair(self.links), start, middle, self.guide.line, lengths=(self.length.si, 0.0), sign=sign)
 
 
 class RPR(Part):
@@ -213,7 +215,7 @@ class RPR(Part):
     def dyad(self) -> Dyad:
         """The group as the mechanism core knows it."""
         (start, middle, end), sign = self.joints, 1 if self.axis == "towards" else -1
-        return Dyad("RPR", _pair(self.links), start, middle, end, (0.0, self.offset.si), sign)
+        return Dyad("RPR", _pair(self.links), start, middle, end, lengths=(0.0, self.offset.si), sign=sign)
 
 
 class PRP(Part):

@@ -221,6 +221,15 @@ def _load(load: file.Loading, name: str) -> LoadRow:
     if isinstance(load, file.Constant):
         size = load.F or load.M
         assert size is not None
-        return LoadRow(name, load.link, load.by, torque, load.at or "", way, number(size), load.against is not None)
+        return LoadRow(
+            name,
+            link=load.link,
+            by=load.by,
+            torque=torque,
+            point=load.at or "",
+            direction=way,
+            size=number(size),
+            against=load.against is not None,
+        )
     nodes = tuple(node.value for node in (load.angle if isinstance(load, file.OverAngle) else load.way))
     return LoadRow(name, load.link, load.by, torque, load.at or "", way, nodes=nodes, rows=(load.values,))

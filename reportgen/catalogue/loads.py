@@ -353,7 +353,17 @@ def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top
     phase = (-(first + FULL_TURN * (top - 1)) + ROUND) % whole - ROUND
     crank_pin = dyad.start if isinstance(dyad.start, str) else dyad.middle
     other = dyad.links[0] if dyad.links[1] == link else dyad.links[1]
-    return Course(link, other, dyad.middle, crank_pin, complex(ends[high]), complex(ends[1 - high]), 0.0, way, phase)
+    return Course(
+        link=link,
+        rod=other,
+        pin=dyad.middle,
+        crank_pin=crank_pin,
+        top=complex(ends[high]),
+        bottom=complex(ends[1 - high]),
+        top_angle=0.0,
+        bottom_angle=way,
+        phase=phase,
+    )
 
 
 # --- what is loaded ---------------------------------------------------------------------------------

@@ -61,7 +61,17 @@ def machine(assignment: Assignment) -> Machine:
         gravity=-1j * given.g.si,
     )
     phase = (start + ROUND) % FULL_TURN - ROUND
-    course = Course(3, 2, "B", "A", radius * along, -radius * along, 0.0, math.pi, phase)
+    course = Course(
+        link=3,
+        rod=2,
+        pin="B",
+        crank_pin="A",
+        top=radius * along,
+        bottom=-radius * along,
+        top_angle=0.0,
+        bottom_angle=math.pi,
+        phase=phase,
+    )
     force = given.force
 
     def formulas(q: Sheet) -> None:

@@ -57,8 +57,8 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
         ground={"O": 0j, "D": pivot},
         driver=Crank("O", "A", q.si("l.OA")),
         dyads=(
-            Dyad("RRR", (2, 3), "A", "B", "D", (q.si("l.AB"), link), 1 if given.B == "left" else -1),
-            Dyad("RRP", (4, 5), "B", "C", Guide(pivot, math.pi / 2), (link, 0.0), -1),
+            Dyad("RRR", (2, 3), "A", "B", "D", lengths=(q.si("l.AB"), link), sign=1 if given.B == "left" else -1),
+            Dyad("RRP", (4, 5), "B", "C", Guide(pivot, math.pi / 2), lengths=(link, 0.0), sign=-1),
         ),
         points=q.centre_points({link: start for link, (start, _) in BARS.items()}),
         inertias=q.inertias({2: "S2", 3: "S3", 4: "S4", 5: "C"}),

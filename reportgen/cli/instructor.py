@@ -91,7 +91,18 @@ def batch(
     products = listed(make, MAKERS, "--make", "no_product", lang)
     with ending(lang):
         ask = None if policy is None else read_policy(policy, lang).ask
-        order = Order(roster, spec, assignments, out, products, engine, lang, jobs or 0, cluster, ask)
+        order = Order(
+            roster=roster,
+            spec=spec,
+            assignments=assignments,
+            out=out,
+            products=products,
+            engine=engine,
+            language=lang,
+            jobs=jobs or 0,
+            cluster=cluster,
+            ask=ask,
+        )
         try:
             result = run_batch(order, sys.stderr)
         except KeyboardInterrupt:

@@ -89,7 +89,15 @@ def sheet(
         if path is not None and not path.is_file():
             raise typer.BadParameter(say("no_block", lang, name=block, known=", ".join(known)), param_hint="--block")
         with reported(), scratch(out):
-            made = api.sheet_files(file, "typst", lang, size or "", () if sets == "all" else (sets,), formats, path)
+            made = api.sheet_files(
+                file,
+                engine="typst",
+                language=lang,
+                size=size or "",
+                sets=() if sets == "all" else (sets,),
+                formats=formats,
+                block=path,
+            )
             print(*put_sheets(out / assignment.id, made), sep="\n", flush=True)
 
     for_each(files, lang, work)

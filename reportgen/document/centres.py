@@ -6,16 +6,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.document.figures import A3_ACROSS, A3_UPRIGHT, Drawn, drawing_scale, figure, fits, looks, on_paper
+from reportgen.document.figures import A3_ACROSS, A3_UPRIGHT, Drawn, drawing_scale, fits, looks, on_paper
 from reportgen.document.groups import PlaneLink
-from reportgen.document.report import Report, function
+from reportgen.document.report import Report
 from reportgen.figures.positions import Centre, PlaneMotion, centre_plan
 from reportgen.figures.scene import Scene
 from reportgen.ledger.kinematics.centres import NEAREST, PREFIX, centre_symbol
 from reportgen.notation.expressions import Symbol
 
 
-@function
 def centre_state(report: Report, link: PlaneLink, k: int) -> str:
     """How a link's centre lies: "found", "shift" (it does not turn), "rest" (at its base), "near" its base, "far"."""
     ledger = report.ledger
@@ -34,7 +33,6 @@ def _place(report: Report, link: PlaneLink, k: int) -> complex:
     return complex(report.ledger[f"{PREFIX}{link.link}"].at(k)) * drawing_scale(report)
 
 
-@figure("centres")
 def centres(report: Report, k: int) -> Drawn:
     """The mechanism at a position, true to μ_l: normals that meet in the centres, velocities and their angles.
 
@@ -46,7 +44,7 @@ def centres(report: Report, k: int) -> Drawn:
     def scene(links: Sequence[PlaneLink], first: bool) -> Scene:
         marks = [Centre(centre_symbol(one.link), _place(report, one, k), (one.base, one.point)) for one in links]
         own = angles if first else ()
-        return centre_plan(linkage, motion, k - 1, scale, marks, looks(report, scale), own)
+        return centre_plan(linkage, motion, k - 1, scale, centres=marks, looks=looks(report, scale), moving=own)
 
     sheets: list[list[PlaneLink]] = [[]]
     for link in (link for link in report.plane_links if centre_state(report, link, k) == "found"):

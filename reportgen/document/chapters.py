@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.catalogue.loads import Applied
-from reportgen.document.report import Report, member
+from reportgen.document.report import Report
 from reportgen.document.tree import Block, Paragraph, Text
 from reportgen.notation.expressions import Number, walk
 
@@ -12,136 +12,114 @@ UNIFORM = Number(12.0)
 """What m l² of a uniform rod is divided by."""
 
 
-@member
 def variant_words(report: Report) -> str:
     """The variant in a sentence, with words for one that is not numbered."""
     numbered, assigned = report.words["variant_words"]
     return str(numbered).format(variant=report.variant) if report.variant else str(assigned)
 
 
-@member
 def attached(report: Report) -> str:
     """A further sentence on the drawing sheets that are handed in with the report, if there are any."""
     size = report.assignment.report.sheets
     return f" {report.words['attached']}".format(size=size) if size else ""
 
 
-@member
 def signature(report: Report) -> tuple[Block, ...]:
     """Place, date and name under the foreword; without a name the label stands over a line to sign."""
     student = f"{report.words['cover']['student']}: {report.assignment.report.student.name or '…' * 20}"
     return tuple(Paragraph((Text(line),), "right") for line in (report.place_and_date, student))
 
 
-@member
 def started(report: Report) -> str:
     """The key of the words for where position 1 is: the kind's own place, or a given angle of the crank."""
     return "natural" if report.assignment.positions.start is None else "given"
 
 
-@member
 def begins_at(report: Report) -> str:
     """Where the first position is: at the "dead_centre" of the first slider, or wherever it is "given"."""
     return "dead_centre" if report.machine.sliders and report.machine.sliders[0].phase == 0 else "given"
 
 
-@member
 def has_chosen_scale(report: Report) -> bool:
     """Whether the length scale is chosen, rather than a drawn length."""
     return "scale" in report.ledger
 
 
-@member
 def tabled_forces(report: Report) -> tuple[Applied, ...]:
     """The working forces that are given by a table."""
     return () if "P.given" in report.ledger else report.machine.applied
 
 
-@member
 def diagram_words(report: Report) -> str:
     """The key of the words for the indicator diagram, which may be given by measured heights."""
     return "ordinates" if isinstance(report.assignment.indicator, ByOrdinates) else "indicator"
 
 
-@member
 def gas_forces(report: Report) -> list[str]:
     """The forces of the gas on the pistons."""
     return report.known(piston.name for piston in report.pistons)
 
 
-@member
 def without_mass(report: Report) -> list[str]:
     """The links whose mass is not given."""
     links = sorted({1, *(link for group in report.groups for link in (group.i, group.j))})
     return [str(link) for link in links if f"m.{link}" not in report.mass_lines]
 
 
-@member
 def uniform_rods(report: Report) -> list[str]:
     """The links whose moment of inertia is that of a uniform rod, J = m l²/12, for want of a given one."""
     moments = {link: report.ledger[id].definition for link in report.bodies if (id := f"J.{link}") in report.ledger}
     return [link for link, formula in moments.items() if formula is not None and UNIFORM in walk(formula)]
 
 
-@member
 def driver_joints(report: Report) -> list[str]:
     """The digits of what is read from the driver's force plan: a reaction, of a sliding one its balance too."""
     return ["01", "cb"] if report.machine.span else ["01"]
 
 
-@member
 def driver_reactions(report: Report) -> list[str]:
     return [f"R.{digits}" for digits in driver_joints(report)]
 
 
-@member
 def mean_lines(report: Report) -> list[str]:
     """The balance over the cycle: its mean, its ends, the power."""
     return ["M.mean", "M.least", "M.greatest", "power"]
 
 
-@member
 def work_lines(report: Report) -> list[str]:
     """The work of the loads over the cycle, and the mean that gives it back."""
     return ["W", "M.energy"]
 
 
-@member
 def crank_lines(report: Report) -> list[str]:
     return [*report.crank_arms, "M.eq"]
 
 
-@member
 def shares_pins(report: Report) -> bool:
     """Whether several groups hang on one pin of the crank."""
     return len(report.joined) > len(report.crank_pins)
 
 
-@member
 def lever_couples(report: Report) -> list[str]:
     """What torques, which have no arm, contribute to the balance by virtual work."""
     return report.known(f"M.{torque.name}.p" for torque in report.machine.torques)
 
 
-@member
 def inertia_parts(report: Report) -> list[str]:
     """The shares of the links in the reduced moment of inertia, and their sum."""
     return report.known([*(f"J.r.{link}" for link in report.machine.linkage.links), "J.r"])
 
 
-@member
 def energy_bounds(report: Report) -> list[str]:
     """Where the tangents of Wittenbauer's diagram meet its axis."""
     return ["A.upper", "A.lower"]
 
 
-@member
 def stores(report: Report) -> str:
     """What stores the excess work: the "links" with the flywheel, or the flywheel "alone"."""
     return "links" if report.has_reduced_inertia else "alone"
 
 
-@member
 def speed_limits(report: Report) -> list[str]:
     uneven = ["unevenness"] if "unevenness" in report.computed else []
     return [*uneven, "omega.max", "omega.min"]

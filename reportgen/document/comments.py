@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.document.phrases import say
-from reportgen.document.report import Report, function, member
+from reportgen.document.report import Report
 from reportgen.document.tree import InlineMath, Inlines, Text, Value, listed
 from reportgen.mechanism.structure import DRIVER, GROUND
 
@@ -49,7 +49,6 @@ class Peak:
         return "" if self.level else f" {self.where}"
 
 
-@member
 def worked_at(report: Report) -> str:
     """Where a report works all out in full."""
     return where(report, report.assignment.worked_positions)
@@ -93,22 +92,21 @@ def peak(report: Report, id: str, positions: Sequence[int]) -> Peak | None:
     zeros = [positions[index] for index in nothing]
     around = [(values[index - 1], values[(index + 1) % len(values)]) for index in nothing]
     return Peak(
-        (id,),
-        (InlineMath(report.ledger.symbol(id)),),
-        Value(report.ledger.number(id, greatest[0], size=True)),
-        labels(report, greatest),
-        len(greatest),
-        labels(report, zeros),
-        len(zeros),
-        len(greatest) == len(positions),
-        all(before * after < 0 for before, after in around),
-        tuple(greatest),
-        where(report, greatest),
-        where(report, zeros),
+        ids=(id,),
+        symbols=(InlineMath(report.ledger.symbol(id)),),
+        value=Value(report.ledger.number(id, greatest[0], size=True)),
+        at=labels(report, greatest),
+        many=len(greatest),
+        zero=labels(report, zeros),
+        zeros=len(zeros),
+        level=len(greatest) == len(positions),
+        turns=all(before * after < 0 for before, after in around),
+        places=tuple(greatest),
+        where=where(report, greatest),
+        zero_where=where(report, zeros),
     )
 
 
-@function
 def peaks(report: Report, ids: Iterable[str], cycle: bool = False) -> list[Peak]:
     """How quantities go over one turn, or over the cycle, those that go alike together; nothing is left out."""
     positions = report.all_positions if cycle else report.positions
@@ -151,13 +149,11 @@ def sliders(report: Report) -> tuple[Slider, ...]:
     return tuple(Slider(link, pin) for link, pin in both if (GROUND, link) in slides)
 
 
-@function
 def slider_rates(report: Report, what: str) -> list[str]:
     """The ids of the velocities ("v") or accelerations ("a") of what slides along fixed guides."""
     return report.known(f"{what}.{slider.pin}" for slider in sliders(report))
 
 
-@function
 def turning_rates(report: Report, what: str) -> list[str]:
     """The ids of the angular velocities ("omega") or accelerations ("eps") of links, each motion once.
 
@@ -191,26 +187,22 @@ def at_rest(report: Report, rate: Peak) -> bool:
 # --- loads and forces
 
 
-@function
 def load_ids(report: Report) -> list[str]:
     """The forces and torques applied to the machine, the gas on its pistons among them."""
     return report.known(load.name for load in report.loads)
 
 
-@function
 def inertia_forces(report: Report) -> list[str]:
     """The inertia forces of all links."""
     return report.known(f"Pqt{link}" for link in report.bodies)
 
 
-@function
 def reaction_ids(report: Report) -> list[str]:
     """The reactions in all joints, each pair once."""
     names = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
     return report.known(f"R.{name}" for name in (*names, "01"))
 
 
-@function
 def greatest(report: Report, ids: Iterable[str]) -> list[Peak]:
     """Which of the quantities take the greatest value of all over the cycle, and where."""
     every = peaks(report, ids, True)
@@ -218,7 +210,6 @@ def greatest(report: Report, ids: Iterable[str]) -> list[Peak]:
     return [one for one in every if one.value.number.shown == top]
 
 
-@function
 def cause(report: Report, top: Peak) -> Inlines:
     """The largest force on the links where a reaction is greatest, as far as there is one."""
     chief = chief_load(report, top)
@@ -258,7 +249,6 @@ def balance_course(report: Report) -> Course:
     return Course(along, against, none, "taken" if mean > 0 else "given" if mean < 0 else "even")
 
 
-@function
 def balance_senses(report: Report) -> list[Inlines]:
     """What the balancing torque does to the motion, and at which positions."""
     course, words = balance_course(report), report.words["remarks"]["balance"]
@@ -266,7 +256,6 @@ def balance_senses(report: Report) -> list[Inlines]:
     return [say(report, words[way], where=where(report, there)) for way, there in found.items() if there]
 
 
-@function
 def balance_mean(report: Report) -> Inlines:
     """What the mean of the balancing torque says of the energy that the machine takes in or gives out."""
     words = report.words["remarks"]["mean"]
@@ -283,7 +272,6 @@ class Range:
     high: str
 
 
-@function
 def work_range(report: Report) -> Range:
     """Between which values the excess work of the flywheel's calculation goes."""
     positions, values = report.all_positions, shown(report, "A.excess", report.all_positions)
@@ -339,7 +327,6 @@ SUBJECTS = {
 }
 
 
-@function
 def remarks(report: Report, *subjects: str) -> list[Remark]:
     """How the quantities of some subjects go, those that go alike together; nothing is left out."""
     return [_remark(report, name, one) for name in subjects for one in _peaks_of(report, SUBJECTS[name])]
@@ -357,14 +344,12 @@ def _remark(report: Report, name: str, one: Peak) -> Remark:
     return Remark(one.symbols, say(report, phrases[course], one), why)
 
 
-@function
 def main_peaks(report: Report) -> list[Peak]:
     """The greatest velocities and accelerations: of sliders, else of links that turn."""
     pairs = ((SUBJECTS["v"], SUBJECTS["omega"]), (SUBJECTS["a"], SUBJECTS["eps"]))
     return [one for first, other in pairs for one in _peaks_of(report, first) or _peaks_of(report, other)]
 
 
-@function
 def top_reactions(report: Report) -> list[Peak]:
     """Which joint reactions take the greatest value of all over the cycle, and where."""
     return greatest(report, reaction_ids(report))

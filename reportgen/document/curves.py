@@ -13,7 +13,7 @@ import numpy as np
 from reportgen.analysis import FULL_TURN
 from reportgen.document.comments import sliders
 from reportgen.document.equations import heading_words
-from reportgen.document.figures import MM, Drawn, figure
+from reportgen.document.figures import MM, Drawn
 from reportgen.document.report import SAME, Report, lower_digits
 from reportgen.figures import charts
 from reportgen.figures.scene import Content, Scene
@@ -54,7 +54,6 @@ Shown = tuple[Symbol, np.ndarray]
 """A curve: its symbol and its values in the unit of its axis."""
 
 
-@figure("motion")
 def motion(report: Report) -> Drawn:
     """Displacement, velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
     shown = curves_of_motion(report)
@@ -143,7 +142,6 @@ def over_the_cycle(report: Report, curves: Sequence[Shown], title: Chain, half: 
 # --- torque and forces over the cycle
 
 
-@figure("torque", "fig.M")
 def torque(report: Report) -> Drawn:
     """What balances the driver: a torque over the angle of a crank, a force over the way of a slider."""
     return Drawn((torque_chart(report).scene,))
@@ -161,7 +159,6 @@ def torque_chart(report: Report, half: bool = False) -> charts.Plotted:
     return charts.plotted((curve,), across, title, levels=levels, turn=not slides, half=half, area=report.area)
 
 
-@figure("polar")
 def polar(report: Report) -> Drawn:
     """The load of each crank pin in axes that turn with the crank, its radius upwards.
 
@@ -217,7 +214,6 @@ def _over_cycle(
     return charts.chart((curve,), _driver_axis(report), title, levels=levels, half=half, area=report.area)
 
 
-@figure("flywheel-torque", "fig.Mr")
 def flywheel_torque(report: Report) -> Drawn:
     """M_r and the torque that balances its mean."""
     wheel = _wheel(report)
@@ -225,7 +221,6 @@ def flywheel_torque(report: Report) -> Drawn:
     return Drawn((_over_cycle(report, wheel.torque, _axis_of(report, "M.r"), (level,)),))
 
 
-@figure("flywheel-work", "fig.Jr")
 def flywheel_work(report: Report) -> Drawn:
     """J_r, if moving links have mass, and A over the cycle."""
     wheel = _wheel(report)
@@ -235,7 +230,6 @@ def flywheel_work(report: Report) -> Drawn:
     return Drawn(tuple(_over_cycle(report, values, _axis_of(report, id), half=half) for values, id in drawings))
 
 
-@figure("wittenbauer")
 def wittenbauer(report: Report) -> Drawn:
     """A over J_r with the two lines whose slopes are half the squares of the bounds of speed."""
     wheel = _wheel(report)
@@ -251,7 +245,6 @@ def wittenbauer(report: Report) -> Drawn:
     return Drawn((charts.chart((curve, *lines), across, up, turn=False, area=report.area),))
 
 
-@figure("flywheel-speed", "fig.speed")
 def flywheel_speed(report: Report) -> Drawn:
     """How far the speed is from its mean, in percent, with the flywheel."""
     wheel = _wheel(report)

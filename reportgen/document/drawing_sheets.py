@@ -7,7 +7,7 @@ from pathlib import Path
 
 from reportgen.case import Calculation
 from reportgen.document.drawn_plates import Plates
-from reportgen.document.outline import open_report
+from reportgen.document.report import Report
 from reportgen.document.sheet_search import Search
 from reportgen.document.title_block import DEFAULT, TitleBlock, blocks, fields_of, read_block
 from reportgen.errors import SheetError
@@ -26,7 +26,7 @@ def drawing_sheets(
     `sets` are some of `SETS`, all if none is named; the title `block` is a file, else that of the language.  Raises
     `SheetError` where there is nothing to draw or a plate is too large, `AssignmentError` for a faulty block.
     """
-    report, language = open_report(case), case.assignment.language
+    report, language = Report(case), case.assignment.language
     plates = Plates.of(report)
     chosen = plates.of_sets(sets)
     if not chosen:

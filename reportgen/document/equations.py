@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from reportgen.document.groups import Contact, GroupView
-from reportgen.document.report import FUNCTIONS, Report, function, lower_digits
+from reportgen.document.report import Report, lower_digits
 from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.ledger.forces.polygon import Edge, Polygon
 from reportgen.ledger.kinematics.sides import Side
@@ -33,13 +33,11 @@ from reportgen.notation.expressions import (
 # --- numbers and symbols
 
 
-@function
 def symbol(report: Report, id: str) -> Symbol:
     """The symbol of a quantity."""
     return report.ledger.symbol(id)
 
 
-@function
 def math(report: Report, text: str) -> Symbol:
     """What a template writes as `$…$`: a quantity's symbol by its id, else letters with what is lowered."""
     if text in report.ledger:
@@ -49,94 +47,75 @@ def math(report: Report, text: str) -> Symbol:
     return report.named(Symbol(base[0], text[base.end() :].removeprefix("_")))
 
 
-@function
 def value(report: Report, id: str, position: int | None = None, size: bool = False) -> Value:
     """A quantity's number with its unit; `size` leaves its sign away."""
     return Value(report.ledger.number(id, position, size=size))
 
 
-@function
 def quantity(report: Report, id: str, position: int | None = None) -> Inlines:
     """A quantity as "symbol = number" in running text."""
     return InlineMath(symbol(report, id)), Text(" = "), value(report, id, position)
 
 
-@function
 def known(report: Report, id: str) -> bool:
     """Whether the report has a quantity."""
     return id in report.ledger
 
 
-FUNCTIONS["zero"] = Report.is_zero
-FUNCTIONS["first_turn"] = Report.first_turn
-
-
-@function
 def point(report: Report, name: str) -> Symbol:
     """The symbol of a point, e.g. S with a lowered 2."""
     return vocabulary.point(name)
 
 
-@function
 def points(report: Report, names: Iterable[object]) -> Inlines:
     """Symbols of points, side by side with commas."""
     return listed(InlineMath(vocabulary.point(str(name))) for name in names)
 
 
-@function
 def image(report: Report, name: str, prime: bool = False) -> Symbol:
     """The image of a point on a plan."""
     return vocabulary.on_plan(name, prime)
 
 
-@function
 def letters(report: Report, base: str, sub: str | int = "", sup: str = "") -> Symbol:
     """Any symbol."""
     return Symbol(base, str(sub), sup)
 
 
-@function
 def vector(report: Report, base: str, sub: str | int = "", sup: str = "") -> Symbol:
     """Any symbol under an arrow."""
     return report.named(Symbol(base, str(sub), sup, "vector"))
 
 
-@function
 def v(report: Report, of: str | Side) -> Symbol:
     """The velocity of a point as a vector; of a side, the relative one."""
     return Symbol("v", of if isinstance(of, str) else of.pair, over="vector")
 
 
-@function
 def a(report: Report, of: str | Side, part: str = "") -> Symbol:
     """The acceleration of a point, or a part of it, as a vector; of a side, the relative one."""
     return report.named(Symbol("a", of if isinstance(of, str) else of.pair, part, "vector"))
 
 
-@function
 def R(report: Report, digits: str, part: str = "") -> Symbol:
     """The reaction in a joint, or a part of it, as a vector."""
     return Symbol("R", digits, part, "vector")
 
 
-@function
 def lowered(report: Report, text: str) -> str:
     """Digits of point names as lowered digits: O1A → O₁A."""
     return lower_digits(text)
 
 
-@function
 def group_kind(report: Report, group: GroupView) -> str:
     return str(report.words["groups"][group.kind])
 
 
-@function
 def stroke_name(report: Report, link: int, position: int) -> str:
     """The stroke that a piston is on."""
     return str(report.words["strokes"][int(report.analysis.gas[f"P{link}"].stroke[position - 1])])
 
 
-@function
 def force_list(report: Report, group: GroupView, position: int) -> Inlines:
     """The known edges of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, …"""
     assert group.polygon is not None
@@ -152,14 +131,12 @@ def force_list(report: Report, group: GroupView, position: int) -> Inlines:
 # --- the sense of forces
 
 
-@function
 def assumed(report: Report, group: GroupView, position: int) -> Inlines:
     """The reactions of a group that are drawn on its links in an assumed sense."""
     ids = (id for id in group.assumed if not report.is_zero(id, position))
     return listed(InlineMath(vocabulary.vector(report.ledger.symbol(id))) for id in ids)
 
 
-@function
 def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
     """Where the reactions of some joints point, in words and by their angles; those that are nothing left out."""
     shown: list[Inline] = []
@@ -171,7 +148,6 @@ def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
     return tuple(shown)
 
 
-@function
 def slider_ways(report: Report) -> Inlines:
     """In which direction the velocity and the acceleration of each slider are positive, with its angle from +x."""
     shown: list[Inline] = []
@@ -189,7 +165,6 @@ def heading_words(report: Report, degrees: float) -> str:
     return str(report.words["headings"][int(2 * quadrant) + (within > 0)])
 
 
-@function
 def opposites(report: Report, polygon: Polygon, position: int) -> Equation:
     """The reactions on a plan's links that other groups have left there: R42 = −R24 as vectors, then their size."""
     rows: list[Expression] = []
@@ -201,7 +176,6 @@ def opposites(report: Report, polygon: Polygon, position: int) -> Equation:
     return Equation(tuple(rows))
 
 
-@function
 def through_pin(report: Report, contact: Contact, position: int) -> Equation:
     """ΣM about the pin of a slide that nothing tends to turn: R x = 0, hence x = 0."""
     reaction, place = report.ledger.symbol(f"R.{contact.digits}"), report.ledger.symbol(contact.place)
@@ -212,13 +186,11 @@ def through_pin(report: Report, contact: Contact, position: int) -> Equation:
 # --- lines
 
 
-@function
 def line(report: Report, id: str, position: int | None = None, note: str = "", key: str = "") -> Equation:
     """One worked line: symbol = formula = numbers = result."""
     return lines(report, [id], position, note, key)
 
 
-@function
 def lines(report: Report, ids: Sequence[str], position: int | None = None, note: str = "", key: str = "") -> Equation:
     """Several worked lines, aligned."""
     return Equation(tuple(_worked(report, id, position, note) for id in ids), key)
@@ -235,7 +207,6 @@ def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
     return chain
 
 
-@function
 def equations(report: Report, name: str, position: int | None = None) -> Equation:
     """Equations of the machine's own, with the numbers at a position if they name quantities."""
 
@@ -249,7 +220,6 @@ def equations(report: Report, name: str, position: int | None = None) -> Equatio
     return Equation(tuple(in_words(substitute(row, number_of)) for row in report.machine.equations[name]))
 
 
-@function
 def mobility_line(report: Report) -> Equation:
     """W = 3n − (2t + c) + r − s with the numbers put in."""
     counted = mobility(report.machine.linkage)
@@ -266,7 +236,6 @@ def mobility_line(report: Report) -> Equation:
 # --- vector equations of motion
 
 
-@function
 def velocity_equation(report: Report, group: GroupView, position: int) -> Equation:
     """v_M = v_P + v_MP = v_T + v_MT with what is known of each vector; a fixed base leaves v_M's direction."""
     still = next((side for side in group.sides if side.still), None)
@@ -277,7 +246,6 @@ def velocity_equation(report: Report, group: GroupView, position: int) -> Equati
     return _equation(report, sides, "rows", f"eq.v.{group}.{position}")
 
 
-@function
 def acceleration_equation(report: Report, group: GroupView, position: int) -> Equation:
     """a_M = a_P + aⁿ_MP + aᵗ_MP = a_G + aᵏ_MG + aʳ_MG with what is known of each vector."""
     fixed = next((side for side in group.sides if not side.sought), None)
@@ -293,13 +261,19 @@ def _equation(report: Report, sides: Sequence[tuple[Term, ...]], rows: str, key:
     return Equation((VectorEquation(tuple(sides), tuple(report.words["vector"][rows])),), key)
 
 
-def _term(report: Report, base: str, sub: str, sup: str, *known: Expression | str | None) -> Term:
-    return Term(report.named(Symbol(base, sub, sup, "vector")), known)
+Known = Expression | str | None
+"""What is printed below a vector; None is the mark of an unknown."""
+
+
+def _term(
+    report: Report, base: str, sub: str, sup: str, *, direction: Known = None, sense: Known = None, size: Known = None
+) -> Term:
+    return Term(report.named(Symbol(base, sub, sup, "vector")), (direction, sense, size))
 
 
 def _unknown(report: Report, base: str, sub: str, sup: str, side: Side | None) -> Term:
     """A vector of which only the direction is known, that of what is sought on a side."""
-    return _term(report, base, sub, sup, None if side is None else _direction(report, side), None, None)
+    return _term(report, base, sub, sup, direction=None if side is None else _direction(report, side))
 
 
 def _direction(report: Report, side: Side) -> str:
@@ -316,13 +290,15 @@ def _relative(report: Report, side: Side) -> tuple[Term, ...]:
     if side.turns:
         size = ledger.symbol(side.velocity) ** 2 / ledger.symbol(f"l.{side.rod}")
         way = f"{lower_digits(side.point)} → {lower_digits(side.base)}"
-        return _term(report, "a", side.pair, "n", f"∥ {lower_digits(side.rod)}", way, size), sought
+        direction = f"∥ {lower_digits(side.rod)}"
+        return _term(report, "a", side.pair, "n", direction=direction, sense=way, size=size), sought
     if not side.turning:
         return (sought,)
     twice = 2 * ledger.symbol(side.omega) * ledger.symbol(side.velocity)
     across = words["across_slot" if side.carrier is None else "across_guide"]
     turned = words["turned"].format(link=lower_digits(str(side.turning)))
-    return _term(report, "a", side.pair, "k", across, Chain((ledger.symbol(side.velocity),), turned), twice), sought
+    sense = Chain((ledger.symbol(side.velocity),), turned)
+    return _term(report, "a", side.pair, "k", direction=across, sense=sense, size=twice), sought
 
 
 def _base(report: Report, side: Side, what: str) -> Term:
@@ -330,13 +306,15 @@ def _base(report: Report, side: Side, what: str) -> Term:
     words, ledger = report.words["vector"], report.ledger
     arm = f"{report.driver.centre}{side.base}"
     if not report.driver.centre or f"l.{arm}" not in ledger or not _on_crank(report, side.base):
-        return _term(report, what, side.shown, "", words["given"], words["given"], words["given"])
+        given = words["given"]
+        return _term(report, what, side.shown, "", direction=given, sense=given, size=given)
     length, omega = ledger.symbol(f"l.{arm}"), ledger.symbol("omega.1")
     if what == "v":
-        return _term(report, "v", side.shown, "", f"⊥ {lower_digits(arm)}", words["with_crank"], omega * length)
+        direction, sense = f"⊥ {lower_digits(arm)}", words["with_crank"]
+        return _term(report, "v", side.shown, "", direction=direction, sense=sense, size=omega * length)
     size = omega**2 * length
     way = lower_digits(f"{side.base} → {report.driver.centre}")
-    return _term(report, "a", side.shown, "", f"∥ {lower_digits(arm)}", way, size)
+    return _term(report, "a", side.shown, "", direction=f"∥ {lower_digits(arm)}", sense=way, size=size)
 
 
 def _on_crank(report: Report, name: str) -> bool:
@@ -348,7 +326,6 @@ def _on_crank(report: Report, name: str) -> bool:
 # --- equations of equilibrium
 
 
-@function
 def force_equation(report: Report, group: GroupView, position: int) -> Equation:
     """The equilibrium of a group's two links; only the two reactions that close the plan are unknown."""
     assert group.polygon is not None
@@ -356,7 +333,6 @@ def force_equation(report: Report, group: GroupView, position: int) -> Equation:
     return _balance(report, terms, f"eq.R.{group}.{position}")
 
 
-@function
 def link_equation(report: Report, group: GroupView, link: int, position: int | None = None) -> Equation:
     """The equilibrium of one link of a group with a slide between its links, R_ij or R_ji included.
 
@@ -374,7 +350,6 @@ def link_equation(report: Report, group: GroupView, link: int, position: int | N
     return _balance(report, terms, "" if position is None else f"eq.R.{group}.{position}")
 
 
-@function
 def driver_equation(report: Report) -> Equation:
     """The equilibrium of forces on the driver; of a sliding one the directions by its guide are known."""
     assert report.driver_polygon is not None

@@ -1,26 +1,23 @@
 """Figures: their names, paper, scale and looks; then those of the mechanism.
 
-A figure is a function of a report and of what it shows.  Registered under a name it is called as
-`figure(name, …)`, with the caption that `words.yaml` has for it under `captions`.  Those of the mechanism are
-its scheme, groups and positions, the gas beside the cylinder, Coriolis acceleration.
+A figure is a function of a report and of what it shows; its name in templates stands in the namespace.  Those
+of the mechanism are its scheme, groups and positions, the gas beside the cylinder, Coriolis acceleration.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
 from reportgen.analysis import FULL_TURN, motion_at
 from reportgen.catalogue.loads import Piston
-from reportgen.catalogue.machine import Machine, Position
+from reportgen.catalogue.machine import Machine
 from reportgen.cycle import StrokeIndicator
 from reportgen.document.groups import GroupView
-from reportgen.document.report import DENSE, FUNCTIONS, SAME, Report, member
-from reportgen.document.tree import Figure, InlineMath, Plate, Text
+from reportgen.document.report import DENSE, SAME, Report
 from reportgen.figures import indicator as indicator_figure
 from reportgen.figures import scheme as scheme_figure
 from reportgen.figures.draft import Draft, sheets
@@ -62,49 +59,6 @@ class Drawn:
     paper: tuple[float, float] | None = None
     note: Chain | None = None
     """A scale to print behind the caption."""
-
-
-FIGURES: dict[str, tuple[str, Callable[..., Drawn]]] = {}
-
-
-def figure(name: str, key: str = "") -> Callable[[Callable[..., Drawn]], Callable[..., Drawn]]:
-    """Register a figure under the name by which templates call it; `key` is what its references begin with."""
-
-    def register(draw: Callable[..., Drawn]) -> Callable[..., Drawn]:
-        FIGURES[name] = key or f"fig.{name}", draw
-        return draw
-
-    return register
-
-
-def insert_figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple[Figure | Plate, ...]:
-    """A registered figure: `figure(name, …)`, or `figure(name, key, caption, …)` with words of its own;
-    `words` names other ones of `words.yaml`.
-
-    A figure on plates is a block for each of them; the first has key and caption.  Raises `KeyError` for a
-    name that nobody draws.
-    """
-    key, draw = FIGURES[name]
-    if arguments and isinstance(arguments[0], str):
-        key, caption, *shown = arguments
-    else:
-        shown = list(arguments)
-        group = next((one for one in shown if isinstance(one, GroupView)), None)
-        position = next((one for one in shown if isinstance(one, Position)), None)
-        key = ".".join(str(part) for part in (key, group, position) if part is not None)
-        caption = report.words["captions"][words or name].format(k=position, g=group)
-    drawn = draw(report, *shown)
-    inlines = report.prose.inlines(caption)
-    if drawn.note is not None:
-        inlines = (*inlines, Text("; "), InlineMath(drawn.note))
-    if drawn.paper is None:
-        return (Figure(drawn.scenes, inlines, key),)
-    first, *others = drawn.scenes
-    further = (Plate(scene, drawn.paper, continues=True) for scene in others)
-    return Plate(first, drawn.paper, inlines, key), *further
-
-
-FUNCTIONS["figure"] = insert_figure
 
 
 def in_text(*scenes: Scene) -> bool:
@@ -162,7 +116,6 @@ def short(number: Number) -> Number:
     return replace(number, value=float(f"{number.value:.6g}"), decimals=None)
 
 
-@figure("line-styles")
 def line_styles(report: Report) -> Drawn:
     """The legend of all lines of the report."""
     return Drawn((scheme_figure.line_styles(report.words["line_styles"]),))
@@ -171,7 +124,6 @@ def line_styles(report: Report) -> Drawn:
 # --- the machine at one position and over a turn
 
 
-@figure("scheme")
 def scheme(report: Report) -> Drawn:
     return Drawn((scheme_scene(report, _reduction(report)),))
 
@@ -182,7 +134,6 @@ def scheme_scene(report: Report, factor: float) -> Scene:
     return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, SHOWN_AT, scale, look)
 
 
-@figure("groups")
 def groups(report: Report) -> Drawn:
     """The driver and each group by itself."""
     factor = _reduction(report)
@@ -201,12 +152,10 @@ def _reduction(report: Report) -> float:
     return next(factor for factor in REDUCTIONS if 1 / factor >= needed)
 
 
-@figure("positions")
 def positions(report: Report) -> Drawn:
     return on_paper(positions_scene(report))
 
 
-@member
 def plan_in_text(report: Report) -> bool:
     """Whether the position plan stands in the text, on no page of its own."""
     return positions(report).paper is None
@@ -225,7 +174,6 @@ def positions_scene(report: Report, beside: Draft | None = None) -> Scene:
     return _position_plan(report, one_turn, shows, beside)
 
 
-@figure("extremes")
 def extremes(report: Report) -> Drawn:
     """The mechanism where its first slider turns back: I as its stroke begins, II as it ends."""
     course = report.machine.sliders[0]
@@ -258,7 +206,6 @@ def _numbered(report: Report) -> tuple[str, ...]:
 # --- the gas
 
 
-@figure("indicator")
 def indicator(report: Report) -> Drawn:
     """The diagram in line with the first piston's stroke, every piston's positions read from it."""
     machine, gases = report.machine, report.analysis.gas
@@ -324,7 +271,6 @@ def _branches(
 # --- Coriolis acceleration
 
 
-@figure("coriolis")
 def coriolis(report: Report, k: int, group: GroupView, side: Side) -> Drawn:
     """The relative velocity in a turning guide, turned by 90° in the sense of its ω."""
     ledger, points = report.ledger, report.analysis.motion.points

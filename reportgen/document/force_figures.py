@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.document.figures import HALF, MM, Drawn, beside_one_another, drawing_scale, figure, looks, on_paper
+from reportgen.document.figures import HALF, MM, Drawn, beside_one_another, drawing_scale, looks, on_paper
 from reportgen.document.groups import BodyView, GroupView
 from reportgen.document.plans import force_plan, motion_plan
 from reportgen.document.report import Report
@@ -136,7 +136,6 @@ def drawn_sense(report: Report, name: str, k: int) -> complex:
 # --- groups and the driver
 
 
-@figure("bodies")
 def bodies(report: Report, k: int, group: GroupView) -> Drawn:
     """The group with all its forces, at half size; then each link that moments are taken of, with the arms."""
     return beside_one_another(*separated(report, k, group))
@@ -179,8 +178,6 @@ def _moments(report: Report, group: GroupView, k: int) -> tuple[tuple[int, str],
     return tuple(dict.fromkeys((*solved.get(group.kind, ()), *placed)))
 
 
-@figure("crank")
-@figure("slide")
 def driver(report: Report, k: int) -> Drawn:
     """The driver with the reactions on it and what balances it, of a crank with arms about its centre; their plan."""
     polygon = report.driver_polygon
@@ -266,7 +263,6 @@ def _foot(report: Report, group: GroupView, link: int, k: int) -> Draft:
 # --- Zhukovsky's lever
 
 
-@figure("lever")
 def lever(report: Report, k: int) -> Drawn:
     """The velocity plan turned by 90° against ω1, every load at its image, arms about the pole."""
     ledger, machine, motion, index = report.ledger, report.machine, report.analysis.motion, k - 1

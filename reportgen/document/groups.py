@@ -343,7 +343,9 @@ class GroupView:
         moment, arms = f"M.{digits}", self.arms(pin, link)
         displaced = moment in self.ledger and self.ledger[moment].definition is not None
         moments = [*arms, moment] if displaced else arms
-        return Contact(digits, pin, link, moment, f"x.{digits}", moments, displaced)
+        return Contact(
+            digits=digits, pin=pin, link=link, moment=moment, place=f"x.{digits}", moments=moments, displaced=displaced
+        )
 
     @property
     def by_slot(self) -> str:

@@ -124,9 +124,7 @@ class _Samples:
     @cached_property
     def report(self) -> Report:
         """The report, whose curves have these samples."""
-        report = Report(self.case)
-        vars(report)["dense_cycle"] = self.analysis
-        return report
+        return Report(self.case, samples=self.analysis)
 
     @cached_property
     def corners(self) -> dict[str, np.ndarray]:
@@ -144,18 +142,18 @@ class _Samples:
         stages = tuple(self.stages())
         layers = {item.layer for item in stages[0].items}
         return Film(
-            np.degrees(self.knots),
-            machine.turns,
-            machine.span * MM,
-            tuple(
+            knots=np.degrees(self.knots),
+            turns=machine.turns,
+            span=machine.span * MM,
+            positions=tuple(
                 (str(machine.position(k + 1)), float(angle)) for k, angle in enumerate(np.degrees(machine.cycle_angles))
             ),
-            self.case.assignment.worked_positions[0] - 1,
-            stages,
-            tuple(self.charts()),
-            tuple(self.values()),
-            self.errors(drawing_scale(report)),
-            tuple(layer for layer in LAYERS if layer in layers),
+            shown=self.case.assignment.worked_positions[0] - 1,
+            stages=stages,
+            charts=tuple(self.charts()),
+            values=tuple(self.values()),
+            errors=self.errors(drawing_scale(report)),
+            layers=tuple(layer for layer in LAYERS if layer in layers),
         )
 
     def turn(self, values: np.ndarray) -> Track:
@@ -206,7 +204,15 @@ class _Samples:
             for name in motion.points
             if name not in linkage.ground
         )
-        return Stage("machine", report.words["page"]["machine"], tuple(items), low, high, tuple(scales), spots)
+        return Stage(
+            "machine",
+            report.words["page"]["machine"],
+            items=tuple(items),
+            low=low,
+            high=high,
+            notes=tuple(scales),
+            spots=spots,
+        )
 
     @cached_property
     def _one_turn(self) -> Motion:

@@ -6,51 +6,32 @@ from collections.abc import Iterator
 from typing import Any
 
 from reportgen.case import Calculation
-
-# Importing a module registers its figures, tables and functions.
-from reportgen.document import (  # noqa: F401
-    centres,
-    chapters,
-    curves,
-    equations,
-    figures,
-    force_figures,
-    overview,
-    phrases,
-    plans,
-    result_tables,
-    steps,
-)
+from reportgen.document.namespace import names
 from reportgen.document.numbering import number
 from reportgen.document.report import Report
 from reportgen.document.tree import Block, Contents, Cover, Document, PageBreak, Words
 
 
-def open_report(case: Calculation) -> Report:
-    """The report of a machine with all figures, tables and functions that its templates may call."""
-    return Report(case)
-
-
 def compose(case: Calculation) -> Document:
     """The finished, numbered report of a machine; raises `TemplateError` for a fault in its words."""
-    report = open_report(case)
-    words, names = report.words, report.names()
+    report = Report(case)
+    words, named = report.words, names(report)
     blocks: list[Block] = [_cover(report)]
     for section in _sections(report):
         if section == "contents":
             blocks += [PageBreak(), Contents(words["document"]["contents"])]
         else:
-            blocks += report.prose.render(section, names)
+            blocks += report.prose.render(section, named)
     assignment = case.assignment
     return number(
         Document(
-            assignment.language,
-            f"{words['cover']['title']} – {case.title}",
-            assignment.report.student.name or "",
-            (words["header"].format(course=case.course), case.variant_line),
-            ("", words["document"]["page"]),
-            Words(**words["document"]),
-            tuple(blocks),
+            language=assignment.language,
+            title=f"{words['cover']['title']} – {case.title}",
+            author=assignment.report.student.name or "",
+            header=(words["header"].format(course=case.course), case.variant_line),
+            footer=("", words["document"]["page"]),
+            words=Words(**words["document"]),
+            blocks=tuple(blocks),
         )
     )
 

@@ -7,8 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from reportgen.document.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
-from reportgen.document.report import Report, function
-from reportgen.document.tables import rows, table
+from reportgen.document.report import Report
 from reportgen.document.tree import Cell, Column, Inline, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.notation.vocabulary import on_plan
@@ -25,7 +24,6 @@ MOST_PLACES = 12
 # --- the page of results
 
 
-@table("extremes")
 def extremes(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """The greatest sizes of velocities, accelerations and reactions with their positions, in sets side by side."""
     found = list(_extremes(report))
@@ -50,7 +48,6 @@ def _row(one: Peak) -> tuple[Inlines, Inlines, Inlines]:
     return one.symbols, (one.value,), (Text(places),)
 
 
-@rows("main.figures", 74.0, 22.0, 36.0, 28.0)
 def main_figures(report: Report) -> Iterator[Sequence[object]]:
     """The scales, how far the balancing torque goes, its mean and power, the flywheel: words, symbol, value, place."""
     ledger = report.ledger
@@ -80,7 +77,6 @@ def extreme_place(report: Report, id: str) -> Inlines:
 # --- the list of symbols
 
 
-@rows("symbols", 40.0, 92.0, 28.0)
 def symbols(report: Report) -> Iterator[Sequence[object]]:
     """The kinds of quantities that this report has: some of their symbols, the meaning, the unit."""
     for name, ids in symbol_kinds(report).items():
@@ -121,7 +117,6 @@ def _fits(pattern: re.Pattern[str], id: str, kind: str) -> bool:
     return bool(pattern.fullmatch(id) or pattern.fullmatch(f"{id}:{kind}"))
 
 
-@function
 def images(report: Report) -> Inlines:
     """The images of the crank pin on the plans, for the conventions: a and a′."""
     pin = report.driver.pin

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from reportgen.catalogue.loads import Opposing
 from reportgen.document.equations import math, quantity, slider_ways, value
 from reportgen.document.prose import PointName
-from reportgen.document.report import Report, function, member
+from reportgen.document.report import Report
 from reportgen.document.tree import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Expression, Number
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from reportgen.catalogue.linkage_words import GroupRow
 
 
-@function
 def say(report: Report, phrase: str, *about: Any, **gaps: Any) -> Inlines:
     """A phrase of `words.yaml` whose gaps are filled by name, or with members of what it is about."""
     said: list[Inline] = []
@@ -69,7 +68,6 @@ def inlines(of: Any) -> Inlines:
     return of if isinstance(of, tuple) else (of,)
 
 
-@function
 def counted(report: Report, name: str, things: Sized, **gaps: Any) -> Inlines:
     """A phrase about so many things, by its words for one and for many, or by one for both; nothing for none.
 
@@ -83,14 +81,12 @@ def counted(report: Report, name: str, things: Sized, **gaps: Any) -> Inlines:
     return say(report, phrase, count=len(things), list=listed, **gaps)
 
 
-@function
 def sign(report: Report, id: str, position: int | None = None) -> str:
     """The key of the words for a quantity's sign as it is printed."""
     number = report.ledger.number(id, position).value
     return "zero" if number == 0 else "negative" if number < 0 else "positive"
 
 
-@function
 def stop(report: Report, loop: Any, *further: Sized) -> str:
     """What ends an item of a list: a full stop after the last one, if nothing `further` follows it."""
     return "." if loop.last and not any(map(len, further)) else ";"
@@ -104,36 +100,30 @@ def _set(report: Report, name: str, key: str, *about: Any, **gaps: Any) -> Mappi
     return {one: say(report, phrase, *about, **gaps) for one, phrase in report.words[name][key].items()}
 
 
-@member
 def driven(report: Report) -> Mapping[str, Inlines]:
     """Words for the driver, a crank or a slide, and for what balances it."""
     return _set(report, "driven", report.driver.kind, report.driver, report)
 
 
-@member
 def scope(report: Report) -> Mapping[str, Inlines]:
     """Words for what the report goes into: forces, or motion alone."""
     return _set(report, "scope", scope_key(report), report.words["driven"][report.driver.kind])
 
 
-@member
 def scope_key(report: Report) -> str:
     return "forces" if report.has_forces else "motion"
 
 
-@member
 def study(report: Report) -> Mapping[str, Inlines]:
     """Words for what is done: an analysis, perhaps with a synthesis before it."""
     return _set(report, "study", "synthesis" if report.synthesised else "analysis")
 
 
-@member
 def turning(report: Report) -> Mapping[str, Inlines]:
     """What is said of the links that turn, if any does."""
     return _set(report, "turning", "links" if report.has_turning_links else "none")
 
 
-@member
 def lever(report: Report) -> Mapping[str, Inlines]:
     """Words for the lever of a crank: its velocity plan has a round scale of its own, or the crank's."""
     if not report.driver.centre:
@@ -142,51 +132,43 @@ def lever(report: Report) -> Mapping[str, Inlines]:
     return _set(report, "lever", "round" if report.driver.round_velocity else "crank", **symbols)
 
 
-@member
 def form(report: Report) -> Mapping[str, Inlines]:
     """Words for the form of a machine that comes in several: a slider-crank in line or offset, …."""
     return _set(report, "form", report.own["form"], report) if "form" in report.own else {}
 
 
-@member
 def coupler(report: Report) -> Mapping[str, Inlines]:
     """Words for the points that a coupler carries."""
     return _set(report, "coupler", report.own["coupler"], report) if "coupler" in report.own else {}
 
 
-@member
 def load_key(report: Report) -> str:
     """The key of the words for the loads that the machine sets out, of those it may have: M3-P3."""
     return "-".join(report.sheet.get("loads", ()))
 
 
-@member
 def driver_loads(report: Report) -> Inlines:
     """The driver's own inertia force and weight with their symbols, each followed by a comma."""
     words, found = report.words["driver_loads"], [id for id in ("Pqt1", "G1") if id in report.on_crank]
     return tuple(part for id in found for part in say(report, words[id], force=report.ledger.symbol(id)))
 
 
-@member
 def opposite_words(report: Report) -> str:
     """The sense of rotation opposite to the driver's."""
     return report.sense(-report.machine.turn)
 
 
-@member
 def medium(report: Report) -> str:
     """The key of the words for what loads the machine: the gas in its cylinders, or anything else."""
     return "gas" if report.has_gas else "other"
 
 
-@member
 def slider_convention(report: Report) -> Inlines:
     """A further sentence on the positive directions of sliders, if there are any."""
     ways = slider_ways(report)
     return say(report, f" {report.words['conventions']['sliders']} {{ways}}.", ways=ways) if ways else ()
 
 
-@function
 def balance_sign(report: Report, position: int) -> Inlines:
     """What the sign of the balancing torque or force says."""
     words = report.words["balance_signs"][report.driver.kind]
@@ -194,7 +176,6 @@ def balance_sign(report: Report, position: int) -> Inlines:
     return say(report, words[sign(report, "M.eq", position)], M=report.ledger.symbol("M.eq"), sense=sense)
 
 
-@member
 def slide_reactions(report: Report) -> Inlines:
     """Where the reactions of slides act, if there are any."""
     key = "none" if not report.has_slides else "displaced" if report.displaced_reactions else "at_pin"
@@ -203,7 +184,6 @@ def slide_reactions(report: Report) -> Inlines:
     return say(report, report.words["slide_reactions"][key], **parts)
 
 
-@member
 def energy_key(report: Report) -> str:
     """Which words on the balance of energy fit: of the gas, of a stroke, of a turn that is idle or not, or none."""
     if not report.has_forces:
@@ -213,7 +193,6 @@ def energy_key(report: Report) -> str:
     return "idle" if report.is_zero("W", 1) else "turn"
 
 
-@function
 def load_sense(report: Report, name: str) -> Inlines:
     """What is said of the sense of a load that is constant or always against the motion."""
     words = report.words["load_senses"]
@@ -222,7 +201,6 @@ def load_sense(report: Report, name: str) -> Inlines:
     return say(report, words[sign(report, name, 1)], sense=report.sense(report.ledger.number(name, 1).value))
 
 
-@function
 def drawn_group(report: Report, row: GroupRow) -> Inlines:
     """How a group of a declared linkage is drawn: its rods, its outer joints, the inner one."""
     drawn = [value(report, f"drawn.{rod}") for rod, _ in row.lengths]

@@ -6,15 +6,15 @@ The ledger's plans are metres on paper; how they are drawn is in `reportgen.figu
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.document.figures import A3_ACROSS, MM, TEXT_BLOCK, Drawn, figure, on_paper, scale_note
+from reportgen.document.figures import A3_ACROSS, MM, TEXT_BLOCK, Drawn, on_paper, scale_note
 from reportgen.document.groups import GroupView
 from reportgen.document.mirrors import Mirrored, mirrored
 from reportgen.document.phrases import counted
-from reportgen.document.report import Report, function
+from reportgen.document.report import Report
 from reportgen.document.tree import Inlines
 from reportgen.figures.draft import sheets
 from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, Titles, lettered, plan, stages
@@ -49,35 +49,34 @@ STAGES = 3
 # --- velocity and acceleration
 
 
-def _register(name: str, what: What) -> None:
-    """Register the figures of the velocity or acceleration plan: the plan, its stages, the plates of one turn."""
+@dataclass(frozen=True, slots=True)
+class MotionFigures:
+    """The figures of the plan of velocities (v) or accelerations (a): the plan, its stages, the plates of one turn."""
 
-    def drawing(report: Report, k: int) -> Plan:
-        return motion_plan(report, what, k)
+    what: What
 
-    def whole(report: Report, k: int) -> Drawn:
-        return on_paper(_worked(report, drawing(report, k), k))
+    def whole(self, report: Report, k: int) -> Drawn:
+        return on_paper(_worked(report, self._plan(report, k), k))
 
-    def in_stages(report: Report, k: int, group: GroupView) -> Drawn:
+    def in_stages(self, report: Report, k: int, group: GroupView) -> Drawn:
         """The steps of one group's construction, numbered as in the text; what was drawn before is gray."""
         begin = STAGES * next(n for n, one in enumerate(report.groups) if one.name == group.name)
-        bounds = np.cumsum([0, *_steps(group, what)])
+        bounds = np.cumsum([0, *_steps(group, self.what)])
         names = report.words["figure"]
 
         def titles(stages: range, number: int) -> str:
             first, last = bounds[stages.start - begin] + 1, bounds[stages.stop - begin]
             return str(names["steps"].format(first, last) if first < last else names["step"].format(last))
 
-        until = drawing(report, k).until(begin + STAGES - 1)
-        return _stages(report, until, f"mu.{what}", titles, begin)
+        until = self._plan(report, k).until(begin + STAGES - 1)
+        return _stages(report, until, f"mu.{self.what}", titles, begin)
 
-    def on_plates(report: Report) -> Drawn:
-        told = _mirrored(report, what).at
-        return _plates(report, drawing, [k for k in _one_turn(report) if k not in told], f"mu.{what}")
+    def on_plates(self, report: Report) -> Drawn:
+        told = _mirrored(report, self.what).at
+        return _plates(report, self._plan, [k for k in _one_turn(report) if k not in told], f"mu.{self.what}")
 
-    figure(name, f"fig.{what}")(whole)
-    figure(f"{name}-stages", f"fig.{what}.stages")(in_stages)
-    figure(f"{name}-plates", f"fig.{what}.plates")(on_plates)
+    def _plan(self, report: Report, k: int) -> Plan:
+        return motion_plan(report, self.what, k)
 
 
 def _one_turn(report: Report) -> list[int]:
@@ -90,16 +89,11 @@ def _mirrored(report: Report, what: What) -> Mirrored:
     return mirrored({k: motion_plan(report, what, k) for k in _one_turn(report)})
 
 
-@function
 def mirror_images(report: Report, what: What) -> Inlines:
     """What is said of the positions whose plans are not drawn again; nothing where all are drawn."""
     found = _mirrored(report, what)
     drawn = ", ".join(str(report.machine.position(k)) for k in found.of)
     return counted(report, "mirrored", [report.machine.position(k) for k in found.at], drawn=drawn)
-
-
-_register("velocity", "v")
-_register("acceleration", "a")
 
 
 Place = Callable[[str], complex]
@@ -252,13 +246,11 @@ class _Sketch:
 # --- forces
 
 
-@figure("forces", "fig.R")
 def forces(report: Report, k: int, group: GroupView) -> Drawn:
     assert group.polygon is not None
     return on_paper(_worked(report, force_plan(report, group.polygon, k), k))
 
 
-@figure("force-stages", "fig.R.stages")
 def force_stages(report: Report, k: int, group: GroupView) -> Drawn:
     """The force plan step by step: loads, components found by moments, closing edges, what is read."""
     assert group.polygon is not None
@@ -282,7 +274,6 @@ def force_stages(report: Report, k: int, group: GroupView) -> Drawn:
     return _stages(report, steps, group.scale, k=k)
 
 
-@figure("force-plates", "fig.R.plates")
 def force_plates(report: Report, group: GroupView) -> Drawn:
     """The force plans of all positions at one scale: the largest of those that they have by themselves."""
     polygon = group.polygon

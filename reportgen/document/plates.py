@@ -236,7 +236,17 @@ def _plans_of(report: Report, polygon: Polygon, group: str) -> Series:
                 yield _place(report, k, _of(report, group)), _plain(drawing)
 
     sizes = _on_plans(report, f"plan.R{polygon.name}.", scale)
-    return Series("forces", "forces", "forces", drawings, scale, "own", 1.0, FINE, tuple(sizes.tolist()))
+    return Series(
+        "forces",
+        belongs="forces",
+        layer="forces",
+        draw=drawings,
+        scale=scale,
+        key="own",
+        size=1.0,
+        steps=FINE,
+        sizes=tuple(sizes.tolist()),
+    )
 
 
 def _of(report: Report, group: str) -> str:
@@ -275,7 +285,7 @@ def _curve(name: str, belongs: Set, draw: Callable[[Report], Drawn]) -> Series:
         for scene in draw(report).scenes:
             yield scene.title, scene
 
-    return Series(name, belongs, "curves", drawings, CURVE, name, 1.0, FINE)
+    return Series(name, belongs=belongs, layer="curves", draw=drawings, scale=CURVE, key=name, size=1.0, steps=FINE)
 
 
 def _table(*listed: Callable[[Report], Sequence[str]], cycle: bool = False) -> Callable[[Report], Iterator[Drawing]]:

@@ -1,15 +1,14 @@
 """One report: what its templates, tables and figures share.
 
-Templates name every property of a `Report`, and call the functions, tables and figures that are registered
-here where they are defined.
+What of it templates may name stands in the namespace, with the functions, tables and figures made of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
-from typing import Any, TypeVar
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -38,36 +37,19 @@ DENSE = 361
 SAME = 1e-9
 """Cycle angles nearer than this are one."""
 
-Function = TypeVar("Function", bound=Callable[..., Any])
-FUNCTIONS: dict[str, Callable[..., Any]] = {}
-
-
-def function(called: Function) -> Function:
-    """Let templates call a function of a report by its name."""
-    FUNCTIONS[called.__name__] = called
-    return called
-
-
-Member = TypeVar("Member", bound=Callable[["Report"], Any])
-MEMBERS: dict[str, Callable[[Report], Any]] = {}
-
-
-def member(of: Member) -> Member:
-    """Let templates name what a function makes of a report, as they name its properties."""
-    MEMBERS[of.__name__] = of
-    return of
-
 
 @dataclass(frozen=True)
 class Report:
-    """A case with its prose; every property is a name in its templates.
+    """A case with its prose.
 
-    On a drawing sheet curves have an `area` and round scales, and long tables a `form`.
+    On a drawing sheet curves have an `area` and round scales, and long tables a `form`.  Curves are drawn from
+    `samples` of the cycle if they are given.
     """
 
     case: Calculation
     area: Area | None = None
     form: Form = USUAL_FORM
+    samples: Analysis | None = None
 
     # --- what it is made of
 
@@ -113,21 +95,13 @@ class Report:
     @cached_property
     def dense_cycle(self) -> Analysis:
         """The whole analysis over the cycle, finely, the numbered positions among the samples."""
+        if self.samples is not None:
+            return self.samples
         own = self.machine.cycle_angles
         turns = self.machine.turns
         grid = np.linspace(0.0, turns * FULL_TURN, turns * (DENSE - 1) + 1)
         between = np.abs(grid[:, None] - own).min(axis=1) > SAME
         return analyse(self.machine, np.sort(np.concatenate((grid[between], own))))
-
-    def names(self) -> dict[str, Any]:
-        """All that templates may name: the properties of the report and the registered functions."""
-        kinds = (property, cached_property)
-        own = [name for name, member in vars(Report).items() if isinstance(member, kinds) and name[0] != "_"]
-        return {
-            **{name: getattr(self, name) for name in own if name != "dense_cycle"},
-            **{name: of(self) for name, of in MEMBERS.items()},
-            **{name: partial(called, self) for name, called in FUNCTIONS.items()},
-        }
 
     # --- the assignment in words
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from reportgen.document.groups import GroupView
 from reportgen.document.report import Report
-from reportgen.document.tables import bare, columns, list_table, rows, side_by_side, table, tables
+from reportgen.document.tables import bare, list_table, side_by_side, tables
 from reportgen.document.tree import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Paragraph, Table, Text, Value
 from reportgen.ledger.kinematics.sides import Side, image
 from reportgen.mechanism.structure import Crank
@@ -29,7 +29,6 @@ NARROWEST = 16.0
 # --- motion
 
 
-@table("positions")
 def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
     """x and y of every moving point at the positions of one turn, in mm; several tables where they are many."""
     linkage, motion = report.machine.linkage, report.analysis.motion
@@ -47,7 +46,7 @@ def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> 
     columns = [(shown, *(_coordinate(value * MM) for value in values)) for shown, values in kept]
     titles = [report.words["table"]["position"], *map(str, report.positions)]
     first, most = Column(FIRST_COLUMN), MOST_WIDE if wide else MOST_COORDINATES
-    return side_by_side(report, key, caption, first, titles, columns, most, widest=22.0, together=2)
+    return side_by_side(report, key, caption, first, titles=titles, columns=columns, most=most, widest=22.0, together=2)
 
 
 def _coordinate(value: float) -> Number:
@@ -60,7 +59,6 @@ def _two_decimals(value: float) -> Number:
     return Number(float(f"{value:.10g}")) if short else Number(value, 2)
 
 
-@rows("dead", 20.0, 46.0, 44.0, 46.0)
 def dead_centres(report: Report) -> Iterator[Sequence[object]]:
     """Where each slider turns back: crank's turn from position 1, the pin's distance from the crank centre."""
     words = report.words["tables"]["dead"]
@@ -74,7 +72,6 @@ def dead_centres(report: Report) -> Iterator[Sequence[object]]:
             yield str(piston.link), name, _two_decimals(turn), _two_decimals(abs(place) * MM)
 
 
-@rows("labels", 24.0, 50.0, 50.0)
 def labels(report: Report) -> Iterator[Sequence[object]]:
     """The positions of one turn by their labels: the crank's turn, and what the first slider does there.
 
@@ -91,7 +88,6 @@ def labels(report: Report) -> Iterator[Sequence[object]]:
         yield str(machine.position(k + 1)), angle, words.get(end, "")
 
 
-@rows("omega", 34.0, 40.0, 60.0)
 def angular_velocities(report: Report, k: int) -> Iterator[Sequence[object]]:
     """The angular velocities with their sense in words."""
     if report.driver.centre:
@@ -99,7 +95,6 @@ def angular_velocities(report: Report, k: int) -> Iterator[Sequence[object]]:
     yield from _rotations(report, "turn.omega.", k)
 
 
-@rows("eps", 34.0, 40.0, 60.0)
 def angular_accelerations(report: Report, k: int) -> Iterator[Sequence[object]]:
     return _rotations(report, "turn.eps.", k)
 
@@ -110,7 +105,6 @@ def _rotations(report: Report, prefix: str, k: int) -> Iterator[Sequence[object]
         yield report.ledger.symbol(id), bare(report, id, k, size=True), sense
 
 
-@rows("summary", 46.0, 46.0, 46.0)
 def summary(report: Report, k: int) -> Iterator[Sequence[object]]:
     """Quantities at one position as "symbol = value", in rows of as many as there are heads."""
     ledger = report.ledger
@@ -118,7 +112,6 @@ def summary(report: Report, k: int) -> Iterator[Sequence[object]]:
         yield [Chain((ledger.symbol(id), ledger.number(id, k))) for id in row]
 
 
-@columns("v.segments")
 def velocity_segments(report: Report) -> list[str]:
     ids: list[str] = []
     for group in report.groups:
@@ -127,7 +120,6 @@ def velocity_segments(report: Report) -> list[str]:
     return report.known(ids)
 
 
-@columns("v")
 def velocities(report: Report) -> list[str]:
     ids: list[str] = []
     for group in report.groups:
@@ -137,7 +129,6 @@ def velocities(report: Report) -> list[str]:
     return [*report.known(ids), *_of_links(report, "turn.omega.")]
 
 
-@columns("a.segments")
 def acceleration_segments(report: Report) -> list[str]:
     ids: list[str] = []
     for group in report.groups:
@@ -147,7 +138,6 @@ def acceleration_segments(report: Report) -> list[str]:
     return report.known(ids)
 
 
-@columns("a")
 def accelerations(report: Report) -> list[str]:
     ids: list[str] = []
     for group in report.groups:
@@ -174,7 +164,6 @@ def _parts(side: Side) -> list[str]:
 # --- forces
 
 
-@table("strokes")
 def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """The stroke of every piston between dead centres of any of them."""
     positions, first = head
@@ -199,18 +188,15 @@ def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tabl
     return list_table(report, key, caption, (positions, *stretches), across, widths)
 
 
-@columns("gas", cycle=True)
 def gas(report: Report) -> list[str]:
     """The way of each piston, the pressure on it and its force."""
     return report.known(id for piston in report.pistons for id in (f"s.{piston.link}", f"p.{piston.link}", piston.name))
 
 
-@columns("inertia", cycle=True)
 def inertia(report: Report) -> list[str]:
     return report.inertia_lines
 
 
-@columns("R", cycle=True)
 def reactions(report: Report) -> list[str]:
     ids = [
         f"R.{name}"
@@ -220,13 +206,11 @@ def reactions(report: Report) -> list[str]:
     return report.known([*ids, "R.01"])
 
 
-@columns("R.angles", cycle=True)
 def reaction_angles(report: Report) -> list[str]:
     joints = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
     return report.known(f"dir.R{name}" for name in (*joints, "01"))
 
 
-@rows("lever", 30.0, 36.0, 44.0, 44.0)
 def lever(report: Report, k: int) -> Iterator[Sequence[object]]:
     """Loads on the turned velocity plan: size, arm, moment about the pole by μ_l, anticlockwise positive."""
     for id in report.arms_about("p"):
@@ -234,12 +218,10 @@ def lever(report: Report, k: int) -> Iterator[Sequence[object]]:
         yield report.ledger.symbol(load), *(bare(report, one, k) for one in (load, id, f"M.{load}.p"))
 
 
-@columns("M", cycle=True)
 def balance(report: Report) -> list[str]:
     return ["M.eq", "M.vw", "M.difference"]
 
 
-@table("flywheel")
 def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
     """Reduced torque and excess work; the reduced inertia if links have mass, the speed if there is a flywheel."""
     words = report.words["tables"]["flywheel"]
@@ -252,7 +234,6 @@ def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tup
 # --- checks
 
 
-@rows("checks", 95.0, 35.0, 20.0)
 def checks(report: Report) -> Iterator[Sequence[object]]:
     """Residuals of the independent checks, as powers of ten."""
     found = residuals(report)

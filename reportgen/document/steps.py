@@ -9,7 +9,7 @@ from reportgen.document.equations import a, image, math, quantity, v
 from reportgen.document.groups import CarriedPoint, GroupView
 from reportgen.document.phrases import say, sign
 from reportgen.document.prose import PointName
-from reportgen.document.report import Report, function, lower_digits
+from reportgen.document.report import Report, lower_digits
 from reportgen.document.tree import Inlines, Reference
 from reportgen.ledger.kinematics.sides import Side
 from reportgen.notation.expressions import Symbol
@@ -21,7 +21,6 @@ def _image(report: Report, what: str, name: str) -> Symbol:
     return image(report, name, what == "a")
 
 
-@function
 def start(report: Report, what: str, of: Side | CarriedPoint) -> Inlines:
     """Where the vector relative to a base begins on a plan: in the pole, or at the end of the base's own vector."""
     words = report.words["plan"]
@@ -30,7 +29,6 @@ def start(report: Report, what: str, of: Side | CarriedPoint) -> Inlines:
     return say(report, words["end"], image=_image(report, what, of.base))
 
 
-@function
 def line_start(report: Report, what: str, side: Side) -> Inlines:
     """Where the line of what is sought begins: at the end of the known relative acceleration, if there is one."""
     if what == "a" and side.part:
@@ -38,13 +36,11 @@ def line_start(report: Report, what: str, side: Side) -> Inlines:
     return start(report, what, side)
 
 
-@function
 def along(report: Report, side: Side) -> Inlines:
     """The direction of what is sought on a side."""
     return say(report, report.words["plan"]["directions"][side.way], rod=lower_digits(side.rod))
 
 
-@function
 def sought(report: Report, what: str, group: GroupView, side: Side) -> Symbol:
     """The vector that is sought on a side: of the point itself where the side's base is at rest, else the relative."""
     if what == "v":
@@ -54,7 +50,6 @@ def sought(report: Report, what: str, group: GroupView, side: Side) -> Symbol:
     return a(report, group.M) if side.still and not side.turning else a(report, side, "r")
 
 
-@function
 def base_step(report: Report, what: str, group: GroupView, side: Side, position: int) -> Inlines:
     """How the vector of a side's base comes on the plan."""
     return say(
@@ -67,26 +62,22 @@ def base_step(report: Report, what: str, group: GroupView, side: Side, position:
     )
 
 
-@function
 def known_sense(report: Report, side: Side) -> Inlines:
     """The sense of the relative acceleration that velocities give: towards the base, or as Coriolis turned it."""
     ends = {"point": PointName(side.point), "base": PointName(side.base)}
     return say(report, report.words["plan"]["senses"]["centre" if side.turns else "coriolis"], **ends)
 
 
-@function
 def base_motion(report: Report, side: Side) -> Inlines:
     """What is known of a side's base: that it is fixed, or its velocity."""
     return say(report, report.words["plan"]["bases"][side.state], base=PointName(side.base))
 
 
-@function
 def shows_coriolis(report: Report, group: GroupView, side: Side, position: int) -> bool:
     """Whether a figure shows the turn that gives the Coriolis acceleration of a slot its sense."""
     return group.kind == "RPR" and not any(report.is_zero(id, position) for id in (side.velocity, side.omega))
 
 
-@function
 def found_senses(report: Report, group: GroupView, position: int) -> Inlines:
     """What the signs of the reactions say that moments gave."""
     words, figure = report.words["plan"]["found"], Reference(f"fig.bodies.{group}.{position}")

@@ -1,20 +1,18 @@
 """Tables of what is given, and what all tables of a report are made with.
 
-A table is a function of a report, its key, caption and head, and of what it shows.  Registered under a name
-it is called as `table(name, …)`, with the words that `words.yaml` has for it under `tables`.
+A table is a function of a report, its key, caption and head, and of what it shows; its name in templates stands
+in the namespace.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.catalogue.loads import AngleLaw, Applied, TableLaw, Torque, WayLaw
-from reportgen.catalogue.machine import Position
 from reportgen.cycle import StrokeIndicator
-from reportgen.document.report import FUNCTIONS, Function, Report, function, lower_digits
+from reportgen.document.report import Report, lower_digits
 from reportgen.document.tree import (
     FIRST_COLUMN,
     TEXT_WIDTH,
@@ -39,75 +37,6 @@ MOST_LENGTHS = 7
 LONG_WORDS = 10
 """A column with a text this long is one of words and set flush left."""
 
-TABLES: dict[str, Callable[..., Any]] = {}
-
-
-def table(name: str) -> Callable[[Function], Function]:
-    """Register a table under the name by which templates call it; its key is `tab.` and this name."""
-
-    def register(called: Function) -> Function:
-        TABLES[name] = called
-        return called
-
-    return register
-
-
-Ids = Callable[[Report], Sequence[str]]
-
-
-def columns(name: str, cycle: bool = False) -> Callable[[Ids], Ids]:
-    """Register a table of quantities, which the function lists, at all positions of one turn or of the cycle."""
-
-    def register(ids: Ids) -> Ids:
-        def quantities(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
-            return tables(report, key, caption, ids(report), report.all_positions if cycle else report.positions)
-
-        TABLES[name] = quantities
-        return ids
-
-    return register
-
-
-Rows = Callable[..., Iterable[Sequence[object]]]
-
-
-def rows(name: str, *widths: float) -> Callable[[Rows], Rows]:
-    """Register a table of the rows that the function gives; `widths` (mm) are those of its columns."""
-
-    def register(listed: Rows) -> Rows:
-        def listing(report: Report, key: str, caption: str, head: Sequence[str], *shown: Any) -> Table:
-            return list_table(report, key, caption, head, listed(report, *shown), widths)
-
-        TABLES[name] = listing
-        return listed
-
-    return register
-
-
-def insert_table(report: Report, name: str, *arguments: Any, words: str = "") -> Any:
-    """A table with its words, or with others of `words.yaml`; one of a position k has k in its key and its caption.
-
-    A name that no function has is a table of the quantities whose ids are given, over the cycle or at positions.
-    """
-    texts = report.words["tables"][words or name]
-    position = next((k for k in arguments if isinstance(k, Position)), None)
-    caption = texts["caption"] if position is None else texts["caption"].format(k=position)
-    key = ".".join(["tab", name, *(str(one) for one in arguments if isinstance(one, (Position, str)))])
-    return TABLES.get(name, _quantities)(report, key, caption, texts.get("head", ()), *arguments)
-
-
-def _quantities(
-    report: Report,
-    key: str,
-    caption: str,
-    head: Sequence[str],
-    ids: Sequence[str],
-    positions: Iterable[int] | None = None,
-) -> tuple[Table | Paragraph, ...]:
-    return tables(report, key, caption, ids, positions or report.all_positions)
-
-
-FUNCTIONS["table"] = insert_table
 
 # --- what tables are made with
 
@@ -147,7 +76,6 @@ def head_symbol(report: Report, id: str) -> Expression:
     return size(symbol) if id.startswith(("v.", "a.")) else symbol
 
 
-@function
 def tables(
     report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]
 ) -> tuple[Table | Paragraph, ...]:
@@ -163,7 +91,9 @@ def tables(
         unit = report.ledger.units.get(unit, unit)
         columns.append([head_symbol(report, id), unit, *(bare(report, id, k) for k in at)])
     titles = [report.words["table"]["position"], "", *map(str, at)]
-    found = side_by_side(report, key, caption, Column(FIRST_COLUMN), titles, columns, MOST_COLUMNS - 1, heads=2)
+    found = side_by_side(
+        report, key, caption, Column(FIRST_COLUMN), titles=titles, columns=columns, most=MOST_COLUMNS - 1, heads=2
+    )
     if not zeros or shown == list(ids):
         return found
     equations = listed(InlineMath(Chain((report.ledger.symbol(id), Number(0.0)))) for id in zeros)
@@ -206,7 +136,6 @@ def side_by_side(
     return tuple(found)
 
 
-@function
 def list_table(
     report: Report,
     key: str,
@@ -234,7 +163,6 @@ def _is_wordy(content: object) -> bool:
 # --- given data
 
 
-@table("given")
 def given_data(
     report: Report, key: str, caption: str, head: Sequence[str], others: Mapping[str, str] | None = None
 ) -> Table:
@@ -242,7 +170,6 @@ def given_data(
     return given_table(report, key, caption, {**report.given_names, **(others or {})})
 
 
-@function
 def given_table(report: Report, key: str, caption: str, names: Mapping[str, str]) -> Table:
     """All given quantities of the machine that `names` describes; what is derived is left out."""
     heads = report.words["table"]
@@ -271,16 +198,16 @@ def _as_typed(report: Report, id: str) -> Inlines:
     return (Value(report.ledger.number(id)),)
 
 
-@table("indicator")
 def indicator(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """The indicator diagram as given, in gauge pressure: by stroke, or against the cycle angle."""
     diagram = report.assignment.indicator
     heights = diagram.height if isinstance(diagram, ByOrdinates) else ()
     law = report.machine.pistons[0].law
-    return _law_table(report, law, key, caption, report.words["strokes"], Symbol("p"), 1e4, heights)
+    return _law_table(
+        report, law, key, caption, names=report.words["strokes"], shown=Symbol("p"), unit=1e4, heights=heights
+    )
 
 
-@table("force")
 def working_force(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """The working force as given (N): a row for each of the strokes of the head, or against the crank angle."""
     law = report.machine.applied[0].law
@@ -288,16 +215,14 @@ def working_force(report: Report, key: str, caption: str, head: Sequence[str]) -
     return _law_table(report, law, key, caption, head, Symbol("P"))
 
 
-@table("gas.law")
 def gas_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
     """The gauge pressure (N/cm²) on a piston as given: by stroke, or against the cycle angle."""
     gas = next(load for load in report.machine.applied if load.name == name)
     assert isinstance(gas.law, TableLaw)
     caption = caption.format(link=gas.link)
-    return _law_table(report, gas.law, key, caption, report.words["strokes"], Symbol("p"), 1e4)
+    return _law_table(report, gas.law, key, caption, names=report.words["strokes"], shown=Symbol("p"), unit=1e4)
 
 
-@table("law")
 def load_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
     """The load `name` as given: a row for each of the strokes of the head, or against the driver's turn or way."""
     loads: tuple[Applied | Torque, ...] = (*report.machine.applied, *report.machine.torques)
@@ -377,7 +302,6 @@ def _blocks(
     return Table(columns, ((head[0], *head[1 : count + 1]),), tuple(body), report.prose.inlines(caption), key)
 
 
-@rows("joints", 20.0, 30.0, 40.0, 50.0)
 def joints(report: Report) -> Iterator[Sequence[object]]:
     """All joints: number, place, links, type."""
     for number, joint in enumerate(report.mobility.joints, start=1):
@@ -385,27 +309,26 @@ def joints(report: Report) -> Iterator[Sequence[object]]:
         yield str(number), vocabulary.point(joint.point), f"{one} – {other}", report.words["joints"][joint.kind]
 
 
-@table("lengths")
 def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
     """Real and drawn lengths, one column a length; many lengths in several tables below one another."""
     columns = [
         (lower_digits(arm), *(bare(report, f"{prefix}.{arm}", None) for prefix in ("l", "drawn")))
         for arm in (id.removeprefix("l.") for id in report.lengths)
     ]
-    return side_by_side(report, key, caption, Column(46.0, "left"), head, columns, MOST_LENGTHS, widest=22.0)
+    return side_by_side(
+        report, key, caption, Column(46.0, "left"), titles=head, columns=columns, most=MOST_LENGTHS, widest=22.0
+    )
 
 
 # --- a declared linkage
 
 
-@rows("frame", 30.0, 50.0, 50.0)
 def frame(report: Report) -> Iterable[Sequence[object]]:
     """The fixed points."""
     fixed: Iterable[Sequence[object]] = report.own["frame"]
     return fixed
 
 
-@rows("groups", 20.0, 20.0, 30.0, 85.0)
 def groups(report: Report) -> Iterator[Sequence[object]]:
     """The groups in the order of assembly, with the way in which each is assembled."""
     choice = report.words["linkage"]["choice"]
@@ -414,13 +337,11 @@ def groups(report: Report) -> Iterator[Sequence[object]]:
         yield ", ".join(map(str, row.links)), row.kind, joints, choice[row.choice]
 
 
-@rows("guides", 20.0, 40.0, 32.0, 32.0, 30.0)
 def guides(report: Report) -> Iterator[Sequence[object]]:
     """The guides: a point of the line and its direction."""
     return ((str(row.slider), str(row.carrier), row.x, row.y, row.angle) for row in report.own["guides"])
 
 
-@rows("points", 24.0, 24.0, 40.0, 40.0)
 def further_points(report: Report) -> Iterator[Sequence[object]]:
     """Further points of the links by their distances."""
     return ((vocabulary.point(row.name), str(row.link), row.along, row.across) for row in report.own["points"])

@@ -82,7 +82,18 @@ def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skel
         along = along[np.isfinite(along)] * scale
         low, high = (float(along.min()), float(along.max())) if along.size else (0.0, 0.0)
         foot, u = complex(base[index]) * scale, complex(direction[index])
-        slides.append(Slide(link, name, on, points[name], float(angle[index]), foot + low * u, foot + high * u, turns))
+        slides.append(
+            Slide(
+                link,
+                name,
+                on,
+                at=points[name],
+                angle=float(angle[index]),
+                low=foot + low * u,
+                high=foot + high * u,
+                turns=turns,
+            )
+        )
 
     driver = linkage.driver
     if isinstance(driver, Crank):
@@ -108,13 +119,13 @@ def skeleton(linkage: Linkage, motion: Motion, index: int, scale: float) -> Skel
         if dyad.kind == "PRP":
             joints.append(dyad.middle)
     return Skeleton(
-        points,
-        {link: tuple(names) for link, names in bars.items()},
-        tuple(slides),
-        tuple(name for name in joints if name in linkage.ground),
-        tuple(joints),
-        owners,
-        bool(motion.reachable[index]),
+        points=points,
+        bars={link: tuple(names) for link, names in bars.items()},
+        slides=tuple(slides),
+        pivots=tuple(name for name in joints if name in linkage.ground),
+        joints=tuple(joints),
+        owners=owners,
+        reached=bool(motion.reachable[index]),
     )
 
 

@@ -65,7 +65,16 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
         return _points(own) if own else ()
 
     heads = (feedback["points"], feedback["out_of"])
-    rows = grid(key, feedback["marked"], "", filling, rows_shown(key), positions, heads, tail)
+    rows = grid(
+        key,
+        feedback["marked"],
+        "",
+        filling=filling,
+        rows=rows_shown(key),
+        positions=positions,
+        tail_head=heads,
+        tail=tail,
+    )
     between = (Entry(),) * (NAMES - 2 + len(positions))
     total = (Entry(), Entry(feedback["total"], "bold"), *between, *_points(marking.cells, "bold"))
     title = f"{feedback['marked']} {key.id}"

@@ -90,13 +90,13 @@ def _judged(working: Working, submission: Submission, row: Row, position: int, p
     return Marked(
         row.id,
         position,
-        verdict,
-        None if np.isnan(value) else submission.values[place].value,
-        key / unit,
-        own / unit,
-        band / unit,
-        points,
-        worth * guide.policy.right,
+        verdict=verdict,
+        given=None if np.isnan(value) else submission.values[place].value,
+        expected=key / unit,
+        own=own / unit,
+        band=band / unit,
+        points=points,
+        worth=worth * guide.policy.right,
     )
 
 

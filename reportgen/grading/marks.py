@@ -266,16 +266,16 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
     content = read_model(path, _PolicyFile, language)
     tolerance, points = content.tolerance, content.points
     return Policy(
-        PAPER_ERROR if tolerance.paper is None else tolerance.paper.si,
-        tolerance.digits,
-        tolerance.share,
-        points.right,
-        points.follows,
-        content.weights,
-        content.guard,
-        content.show_answers,
-        content.take,
-        content.overrule,
-        Ask(content.ask, content.by_section, path if "ask" in content.model_fields_set else None),
-        Scale(content.mark.highest, content.mark.step),
+        paper=PAPER_ERROR if tolerance.paper is None else tolerance.paper.si,
+        digits=tolerance.digits,
+        share=tolerance.share,
+        right=points.right,
+        follows=points.follows,
+        weights=content.weights,
+        guard=content.guard,
+        show_answers=content.show_answers,
+        take=content.take,
+        overrule=content.overrule,
+        ask=Ask(content.ask, content.by_section, path if "ask" in content.model_fields_set else None),
+        scale=Scale(content.mark.highest, content.mark.step),
     )

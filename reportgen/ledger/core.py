@@ -129,13 +129,13 @@ class Ledger:
         value = float(family.at(position).real) / how.scale
         decimals = self.decimals[id] if value else None
         return Quantity(
-            id,
-            None if len(family.values) == 1 else position,
-            family.symbol,
-            self.units.get(how.unit, how.unit),
-            value if decimals is not None else float(f"{value:.12g}"),
-            decimals,
-            family.definition,
+            id=id,
+            position=None if len(family.values) == 1 else position,
+            symbol=family.symbol,
+            unit=self.units.get(how.unit, how.unit),
+            value=value if decimals is not None else float(f"{value:.12g}"),
+            decimals=decimals,
+            definition=family.definition,
         )
 
     def number(self, id: str, position: int | None = None, *, size: bool = False) -> Number:

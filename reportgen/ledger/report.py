@@ -63,7 +63,14 @@ def write_ledger(
     cancellations: tuple[str, ...] = ()
     if printed:
         decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
-    ledger = Ledger(q.families, decimals, machine.positions, cancellations, units or {}, q.lines)
+    ledger = Ledger(
+        families=q.families,
+        decimals=decimals,
+        positions=machine.positions,
+        cancellations=cancellations,
+        units=units or {},
+        lines=q.lines,
+    )
     return Written(ledger, polygons, regulated)
 
 
@@ -203,10 +210,22 @@ def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.Flywheel) -> Non
     ways = np.diff(np.append(machine.cycle_angles, machine.turns * FULL_TURN))
     steps = q.give("steps", ways, Symbol("φ"), "ratio", hidden=True)
     torque = machine.turn * total(on_lever) if on_lever else Number(0.0)
-    M_r = _with_rest(q, "M.r", regulated.torque[at], torque, Symbol("M", "tt"), "torque", largest)
-    _with_rest(q, "M.c", regulated.constant, -call("level", M_r, steps), "", "torque", largest)
+    M_r = _with_rest(
+        q, "M.r", values=regulated.torque[at], by_rule=torque, symbol=Symbol("M", "tt"), kind="torque", scale=largest
+    )
+    _with_rest(
+        q, "M.c", values=regulated.constant, by_rule=-call("level", M_r, steps), symbol="", kind="torque", scale=largest
+    )
     most = float(np.abs(regulated.work).max())
-    A = _with_rest(q, "A.excess", regulated.work[at], call("excess", M_r, steps), "A", "work", most)
+    A = _with_rest(
+        q,
+        "A.excess",
+        values=regulated.work[at],
+        by_rule=call("excess", M_r, steps),
+        symbol="A",
+        kind="work",
+        scale=most,
+    )
     most_energy, least_energy = (
         A - q.define(f"omega.{name}", ω1 * (1 + side * δ / 2)) ** 2 * J_r / 2
         for name, side in (("max", 1), ("min", -1))

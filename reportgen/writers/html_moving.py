@@ -178,16 +178,16 @@ class _Writer:
         self.grown = min(max(size.real / room[0], size.imag / room[1], 1.0), MOST)
         width, height = decimal(size.real), decimal(size.imag)
         return _Drawn(
-            stage.key,
-            stage.title,
-            width,
-            height,
-            f"{decimal(stage.low.real)} {decimal(-stage.high.imag)} {width} {height}",
-            "".join(map(self.item, stage.items)),
-            ", ".join(map(self.formulas.content, stage.notes)),
-            tuple(map(self.formulas.content, stage.scales.printed)) if stage.scales else (),
-            tuple(spot.name for spot in stage.spots),
-            decimal(HIT * self.grown),
+            key=stage.key,
+            title=stage.title,
+            width=width,
+            height=height,
+            box=f"{decimal(stage.low.real)} {decimal(-stage.high.imag)} {width} {height}",
+            body="".join(map(self.item, stage.items)),
+            notes=", ".join(map(self.formulas.content, stage.notes)),
+            scales=tuple(map(self.formulas.content, stage.scales.printed)) if stage.scales else (),
+            spots=tuple(spot.name for spot in stage.spots),
+            reach=decimal(HIT * self.grown),
         )
 
     def item(self, item: MovingItem) -> str:

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from reportgen.document import comments, overview
-from reportgen.document.outline import open_report
 from reportgen.document.report import Report
 from reportgen.document.tree import Block, Paragraph, Table, plain
 from reportgen.notation import vocabulary
@@ -21,7 +20,7 @@ FILES = pytest.mark.parametrize("path", built.FILES, ids=lambda path: path.stem)
 
 
 def opened(path: Path) -> Report:
-    return open_report(built.case(path, built.own_language(path)))
+    return Report(built.case(path, built.own_language(path)))
 
 
 def sizes(report: Report, id: str, count: int) -> np.ndarray:
@@ -102,7 +101,7 @@ def remarks(blocks: tuple[Block, ...]) -> list[str]:
 
 
 def test_every_report_remarks_on_its_main_tables(written: built.Written) -> None:
-    report = open_report(written.case)
+    report = Report(written.case)
     found = remarks(written.document.blocks)
     wanted = 2 + bool(report.has_forces) * 2 + bool(comments.inertia_forces(report)) + report.has_flywheel
     wanted += bool(report.has_forces and comments.peaks(report, comments.load_ids(report), True))
@@ -112,7 +111,7 @@ def test_every_report_remarks_on_its_main_tables(written: built.Written) -> None
 
 def test_each_kind_of_symbol_has_its_meaning(written: built.Written) -> None:
     """What the vocabulary has a letter for is in the list, but for what stands in the table of given data."""
-    report = open_report(written.case)
+    report = Report(written.case)
     listed = {id for ids in overview.symbol_kinds(report).values() for id in ids}
     own = {"lambda", "theta", "K", "H", "e", "D", "s", "scale"}
     parts = re.compile(r"f\..*|ic\..*|v\.(work|back)|.*\.lone.*|alpha.*|psi.*|q\..*|[AB]\..*|d[AB]\..*|frame\..*")
@@ -131,5 +130,5 @@ def test_a_page_of_results_follows_the_task(written: built.Written) -> None:
     assert order == sorted(order)
     tables = {block.key: block for block in built.walk(written.document.blocks) if isinstance(block, Table)}
     symbols = [plain(row[1].inlines, written.language) for row in tables["tab.main.figures"].rows]
-    report = open_report(written.case)
+    report = Report(written.case)
     assert ("J.d" in report.ledger) == any(text.startswith("J_") for text in symbols)

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen.document.figures import FIGURES, Drawn
-from reportgen.document.outline import open_report
+from reportgen.document.figures import Drawn
+from reportgen.document.namespace import FIGURES
 from reportgen.document.report import Report
 from reportgen.figures import style
 from reportgen.figures.geometry import on_one_line
@@ -33,7 +33,7 @@ every = pytest.mark.parametrize("name", NAMES)
 
 @cache
 def report(name: str) -> Report:
-    return open_report(built.case(ASSIGNMENTS / f"{name}.yaml", "en"))
+    return Report(built.case(ASSIGNMENTS / f"{name}.yaml", "en"))
 
 
 def draw(name: str, figure: str, *shown: object) -> Drawn:

@@ -9,8 +9,8 @@ import pytest
 
 from reportgen.cases import MachineCase
 from reportgen.document.key import Row
-from reportgen.document.outline import open_report
 from reportgen.document.plans import force_plan, motion_plan
+from reportgen.document.report import Report
 from reportgen.figures.plan import Plan
 from reportgen.grading.marking import mark
 from reportgen.ledger.kinematics.linkage import What
@@ -47,7 +47,7 @@ def has_room(plan: tuple[float, float], growth: float, box: tuple[float, float])
 
 
 def test_worked_force_plans_are_100_mm_long_or_as_long_as_the_page_allows(case: MachineCase) -> None:
-    report = open_report(case)
+    report = Report(case)
     for k in report.worked_forces:
         for polygon in case.polygons:
             drawn = size(force_plan(report, polygon, k))
@@ -59,7 +59,7 @@ def test_worked_force_plans_are_100_mm_long_or_as_long_as_the_page_allows(case: 
 
 @pytest.mark.parametrize("what", ["v", "a"])
 def test_worked_motion_plans_are_60_mm_long_or_as_long_as_the_sheets_allow(case: MachineCase, what: What) -> None:
-    report = open_report(case)
+    report = Report(case)
     every = [size(motion_plan(report, what, k)) for k in range(1, report.count + 1)]
     largest = max(width for width, _ in every), max(height for _, height in every)
     growth = finer(report.ledger.number(f"mu.{what}").value)

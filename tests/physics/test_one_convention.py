@@ -10,7 +10,6 @@ import pytest
 
 from reportgen import api
 from reportgen.cases import MachineCase
-from reportgen.document.outline import open_report
 from reportgen.document.report import Report
 
 ROOT = Path(__file__).parents[2]
@@ -41,7 +40,7 @@ def turning(name: str, direction: str, folder: Path) -> Report:
         text = re.sub(r"positions: *\{", f"positions: {{direction: {direction}, ", text)
     file = folder / f"{name}.yaml"
     file.write_text(text, encoding="utf-8")
-    return open_report(MachineCase(api.load(file)))
+    return Report(MachineCase(api.load(file)))
 
 
 @pytest.fixture(params=["anticlockwise", "clockwise"])

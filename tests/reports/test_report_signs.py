@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.document import force_figures, outline, result_tables
+from reportgen.document import force_figures, result_tables
 from reportgen.document.report import Report
 from reportgen.document.tree import Block, Equation, InlineMath, Paragraph, plain
 from reportgen.figures.forces import COUPLE_RADIUS
@@ -45,7 +45,7 @@ def written(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
 @pytest.fixture(scope="module")
 def report(written: Written) -> Report:
     """Machines with loads only."""
-    found = outline.open_report(written.case)
+    found = Report(written.case)
     if not found.has_forces:
         pytest.skip("nothing loads this machine")
     return found

@@ -9,7 +9,7 @@ from pathlib import Path
 from reportgen.cases import MachineCase, open_case
 from reportgen.document.drawing_sheets import sheets_of
 from reportgen.document.drawn_plates import Plates
-from reportgen.document.outline import open_report
+from reportgen.document.report import Report
 from reportgen.document.title_block import DEFAULT, TitleBlock, blocks, read_block
 from reportgen.figures.frame import room
 from reportgen.figures.sheet import Part, Room, Sheet
@@ -34,7 +34,7 @@ class Laid:
 @cache
 def drawn(name: str) -> Plates:
     """The plates of an assignment, which sheets of all sizes share."""
-    return Plates.of(open_report(open_case(ROOT / "assignments" / f"{name}.yaml")))
+    return Plates.of(Report(open_case(ROOT / "assignments" / f"{name}.yaml")))
 
 
 @cache

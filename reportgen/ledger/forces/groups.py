@@ -69,7 +69,15 @@ def group(statics: Statics, dyad: Dyad) -> Polygon:
     i, j = dyad.links
     carriers = [end.link if isinstance(end, Guide) else statics.scheme.owner[end] for end in (dyad.start, dyad.end)]
     parts = Group(
-        statics, dyad, i, j, joint(carriers[0], i), joint(j, i), joint(carriers[1], j), statics.on(i), statics.on(j)
+        statics,
+        dyad,
+        i,
+        j,
+        outer=joint(carriers[0], i),
+        inner=joint(j, i),
+        end=joint(carriers[1], j),
+        on_i=statics.on(i),
+        on_j=statics.on(j),
     )
     return DYADS[dyad.kind](parts)
 
@@ -192,7 +200,15 @@ def _close(
 
     def take(digits: str, part: str, begin: str, end: str) -> None:
         dotted = f".{part}" if part else ""
-        read(statics, name, f"R{digits}{dotted}", Symbol("R", digits, part), f"R.{digits}{dotted}", begin, end)
+        read(
+            statics,
+            name,
+            name=f"R{digits}{dotted}",
+            symbol=Symbol("R", digits, part),
+            id=f"R.{digits}{dotted}",
+            start=begin,
+            end=end,
+        )
 
     take(g.outer, "", before, "n")
     if tangents[0]:
@@ -255,7 +271,7 @@ def _driving_crank(statics: Statics, centre: str, own: tuple[LoadOn, ...]) -> Po
     statics.q.define("M.eq", balance, Symbol("M", "cb", "(1)"), scale=statics.torque)
     path = _laid(statics, own)
     force_plan(statics, "1", "R(1)", path)
-    read(statics, "1", "R01", Symbol("R", "01"), "R.01", path.last, path.first)
+    read(statics, "1", name="R01", symbol=Symbol("R", "01"), id="R.01", start=path.last, end=path.first)
     return Polygon("1", (*path.edges, Edge("R01", path.last, path.first, True, DRIVER)))
 
 
@@ -264,8 +280,8 @@ def _driving_slide(statics: Statics, pin: str, own: tuple[LoadOn, ...]) -> Polyg
     q, path = statics.q, _laid(statics, own)
     guide = q["guide.1"]
     force_plan(statics, "1", "R(1)", path, lambda at, μ: meet(at[path.last], turned(guide), 0.0, guide))
-    read(statics, "1", "R01", Symbol("R", "01"), "R.01", path.last, "n")
-    read(statics, "1", "Rcb", Symbol("P", "cb"), "R.cb", "n", path.first)
+    read(statics, "1", name="R01", symbol=Symbol("R", "01"), id="R.01", start=path.last, end="n")
+    read(statics, "1", name="Rcb", symbol=Symbol("P", "cb"), id="R.cb", start="n", end=path.first)
     along = sign(dot(q["F.Rcb"], q.construct("assumed.Rcb", guide)))
     q.define("M.eq", q["R.cb"] * along, Symbol("P", "cb", "(1)"), "force", scale=statics.force)
     total = moments(statics, own, pin)

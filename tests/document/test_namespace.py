@@ -1,0 +1,137 @@
+"""Every name that a template uses stands in the table of names, and nothing stands there that no template uses."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
+from unittest import mock
+
+import pytest
+from jinja2 import Environment, meta, nodes
+
+from reportgen import api
+from reportgen.answers.key import make_key
+from reportgen.answers.paper import task
+from reportgen.case import opened
+from reportgen.document import namespace
+from reportgen.document.outline import compose
+from reportgen.document.prose import Prose, _environment
+from reportgen.document.tree import Block
+from reportgen.words import load_words, search_path, templates
+
+ROOT = templates()
+REPOSITORY = Path(__file__).parents[2]
+ASSIGNMENTS = REPOSITORY / "assignments"
+EXERCISE = "plane-motion"
+"""What the paths of templates for exercises hold."""
+OF_REPORT = {*namespace.PROPERTIES, *namespace.VALUES, *namespace.FUNCTIONS}
+
+
+@cache
+def environment() -> Environment:
+    """The environment that templates are rendered in, with the names that it gives to each of them."""
+    return _environment((ROOT,))
+
+
+@cache
+def parsed() -> Mapping[Path, nodes.Template]:
+    return {
+        path.relative_to(ROOT): environment().parse(path.read_text(encoding="utf-8"))
+        for path in sorted(ROOT.rglob("*.md"))
+    }
+
+
+def of_machines() -> dict[Path, nodes.Template]:
+    return {path: tree for path, tree in parsed().items() if EXERCISE not in str(path)}
+
+
+def of_exercises() -> dict[Path, nodes.Template]:
+    return {path: tree for path, tree in parsed().items() if EXERCISE in str(path)}
+
+
+def used(trees: Mapping[Path, nodes.Template]) -> dict[str, Path]:
+    """The names that templates use without binding them themselves, each with a template that does."""
+    return {name: path for path, tree in trees.items() for name in meta.find_undeclared_variables(tree)}
+
+
+def bound(trees: Mapping[Path, nodes.Template]) -> set[str]:
+    """The names that templates bind, which those that they include may use."""
+    named = (one for tree in trees.values() for one in tree.find_all(nodes.Name))
+    return {one.name for one in named if one.ctx != "load"}
+
+
+def handed(file: str) -> set[str]:
+    """The names that the templates of an assignment's report and task get."""
+    case, found, render = opened(api.load(ASSIGNMENTS / file)), set[str](), Prose.render
+
+    def noted(prose: Prose, name: str, names: Mapping[str, object]) -> tuple[Block, ...]:
+        found.update(names)
+        return render(prose, name, names)
+
+    with mock.patch.object(Prose, "render", noted):
+        compose(case)
+        task(case, make_key(case))
+    return found
+
+
+def called(function: str) -> Iterator[str]:
+    """The first arguments of a function where templates call it."""
+    for path, tree in parsed().items():
+        for call in tree.find_all(nodes.Call):
+            if isinstance(call.node, nodes.Name) and call.node.name == function:
+                (name, *_) = call.args
+                assert isinstance(name, nodes.Const), (path, call.lineno)
+                yield name.value
+
+
+@cache
+def documented() -> set[str]:
+    """The names that the page on templates explains."""
+    text = (REPOSITORY / "docs" / "templates.md").read_text(encoding="utf-8")
+    section = text.split("## Names in templates\n")[1].split("\n## ")[0]
+    rows = [line.split(" | ")[0] for line in section.splitlines() if line.startswith("| `")]
+    return set(re.findall(r"`(\w+)", "\n".join(rows)))
+
+
+def test_every_name_that_a_template_uses_is_in_the_table() -> None:
+    known = handed("shaper-01.yaml") | bound(of_machines()) | set(environment().globals)
+    assert {name: path for name, path in used(of_machines()).items() if name not in known} == {}
+
+
+def test_every_name_in_the_table_is_used_or_explained() -> None:
+    assert OF_REPORT - set(used(of_machines())) - documented() == set()
+
+
+def test_every_name_that_is_explained_exists() -> None:
+    assert documented() - OF_REPORT - set(environment().globals) == set()
+
+
+def test_no_name_stands_in_two_tables() -> None:
+    tables = (namespace.PROPERTIES, namespace.VALUES, namespace.FUNCTIONS, environment().globals)
+    # What every template has of Jinja itself is no name of ours.
+    own = [name for table in tables for name in table if name not in Environment().globals]
+    assert len(own) == len(set(own))
+
+
+def test_an_exercise_s_templates_use_the_names_that_they_get_and_all_of_them() -> None:
+    names = handed("plane-motion/01.yaml")
+    known = names | bound(of_exercises()) | set(environment().globals)
+    assert {name: path for name, path in used(of_exercises()).items() if name not in known} == {}
+    assert names - set(used(of_exercises())) == set()
+
+
+@pytest.mark.parametrize("kind", ["figure", "table"])
+def test_figures_and_tables_are_those_that_templates_name(kind: str) -> None:
+    """A table of quantities by their ids has words of its own and no row."""
+    named = set(called(kind))
+    rows = set(namespace.FIGURES if kind == "figure" else namespace.TABLES)
+    assert rows - named == set()
+    words = {name for path in search_paths() for name in load_words(path)["tables"]} if kind == "table" else set()
+    assert named - rows <= words
+
+
+def search_paths() -> Iterator[tuple[Path, ...]]:
+    for kind in sorted({api.load(file).kind for file in ASSIGNMENTS.glob("*.yaml")}):
+        yield search_path("en", kind=kind)

@@ -1,0 +1,285 @@
+"""The house in figures: its rooms, floors and arrows, its modules and templates, and what must not creep back.
+
+    python -m tests.house
+
+prints every figure beside its limit, and ends with exit code 1 where one is passed.
+
+A room is a folder of `reportgen` with all that is in it, or a module beside those folders.  An arrow runs from a room
+to another one that it imports from, wherever the import stands.  A room is a floor above the highest that it imports.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+SHOWN = 8
+"""Places shown of a figure that has passed its limit."""
+ID_HEADS = "v|a|seg|R|F|mu|drawn|l|m|J|h|M|dir|turn|omega|eps|phi|ic|plan|laid|p|f|G|Pqt|x|s|e|link|guide|rate|side"
+"""What the ids of quantities begin with, before their first dot."""
+_ID = re.compile(rf"({ID_HEADS})\.")
+
+Graph = Mapping[str, frozenset[str]]
+"""What each node has arrows to."""
+
+
+@dataclass(frozen=True)
+class Module:
+    """A module by its dotted name."""
+
+    name: str
+    path: Path
+
+    @cached_property
+    def lines(self) -> list[str]:
+        return self.path.read_text(encoding="utf-8").splitlines()
+
+    @cached_property
+    def tree(self) -> ast.Module:
+        return ast.parse("\n".join(self.lines))
+
+    @property
+    def parts(self) -> list[str]:
+        """Package, room, …."""
+        return self.name.split(".")
+
+    @property
+    def room(self) -> str:
+        """The folder or module directly in the package, or the package's own face."""
+        return ".".join(self.parts[:2])
+
+    def at(self, node: ast.expr | ast.stmt) -> str:
+        return f"{self.path}:{node.lineno}"
+
+
+@dataclass(frozen=True)
+class House:
+    """A package with its templates and the text that describes it."""
+
+    root: Path
+    package: str = "reportgen"
+
+    @cached_property
+    def modules(self) -> Mapping[str, Module]:
+        found = {}
+        for path in sorted((self.root / self.package).rglob("*.py")):
+            parts = path.relative_to(self.root).with_suffix("").parts
+            name = ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+            found[name] = Module(name, path)
+        return found
+
+    @property
+    def templates(self) -> list[Path]:
+        return [path for path in (self.root / "templates").rglob("*") if path.is_file()]
+
+    @cached_property
+    def imports(self) -> Graph:
+        """The modules that each module imports: inside functions and for types alone, too."""
+        return {name: frozenset(self._imported(module)) - {name} for name, module in self.modules.items()}
+
+    def _imported(self, module: Module) -> Iterator[str]:
+        for node in ast.walk(module.tree):
+            names: list[str] = []
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                assert not node.level, f"{module.at(node)}: an import says its whole name"
+                inner = [f"{node.module}.{alias.name}" for alias in node.names]
+                # What is no module itself is taken from the one that it is imported from.
+                names = [name if name in self.modules else str(node.module) for name in inner]
+            yield from (name for name in names if name in self.modules)
+
+    @cached_property
+    def arrows(self) -> Graph:
+        """The rooms that each room imports from."""
+        rooms = {name: module.room for name, module in self.modules.items()}
+        found: dict[str, set[str]] = {room: set() for room in rooms.values()}
+        for name, imported in self.imports.items():
+            found[rooms[name]] |= {rooms[one] for one in imported} - {rooms[name]}
+        return {room: frozenset(others) for room, others in found.items()}
+
+    @cached_property
+    def floors(self) -> Mapping[str, int]:
+        """The floor of each room, from 1; rooms of one circle share theirs."""
+        floors: dict[str, int] = {}
+        for circle in strongly_connected(self.arrows):
+            below = {other for room in circle for other in self.arrows[room]} - circle
+            floors |= dict.fromkeys(circle, 1 + max((floors[room] for room in below), default=0))
+        return floors
+
+
+def strongly_connected(graph: Graph) -> list[frozenset[str]]:
+    """The sets of nodes that reach one another, each behind all that it has arrows to (Tarjan)."""
+    found: list[frozenset[str]] = []
+    number: dict[str, int] = {}
+    lowest: dict[str, int] = {}
+    open_nodes: list[str] = []
+
+    def visit(node: str) -> None:
+        number[node] = lowest[node] = len(number)
+        open_nodes.append(node)
+        for other in sorted(graph[node]):
+            if other not in number:
+                visit(other)
+            if other in open_nodes:
+                lowest[node] = min(lowest[node], lowest[other])
+        if lowest[node] == number[node]:
+            start = open_nodes.index(node)
+            found.append(frozenset(open_nodes[start:]))
+            del open_nodes[start:]
+
+    for node in sorted(graph):
+        if node not in number:
+            visit(node)
+    return found
+
+
+# --- what is counted --------------------------------------------------------------------------------
+
+Counted = int | Sequence[str]
+"""A number, or the places of which there are so many."""
+
+
+def rooms(house: House) -> Counted:
+    return sorted(house.arrows)
+
+
+def floors(house: House) -> Counted:
+    return max(house.floors.values())
+
+
+def arrows(house: House) -> Counted:
+    return [f"{room} → {other}" for room, others in house.arrows.items() for other in sorted(others)]
+
+
+def arrows_back_up(house: House) -> Counted:
+    """Arrows to a room that is no lower."""
+    floor = house.floors
+    return [
+        f"{room} → {other}" for room, others in house.arrows.items() for other in others if floor[other] >= floor[room]
+    ]
+
+
+def circles(house: House) -> Counted:
+    """Sets of modules that import one another."""
+    return [" ↔ ".join(sorted(circle)) for circle in strongly_connected(house.imports) if len(circle) > 1]
+
+
+def modules(house: House) -> Counted:
+    return len(house.modules)
+
+
+def longest_module(house: House) -> Counted:
+    return max(len(module.lines) for module in house.modules.values())
+
+
+def lines_of_code(house: House) -> Counted:
+    """Lines that are neither blank nor a comment nor part of a docstring."""
+    return sum(map(_lines_of_code, house.modules.values()))
+
+
+def _lines_of_code(module: Module) -> int:
+    documented = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+    texts = [node.body[0] for node in ast.walk(module.tree) if isinstance(node, documented) and ast.get_docstring(node)]
+    docstrings = {line for text in texts for line in range(text.lineno, (text.end_lineno or text.lineno) + 1)}
+    code = (line.strip() for number, line in enumerate(module.lines, start=1) if number not in docstrings)
+    return sum(1 for line in code if line and not line.startswith("#"))
+
+
+def template_files(house: House) -> Counted:
+    return len(house.templates)
+
+
+def words_of_architecture(house: House) -> Counted:
+    return len((house.root / "ARCHITECTURE.md").read_text(encoding="utf-8").split())
+
+
+def ids_by_f_string(house: House) -> Counted:
+    """f-strings that begin as the id of a quantity does: `f"v.{point}"`."""
+    return [
+        module.at(node)
+        for module in house.modules.values()
+        for node in ast.walk(module.tree)
+        if isinstance(node, ast.JoinedStr) and len(node.values) > 1
+        if isinstance(head := node.values[0], ast.Constant) and _ID.match(str(head.value))
+    ]
+
+
+def class_names_twice(house: House) -> Counted:
+    """Names of classes, but for those of one module alone (`_Name`), that mean several things."""
+    names = Counter(
+        node.name
+        for module in house.modules.values()
+        for node in ast.walk(module.tree)
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
+    )
+    return sorted(name for name, count in names.items() if count > 1)
+
+
+def longest_positional_call(house: House) -> Counted:
+    """The most arguments that a call passes by their places alone; what goes into a list of any length is one."""
+    listing = dict(_listing(house))
+    return max(
+        min(len(call.args), listing.get(_called(call), len(call.args)))
+        for module in house.modules.values()
+        for call in ast.walk(module.tree)
+        if isinstance(call, ast.Call)
+    )
+
+
+def _listing(house: House) -> Iterator[tuple[str, int]]:
+    """Functions that take a list of any length (`*names`), with how many arguments that list and all before it make."""
+    for module in house.modules.values():
+        for node in ast.walk(module.tree):
+            if isinstance(node, ast.FunctionDef) and node.args.vararg is not None:
+                named = [argument.arg for argument in (*node.args.posonlyargs, *node.args.args)]
+                yield node.name, len(named) - (named[:1] in (["self"], ["cls"])) + 1
+
+
+def _called(call: ast.Call) -> str:
+    match call.func:
+        case ast.Name(id=name) | ast.Attribute(attr=name):
+            return name
+    return ""
+
+
+LIMITS: Mapping[Callable[[House], Counted], int] = {
+    rooms: 29,
+    floors: 15,
+    arrows: 152,
+    arrows_back_up: 0,
+    circles: 0,
+    modules: 218,
+    longest_module: 451,
+    lines_of_code: 30056,
+    template_files: 488,
+    words_of_architecture: 2925,
+    ids_by_f_string: 592,
+    class_names_twice: 41,
+    longest_positional_call: 22,
+}
+"""What no figure may pass."""
+
+
+def main() -> int:
+    house, passed = House(ROOT), 0
+    for counting, limit in LIMITS.items():
+        counted = counting(house)
+        count, places = (counted, ()) if isinstance(counted, int) else (len(counted), counted)
+        print(f"{counting.__name__.replace('_', ' '):25}{count:7}   at most {limit}")
+        if count > limit:
+            passed += 1
+            for place in places[:SHOWN]:
+                print(f"    {place}")
+    return 1 if passed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

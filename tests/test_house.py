@@ -1,0 +1,85 @@
+"""What the figures of the house count, on a little house."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests import house
+
+FILES = {
+    "little/__init__.py": "",
+    "little/base.py": '"""Base."""\n\n# A comment.\nx = 1\n"""What x is."""\n',
+    "little/middle/__init__.py": "",
+    "little/middle/one.py": "from little import base\nfrom little.middle.two import y\nname = f'v.{base.x}'\n",
+    "little/middle/two.py": """
+from typing import TYPE_CHECKING
+if TYPE_CHECKING:
+    import little.middle.one
+y = f'{1}.v'
+""",
+    "little/top.py": """
+class A: ...
+class _B: ...
+def called(first, *rest):
+    from little.middle.two import y
+    called(1, 2, 3, 4)
+    return max(1, 2, 3)
+""",
+    "little/side.py": "from little.base import x\nclass A: ...\nclass _B: ...\n",
+    "templates/en/words.md": "…",
+    "ARCHITECTURE.md": "One two three.\n",
+}
+
+
+def built(root: Path, **further: str) -> house.House:
+    for name, text in {**FILES, **{f"little/{name}.py": text for name, text in further.items()}}.items():
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(text, encoding="utf-8")
+    return house.House(root, "little")
+
+
+def test_rooms_arrows_and_floors(tmp_path: Path) -> None:
+    little = built(tmp_path)
+    assert house.rooms(little) == ["little", "little.base", "little.middle", "little.side", "little.top"]
+    assert house.arrows(little) == [
+        "little.middle → little.base",
+        "little.side → little.base",
+        "little.top → little.middle",
+    ]
+    assert little.floors == {"little": 1, "little.base": 1, "little.middle": 2, "little.side": 2, "little.top": 3}
+    assert house.arrows_back_up(little) == []
+    # Modules of one room that import one another are a circle all the same.
+    assert house.circles(little) == ["little.middle.one ↔ little.middle.two"]
+
+
+def test_an_arrow_in_a_circle_of_rooms_runs_back_up(tmp_path: Path) -> None:
+    little = built(tmp_path, base="def later():\n    from little import side\n")
+    assert sorted(house.arrows_back_up(little)) == ["little.base → little.side", "little.side → little.base"]
+    assert little.floors["little.base"] == little.floors["little.side"] == 1
+    assert little.floors["little.top"] == 3
+
+
+def test_what_is_counted_of_the_code(tmp_path: Path) -> None:
+    little = built(tmp_path)
+    assert house.modules(little) == 7
+    assert house.longest_module(little) == 7
+    assert house.template_files(little) == 1
+    assert house.words_of_architecture(little) == 3
+    assert house.class_names_twice(little) == ["A"]
+    assert house.ids_by_f_string(little) == [f"{tmp_path / 'little/middle/one.py'}:3"]
+    assert house.lines_of_code(built(tmp_path, top="", side="")) == 2 + 3 + 4
+
+
+def test_a_list_of_any_length_is_one_argument(tmp_path: Path) -> None:
+    assert house.longest_positional_call(built(tmp_path)) == 3
+    assert house.longest_positional_call(built(tmp_path, side="print(1, 2, 3, 4)\n")) == 4
+
+
+def test_a_limit_that_is_passed_is_a_fault(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(house, "LIMITS", {house.circles: 0, house.modules: 1000})
+    assert house.main() == 0
+    monkeypatch.setattr(house, "LIMITS", {house.floors: 1})
+    assert house.main() == 1
+    assert capsys.readouterr().out.count("at most") == 3
