@@ -18,10 +18,10 @@ from reportgen.answers.trapezoid import is_workable, trapezoid_errors
 from reportgen.answers.wording import MAGNITUDE, capitalised, is_open, phrase, positive_sense
 from reportgen.case import Case, ExerciseCase, Opened
 from reportgen.document.outline import open_report
-from reportgen.document.tree import formula
 from reportgen.ledger.core import Ledger
 from reportgen.notation.expressions import Number, Symbol, refs
 from reportgen.notation.numbers import Language, significant_decimals
+from reportgen.notation.plain import formula
 from reportgen.notation.sheet import Family, is_short
 from reportgen.notation.vocabulary import MAX_DIGITS, Chapter
 from reportgen.words import load_words, search_path
