@@ -165,9 +165,9 @@ class Boxes(Setter[Box]):
                 function = _scripts(self.text(name), NOTHING, power, em)
                 return function.beside(of(to) if isinstance(to, Fence) else _gap(THIN * em).beside(of(to)))
             case Grid(rows):
-                lines = [_row(entry for part in row for entry in (_gap(em), of(part))) for row in rows]
+                lines = [_row(map(of, row)).beside(_gap((len(row) - 1) * em)) for row in rows]
                 half = sum(line.high for line in lines) / 2
-                width = max((line.width - em for line in lines), default=0.0)
+                width = max((line.width for line in lines), default=0.0)
                 return Box(width, half + 0.25 * em, half - 0.25 * em)
             case Note(text):
                 # Both typesetters set the note in parentheses, a quad away.

@@ -153,6 +153,7 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
     """
 
     def of(node: Expression) -> Part:
+        line: list[Part]
         match node:
             case Symbol():
                 return node
@@ -170,8 +171,8 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
                 return Row((tight(top, PRODUCT), SLASH, tight(bottom, ATOM)))
             case Fraction(top, bottom):
                 return Quotient(of(top), of(bottom))
-            case Power(Call(name, arguments), exponent) if name in NAMED:
-                return applied(name, arguments, raised(exponent))
+            case Power(Call(name, arguments), exponent) if name in NAMED and not linear:
+                return applied(name, arguments, of(exponent))
             case Power(base, exponent):
                 return Raised(tight(base, ATOM), raised(exponent))
             case Root(inner):
@@ -189,12 +190,15 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
                 signs = [FIRST, *(EQUALS for _ in parts[2:])][: len(parts) - 1]
                 if short_end(node):
                     signs[-1:] = [LAST]
-                line: list[Part] = [of(parts[0])]
+                line = [of(parts[0])]
                 for sign, side in zip(signs, parts[1:], strict=True):
                     line += (sign, of(side))
                 return _noted(Row(tuple(line)), node)
             case VectorEquation():
-                return Row(tuple(part for signs, term in terms(node) for part in (*signs, term.symbol)))
+                line = []
+                for before, term in terms(node):
+                    line += (*before, term.symbol)
+                return Row(tuple(line))
         raise TypeError(f"{type(node).__name__} without operands")
 
     def tight(node: Expression, least: int) -> Fence:

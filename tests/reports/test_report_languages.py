@@ -28,11 +28,11 @@ from reportgen.document.tree import (
     Table,
     Value,
     Words,
-    formula,
     plain,
 )
 from reportgen.kinds import kinds
 from reportgen.mechanism.structure import DyadKind
+from reportgen.notation.plain import formula
 from reportgen.words import load_words, search_path
 from tests.reports import built
 from tests.reports.built import Written
