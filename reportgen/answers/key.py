@@ -16,10 +16,10 @@ from reportgen.answers.wording import MAGNITUDE, is_open, phrase, positive_sense
 from reportgen.case import Calculation, Opened
 from reportgen.document.key import INSTANT, Key, Role, Row, Span
 from reportgen.document.report import Report
-from reportgen.document.tree import formula
 from reportgen.ledger.core import Ledger
 from reportgen.notation.expressions import Number, refs
 from reportgen.notation.numbers import significant_decimals
+from reportgen.notation.plain import formula
 from reportgen.notation.sheet import Family, is_short
 from reportgen.notation.vocabulary import MAX_DIGITS, Chapter
 from reportgen.words import load_words, search_path

@@ -20,7 +20,6 @@ from reportgen.document.curves import axis, curves_of_motion, over_a_turn, over_
 from reportgen.document.figures import MM, drawing_scale, looks, short
 from reportgen.document.plans import force_plan_through, motion_plan_through
 from reportgen.document.report import Report
-from reportgen.document.tree import formula
 from reportgen.figures import style
 from reportgen.figures.charts import Plotted
 from reportgen.figures.moving import (
@@ -53,6 +52,7 @@ from reportgen.mechanism.forces import Load
 from reportgen.mechanism.motion import Motion
 from reportgen.notation.expressions import Chain, Number, Symbol
 from reportgen.notation.numbers import nice_up, significant_decimals
+from reportgen.notation.plain import formula
 from reportgen.notation.vocabulary import KINDS
 
 SAMPLES = 360

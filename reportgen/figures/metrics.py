@@ -7,28 +7,28 @@ the greatest depth below it.  Scripts are set at 0.7 of the size, as both typese
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, reduce
 from pathlib import Path
 
 from reportgen.figures.scene import Content
-from reportgen.notation.expressions import (
-    Call,
-    Chain,
-    Expression,
-    Fraction,
-    Matrix,
-    Negative,
-    Number,
-    Power,
-    Product,
-    Ref,
-    Root,
-    Sum,
-    Symbol,
-    VectorEquation,
+from reportgen.notation.expressions import Symbol
+from reportgen.notation.setting import (
+    Applied,
+    Fence,
+    Grid,
+    Note,
+    Part,
+    Quotient,
+    Radical,
+    Raised,
+    Role,
+    Row,
+    Setter,
+    Sign,
+    Written,
 )
-from reportgen.notation.numbers import write
 from reportgen.notation.vocabulary import numbered, runs
 
 POINT = 25.4 / 72.27
@@ -42,6 +42,10 @@ OVER = 0.25
 """What an arrow or a bar above takes, in font sizes."""
 RELATION = 0.56
 """Width of the space on both sides of a relation or a sign, in font sizes (thick spaces)."""
+GAPS: Mapping[Role, float] = {"product": RELATION, "separator": 0.5}
+"""Width of a sign with its space, in font sizes, where it is not as wide as a plus."""
+THIN = 0.17
+"""Between a function and what it is applied to, in font sizes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,18 +60,27 @@ class Box:
         """Both boxes on one baseline."""
         return Box(self.width + other.width, max(self.height, other.height), max(self.depth, other.depth))
 
+    @property
+    def high(self) -> float:
+        return self.height + self.depth
+
+
+NOTHING = Box(0.0, 0.0, 0.0)
+
 
 @lru_cache(maxsize=4096)
-def box(content: Content, size: float = 9.0) -> Box:
-    """The box of a label's content at a font size in points; unknown letters count as one em."""
-    em = size * POINT
-    return _text(content, em) if isinstance(content, str) else _expression(content, em)
+def box(content: Content, size: float = 9.0, displayed: bool = False) -> Box:
+    """The box of a label's content at a font size in points; unknown letters count as one em.
+
+    The fractions of a `displayed` formula are in full size.
+    """
+    return Boxes(size * POINT, displayed).content(content)
 
 
 def _text(text: str, em: float, italic: bool = False) -> Box:
     glyphs = [(italic and ITALIC.get(letter)) or ROMAN.get(letter) or _unknown(letter) for letter in text]
     if not glyphs:
-        return Box(0.0, 0.0, 0.0)
+        return NOTHING
     k = em / 1000
     advances, heights, depths = zip(*glyphs, strict=True)
     return Box(k * sum(advances), k * max(heights), k * max(depths))
@@ -80,11 +93,8 @@ def _unknown(letter: str) -> tuple[int, int, int]:
     return 1000, 750, 200
 
 
-def _joined(parts: list[Box], em: float, gap: float) -> Box:
-    result = parts[0]
-    for part in parts[1:]:
-        result = result.beside(Box(gap * em, 0.0, 0.0)).beside(part)
-    return result
+def _gap(width: float) -> Box:
+    return Box(width, 0.0, 0.0)
 
 
 def _scripts(base: Box, sub: Box, sup: Box, em: float, cut: float = 1.0) -> Box:
@@ -108,65 +118,76 @@ def _symbol(symbol: Symbol, em: float) -> Box:
 
 def _letters(text: str, em: float) -> Box:
     """Letters of formulas, digits that stand below them in the size of scripts."""
-    whole = Box(0.0, 0.0, 0.0)
+    whole = NOTHING
     for letters, digits in runs(text):
         below = _text(digits, SCRIPT * em)
-        whole = whole.beside(_scripts(_text(letters, em, italic=True), below, Box(0.0, 0.0, 0.0), em, SMALL_CUT))
+        whole = whole.beside(_scripts(_text(letters, em, italic=True), below, NOTHING, em, SMALL_CUT))
     return whole
 
 
-def _expression(node: Expression, em: float) -> Box:
-    match node:
-        case Symbol():
-            return _symbol(node, em)
-        case Number(value, decimals, unit):
-            number = _text(write(value, decimals, "en"), em)
-            return number.beside(_text(" " + unit, em)) if unit else number
-        case Ref(id):
-            return _text(id, em)
-        case Sum(terms):
-            return _joined([_expression(term, em) for term in terms], em, 0.78 + RELATION)
-        case Product(factors):
-            return _joined([_factor(factor, em) for factor in factors], em, RELATION)
-        case Negative(of):
-            return _text("−", em).beside(_factor(of, em))
-        case Fraction(top, bottom):
-            # In a line of text both typesetters set the parts of a fraction in the size of scripts.
-            above, below = _expression(top, SCRIPT * em), _expression(bottom, SCRIPT * em)
-            axis, gap = 0.25 * em, 0.12 * em
-            return Box(
-                max(above.width, below.width) + 0.24 * em,
-                axis + gap + above.height + above.depth,
-                below.height + below.depth + gap - axis,
-            )
-        case Power(base, exponent):
-            return _scripts(_factor(base, em), Box(0, 0, 0), _expression(exponent, SCRIPT * em), em)
-        case Root(of):
-            inner = Box(0.85 * em, 0.2 * em, 0.0).beside(_expression(of, em))
-            return Box(inner.width, inner.height + 0.1 * em, inner.depth - 0.1 * em)
-        case Call("abs" | "size", (argument,)):
-            return _text("||", em).beside(_expression(argument, em))
-        case Call(name, arguments):
-            inner = _joined([_expression(argument, em) for argument in arguments], em, 0.5)
-            return _text(name + "()", em).beside(inner)
-        case Matrix(rows):
-            lines = [_joined([_expression(entry, em) for entry in row], em, 1.0) for row in rows]
-            half = sum(line.height + line.depth for line in lines) / 2
-            width = max((line.width for line in lines), default=0.0)
-            return Box(width + em, half + 0.25 * em, half - 0.25 * em)
-        case Chain(parts, note):
-            line = _joined([_expression(part, em) for part in parts], em, 0.78 + RELATION)
-            # Both typesetters set the note in parentheses, a quad away.
-            return line.beside(Box(em, 0.0, 0.0)).beside(_text(f"({note})", em)) if note else line
-        case VectorEquation(sides):
-            return _joined([_symbol(term.symbol, em) for side in sides for term in side], em, 0.78 + RELATION)
+class Boxes(Setter[Box]):
+    """Formulas as the boxes that both typesetters set for them; em is the font size (mm)."""
+
+    def __init__(self, em: float, displayed: bool = False) -> None:
+        super().__init__("en")
+        self.em = em
+        self.displayed = displayed
+
+    def text(self, text: str) -> Box:
+        return _text(text, self.em)
+
+    def part(self, part: Part) -> Box:
+        em, of = self.em, self.part
+        match part:
+            case Symbol():
+                return _symbol(part, em)
+            case Written(digits, unit):
+                return self.text(digits).beside(self.text(" " + unit)) if unit else self.text(digits)
+            case Sign(sign, "prefix" | "slash"):
+                return self.text(sign)
+            case Sign(_, role):
+                return _gap(GAPS.get(role, 0.78 + RELATION) * em)
+            case Row(parts):
+                return _row(map(of, parts))
+            case Raised(base, exponent):
+                return _scripts(of(base), NOTHING, self.script.part(exponent), em)
+            case Quotient(top, bottom):
+                return self.quotient(top, bottom)
+            case Radical(inner):
+                line = Box(0.85 * em, 0.2 * em, 0.0).beside(of(inner))
+                return Box(line.width, line.height + 0.1 * em, line.depth - 0.1 * em)
+            case Fence("[", inner):
+                return of(inner).beside(_gap(em))
+            case Fence(left, inner, right):
+                return self.text(left + right).beside(of(inner))
+            case Applied(name, exponent, to):
+                power = NOTHING if exponent is None else self.script.part(exponent)
+                function = _scripts(self.text(name), NOTHING, power, em)
+                return function.beside(of(to) if isinstance(to, Fence) else _gap(THIN * em).beside(of(to)))
+            case Grid(rows):
+                lines = [_row(map(of, row)).beside(_gap((len(row) - 1) * em)) for row in rows]
+                half = sum(line.high for line in lines) / 2
+                width = max((line.width for line in lines), default=0.0)
+                return Box(width, half + 0.25 * em, half - 0.25 * em)
+            case Note(text):
+                # Both typesetters set the note in parentheses, a quad away.
+                return _gap(em).beside(self.text(f"({text})"))
+
+    @property
+    def script(self) -> Boxes:
+        return Boxes(SCRIPT * self.em)
+
+    def quotient(self, top: Part, bottom: Part) -> Box:
+        """A fraction, whose parts are in the size of scripts within a line of text."""
+        em, size = self.em, self if self.displayed else self.script
+        above, below = size.part(top), size.part(bottom)
+        axis, gap = 0.25 * em, 0.12 * em
+        width = max(above.width, below.width) + 0.24 * em
+        return Box(width, axis + gap + above.high, below.high + gap - axis)
 
 
-def _factor(node: Expression, em: float) -> Box:
-    """A part of a product, in the parentheses that a sum or a negative gets there."""
-    inner = _expression(node, em)
-    negative = isinstance(node, Number) and node.shown < 0
-    return _text("()", em).beside(inner) if negative or isinstance(node, (Sum, Negative)) else inner
+def _row(boxes: Iterable[Box]) -> Box:
+    return reduce(Box.beside, boxes, NOTHING)
 
 
 # --- sizes of glyphs ------------------------------------------------------------------------------

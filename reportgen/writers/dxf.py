@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import io
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from reportgen.figures.lettering import CAPITAL, NARROW
@@ -17,10 +17,11 @@ from reportgen.figures.metrics import POINT
 from reportgen.figures.scene import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline, Stroke
 from reportgen.figures.sheet import Part, Sheet
 from reportgen.figures.style import PAPER
-from reportgen.notation.expressions import Chain, Expression, Number, Power, Symbol
-from reportgen.notation.numbers import Language, write
+from reportgen.notation.expressions import Symbol
+from reportgen.notation.numbers import Language
+from reportgen.notation.plain import Plain
+from reportgen.notation.vocabulary import runs
 from reportgen.writers.drawing import HEAD_SLENDERNESS, arrow_head, clip_hatch
-from reportgen.writers.layout import UNSPACED, Formulas
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -203,61 +204,27 @@ def _pen(layer: str, stroke: Stroke) -> dict[str, Any]:
 # --- text -----------------------------------------------------------------------------------------
 
 
-class MText(Formulas):
+class MText(Plain):
     """Formulas as MTEXT: Unicode, with indices stacked and set smaller."""
 
-    PLUS, MINUS, NEGATIVE = "+", "−", "−"
-    TIMES, DOT, CROSS = "·", "·", "×"
-    FRACTION, RAISED, ROOT, ABSOLUTE = "(%s)/(%s)", "", "√(%s)", "|%s|"
-
-    def content(self, content: Expression | str) -> str:
-        return self.text(content) if isinstance(content, str) else self.math(content)
+    gap = "  "
 
     def text(self, text: str) -> str:
         """A text with what MTEXT takes for orders made plain."""
         escaped = text.replace("\\", "\\\\").replace("{", "\\{").replace("}", "\\}")
         return escaped.replace("\n", "\\P").replace("^", "^ ")
 
-    def math(self, node: Expression) -> str:
-        if isinstance(node, Power):
-            return self.tight(node.base, 5) + self.stacked("", self.math(node.exponent))
-        return super().math(node)
-
-    def stacked(self, below: str, above: str) -> str:
-        """An index and an exponent over one another."""
-        # Without the blank a caret and the letter after it would be a control character.
-        return f"{{\\H{STACK}x;\\S{above}^ {below};}}" if below or above else ""
-
     def symbol(self, node: Symbol) -> str:
         # Without the arrow of a vector: overlining is an order that not every program knows and some print.
         # Digits within an index stand in its line: stacks do not nest.
-        return self.lettered(node.base) + self.stacked(self.text(node.sub), self.text(node.sup))
+        letters = (self.text(piece) + _stacked(self.text(digits), "") for piece, digits in runs(node.base))
+        return "".join(letters) + _stacked(self.text(node.sub), self.text(node.sup))
 
-    def italic(self, text: str) -> str:
-        return self.text(text)
+    def above(self, exponent: str) -> str:
+        return _stacked("", exponent)
 
-    def upright(self, text: str) -> str:
-        return self.text(text)
 
-    def lowered(self, text: str) -> str:
-        return self.stacked(self.text(text), "")
-
-    def number(self, node: Number) -> str:
-        gap = "" if node.unit in UNSPACED else " "
-        return self.text(write(node.value, node.decimals, self.language) + gap + node.unit)
-
-    def parentheses(self, node: Expression) -> str:
-        return f"({self.math(node)})"
-
-    def function(self, name: str) -> str:
-        return name
-
-    def arguments(self, nodes: Sequence[Expression]) -> str:
-        return f"({'; '.join(map(self.math, nodes))})"
-
-    def matrix(self, rows: Iterable[Sequence[str]]) -> str:
-        return "[" + "; ".join(", ".join(row) for row in rows) + "]"
-
-    def chain(self, node: Chain) -> str:
-        shown = " = ".join(map(self.math, node.parts))
-        return f"{shown}  ({self.text(node.note)})" if node.note else shown
+def _stacked(below: str, above: str) -> str:
+    """An index and an exponent over one another."""
+    # Without the blank a caret and the letter after it would be a control character.
+    return f"{{\\H{STACK}x;\\S{above}^ {below};}}" if below or above else ""

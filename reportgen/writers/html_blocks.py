@@ -8,7 +8,8 @@ from itertools import pairwise
 
 from reportgen.document import tree
 from reportgen.figures.scene import Scene
-from reportgen.notation.expressions import Expression, Sum, VectorEquation
+from reportgen.notation.expressions import Expression, VectorEquation
+from reportgen.notation.setting import NARROW, written
 from reportgen.writers import layout
 from reportgen.writers.mathml import MathmlFormulas, escape
 from reportgen.writers.svg import Painter, Pens
@@ -163,21 +164,15 @@ class Blocks:
             case tree.Strong(of):
                 return f"<strong>{self.inlines(of)}</strong>"
             case tree.InlineMath(expression, True):
-                return MathmlFormulas(self.language, slashed=True).content(expression)
+                return self.formulas.content(expression, slashed=True)
             case tree.InlineMath(expression):
-                return self.formula(expression)
+                return BREAK.join(map(self.formulas.inline, self.formulas.broken(expression)))
             case tree.Value(number):
-                return f'<span class="nb">{self.formulas.quantity(number)}</span>'
+                return f'<span class="nb">{escape(written(number, self.language).text(NARROW))}</span>'
             case tree.Reference(key, text):
                 return f'<a href="#{anchor(key)}">{escape(text)}</a>'
             case tree.LineBreak():
                 return "<br>"
-
-    def formula(self, expression: Expression) -> str:
-        """A formula in a line, which may break before "=" and between the terms of a sum only."""
-        if isinstance(expression, Sum):
-            return BREAK.join(map(self.formulas.inline, self.formulas.pieces(expression)))
-        return BREAK.join(map(self.formulas.inline, self.formulas.broken(expression)))
 
     # --- formulas, lists and tables -----------------------------------------------------------------
 
@@ -208,7 +203,7 @@ class Blocks:
 
     def vector_equation(self, equation: VectorEquation) -> str:
         """The terms side by side, below each what is known of it."""
-        columns = self.formulas.columns_of(equation)
+        columns = self.formulas.columns(equation)
         terms = "".join(f"<td>{self.formulas.displayed(term)}</td>" for term, _ in columns)
         lines = [f"<tr><td></td>{terms}</tr>"]
         for index, name in enumerate(equation.rows):

@@ -178,10 +178,10 @@ class _Writer:
                 return rf"\emph{{{self.inlines(of)}}}"
             case tree.Strong(of):
                 return rf"\textbf{{{self.inlines(of)}}}"
-            case tree.InlineMath(expression, True):
-                return LatexFormulas(self.language, slashed=True).content(expression)
-            case tree.InlineMath(expression) | tree.Value(expression):
-                return self.formulas.content(expression)
+            case tree.InlineMath(expression, slashed):
+                return self.formulas.content(expression, slashed)
+            case tree.Value(number):
+                return self.formulas.content(number)
             case tree.Reference(key, text):
                 place = self.places.get(key)
                 return rf"\link{{{place}}}{{{escape(text)}}}" if place else escape(text)

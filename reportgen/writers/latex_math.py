@@ -9,14 +9,36 @@ from __future__ import annotations
 import json
 import re
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 from reportgen.errors import TypesetterError
-from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Root, Symbol, VectorEquation, walk
-from reportgen.notation.numbers import MINUS, write
-from reportgen.writers.layout import NAMED, PRIMES, UNSPACED, Column, Formulas, short_end
+from reportgen.notation.expressions import Expression, Symbol, VectorEquation
+from reportgen.notation.numbers import MINUS
+from reportgen.notation.setting import (
+    NAMED,
+    Applied,
+    Column,
+    Fence,
+    Grid,
+    Note,
+    Part,
+    Quotient,
+    Radical,
+    Raised,
+    Role,
+    Row,
+    Setter,
+    Sign,
+    Written,
+    columns,
+    is_tall,
+    parted,
+    short_end,
+    sides,
+)
+from reportgen.notation.vocabulary import numbered, runs
 
 NARROW_TERMS = 5
 """A vector equation of at most so many terms fits any line."""
@@ -81,90 +103,87 @@ def hexadecimal(text: str) -> str:
 # --- formulas -------------------------------------------------------------------------------------
 
 
-class LatexFormulas(Formulas):
+class LatexFormulas(Setter[str]):
     r"""Formulas with the places where a line may break: \relbreak, \binbreak, \dotbreak."""
 
-    PLUS, MINUS, NEGATIVE = r"\binbreak+", r"\binbreak-", "-"
-    TIMES, DOT, CROSS = r"\dotbreak\cdot", r"\cdot", r"\times"
-    SLASH = "/"
-    FRACTION, RAISED, ROOT, ABSOLUTE = r"\frac{%s}{%s}", "^{%s}", r"\sqrt{%s}", r"\lvert %s\rvert "
+    SIGNS: ClassVar = {"·": r"\cdot", "×": r"\times", "−": "-"}
+    BREAKS: ClassVar[Mapping[Role, str]] = {"sum": r"\binbreak", "product": r"\dotbreak", "relation": r"\relbreak"}
+    AHEAD: ClassVar[Mapping[Role, str]] = {"prefix": "", "slash": "", "separator": ""}
+    """What stands before a sign that has no white on its left."""
+    BEHIND: ClassVar[Mapping[Role, str]] = {"prefix": "", "slash": "", "first": r"\nobreak "}
 
     def text(self, text: str) -> str:
         return escape(text)
 
-    def number(self, node: Number) -> str:
+    def inline(self, mathematics: str) -> str:
+        return f"${mathematics}$"
+
+    def part(self, part: Part) -> str:
+        of = self.part
+        match part:
+            case Symbol():
+                return self.symbol(part)
+            case Written():
+                return self.number(part)
+            case Sign(sign, role):
+                shown = self.BREAKS.get(role, "") + self.SIGNS.get(sign, sign)
+                return self.AHEAD.get(role, " ") + shown + self.BEHIND.get(role, " ")
+            case Row(parts):
+                return "".join(map(of, parts))
+            case Raised(base, exponent):
+                return f"{of(base)}^{{{of(exponent)}}}"
+            case Quotient(top, bottom):
+                return rf"\frac{{{of(top)}}}{{{of(bottom)}}}"
+            case Radical(inner):
+                return rf"\sqrt{{{of(inner)}}}"
+            case Fence("|", inner):
+                return rf"\lvert {of(inner)}\rvert "
+            case Fence("[", inner):
+                return _bracketed(rf"\begin{{matrix}}{of(inner)}\end{{matrix}}")
+            case Fence("(", inner) if is_tall(inner):
+                return rf"\mathopen{{}}\left({of(inner)}\right)"
+            case Fence(left, inner, right):
+                return f"{left}{of(inner)}{right}"
+            case Applied(name, exponent, to):
+                function = rf"\{name}" if name in NAMED else rf"\operatorname{{{escape(name)}}}"
+                power = f"^{{{of(exponent)}}}" if exponent else ""
+                return function + power + ("" if isinstance(to, Fence) else " ") + of(to)
+            case Grid(rows):
+                return r" \\ ".join(" & ".join(map(of, row)) for row in rows)
+            case Note(text):
+                return rf" \relbreak\quad\text{{({escape(text)})}}"
+
+    def number(self, number: Written) -> str:
         """Digits without a gap after the decimal comma and with a true minus sign, and the unit."""
-        digits = write(node.value, node.decimals, self.language)
-        if any(char.isdigit() for char in digits):
-            digits = digits.replace(",", "{,}").replace(MINUS, "-")
+        if any(char.isdigit() for char in number.digits):
+            digits = number.digits.replace(",", "{,}").replace(MINUS, "-")
         else:
-            digits = rf"\text{{{escape(digits)}}}"
-        gap = "" if node.unit in UNSPACED else r"\,"
-        return digits + (rf"{gap}\text{{{escape(node.unit)}}}" if node.unit else "")
+            digits = rf"\text{{{escape(number.digits)}}}"
+        gap = r"\," if number.spaced else ""
+        return digits + (rf"{gap}\text{{{escape(number.unit)}}}" if number.unit else "")
 
     def symbol(self, node: Symbol) -> str:
-        letters = node.base.rstrip("".join(PRIMES))
-        above = node.base[len(letters) :] + node.sup
-        base = letters if len(letters) == 1 and _is_mathematical(letters) else self.lettered(letters)
+        letters, above = parted(node)
+        single = len(letters) == 1 and _is_mathematical(letters)
+        base = letters if single else _lowered(runs(letters), lambda part: _word(part, "it"))
         if node.over == "vector":
             base = rf"\vec{{{base}}}" if len(letters) == 1 else rf"\overrightarrow{{{base}}}"
-        below = f"_{{{self.index(node.sub)}}}" if node.sub else ""
-        marked = base + below + (self.RAISED % _word(above) if above else "")
+        below = f"_{{{_lowered(numbered(node.sub), _word)}}}" if node.sub else ""
+        marked = base + below + (f"^{{{_word(above)}}}" if above else "")
         return rf"\overline{{{marked}}}" if node.over == "segment" else marked
-
-    def italic(self, text: str) -> str:
-        return _word(text, "it")
-
-    def upright(self, text: str) -> str:
-        return _word(text)
-
-    def lowered(self, text: str) -> str:
-        return rf"_{{\scriptstyle{{{_word(text)}}}}}"
-
-    def parentheses(self, node: Expression) -> str:
-        inner = self.math(node)
-        if any(isinstance(part, (Fraction, Root)) for part in walk(node)):
-            return rf"\mathopen{{}}\left({inner}\right)"
-        return f"({inner})"
-
-    def function(self, name: str) -> str:
-        return rf"\{name}" if name in NAMED else rf"\operatorname{{{escape(name)}}}"
-
-    def arguments(self, nodes: Sequence[Expression]) -> str:
-        if len(nodes) == 1:
-            return self.parentheses(nodes[0])
-        # A comma is the decimal mark in Vietnamese.
-        return f"({('; ' if self.language == 'vi' else ', ').join(map(self.math, nodes))})"
-
-    def matrix(self, rows: Sequence[Sequence[str]]) -> str:
-        """Square brackets as tall as what they hold; copied from the page they are single characters."""
-        inner = r"\begin{matrix}" + r" \\ ".join(map(" & ".join, rows)) + r"\end{matrix}"
-        strut = rf"\vphantom{{{inner}}}"
-        opening = rf"\mathopen{{\reportactual{{005B}}{{\left[{strut}\right.\kern-\nulldelimiterspace}}}}"
-        closing = rf"\mathclose{{\reportactual{{005D}}{{\kern-\nulldelimiterspace\left.{strut}\right]}}}}"
-        return opening + inner + closing
-
-    def chain(self, node: Chain) -> str:
-        """In a line it may break before a second "=", not before the first."""
-        left, rest = self.aligned(node)
-        return left + rest.replace(r" \relbreak= ", r" =\nobreak ", 1)
 
     def aligned(self, node: Expression) -> tuple[str, str]:
         """A displayed line cut at its first relation: what stands left of it, and the rest.
 
         A vector equation is a grid and not cut.
         """
-        match node:
-            case VectorEquation(rows=rows):
-                return "", self._vector_equation(self.columns(node), rows)
-            case Chain((first, *others), note):
-                rest = [r" \relbreak= " + self.math(part) for part in others]
-                if rest and short_end(node):
-                    rest[-1] = f" = {self.math(others[-1])}"
-                if note:
-                    rest.append(rf" \relbreak\quad\text{{({escape(note)})}}")
-                return (self.math(first), "".join(rest)) if others else ("", self.math(first) + "".join(rest))
-        return "", self.math(node)
+        if isinstance(node, VectorEquation):
+            return "", self._vector_equation(columns(node), node.rows)
+        first, *others = map(self.part, sides(node, self.language))
+        rest = [r" \relbreak= " + side for side in others]
+        if rest and short_end(node):
+            rest[-1] = f" = {others[-1]}"
+        return (first, "".join(rest)) if others else ("", first)
 
     # --- vector equations -------------------------------------------------------------------------
 
@@ -179,15 +198,30 @@ class LatexFormulas(Formulas):
 
     def _grid(self, terms: Sequence[Column], rows: Sequence[str]) -> str:
         """Terms on top, below each what is known of it; "?" marks an unknown."""
-        lines = ["&" + "&".join(f"{sign}&{shown}" for sign, shown, _ in terms)]
+        signs = ("".join(self.SIGNS.get(sign.of, sign.of) for sign in one.signs) for one in terms)
+        lines = ["&" + "&".join(f"{sign}&{self.part(one.term)}" for sign, one in zip(signs, terms, strict=True))]
         for row, name in enumerate(rows):
-            entries = (known[row] if row < len(known) else "" for _, _, known in terms)
-            known = "&".join(rf"&\known{{{self.known(e)}}}" for e in entries)
+            known = "&".join(rf"&\known{{{self.known(one.known[row])}}}" for one in terms)
             lines.append(rf"\rowname{{{escape(name)}}}&{known}")
         if rows:
             lines[1] = rf"\cline{{2-{2 * len(terms) + 1}}}{lines[1]}"
         body = r"\\".join(lines)
         return rf"\begin{{vectorgrid}}{{{len(terms)}}}{body}\end{{vectorgrid}}"
+
+
+def _bracketed(inner: str) -> str:
+    """Square brackets as tall as what they hold; copied from the page they are single characters."""
+    strut = rf"\vphantom{{{inner}}}"
+    opening = rf"\mathopen{{\reportactual{{005B}}{{\left[{strut}\right.\kern-\nulldelimiterspace}}}}"
+    closing = rf"\mathclose{{\reportactual{{005D}}{{\kern-\nulldelimiterspace\left.{strut}\right]}}}}"
+    return opening + inner + closing
+
+
+def _lowered(pieces: Iterable[tuple[str, str]], shown: Callable[[str], str]) -> str:
+    """Letters, the digits of points below them, no smaller than an index."""
+    return "".join(
+        shown(part) + (rf"_{{\scriptstyle{{{_word(number)}}}}}" if number else "") for part, number in pieces
+    )
 
 
 def _is_mathematical(text: str) -> bool:

@@ -5,18 +5,40 @@ Attributes hold no style, since the page's security policy lets none in; what it
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping
 from html import escape as escaped
 
-from reportgen.notation.expressions import Call, Chain, Expression, Number, Power, Symbol, VectorEquation
-from reportgen.notation.numbers import write as written
+from reportgen.notation.expressions import Expression, Sum, Symbol, VectorEquation
+from reportgen.notation.setting import (
+    EQUALS,
+    NARROW,
+    NEGATIVE,
+    PRIMES,
+    Applied,
+    Fence,
+    Grid,
+    Note,
+    Part,
+    Quotient,
+    Radical,
+    Raised,
+    Role,
+    Row,
+    Setter,
+    Sign,
+    Written,
+    columns,
+    displayed,
+    is_tall,
+    laid,
+    parted,
+    pieces,
+    sides,
+)
 from reportgen.notation.vocabulary import numbered, runs
-from reportgen.writers.layout import ATOM, NAMED, PRIMES, UNSPACED, Formulas, short_end
 
-EQUALS = '<mo form="infix">=</mo>'
-NARROW = "\N{NARROW NO-BREAK SPACE}"
-TALL = ("<mfrac", "<mtable", "<msqrt")
-"""Elements that are higher than a line."""
+WHITE: Mapping[Role, tuple[str, str]] = {"sum": (" ", " "), "product": (" ", " "), "bound": ("", " ")}
+"""Before and behind a sign; no page shows it, but text that is copied has it."""
 
 
 def escape(text: str) -> str:
@@ -29,20 +51,11 @@ def row(*parts: str) -> str:
     return f"<mrow>{''.join(parts)}</mrow>"
 
 
-class MathmlFormulas(Formulas):
+class MathmlFormulas(Setter[str]):
     """Expressions as MathML, in one language."""
 
-    PLUS, MINUS, NEGATIVE = '<mo form="infix">+</mo>', '<mo form="infix">−</mo>', '<mo form="prefix">−</mo>'
-    TIMES, DOT, CROSS = '<mo form="infix">·</mo>', '<mo form="infix">·</mo>', '<mo form="infix">×</mo>'
-    SLASH = "<mo>/</mo>"
-    FRACTION = "<mfrac><mrow>%s</mrow><mrow>%s</mrow></mfrac>"
-    RAISED = "%s"
-    ROOT = "<msqrt>%s</msqrt>"
-    ABSOLUTE = '<mrow><mo form="prefix">|</mo>%s<mo form="postfix">|</mo></mrow>'
-
-    def content(self, content: Expression | str) -> str:
-        """A formula in a line, or a plain text."""
-        return self.text(content) if isinstance(content, str) else self.inline(self.math(content))
+    def text(self, text: str) -> str:
+        return escape(text)
 
     def inline(self, mathematics: str) -> str:
         return f"<math>{mathematics}</math>"
@@ -51,156 +64,100 @@ class MathmlFormulas(Formulas):
         """A piece of a displayed formula, its fractions in full size."""
         return f'<math displaystyle="true">{mathematics}</math>'
 
-    def math(self, node: Expression) -> str:
-        match node:
-            case Power(Call(name) as base, exponent) if name in NAMED:
-                return self.call(base, self.math(exponent))
-            case Power(base, exponent):
-                return f"<msup>{row(self.tight(base, ATOM))}{row(self.math(exponent))}</msup>"
-            case VectorEquation():
-                return "".join(self.sign(sign) + self.symbol(term.symbol) for sign, term in self.signed(node))
-            case _:
-                return super().math(node)
+    def part(self, part: Part) -> str:
+        of = self.part
+        match part:
+            case Symbol():
+                return self.symbol(part)
+            case Written(digits, unit):
+                gap = NARROW if part.spaced else ""
+                number = f"<mn>{escape(digits)}</mn>"
+                return row(number, f"<mtext>{gap}{escape(unit)}</mtext>") if unit else number
+            case Sign(sign, "slash"):
+                return f"<mo>{sign}</mo>"
+            case Sign(sign, "separator"):
+                return f'<mo separator="true">{sign}</mo>'
+            case Sign(sign, "prefix"):
+                return f'<mo form="prefix">{sign}</mo>'
+            case Sign(sign, role):
+                before, behind = WHITE.get(role, ("", ""))
+                return f'{before}<mo form="infix">{sign}</mo>{behind}'
+            case Row(parts):
+                return "".join(map(of, parts))
+            case Raised(base, exponent):
+                return f"<msup>{row(of(base))}{row(of(exponent))}</msup>"
+            case Quotient(top, bottom):
+                return f"<mfrac>{row(of(top))}{row(of(bottom))}</mfrac>"
+            case Radical(inner):
+                return f"<msqrt>{of(inner)}</msqrt>"
+            case Fence("", inner):
+                return row(of(inner))
+            case Fence("|", inner):
+                return row('<mo form="prefix">|</mo>', of(inner), '<mo form="postfix">|</mo>')
+            case Fence("(", inner):
+                return row(self.enclosed(part))
+            case Fence():
+                return self.enclosed(part)
+            case Applied(name, exponent, to):
+                function = f'<mi mathvariant="normal">{escape(name)}</mi>'
+                if exponent:
+                    function = f"<msup>{function}{row(of(exponent))}</msup>"
+                argument = of(to) if isinstance(to, Fence) else row('<mspace width="0.17em"/>', of(to))
+                return f"{function}<mo>&#x2061;</mo>{argument}"
+            case Grid(rows):
+                entries = ("".join(f"<mtd>{of(entry)}</mtd>" for entry in entries) for entries in rows)
+                return f"<mtable>{''.join(f'<mtr>{row}</mtr>' for row in entries)}</mtable>"
+            case Note(text):
+                return f'<mspace width="1em"/><mtext>({escape(text)})</mtext>'
 
-    def tight(self, node: Expression, least: int) -> str:
-        # What is written tightly is one operand, whatever it is made of.
-        return row(super().tight(node, least))
-
-    def call(self, node: Call, exponent: str = "") -> str:
-        if node.name in ("abs", "size", "cross", "dot") and len(node.arguments) <= 2:
-            return super().call(node)
-        name = self.function(node.name)
-        if exponent:
-            name = f"<msup>{name}{row(exponent)}</msup>"
-        return f"{name}<mo>&#x2061;</mo>{self.applied(node)}"
-
-    def applied(self, node: Call) -> str:
-        """What a function is applied to: in parentheses or, if it is one piece, behind a thin space."""
-        plain = super().call(node).removeprefix(self.function(node.name))
-        return row(f'<mspace width="0.17em"/>{plain.lstrip()}' if plain.startswith(" ") else plain)
-
-    # --- symbols
-
-    def text(self, text: str) -> str:
-        return escape(text)
-
-    def symbol(self, node: Symbol) -> str:
-        letters = node.base.rstrip("".join(PRIMES))
-        above = node.base[len(letters) :] + node.sup
-        base = self.lettered(letters)
-        if node.over == "vector":
-            base = f'<mover accent="true">{row(base)}<mo stretchy="true">→</mo></mover>'
-        below = self.index(node.sub) if node.sub else ""
-        marked = _scripted(base, below, self._above(above))
-        return f'<mrow class="bar">{marked}</mrow>' if node.over == "segment" else marked
-
-    def _above(self, text: str) -> str:
-        letters = text.lstrip("".join(PRIMES))
-        primes = text[: len(text) - len(letters)]
-        return (f"<mo>{primes}</mo>" if primes else "") + (self.upright(letters) if letters else "")
-
-    def lettered(self, text: str) -> str:
-        return _pieces([(self.italic(part), number) for part, number in runs(text)])
-
-    def index(self, text: str) -> str:
-        return _pieces([(self.upright(part), number) for part, number in numbered(text)])
-
-    def italic(self, text: str) -> str:
-        return "".join(
-            f"<mi>{escape(char)}</mi>" if char.isalpha() else f"<mtext>{escape(char)}</mtext>" for char in text
-        )
-
-    def upright(self, text: str) -> str:
-        return f"<mtext>{escape(text)}</mtext>"
-
-    def lowered(self, text: str) -> str:
-        return self.upright(text)
-
-    # --- operands
-
-    def number(self, node: Number) -> str:
-        digits = f"<mn>{escape(written(node.value, node.decimals, self.language))}</mn>"
-        if not node.unit:
-            return digits
-        gap = "" if node.unit in UNSPACED else NARROW
-        return row(digits, f"<mtext>{gap}{escape(node.unit)}</mtext>")
-
-    def quantity(self, number: Number) -> str:
-        """The plain text of a number and its unit."""
-        gap = "" if number.unit in UNSPACED else NARROW
-        return escape(written(number.value, number.decimals, self.language) + gap + number.unit)
-
-    def parentheses(self, node: Expression) -> str:
-        return self.enclosed(self.math(node))
-
-    def enclosed(self, inner: str, opening: str = "(", closing: str = ")") -> str:
+    def enclosed(self, fence: Fence) -> str:
         """What stands in parentheses, which are as high as it is."""
         # Browsers set white beside parentheses that may be stretched, even where they need not be.
-        still = "" if any(tall in inner for tall in TALL) else ' stretchy="false"'
-        return row(f'<mo form="prefix"{still}>{opening}</mo>', inner, f'<mo form="postfix"{still}>{closing}</mo>')
+        still = "" if is_tall(fence.of) else ' stretchy="false"'
+        opening, closing = (
+            f'<mo form="prefix"{still}>{fence.left}</mo>',
+            f'<mo form="postfix"{still}>{fence.right}</mo>',
+        )
+        return row(opening, self.part(fence.of), closing)
 
-    def function(self, name: str) -> str:
-        return f'<mi mathvariant="normal">{escape(name)}</mi>'
-
-    def arguments(self, nodes: Sequence[Expression]) -> str:
-        # A comma is the decimal mark in Vietnamese.
-        mark = f'<mo separator="true">{";" if self.language == "vi" else ","}</mo>'
-        inner = mark.join(map(self.math, nodes))
-        return self.enclosed(inner)
-
-    def matrix(self, rows: Sequence[Sequence[str]]) -> str:
-        body = "".join(f"<mtr>{''.join(f'<mtd>{entry}</mtd>' for entry in entries)}</mtr>" for entries in rows)
-        return self.enclosed(f"<mtable>{body}</mtable>", "[", "]")
+    def symbol(self, node: Symbol) -> str:
+        letters, above = parted(node)
+        base = _lowered(runs(letters), _italic)
+        if node.over == "vector":
+            base = f'<mover accent="true">{row(base)}<mo stretchy="true">→</mo></mover>'
+        marked = _scripted(base, _lowered(numbered(node.sub), _upright), _above(above))
+        return f'<mrow class="bar">{marked}</mrow>' if node.over == "segment" else marked
 
     # --- lines
 
-    def chain(self, node: Chain) -> str:
-        return EQUALS.join(map(self.math, node.parts)) + self.note(node)
-
-    def note(self, node: Expression) -> str:
-        """The reason printed in parentheses after a chain's result."""
-        if not (isinstance(node, Chain) and node.note):
-            return ""
-        return f'<mspace width="1em"/><mtext>({escape(node.note)})</mtext>'
-
     def broken(self, node: Expression) -> list[str]:
         """A formula in a line in the parts between which it may break: before "=", between the terms of a sum."""
-        parts = node.parts if isinstance(node, Chain) else (node,)
-        shown = [self.math(part) for part in parts]
-        shown = [EQUALS * bool(index) + part for index, part in enumerate(shown)]
-        shown[-1] += self.note(node)
-        return shown
+        if isinstance(node, Sum):
+            return [self.part(piece).lstrip() for piece in pieces(laid(node, self.language))]
+        first, *others = sides(node, self.language)
+        return [self.part(first), *(self.part(Row((EQUALS, side))) for side in others)]
 
     def row(self, node: Expression) -> tuple[str, list[str]]:
         """A displayed row: what stands left of its first "=", and the pieces between which the rest may break.
 
         A row without a relation has nothing on its left.
         """
-        parts = list(node.parts) if isinstance(node, Chain) else [node]
-        pieces = [self.pieces(part) for part in parts]
-        if short_end(node) and (len(pieces) > 2 or (len(pieces) == 2 and len(pieces[0]) > 1)):
-            end = pieces.pop()
-            pieces[-1][-1] += EQUALS + "".join(end)
-        pieces[-1][-1] += self.note(node)
-        first, *others = pieces
-        rest = [EQUALS * (index == 0) + piece for part in others for index, piece in enumerate(part)]
+        first, *others = ([self.part(piece).lstrip() for piece in side] for side in displayed(node, self.language))
+        equals = self.part(EQUALS)
+        rest = [equals * (index == 0) + piece for side in others for index, piece in enumerate(side)]
         return ("".join(first), rest) if rest else ("", first)
 
-    def columns_of(self, equation: VectorEquation) -> list[tuple[str, list[str]]]:
+    def columns(self, equation: VectorEquation) -> list[tuple[str, list[str]]]:
         """Each column of a vector equation: its term, and below it what is known of it in the equation's rows."""
-        found = []
-        for sign, shown, known in self.columns(equation):
-            # Of a last "= 0" the sign stands as a plain letter between two terms.
-            term = self.sign(sign) + shown.replace("> =", f">{EQUALS}")
-            entries = [*known, *("",) * (len(equation.rows) - len(known))][: len(equation.rows)]
-            found.append((term, [self.known(entry) for entry in entries]))
-        return found
+        return [
+            (self.leading(one.signs) + self.part(one.term), list(map(self.known, one.known)))
+            for one in columns(equation)
+        ]
 
-    def sign(self, sign: str) -> str:
-        """What stands before a term of a vector equation: "", +, −, = or =−."""
-        if sign == self.NEGATIVE:
-            return sign
-        return "".join(f'<mo form="infix">{char}</mo>' for char in sign.replace(self.NEGATIVE, "−"))
+    def leading(self, signs: tuple[Sign, ...]) -> str:
+        """What stands before a term in its column: a minus alone is that of the term."""
+        form = "prefix" if [sign.of for sign in signs] == [NEGATIVE.of] else "infix"
+        return "".join(f'<mo form="{form}">{sign.of}</mo>' for sign in signs)
 
 
 def _scripted(base: str, below: str, above: str) -> str:
@@ -211,9 +168,23 @@ def _scripted(base: str, below: str, above: str) -> str:
     return f"<msup>{row(base)}{row(above)}</msup>" if above else base
 
 
-def _pieces(parts: Sequence[tuple[str, str]]) -> str:
+def _lowered(pieces: Iterable[tuple[str, str]], shown: Callable[[str], str]) -> str:
     """Letters with the digits that stand below the last of them."""
     return "".join(
-        f"<msub>{row(letters)}<mtext>{escape(number)}</mtext></msub>" if number else letters
-        for letters, number in parts
+        f"<msub>{row(shown(letters))}{_upright(number)}</msub>" if number else shown(letters)
+        for letters, number in pieces
     )
+
+
+def _above(text: str) -> str:
+    letters = text.lstrip(PRIMES)
+    primes = text[: len(text) - len(letters)]
+    return (f"<mo>{primes}</mo>" if primes else "") + (_upright(letters) if letters else "")
+
+
+def _italic(text: str) -> str:
+    return "".join(f"<mi>{escape(char)}</mi>" if char.isalpha() else f"<mtext>{escape(char)}</mtext>" for char in text)
+
+
+def _upright(text: str) -> str:
+    return f"<mtext>{escape(text)}</mtext>"

@@ -14,26 +14,25 @@ from reportgen.figures import style
 from reportgen.figures.geometry import frame
 from reportgen.figures.metrics import POINT, SCRIPT, box
 from reportgen.figures.scene import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene, Stroke
-from reportgen.notation.expressions import (
-    Call,
-    Chain,
-    Expression,
-    Fraction,
-    Matrix,
-    Negative,
-    Number,
-    Power,
-    Product,
-    Ref,
-    Root,
-    Sum,
-    Symbol,
-    VectorEquation,
+from reportgen.notation.expressions import Symbol
+from reportgen.notation.numbers import Language
+from reportgen.notation.setting import (
+    NARROW,
+    Applied,
+    Fence,
+    Grid,
+    Note,
+    Part,
+    Quotient,
+    Radical,
+    Raised,
+    Row,
+    Setter,
+    Sign,
+    Written,
 )
-from reportgen.notation.numbers import Language, write
 from reportgen.notation.vocabulary import numbered, runs
 from reportgen.writers.drawing import Bezier, Triangle, arc_with_head, arrow_head, clip_hatch, decimal
-from reportgen.writers.layout import SUM, UNSPACED, level
 from reportgen.writers.mathml import escape
 
 COLOURS = {
@@ -213,9 +212,8 @@ class Painter:
 
     def text(self, content: Content) -> str:
         """What a label says as the content of a text element."""
-        parts = [Run(content)] if isinstance(content, str) else list(label_runs(content, self.language))
         shown, drop = [], 0.0
-        for run in parts:
+        for run in Runs(self.language).content(content):
             # A shift counts in the font size of the run that it moves.
             shift = (run.drop - drop) / run.size
             attributes = f' dx="{decimal(-run.back)}em"' if run.back else ""
@@ -228,57 +226,55 @@ class Painter:
         return "".join(shown)
 
 
-def label_runs(node: Expression, language: Language) -> Iterator[Run]:
-    """An expression in one line, as labels have it: fractions with a stroke, indices beside their letters."""
-    match node:
-        case Symbol(base, sub, sup):
-            for letters, digits in runs(base):
-                yield Run(letters, italic=any(map(str.isalpha, letters)))
-                yield from _script(digits, SUB)
-            yield from _scripts("".join(letters + digits for letters, digits in numbered(sub)), sup)
-        case Number(value, decimals, unit):
-            gap = "" if unit in UNSPACED else "\N{NARROW NO-BREAK SPACE}"
-            yield Run(write(value, decimals, language) + (gap + unit if unit else ""))
-        case Ref(id):
-            yield Run(id)
-        case Sum(terms):
-            for index, term in enumerate(terms):
-                negative = isinstance(term, Negative)
-                yield from [Run(" − " if negative else " + ")] if index else [Run("−")] if negative else []
-                yield from _tight(term.of if isinstance(term, Negative) else term, language)
-        case Product(factors):
-            yield from _joined(factors, "·", language)
-        case Negative(of):
-            yield Run("−")
-            yield from _tight(of, language)
-        case Fraction(top, bottom):
-            yield from _tight(top, language)
-            yield Run("/")
-            yield from _tight(bottom, language)
-        case Power(base, exponent):
-            yield from _tight(base, language)
-            yield from (replace(run, size=SCRIPT, drop=SUPER) for run in label_runs(exponent, language))
-        case Root(of):
-            yield Run("√")
-            yield from _tight(of, language)
-        case Call("abs" | "size", (argument,)):
-            yield Run("|")
-            yield from label_runs(argument, language)
-            yield Run("|")
-        case Call(name, arguments):
-            yield Run(f"{name}(")
-            yield from _joined(arguments, "; ", language)
-            yield Run(")")
-        case Chain(parts, note):
-            yield from _joined(parts, " = ", language)
-            if note:
-                yield Run(f"  ({note})")
-        case VectorEquation(sides):
-            for index, side in enumerate(sides):
-                yield from [Run(" = ")] if index else []
-                yield from _joined([term.symbol for term in side], " + ", language)
-        case Matrix(rows):
-            yield from _joined([entry for row in rows for entry in row], "; ", language)
+class Runs(Setter[tuple[Run, ...]]):
+    """Formulas as labels have them: in one line, indices beside their letters."""
+
+    linear = True
+
+    def text(self, text: str) -> tuple[Run, ...]:
+        return (Run(text),) if text else ()
+
+    def part(self, part: Part) -> tuple[Run, ...]:
+        of, text = self.part, self.text
+        match part:
+            case Symbol():
+                return tuple(_symbol(part))
+            case Written():
+                return text(part.text(NARROW))
+            case Sign():
+                return text(part.text)
+            case Row(parts):
+                return tuple(run for one in parts for run in of(one))
+            case Raised(base, exponent):
+                return (*of(base), *_raised(of(exponent)))
+            case Quotient(top, bottom):
+                return (*text("("), *of(top), *text(")/("), *of(bottom), *text(")"))
+            case Radical(inner):
+                return (*text("√"), *of(inner))
+            case Fence(left, inner, right):
+                return (*text(left), *of(inner), *text(right))
+            case Applied(name, exponent, to):
+                return (*text(name), *(_raised(of(exponent)) if exponent else ()), *of(to))
+            case Grid(rows):
+                lines = (_parted([of(entry) for entry in row], "; ") for row in rows)
+                return _parted(list(lines), " | ")
+            case Note(note):
+                return text(f"  ({note})")
+
+
+def _parted(parts: Sequence[tuple[Run, ...]], mark: str) -> tuple[Run, ...]:
+    return tuple(run for index, part in enumerate(parts) for run in ((Run(mark), *part) if index else part))
+
+
+def _raised(runs: Iterable[Run]) -> Iterator[Run]:
+    return (replace(run, size=SCRIPT, drop=SUPER) for run in runs)
+
+
+def _symbol(node: Symbol) -> Iterator[Run]:
+    for letters, digits in runs(node.base):
+        yield Run(letters, italic=any(map(str.isalpha, letters)))
+        yield from _script(digits, SUB)
+    yield from _scripts("".join(letters + digits for letters, digits in numbered(node.sub)), node.sup)
 
 
 def _scripts(below: str, above: str) -> Iterator[Run]:
@@ -294,17 +290,3 @@ def _scripts(below: str, above: str) -> Iterator[Run]:
 def _script(text: str, drop: float) -> Iterator[Run]:
     if text:
         yield Run(text, size=SCRIPT, drop=drop)
-
-
-def _joined(nodes: Sequence[Expression], between: str, language: Language) -> Iterator[Run]:
-    for index, node in enumerate(nodes):
-        if index:
-            yield Run(between)
-        yield from label_runs(node, language)
-
-
-def _tight(node: Expression, language: Language) -> Iterator[Run]:
-    loose = level(node) <= SUM
-    yield from [Run("(")] if loose else []
-    yield from label_runs(node, language)
-    yield from [Run(")")] if loose else []

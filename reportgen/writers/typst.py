@@ -8,22 +8,44 @@ between spaces, because identifiers of Typst may hold a hyphen.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
+from typing import ClassVar
 
 from reportgen.document import tree
 from reportgen.errors import TypesetterError
 from reportgen.figures.geometry import moved
 from reportgen.figures.scene import Scene
 from reportgen.figures.sheet import Sheet
-from reportgen.notation.expressions import Chain, Expression, Number, Product, Sum, Symbol, VectorEquation, walk
+from reportgen.notation.expressions import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
 from reportgen.notation.numbers import Language
-from reportgen.notation.numbers import write as written
+from reportgen.notation.setting import (
+    NAMED,
+    NARROW,
+    PRIMES,
+    Applied,
+    Fence,
+    Grid,
+    Note,
+    Part,
+    Quotient,
+    Radical,
+    Raised,
+    Row,
+    Setter,
+    Sign,
+    Written,
+    columns,
+    displayed,
+    parted,
+    sides,
+    written,
+)
+from reportgen.notation.vocabulary import numbered, runs
 from reportgen.words import templates
 from reportgen.writers import layout
 from reportgen.writers.drawing import paint_typst
-from reportgen.writers.layout import NAMED, PRIMES, UNSPACED, Formulas
 from reportgen.writers.typst_run import settle
 
 
@@ -33,71 +55,72 @@ def literal(text: str) -> str:
     return '"' + escaped.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t") + '"'
 
 
-class TypstFormulas(Formulas):
-    PLUS, MINUS, NEGATIVE = "+", "−", "−"
-    TIMES, DOT, CROSS = "dot.c", "dot.c", "times"
-    SLASH = '"/"'
-    FRACTION, RAISED, ROOT, ABSOLUTE = "frac(%s, %s)", "^(%s)", "sqrt(%s)", "abs(%s)"
+class TypstFormulas(Setter[str]):
+    SIGNS: ClassVar = {"·": "dot.c", "×": "times"}
 
     def text(self, text: str) -> str:
         return literal(text)
 
-    def number(self, node: Number) -> str:
-        digits = written(node.value, node.decimals, self.language)
-        if node.unit in UNSPACED:
-            return literal(digits + node.unit)
-        return f"{literal(digits)} thin {literal(node.unit)}"
+    def inline(self, mathematics: str) -> str:
+        return f"${mathematics}$"
 
-    def quantity(self, number: Number) -> str:
-        """The plain text of a number and its unit, with a narrow unbreakable space between."""
-        gap = "" if number.unit in UNSPACED else "\N{NARROW NO-BREAK SPACE}"
-        return written(number.value, number.decimals, self.language) + gap + number.unit
+    def part(self, part: Part) -> str:
+        of = self.part
+        match part:
+            case Symbol():
+                return self.symbol(part)
+            case Written(digits, unit):
+                return f"{literal(digits)} thin {literal(unit)}" if part.spaced else literal(digits + unit)
+            case Sign(sign, "prefix"):
+                return sign
+            case Sign(sign, "slash"):
+                return literal(sign)
+            case Sign(sign, "separator"):
+                return f' class("punctuation", "{sign}") '
+            case Sign(sign):
+                return f" {self.SIGNS.get(sign, sign)} "
+            case Row(parts):
+                return "".join(map(of, parts))
+            case Raised(base, exponent):
+                return f"{of(base)}^({of(exponent)})"
+            case Quotient(top, bottom):
+                return f"frac({of(top)}, {of(bottom)})"
+            case Radical(inner):
+                return f"sqrt({of(inner)})"
+            case Fence("|", inner):
+                return f"abs({of(inner)})"
+            case Fence("[", inner):
+                return f'mat(delim: "[", {of(inner)})'
+            case Fence(left, inner, right):
+                return f"{left}{of(inner)}{right}"
+            case Applied(name, exponent, to):
+                function = name if name in NAMED else f"op({literal(name)})"
+                return f"{function}{f'^({of(exponent)})' if exponent else ''} {of(to)}"
+            case Grid(rows):
+                return "; ".join(", ".join(map(of, row)) for row in rows)
+            case Note(text):
+                return f" quad {literal(f'({text})')}"
 
     def symbol(self, node: Symbol) -> str:
         """A symbol with its marks: base in italics, sub- and superscript upright, a bar over the whole of it."""
-        letters = node.base.rstrip("".join(PRIMES))
-        base = letters if len(letters) == 1 and letters.isalpha() else self.lettered(letters)
+        letters, above = parted(node)
+        single = len(letters) == 1 and letters.isalpha()
+        base = letters if single else _lowered(runs(letters), lambda part: f"italic({literal(part)})")
         if node.over == "vector":
             base = f"arrow({base})"
-        below = f"_({self.index(node.sub)})" if node.sub else ""
-        above = node.base[len(letters) :] + node.sup
-        marked = base + below + (self.RAISED % _superscript(above) if above else "")
+        below = f"_({_lowered(numbered(node.sub), literal)})" if node.sub else ""
+        marked = base + below + (f"^({_superscript(above)})" if above else "")
         return f"overline({marked})" if node.over == "segment" else marked
 
-    def italic(self, text: str) -> str:
-        return f"italic({literal(text)})"
 
-    def upright(self, text: str) -> str:
-        return literal(text)
-
-    def lowered(self, text: str) -> str:
-        return f"_(script({literal(text)}))"
-
-    def parentheses(self, node: Expression) -> str:
-        return f"({self.math(node)})"
-
-    def function(self, name: str) -> str:
-        return name if name in NAMED else f"op({literal(name)})"
-
-    def arguments(self, nodes: Sequence[Expression]) -> str:
-        # A comma is the decimal mark in Vietnamese.
-        mark = f' class("punctuation", "{";" if self.language == "vi" else ","}") '
-        return f" ({mark.join(map(self.math, nodes))})"
-
-    def matrix(self, rows: Sequence[Sequence[str]]) -> str:
-        return f'mat(delim: "[", {"; ".join(map(", ".join, rows))})'
-
-    def chain(self, node: Chain) -> str:
-        return " = ".join(map(self.math, node.parts)) + self.note(node)
-
-    def note(self, node: Expression) -> str:
-        """The reason printed in parentheses after a chain's result."""
-        return f" quad {literal(f'({node.note})')}" if isinstance(node, Chain) and node.note else ""
+def _lowered(pieces: Iterable[tuple[str, str]], shown: Callable[[str], str]) -> str:
+    """Letters, the digits of points below them, no smaller than an index."""
+    return "".join(shown(part) + (f"_(script({literal(number)}))" if number else "") for part, number in pieces)
 
 
 def _superscript(text: str) -> str:
     """Primes as Typst's own symbol, which has the right size, everything else upright."""
-    letters = text.lstrip("".join(PRIMES))
+    letters = text.lstrip(PRIMES)
     primes = {"′": "prime", "″": "prime.double"}
     names = [primes[char] for char in text[: len(text) - len(letters)]]
     return " ".join([*names, literal(letters)] if letters else names)
@@ -266,23 +289,22 @@ class _Blocks:
             case tree.Strong(of):
                 return f"#strong{self.content(of)}"
             case tree.InlineMath(expression, slashed):
-                return self.formula(expression, TypstFormulas(self.language, slashed))
+                return self.formula(expression, slashed)
             case tree.Value(number):
-                shown = literal(self.formulas.quantity(number))
+                shown = literal(written(number, self.language).text(NARROW))
                 return f"#box({shown})" if "/" in number.unit else f"#{shown}"
             case tree.Reference(key, text):
                 return f"#link(label({literal(key)}),{literal(text)})"
             case tree.LineBreak():
                 return "#linebreak()"
 
-    def formula(self, expression: Expression, formulas: TypstFormulas) -> str:
+    def formula(self, expression: Expression, slashed: bool = False) -> str:
         """A formula in a line, which may break before a second "=" and between the terms of a sum only."""
         parts = expression.parts if isinstance(expression, Chain) else (expression,)
         products = any(isinstance(node, Product) for node in walk(expression))
         if any(isinstance(part, Sum) for part in parts[:2]) or not (products or len(parts) > 1):
-            return formulas.content(expression)
-        printed = [formulas.math(part) for part in parts]
-        printed[-1] += formulas.note(expression)
+            return self.formulas.content(expression, slashed)
+        printed = list(map(self.formulas.part, sides(expression, self.language, slashed)))
         # What stands left of "=" never stands alone at the end of a line.
         printed[:2] = [" = ".join(printed[:2])]
         return " ".join(f"#box(${'= ' if index else ''}{part}$)" for index, part in enumerate(printed))
@@ -314,21 +336,15 @@ class _Blocks:
 
     def row(self, row: Expression) -> list[str]:
         """A displayed row: the parts between "=", each in the pieces between which it may break."""
-        parts = row.parts if isinstance(row, Chain) else (row,)
-        printed = [self.formulas.pieces(part) for part in parts]
-        # A lone symbol keeps its "= 0": there rows are aligned.
-        if layout.short_end(row) and (len(printed) > 2 or (len(printed) == 2 and len(printed[0]) > 1)):
-            end = printed.pop()
-            printed[-1][-1] += f" = {' '.join(end)}"
-        printed[-1][-1] += self.formulas.note(row)
-        return [_array(f"${piece}$" for piece in part) for part in printed]
+        part = self.formulas.part
+        return [_array(f"${part(piece).strip()}$" for piece in side) for side in displayed(row, self.language)]
 
     def vector_equation(self, equation: VectorEquation) -> str:
-        terms = []
-        for sign, shown, known in self.formulas.columns(equation):
-            known = (*known, *("",) * (len(equation.rows) - len(known)))
-            entries = map(self.formulas.known, known[: len(equation.rows)])
-            terms.append(_array((f"${sign}$", f"${shown}$", *entries)))
+        known, part = self.formulas.known, self.formulas.part
+        terms = (
+            _array((f"${''.join(sign.of for sign in one.signs)}$", f"${part(one.term)}$", *map(known, one.known)))
+            for one in columns(equation)
+        )
         return ",".join((_array(map(literal, equation.rows)), *terms))
 
     def table(self, table: tree.Table) -> str:

@@ -15,7 +15,6 @@ from reportgen.document.tree import (
     Text,
     Value,
     Words,
-    formula,
     plain,
     text_of,
 )
@@ -31,6 +30,7 @@ from reportgen.notation.expressions import (
     call,
     sqrt,
 )
+from reportgen.notation.plain import formula
 
 A, B, C = Symbol("a"), Symbol("b", "2"), Symbol("c", "BA", "n")
 
@@ -43,7 +43,7 @@ A, B, C = Symbol("a"), Symbol("b", "2"), Symbol("c", "BA", "n")
         (A - (B + C), "a − (b_2 + c_BA^n)"),
         (A * (B + C) * 3, "a·(b_2 + c_BA^n)·3"),
         (A * B / (B * C), "a·b_2/(b_2·c_BA^n)"),
-        (A / (B / C), "a/(b_2/c_BA^n)"),
+        (A / (B / C), "a/(b_2/(c_BA^n))"),
         ((-A) ** 2, "(−a)^2"),
         (-(A + B), "−(a + b_2)"),
         (sqrt(A + PI), "√(a + π)"),

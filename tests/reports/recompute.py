@@ -27,12 +27,12 @@ from reportgen.document.tree import (
     Strong,
     Table,
     Value,
-    formula,
 )
 from reportgen.figures.scene import Label
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol, Term, VectorEquation, rebuild, walk
 from reportgen.notation.numbers import write
+from reportgen.notation.plain import formula
 from tests.reports import built
 from tests.reports.built import Written
 

@@ -28,12 +28,12 @@ from reportgen.document.tree import (
     Table,
     Value,
     Words,
-    formula,
     plain,
 )
 from reportgen.kinds import SAMPLE, kinds
 from reportgen.mechanism.structure import DyadKind
 from reportgen.notation.numbers import Language
+from reportgen.notation.plain import formula
 from reportgen.sections import Passage, sections
 from reportgen.words import SECTION, kind_file, load_words, search_path
 from tests.reports import built

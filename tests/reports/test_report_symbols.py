@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.document.tree import formula
 from reportgen.notation.expressions import Symbol
+from reportgen.notation.plain import formula
 from reportgen.notation.vocabulary import in_language, numbered, runs
 from tests.reports import built
 from tests.reports.built import Report

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from reportgen.document.tree import Equation, InlineMath, Paragraph, Section, Text, formula
+from reportgen.document.tree import Equation, InlineMath, Paragraph, Section, Text
 from reportgen.figures.metrics import POINT, SCRIPT, SMALL_CUT, box
 from reportgen.figures.scene import Arrow, Circle, Label, Line, Scene
 from reportgen.notation.expressions import (
@@ -27,6 +27,7 @@ from reportgen.notation.expressions import (
     walk,
 )
 from reportgen.notation.numbers import Language
+from reportgen.notation.plain import formula
 from reportgen.writers import html
 from reportgen.writers.mathml import MathmlFormulas
 from reportgen.writers.svg import Painter, Pens
@@ -98,7 +99,7 @@ def test_displayed_rows_break_where_the_tree_breaks_them() -> None:
 def test_vector_equations_have_a_column_a_term() -> None:
     for equation in (sample.velocity_equation(), sample.force_equation()):
         assert isinstance(equation, VectorEquation)
-        columns = MathmlFormulas("vi").columns_of(equation)
+        columns = MathmlFormulas("vi").columns(equation)
         assert all(len(known) == len(equation.rows) for _, known in columns)
         for term, known in columns:
             for part in (f"<math>{term}</math>", *(one for one in known if one.startswith("<math"))):

@@ -8,7 +8,7 @@ from reportgen.document.tree import Block, Cell, Column, Equation, Paragraph, Ta
 from reportgen.notation.expressions import Chain, Fraction, Number, Symbol, Term, VectorEquation
 from reportgen.writers import layout
 from reportgen.writers.latex_math import LatexFormulas
-from reportgen.writers.typst import TypstFormulas, _Blocks
+from reportgen.writers.typst import _Blocks
 
 LEADS = Paragraph((Text("Projection gives:"),))
 CLOSED = Paragraph((Text("The sense is: clockwise."),))
@@ -34,7 +34,7 @@ def test_the_first_equality_of_a_line_is_not_broken() -> None:
     assert source.count(r"=\nobreak") == 1
     assert source.count(r"\relbreak=") == 1
     blocks = _Blocks("en", Words("Figure", "Table", "Contents", "Page", "continued"))
-    first, second = blocks.formula(PLACE, TypstFormulas("en")).split(" #box")
+    first, second = blocks.formula(PLACE).split(" #box")
     assert "=" in first
     assert second.startswith("($= ")
 

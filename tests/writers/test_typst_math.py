@@ -155,7 +155,11 @@ def test_unknowns_of_a_vector_equation_stand_under_their_terms() -> None:
 
 def test_slashed_fractions_keep_what_they_divide_by_together() -> None:
     a, b, c = Symbol("a"), Symbol("b"), Symbol("c")
-    for writer, mark in ((TypstFormulas("en", slashed=True), '"/"'), (LatexFormulas("en", slashed=True), "/")):
-        assert writer.math(Fraction(a, b)) == f"{writer.math(a)}{mark}{writer.math(b)}"
-        assert writer.math(Fraction(a, Product((b, c)))).endswith(f"{mark}({writer.math(Product((b, c)))})")
-        assert writer.math(Fraction(Sum((a, b)), c)) == f"({writer.math(Sum((a, b)))}){mark}{writer.math(c)}"
+    for writer, mark in ((TypstFormulas("en"), '"/"'), (LatexFormulas("en"), "/")):
+        assert writer.math(Fraction(a, b), slashed=True) == f"{writer.math(a)}{mark}{writer.math(b)}"
+        assert writer.math(Fraction(a, Product((b, c))), slashed=True).endswith(
+            f"{mark}({writer.math(Product((b, c)))})"
+        )
+        assert (
+            writer.math(Fraction(Sum((a, b)), c), slashed=True) == f"({writer.math(Sum((a, b)))}){mark}{writer.math(c)}"
+        )
