@@ -133,13 +133,8 @@ class Note:
 
 Part = Symbol | Written | Sign | Row | Raised | Quotient | Radical | Fence | Applied | Grid | Note
 
-NEGATIVE, PLUS, MINUS, DOT, SLASH = (
-    Sign("−", "prefix"),
-    Sign("+", "sum"),
-    Sign("−", "sum"),
-    Sign("·", "product"),
-    Sign("/", "slash"),
-)
+NEGATIVE, PLUS, MINUS = Sign("−", "prefix"), Sign("+", "sum"), Sign("−", "sum")
+DOT, SLASH = Sign("·", "product"), Sign("/", "slash")
 FIRST, EQUALS, LAST, BOUND = Sign("=", "first"), Sign("=", "relation"), Sign("=", "last"), Sign("=", "bound")
 
 # --- a line ---------------------------------------------------------------------------------------
@@ -246,7 +241,7 @@ def level(node: Expression, linear: bool = False) -> int:
         case Call() | Root():
             return ATOM if linear else QUOTIENT
         case Symbol():
-            return MARKED if node.sup or node.base[-1:] in PRIMES else ATOM
+            return MARKED if node.sup or node.base.endswith(tuple(PRIMES)) else ATOM
         case _:
             return ATOM
 

@@ -1,0 +1,141 @@
+"""A formula's parentheses: the layout puts them, and every look shows these and no others."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from reportgen.case import open_any
+from reportgen.notation.expressions import Chain, Expression, Number, Symbol, cos, rebuild, sin, sqrt
+from reportgen.notation.numbers import Language
+from reportgen.notation.plain import Plain
+from reportgen.notation.setting import Part, laid
+from reportgen.writers.dxf import MText
+from reportgen.writers.latex_math import LatexFormulas
+from reportgen.writers.mathml import MathmlFormulas
+from reportgen.writers.svg import Runs
+from reportgen.writers.typst import TypstFormulas
+from tests.writers import sample
+
+ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
+FILES = [ASSIGNMENTS / f"{name}.yaml" for name in ("shaper-01", "engine-v-01", "linkage-8", "plane-motion/12")]
+R, PHI, A, B = Symbol("R"), Symbol("φ"), Symbol("a"), Symbol("b")
+
+
+def in_letters(text: str) -> str:
+    return "".join(re.findall(r"[()|]", text))
+
+
+def in_typst(source: str) -> str:
+    """A parenthesis behind a name, ^ or _ belongs to Typst's own syntax."""
+    source = re.sub(r'"(\\.|[^"\\])*"', "·", source)
+    found: list[str] = []
+    closing: list[str] = []
+    for match in re.finditer(r"(abs|[a-z^_])?\(|\)", source):
+        if match[0] == ")":
+            found.append(closing.pop())
+            continue
+        opening = {None: "(", "abs": "|"}.get(match[1], "")
+        closing.append({"(": ")"}.get(opening, opening))
+        found.append(opening)
+    return "".join(found)
+
+
+def in_latex(source: str) -> str:
+    return "".join(re.findall(r"[()|]", source.replace(r"\lvert", "|").replace(r"\rvert", "|")))
+
+
+def in_mathml(source: str) -> str:
+    return "".join(re.findall(r"<mo[^>]*>([()|])</mo>", source))
+
+
+def fences(part: Part, language: Language) -> dict[str, str]:
+    """The parentheses and bars that each typesetter shows of a formula."""
+    return {
+        "typst": in_typst(TypstFormulas(language).part(part)),
+        "latex": in_latex(LatexFormulas(language).part(part)),
+        "mathml": in_mathml(MathmlFormulas(language).part(part)),
+    }
+
+
+def fences_of_text(part: Part, language: Language) -> dict[str, str]:
+    """The same of each look that sets letters in a line."""
+    return {
+        "plain": in_letters(Plain(language).part(part)),
+        "dxf": in_letters(MText(language).part(part)),
+        "svg": in_letters("".join(run.text for run in Runs(language).part(part))),
+    }
+
+
+def bare(node: Expression) -> Expression:
+    """The expression without parentheses in names, units and notes, which are no part of its structure."""
+    match node:
+        case Symbol(sub=sub, sup=sup):
+            return replace(node, sub=re.sub(r"[()]", "", sub), sup=re.sub(r"[()]", "", sup))
+        case Number(unit=unit):
+            return replace(node, unit=re.sub(r"[()]", "", unit))
+        case Chain():
+            return rebuild(replace(node, note=""), bare)
+    return rebuild(node, bare)
+
+
+def of_ledger(path: Path) -> list[Expression]:
+    """Every worked line of a report at its first position."""
+    ledger = open_any(path).ledger
+    return [ledger.chain(id, 0) for id, family in ledger.families.items() if family.line is not None]
+
+
+def differing(nodes: list[Expression], language: Language, text: bool, slashed: bool = False) -> list[str]:
+    found = []
+    for node in map(bare, nodes):
+        part = laid(node, language, slashed, linear=text)
+        shown = fences(part, language) | (fences_of_text(part, language) if text else {})
+        if len(set(shown.values())) > 1:
+            found.append(f"{Plain(language).math(node)}: {shown}")
+    return found
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_every_look_shows_the_same_parentheses(path: Path) -> None:
+    lines = of_ledger(path)
+    assert any("(" in in_letters(Plain("vi").math(line)) for line in lines)
+    assert not differing(lines, "vi", text=True)
+    assert not differing(lines, "vi", text=False)
+    assert not differing(lines, "vi", text=False, slashed=True)
+
+
+def test_every_look_shows_the_same_parentheses_in_every_case() -> None:
+    nodes = [*sample.expressions(), sin(PHI) ** 2, A / (B / R), sqrt(A + B) / R, abs(A - B) * R]
+    for language in ("vi", "en"):
+        assert not differing(nodes, language, text=True)
+        assert not differing(nodes, language, text=False)
+        assert not differing(nodes, language, text=False, slashed=True)
+
+
+@pytest.mark.parametrize("look", [Plain("en"), MText("en")], ids=["plain", "dxf"])
+def test_text_in_a_line_has_parentheses_where_a_page_has_a_bar_or_a_raised_letter(look: Plain) -> None:
+    shown = look.math(R * sqrt(A / (B + R)) * cos(PHI))
+    assert shown == "R·√(a/(b + R))·cos(φ)"
+
+
+@pytest.mark.parametrize(
+    ("node", "text"),
+    [
+        (R * (1.0 - cos(PHI)), "R·(1 − cos(φ))"),
+        (R * -A, "R·(−a)"),
+        (A / (B * R), "a/(b·R)"),
+        ((A * B) ** 2, "(a·b)2"),
+        (sqrt(A * B), "√(a·b)"),
+        (A - (B + R), "a − (b + R)"),
+    ],
+)
+def test_labels_of_drawings_in_a_page_keep_their_parentheses(node: Expression, text: str) -> None:
+    assert "".join(run.text for run in Runs("en").math(node)) == text
+
+
+def test_a_missing_parenthesis_would_be_seen() -> None:
+    assert fences(laid(R * (A + B), "en"), "en") == dict.fromkeys(("typst", "latex", "mathml"), "()")
+    assert fences(laid(R * A, "en"), "en") == dict.fromkeys(("typst", "latex", "mathml"), "")
