@@ -9,22 +9,9 @@ from typing import Annotated, Literal
 
 import typer
 
-from reportgen.cli.common import (
-    AT_FAULT,
-    EngineOption,
-    File,
-    Files,
-    LangOption,
-    app,
-    ending,
-    for_each,
-    listed,
-    say,
-    write,
-)
+from reportgen.cli.common import AT_FAULT, EngineOption, File, Files, LangOption, ending, for_each, listed, say, write
 
 
-@app.command()
 def build(
     files: Files,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the reports.")] = Path("out"),
@@ -44,7 +31,6 @@ def build(
     for_each(files, lang, work)
 
 
-@app.command()
 def sheet(
     files: Files,
     size: Annotated[
@@ -96,7 +82,6 @@ def sheet(
     for_each(files, lang, work)
 
 
-@app.command()
 def watch(
     file: File,
     no_open: Annotated[bool, typer.Option("--no-open", help="Open no browser; the address is printed anyway.")] = False,
@@ -111,7 +96,6 @@ def watch(
         serve(file, lang, out, pdf, browser=not no_open)
 
 
-@app.command()
 def solve(
     file: File,
     positions: Annotated[
@@ -151,7 +135,6 @@ def solve(
             write(json_file, text)
 
 
-@app.command()
 def check(files: Files, lang: LangOption = None) -> None:
     """Validate each FILE; silent when all is well."""
     from reportgen import api
@@ -162,7 +145,6 @@ def check(files: Files, lang: LangOption = None) -> None:
     raise typer.Exit(AT_FAULT if problems else 0)
 
 
-@app.command()
 def new(
     kind: Annotated[str, typer.Argument(metavar="KIND", help="A kind of machine, see `kinds`.")],
     output: Annotated[
@@ -179,7 +161,6 @@ def new(
         write(output or Path("-"), sample(kind, lang or "vi"))
 
 
-@app.command()
 def kinds(lang: LangOption = None) -> None:
     """List the machines that are known, a line each."""
     from reportgen.kinds import titles
@@ -190,7 +171,6 @@ def kinds(lang: LangOption = None) -> None:
         print(f"{kind:{width}}  {title}")
 
 
-@app.command()
 def schema() -> None:
     """Print the JSON Schema of the assignment file, for editors."""
     from reportgen import catalogue
@@ -198,7 +178,6 @@ def schema() -> None:
     print(json.dumps(catalogue.schema(), ensure_ascii=False, indent=2))
 
 
-@app.command()
 def compare(
     file: File,
     sheet: Annotated[
