@@ -11,13 +11,42 @@ import sys
 import warnings
 from typing import TextIO
 
-from reportgen.cli import instructor, student
-from reportgen.cli.common import SYSTEM, app, complain_of_program
+import typer
 
-__all__ = ["app", "instructor", "main", "student"]
+from reportgen.cli import instructor, student
+from reportgen.cli.common import SYSTEM, complain_of_program
+
+COMMANDS = (
+    instructor.variants,
+    instructor.batch,
+    instructor.key,
+    instructor.grade,
+    student.build,
+    student.sheet,
+    student.watch,
+    student.solve,
+    student.check,
+    student.new,
+    student.kinds,
+    student.schema,
+    student.compare,
+)
+"""In the order of the help."""
 
 COLLECTED = 100_000
 """New objects between two searches for garbage: a report makes many that last, and hardly any cycles."""
+
+
+app = typer.Typer(
+    name="reportgen",
+    help="Coursework reports in the Theory of Machines from one assignment file.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+for command in COMMANDS:
+    app.command()(command)
 
 
 def main() -> None:

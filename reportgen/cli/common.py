@@ -16,16 +16,6 @@ from reportgen.notation.numbers import Language
 
 AT_FAULT, SYSTEM, INTERRUPTED = 1, 3, 130
 
-app = typer.Typer(
-    name="reportgen",
-    help="Coursework reports in the Theory of Machines from one assignment file.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-)
-
-
 File = Annotated[Path, typer.Argument(metavar="FILE", help="Assignment file.", show_default=False)]
 Files = Annotated[list[Path], typer.Argument(metavar="FILE", help="Assignment files.", show_default=False)]
 LangOption = Annotated[

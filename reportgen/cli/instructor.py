@@ -15,7 +15,6 @@ from reportgen.cli.common import (
     EngineOption,
     Files,
     LangOption,
-    app,
     complain,
     ending,
     for_each,
@@ -31,7 +30,6 @@ PolicyOption = Annotated[
 Roster = Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)]
 
 
-@app.command()
 def variants(
     spec: Annotated[Path, typer.Argument(metavar="SPEC", help="Assignment file with choices.", show_default=False)],
     roster: Roster,
@@ -58,7 +56,6 @@ def _bar(things: Iterable[Any], count: int) -> Iterable[Any]:
     return track(things, "", count, console=Console(stderr=True), transient=True) if sys.stderr.isatty() else things
 
 
-@app.command()
 def batch(
     roster: Roster,
     spec: Annotated[
@@ -113,7 +110,6 @@ def batch(
         raise typer.Exit(result.exit_code)
 
 
-@app.command()
 def key(
     files: Files,
     format: Annotated[
@@ -143,7 +139,6 @@ def key(
     for_each(files, lang, work)
 
 
-@app.command()
 def grade(
     submissions: Annotated[
         list[Path],

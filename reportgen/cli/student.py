@@ -16,7 +16,6 @@ from reportgen.cli.common import (
     File,
     Files,
     LangOption,
-    app,
     complain,
     ending,
     for_each,
@@ -31,7 +30,6 @@ if TYPE_CHECKING:
     from reportgen.document.tree import Document
 
 
-@app.command()
 def build(
     files: Files,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the reports.")] = Path("out"),
@@ -51,7 +49,6 @@ def build(
     for_each(files, lang, work)
 
 
-@app.command()
 def sheet(
     files: Files,
     size: Annotated[
@@ -103,7 +100,6 @@ def sheet(
     for_each(files, lang, work)
 
 
-@app.command()
 def watch(
     file: File,
     no_open: Annotated[bool, typer.Option("--no-open", help="Open no browser; the address is printed anyway.")] = False,
@@ -134,7 +130,6 @@ def _pdf_writer(path: Path, out: Path) -> Callable[[Case, Document], None]:
     return write
 
 
-@app.command()
 def solve(
     file: File,
     positions: Annotated[
@@ -174,7 +169,6 @@ def solve(
             write(json_file, text)
 
 
-@app.command()
 def check(files: Files, lang: LangOption = None) -> None:
     """Validate each FILE; silent when all is well."""
     from reportgen import api
@@ -185,7 +179,6 @@ def check(files: Files, lang: LangOption = None) -> None:
     raise typer.Exit(AT_FAULT if problems else 0)
 
 
-@app.command()
 def new(
     kind: Annotated[str, typer.Argument(metavar="KIND", help="A kind of machine, see `kinds`.")],
     output: Annotated[
@@ -202,7 +195,6 @@ def new(
         write(output or Path("-"), sample(kind, lang or "vi"))
 
 
-@app.command()
 def kinds(lang: LangOption = None) -> None:
     """List the machines that are known, a line each."""
     from reportgen.kinds import titles
@@ -213,7 +205,6 @@ def kinds(lang: LangOption = None) -> None:
         print(f"{kind:{width}}  {title}")
 
 
-@app.command()
 def schema() -> None:
     """Print the JSON Schema of the assignment file, for editors."""
     from reportgen import catalogue
@@ -221,7 +212,6 @@ def schema() -> None:
     print(json.dumps(catalogue.schema(), ensure_ascii=False, indent=2))
 
 
-@app.command()
 def compare(
     file: File,
     sheet: Annotated[

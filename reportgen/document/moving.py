@@ -18,7 +18,7 @@ from reportgen.case import Calculation
 from reportgen.catalogue.machine import Machine
 from reportgen.document.curves import axis, curves_of_motion, over_a_turn, over_the_cycle, torque_chart
 from reportgen.document.figures import MM, drawing_scale, looks, short
-from reportgen.document.plans import force_plan_through, motion_plan_through
+from reportgen.document.plans import POLE, force_construction, motion_construction
 from reportgen.document.report import Report
 from reportgen.figures import style
 from reportgen.figures.charts import Plotted
@@ -42,7 +42,6 @@ from reportgen.figures.moving import (
     path_items,
     plan_items,
 )
-from reportgen.figures.plan import Plan
 from reportgen.figures.scene import Circle, Content, Stroke
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics.centres import PREFIX, centre_symbol
@@ -68,7 +67,8 @@ ARROW = 34.0
 FAR = 2.5
 """A centre farther off than so many diagonals of the drawing is not drawn."""
 DIGITS, MOST_DECIMALS = 5, 5
-POLE = Track(np.zeros(1, complex))
+STILL = Track(np.zeros(1, complex))
+"""The pole of a plan."""
 
 
 def film(case: Calculation) -> Film:
@@ -167,8 +167,7 @@ class _Samples:
         yield self.mechanism()
         names: tuple[tuple[What, str], ...] = (("v", "velocity_plan"), ("a", "acceleration_plan"))
         for what, name in names:
-            plan, tracks = self._plan_of_motion(what)
-            items = plan_items(plan, tracks)
+            items = self._plan_of_motion(what)
             yield Stage(what, words[name], tuple(items), *extent(items), (self._scale(f"mu.{what}"),))
         titles = {group.polygon.name: f"{group.i}, {group.j}" for group in report.groups if group.polygon is not None}
         for polygon in self.case.polygons:
@@ -293,25 +292,24 @@ class _Samples:
             return Symbol("R", name[1:], over="vector")
         return self.report.force_vector(name) if f"F.{name}" in ledger else Symbol(name[:1], name[1:], over="vector")
 
-    def _plan_of_motion(self, what: What) -> tuple[Plan, list[Track]]:
-        """The plan of velocities or accelerations, and the tracks of its corners."""
-        numbers = _Numbers()
-        plan = motion_plan_through(self.report, what, numbers)
-        return plan, [self.turn(_places(self.corners[id])) if id else POLE for id in numbers.ids]
+    def _plan_of_motion(self, what: What) -> list[MovingItem]:
+        """The plan of velocities or accelerations."""
+        plan = motion_construction(self.report, what)
+        tracks = {id: self.turn(_places(self.corners[id])) for id in plan.corners if id != POLE}
+        return plan_items(plan, {POLE: STILL, **tracks})
 
     def _plan_of_forces(self, polygon: Polygon, title: str) -> Stage:
         """A force plan, at each sample at the scale that the report would draw it to.
 
         Forces of combustion are many times those of the other strokes: at one scale those would be points.
         """
-        id, numbers = f"mu.R{polygon.name}", _Numbers()
-        plan = force_plan_through(self.report, polygon, numbers)
-        places = [_places(self.corners[one]) if one else np.zeros(1, complex) for one in numbers.ids]
+        id, plan = f"mu.R{polygon.name}", force_construction(self.report, polygon)
+        places = {corner: _places(self.corners[corner]) for corner in plan.corners}
         own = np.broadcast_to(self.corners[id], self.angles.shape)
         each, at = np.unique(own, return_inverse=True)
         coarsest = float(each[-1])
-        items = plan_items(plan, [Track(place * (own / coarsest)) for place in places])
-        low, high = extent(plan_items(plan, [Track(place) for place in places]))
+        items = plan_items(plan, {corner: Track(place * (own / coarsest)) for corner, place in places.items()})
+        low, high = extent(plan_items(plan, {corner: Track(place) for corner, place in places.items()}))
         scales = Scales(
             tuple(self._printed(id, float(one)) for one in each),
             tuple(coarsest / float(one) for one in each),
@@ -404,18 +402,6 @@ class _Samples:
                 share = max(share, float(np.nanmax(off)) / greatest)
         crank = self.machine.drawn * MM or self.machine.span * scale or 1.0
         return Errors(bound * scale, crank, share)
-
-
-class _Numbers:
-    """Gives corners of a plan numbers in the places of their places; the pole, which has no id, is number 0."""
-
-    def __init__(self) -> None:
-        self.ids = [""]
-
-    def __call__(self, id: str) -> complex:
-        if id not in self.ids:
-            self.ids.append(id)
-        return complex(self.ids.index(id))
 
 
 def _places(corner: np.ndarray) -> np.ndarray:

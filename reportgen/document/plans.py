@@ -17,7 +17,18 @@ from reportgen.document.phrases import counted
 from reportgen.document.report import Report
 from reportgen.document.tree import Inlines
 from reportgen.figures.draft import sheets
-from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector, Style, Titles, lettered, plan, stages
+from reportgen.figures.plan import (
+    Construction,
+    Plan,
+    PlanLine,
+    PlanPoint,
+    PlanVector,
+    Style,
+    Titles,
+    lettered,
+    plan,
+    stages,
+)
 from reportgen.figures.scene import Scene
 from reportgen.figures.scheme import thumbnail
 from reportgen.ledger.forces.polygon import Edge, Polygon
@@ -43,6 +54,8 @@ PANEL = 78.0
 CLOSE_MARGIN = 2.0
 """White around each of many plans (mm)."""
 
+POLE = "pole"
+"""The corner that a plan of velocities or accelerations begins in; the ids of all others are in the ledger."""
 STAGES = 3
 """Of a group in a plan of velocity or acceleration: what is known, the lines that meet, further points."""
 
@@ -96,23 +109,19 @@ def mirror_images(report: Report, what: What) -> Inlines:
     return counted(report, "mirrored", [report.machine.position(k) for k in found.at], drawn=drawn)
 
 
-Place = Callable[[str], complex]
-"""Where a corner of a plan lies on paper (mm), by the id of its place in the ledger."""
-
-
-def _places(report: Report, k: int) -> Place:
-    """The corners of plans at a position."""
-    return lambda id: complex(report.ledger[id].at(k)) * MM
+def _at(construction: Construction[str], report: Report, k: int) -> Plan:
+    """A construction on paper (mm) as it is at a position."""
+    return construction.placed(lambda id: 0j if id == POLE else complex(report.ledger[id].at(k)) * MM)
 
 
 def motion_plan(report: Report, what: What, k: int) -> Plan:
     """The plan of velocities (v) or accelerations (a) at a position, in mm."""
-    return motion_plan_through(report, what, _places(report, k))
+    return _at(motion_construction(report, what), report, k)
 
 
-def motion_plan_through(report: Report, what: What, place: Place) -> Plan:
-    """The plan of velocities (v) or accelerations (a) with these corners, its stages in the order of construction."""
-    sketch = _Sketch(report, what, place)
+def motion_construction(report: Report, what: What) -> Construction[str]:
+    """The plan of velocities (v) or accelerations (a), its stages in their order, with the ids of its corners."""
+    sketch = _Sketch(report, what)
     stage = 0
     drawn: set[str] = set()
     for group in report.groups:
@@ -122,8 +131,8 @@ def motion_plan_through(report: Report, what: What, place: Place) -> Plan:
                 drawn.add(side.base)
         sketch.group(group, stage)
         stage += STAGES
-    points = (PlanPoint(Symbol(POLES[what]), 0j), *sketch.points)
-    return Plan(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, f"mu.{what}"))
+    points = (PlanPoint(Symbol(POLES[what]), POLE), *sketch.points)
+    return Construction(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, f"mu.{what}"))
 
 
 def _worked(report: Report, drawing: Plan, k: int) -> Scene:
@@ -193,22 +202,22 @@ def _plates(
 class _Sketch:
     """A velocity or acceleration plan while its vectors are collected."""
 
-    def __init__(self, report: Report, what: What, place: Place) -> None:
-        self.what, self.place, self.named = what, place, report.named
-        self.vectors: list[PlanVector] = []
-        self.points: list[PlanPoint] = []
-        self.lines: list[PlanLine] = []
+    def __init__(self, report: Report, what: What) -> None:
+        self.what, self.named = what, report.named
+        self.vectors: list[PlanVector[str]] = []
+        self.points: list[PlanPoint[str]] = []
+        self.lines: list[PlanLine[str]] = []
 
-    def at(self, name: str) -> complex:
-        return self.place(f"plan.{self.what}.{name}")
+    def at(self, name: str) -> str:
+        return f"plan.{self.what}.{name}"
 
     def absolute(self, name: str, style: Style, stage: int) -> None:
         """Enter the vector of a point's own velocity or acceleration, from the pole, with its end."""
         end = self.at(image(name))
-        self.vectors.append(PlanVector(name, 0j, end, style, Symbol(self.what, name, over="vector"), stage))
+        self.vectors.append(PlanVector(name, POLE, end, style, Symbol(self.what, name, over="vector"), stage))
         self.points.append(PlanPoint(vocabulary.on_plan(name, self.what == "a"), end, stage))
 
-    def relative(self, side: Side, part: str, start: complex, end: complex, stage: int) -> None:
+    def relative(self, side: Side, part: str, start: str, end: str, stage: int) -> None:
         """Enter what a side adds to the velocity or acceleration of its base, or a part of it."""
         label = self.named(Symbol(self.what, side.pair, part, "vector"))
         self.vectors.append(PlanVector(part + side.relative, start, end, "relative", label, stage))
@@ -232,9 +241,9 @@ class _Sketch:
         for name in further:
             self.absolute(name, "found", stage + 1)
 
-    def _known(self, side: Side, stage: int) -> complex:
+    def _known(self, side: Side, stage: int) -> str:
         """Enter the relative acceleration that is known; gives where the sought part starts."""
-        start = 0j if side.still else self.at(image(side.base))
+        start = POLE if side.still else self.at(image(side.base))
         if self.what == "v" or not side.part:
             return start
         end = self.at(f"{side.part}.{side.relative}")
@@ -289,15 +298,14 @@ def force_plates(report: Report, group: GroupView) -> Drawn:
 
 def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
     """A force plan at a position, in mm."""
-    drawing = force_plan_through(report, polygon, _places(report, k))
-    return replace(drawing, scale=_scale(report, f"mu.R{polygon.name}", k))
+    return replace(_at(force_construction(report, polygon), report, k), scale=_scale(report, f"mu.R{polygon.name}", k))
 
 
-def force_plan_through(report: Report, polygon: Polygon, place: Place) -> Plan:
-    """A force plan with these corners: known edges one by one, what closing it gives, what is read from it."""
+def force_construction(report: Report, polygon: Polygon) -> Construction[str]:
+    """A force plan with the ids of its corners: known edges one by one, what closing it gives, what is read from it."""
 
-    def corner(letter: str) -> complex:
-        return place(f"plan.R{polygon.name}.{letter}")
+    def corner(letter: str) -> str:
+        return f"plan.R{polygon.name}.{letter}"
 
     known = sum(not edge.unknown for edge in polygon.edges)
     drawn: list[tuple[Edge, int, Style]] = [
@@ -311,4 +319,4 @@ def force_plan_through(report: Report, polygon: Polygon, place: Place) -> Plan:
         vectors.append(PlanVector(edge.start + edge.end, start, end, style, label, stage))
         stage_of.setdefault(edge.end, stage)
     points = tuple(PlanPoint(Symbol(letter), corner(letter), stage) for letter, stage in stage_of.items())
-    return Plan(tuple(vectors), points, (), pole=False)
+    return Construction(tuple(vectors), points, pole=False)

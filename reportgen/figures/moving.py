@@ -6,7 +6,7 @@ it follows.  A machine is drawn once, each link in its own frame; plans are arro
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,7 +14,7 @@ import numpy as np
 from reportgen.figures import style
 from reportgen.figures.charts import Plotted
 from reportgen.figures.geometry import bounds
-from reportgen.figures.plan import PENS, Plan
+from reportgen.figures.plan import PENS, Construction
 from reportgen.figures.scene import Circle, Content, Item, Polyline, Stroke
 from reportgen.figures.scheme import Looks, Skeleton, ground_guides, parts_of, skeleton
 from reportgen.mechanism.motion import Motion
@@ -249,28 +249,21 @@ def path_items(linkage: Linkage, motion: Motion, names: Sequence[str], scale: fl
     return found
 
 
-def plan_items(plan: Plan, tracks: Sequence[Track]) -> list[MovingItem]:
-    """A plan that moves: in the places of its corners it has the numbers of the tracks that they follow."""
-
-    def track(corner: complex) -> Track:
-        return tracks[round(corner.real)]
-
+def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
+    """A plan that moves: each of its corners follows the track of its name."""
     items: list[MovingItem] = [
-        Vector(track(line.start), track(line.end), style.CONSTRUCTION, 0.0, beyond=6.0) for line in plan.lines
+        Vector(tracks[line.start], tracks[line.end], style.CONSTRUCTION, 0.0, beyond=6.0) for line in plan.lines
     ]
-    joined: dict[int, list[Track]] = {}
+    joined: dict[str, list[Track]] = {}
     for one in plan.vectors:
-        joined.setdefault(round(one.start.real), []).append(track(one.end))
-        joined.setdefault(round(one.end.real), []).append(track(one.start))
-        items.append(Vector(track(one.start), track(one.end), PENS[one.style], label=one.label, name=one.name))
+        start, end = tracks[one.start], tracks[one.end]
+        joined.setdefault(one.start, []).append(end)
+        joined.setdefault(one.end, []).append(start)
+        items.append(Vector(start, end, PENS[one.style], label=one.label, name=one.name))
     if plan.pole:
-        items.append(Carried((Circle(0j, 0.7, Stroke(0.25), style.PAPER),), track(plan.points[0].at)))
-    named: list[tuple[Content, int]] = []
-    for point in plan.points:
-        number = round(point.at.real)
-        if (point.label, number) not in named:
-            named.append((point.label, number))
-            items.append(Name(point.label, tracks[number], tuple(joined.get(number, ())), 0.9))
+        items.append(Carried((Circle(0j, 0.7, Stroke(0.25), style.PAPER),), tracks[plan.points[0].at]))
+    for label, corner in dict.fromkeys((point.label, point.at) for point in plan.points):
+        items.append(Name(label, tracks[corner], tuple(joined.get(corner, ())), 0.9))
     return items
 
 

@@ -11,7 +11,8 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from itertools import chain
+from typing import Generic, Literal, TypeVar
 
 from reportgen.figures import style
 from reportgen.figures.draft import MARGIN, Draft, finish, settle
@@ -52,54 +53,59 @@ APART = 30.0
 """Unless their middles would be farther apart than this in the inset (mm)."""
 
 
+Corner = TypeVar("Corner")
+Placed = TypeVar("Placed")
+
+
 @dataclass(frozen=True, slots=True)
-class PlanVector:
-    """An arrow of a plan, in mm; `label` is printed beside it, `name` identifies it to whoever measures."""
+class PlanVector(Generic[Corner]):
+    """An arrow of a plan; `label` is printed beside it, `name` identifies it to whoever measures."""
 
     name: str
-    start: complex
-    end: complex
+    start: Corner
+    end: Corner
     style: Style = "known"
     label: Content | None = None
     stage: int = 0
 
     @property
-    def middle(self) -> complex:
+    def middle(self: PlanVector[complex]) -> complex:
         return (self.start + self.end) / 2
 
     @property
-    def length(self) -> float:
+    def length(self: PlanVector[complex]) -> float:
         return abs(self.end - self.start)
 
 
 @dataclass(frozen=True, slots=True)
-class PlanPoint:
+class PlanPoint(Generic[Corner]):
     """A named point of a plan: the pole, the end of a vector, a vertex."""
 
     label: Content
-    at: complex
+    at: Corner
     stage: int = 0
 
 
 @dataclass(frozen=True, slots=True)
-class PlanLine:
+class PlanLine(Generic[Corner]):
     """An auxiliary direction drawn from `start` through `end` and a little on."""
 
-    start: complex
-    end: complex
+    start: Corner
+    end: Corner
     stage: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Plan:
-    """Vectors, named points and auxiliary directions in mm; `points[0]` is the pole where there is one.
+@dataclass(frozen=True)
+class Construction(Generic[Corner]):
+    """Vectors, named points and auxiliary directions between corners, which are places or only named.
 
-    `scale` is printed below, e.g. μ_v = 0.2189 m/(s·mm); `pole` marks the first point by a small circle.
+    `points[0]` is the pole where there is one; `pole` marks it by a small circle.  `scale` is printed below,
+    e.g. μ_v = 0.2189 m/(s·mm).
     """
 
-    vectors: tuple[PlanVector, ...]
-    points: tuple[PlanPoint, ...] = ()
-    lines: tuple[PlanLine, ...] = ()
+    vectors: tuple[PlanVector[Corner], ...]
+    points: tuple[PlanPoint[Corner], ...] = ()
+    lines: tuple[PlanLine[Corner], ...] = ()
     scale: Content | None = None
     pole: bool = True
 
@@ -108,26 +114,23 @@ class Plan:
         numbers = [v.stage for v in self.vectors] + [p.stage for p in self.points]
         return max(numbers + [k.stage for k in self.lines], default=0)
 
-    def drawn(self) -> tuple[PlanVector, ...]:
-        """The vectors that can be seen."""
-        return tuple(v for v in self.vectors if v.length > INVISIBLE)
-
     @property
-    def extent(self) -> float:
-        """The larger of its width and height without labels, mm."""
-        low, high = bounds(_arrows(self.drawn()))
-        return max((high - low).real, (high - low).imag)
+    def corners(self) -> tuple[Corner, ...]:
+        """All corners, each once."""
+        ends = [(v.start, v.end) for v in self.vectors] + [(k.start, k.end) for k in self.lines]
+        return tuple(dict.fromkeys((*(p.at for p in self.points), *chain.from_iterable(ends))))
 
-    def scaled(self, factor: complex) -> Plan:
-        """The plan enlarged or reduced; a complex factor also turns it."""
-        return replace(
-            self,
-            vectors=tuple(replace(v, start=v.start * factor, end=v.end * factor) for v in self.vectors),
-            points=tuple(replace(p, at=p.at * factor) for p in self.points),
-            lines=tuple(replace(k, start=k.start * factor, end=k.end * factor) for k in self.lines),
+    def placed(self, place: Callable[[Corner], Placed]) -> Construction[Placed]:
+        """The same construction with its corners elsewhere."""
+        return Construction(
+            tuple(PlanVector(v.name, place(v.start), place(v.end), v.style, v.label, v.stage) for v in self.vectors),
+            tuple(PlanPoint(p.label, place(p.at), p.stage) for p in self.points),
+            tuple(PlanLine(place(k.start), place(k.end), k.stage) for k in self.lines),
+            self.scale,
+            self.pole,
         )
 
-    def until(self, stage: int) -> Plan:
+    def until(self, stage: int) -> Construction[Corner]:
         """Only what is drawn up to a stage."""
         return replace(
             self,
@@ -135,6 +138,24 @@ class Plan:
             points=tuple(p for p in self.points if p.stage <= stage),
             lines=tuple(k for k in self.lines if k.stage <= stage),
         )
+
+    def drawn(self: Plan) -> tuple[PlanVector[complex], ...]:
+        """The vectors that can be seen."""
+        return tuple(v for v in self.vectors if v.length > INVISIBLE)
+
+    @property
+    def extent(self: Plan) -> float:
+        """The larger of its width and height without labels, mm."""
+        low, high = bounds(_arrows(self.drawn()))
+        return max((high - low).real, (high - low).imag)
+
+    def scaled(self: Plan, factor: complex) -> Plan:
+        """The plan enlarged or reduced; a complex factor also turns it."""
+        return self.placed(lambda corner: corner * factor)
+
+
+Plan = Construction[complex]
+"""A construction on paper: its corners are places in mm."""
 
 
 def lettered(stages: range, number: int) -> str:
@@ -238,7 +259,7 @@ def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
     return result
 
 
-def _arrows(vectors: Sequence[PlanVector], pens: Sequence[Stroke] = ()) -> list[Item]:
+def _arrows(vectors: Sequence[PlanVector[complex]], pens: Sequence[Stroke] = ()) -> list[Item]:
     """The arrows; one that would lie on an earlier one stands beside it, thin lines from its ends to their places."""
     result: list[Item] = []
     pens = pens or [PENS[v.style] for v in vectors]
@@ -249,7 +270,7 @@ def _arrows(vectors: Sequence[PlanVector], pens: Sequence[Stroke] = ()) -> list[
     return result
 
 
-def set_apart(vectors: Sequence[PlanVector]) -> list[complex]:
+def set_apart(vectors: Sequence[PlanVector[complex]]) -> list[complex]:
     """By how much (mm) each vector is drawn beside its place, so that none lies on an earlier one."""
     shifts: list[complex] = []
     for n, vector in enumerate(vectors):
@@ -260,7 +281,7 @@ def set_apart(vectors: Sequence[PlanVector]) -> list[complex]:
     return shifts
 
 
-def _on_one_line(one: PlanVector, other: PlanVector) -> bool:
+def _on_one_line(one: PlanVector[complex], other: PlanVector[complex]) -> bool:
     """Whether two vectors, long enough to see, cover a part of one line that is longer than an arrow's head."""
     if min(one.length, other.length) < TINY:
         return False
@@ -276,7 +297,7 @@ def _marks(drawing: Plan) -> list[Item]:
     return [Circle(drawing.points[0].at, 0.7, Stroke(0.25), style.PAPER)]
 
 
-def _labels(drawing: Plan, vectors: Sequence[PlanVector], size: float) -> tuple[Request, ...]:
+def _labels(drawing: Plan, vectors: Sequence[PlanVector[complex]], size: float) -> tuple[Request, ...]:
     """One label for points that nearly coincide, and those of the vectors beside their middles."""
     requests = []
     for group in clusters(drawing.points, CROWDED, lambda point: point.at):
@@ -294,7 +315,7 @@ def _labels(drawing: Plan, vectors: Sequence[PlanVector], size: float) -> tuple[
     return tuple(requests)
 
 
-def point_names(points: Sequence[PlanPoint]) -> list[Content]:
+def point_names(points: Sequence[PlanPoint[complex]]) -> list[Content]:
     """The parts of one label for several points: a ≡ b where they coincide, else a, b."""
     parts: list[Content] = []
     for n, point in enumerate(points):
@@ -306,7 +327,7 @@ def point_names(points: Sequence[PlanPoint]) -> list[Content]:
     return parts
 
 
-def _outward(at: complex, vectors: Sequence[PlanVector]) -> tuple[float, ...]:
+def _outward(at: complex, vectors: Sequence[PlanVector[complex]]) -> tuple[float, ...]:
     """The direction away from the vectors that meet in a point: where its name reads best."""
     pull = 0j
     for vector in vectors:
@@ -366,12 +387,12 @@ def enlargement(longest: float) -> float:
     return next(ratio for ratio in ratios if ratio <= most * (1 + 1e-12))
 
 
-def _groups(tiny: Sequence[PlanVector]) -> list[list[PlanVector]]:
+def _groups(tiny: Sequence[PlanVector[complex]]) -> list[list[PlanVector[complex]]]:
     """Vectors with neighbouring middles in groups, an inset each.
 
     A vector that would still be short, or too far off, at the ratio of the longest one goes to another inset.
     """
-    result: list[list[PlanVector]] = []
+    result: list[list[PlanVector[complex]]] = []
     for rest in clusters(tiny, NEIGHBOUR, lambda vector: vector.middle):
         while rest:
             longest = max(rest, key=lambda vector: vector.length)
@@ -386,14 +407,14 @@ def _groups(tiny: Sequence[PlanVector]) -> list[list[PlanVector]]:
     return result
 
 
-def _mark(group: Sequence[PlanVector]) -> Item:
+def _mark(group: Sequence[PlanVector[complex]]) -> Item:
     ends = [end for vector in group for end in (vector.start, vector.end)]
     low, high = corners_of(ends)
     centre = (low + high) / 2
     return Circle(centre, max(abs(end - centre) for end in ends) + 1.2, Stroke(0.1, style.GRAY), None)
 
 
-def _inset(group: Sequence[PlanVector], drawing: Plan) -> Draft:
+def _inset(group: Sequence[PlanVector[complex]], drawing: Plan) -> Draft:
     """One inset with its labels placed, in coordinates about its own middle."""
     ratio = enlargement(max(vector.length for vector in group))
     low, high = corners_of([end for vector in group for end in (vector.start, vector.end)])
