@@ -1,81 +1,28 @@
-"""One instant of a system in plane motion: its assignment with all that is computed of it."""
+"""An exercise of plane motion as a case: what every output of it is made of."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Never
 
-from reportgen.case import Opened
 from reportgen.document.case import Pitfalls
 from reportgen.document.key import Key
 from reportgen.document.tree import Document
 from reportgen.errors import NotOfferedError
+from reportgen.exercise.solved import SolvedExercise
 from reportgen.notation.sheet import Family
 from reportgen.words import word
 
 if TYPE_CHECKING:
-    from reportgen.exercise.literal import LiteralBoard
-    from reportgen.exercise.plane_motion import Exercise
-    from reportgen.exercise.solution import Worked
     from reportgen.figures.sheet import Sheet
     from reportgen.ledger.core import Ledger
 
 
 @dataclass(frozen=True)
-class ExerciseCase(Opened):
+class ExerciseCase(SolvedExercise):
     """An exercise, as a `Case`."""
-
-    @cached_property
-    def exercise(self) -> Exercise:
-        """The system and what is asked of it."""
-        from reportgen.exercise.plane_motion import exercise
-
-        return exercise(self.assignment)
-
-    @cached_property
-    def worked(self) -> Worked:
-        """The steps of its solution with their numbers.
-
-        Raises `NotOfferedError` if no steps that are known here lead to something that is asked.
-        """
-        from reportgen.exercise.solution import work_out
-
-        first = next(iter(self.exercise.given.methods), None)
-        worked = work_out(self.exercise, self.words["units"], self.words["symbols"], first)
-        if worked.missing:
-            raise NotOfferedError(word("no_steps", self.assignment.language, asked=", ".join(worked.missing)))
-        return self._by_its_method(worked)
-
-    @cached_property
-    def further(self) -> tuple[Worked, ...]:
-        """The velocities worked out anew by each further method that the file asks for.
-
-        Raises `NotOfferedError` for a method of which no steps are known here.
-        """
-        from reportgen.exercise.solution import work_out
-
-        rest = self.exercise.given.methods[1:]
-        each = (work_out(self.exercise, self.words["units"], self.words["symbols"], one, True) for one in rest)
-        return tuple(map(self._by_its_method, each))
-
-    def _by_its_method(self, worked: Worked) -> Worked:
-        if not worked.by_method:
-            raise NotOfferedError(word("no_method_steps", self.assignment.language, method=worked.method))
-        return worked
-
-    @cached_property
-    def literal(self) -> LiteralBoard | None:
-        """The quantities of the solution by symbols; None where the file has none."""
-        if not self.exercise.given.literal:
-            return None
-        from reportgen.exercise.literal import LiteralBoard
-
-        return LiteralBoard(self.exercise, self.worked)
-
-    # --- as a case
 
     @property
     def ledger(self) -> Ledger:

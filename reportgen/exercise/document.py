@@ -1,4 +1,4 @@
-"""ExerciseCase → Document: what is given and asked, the figures, every step with its equation, the answer."""
+"""SolvedExercise → Document: what is given and asked, the figures, every step with its equation, the answer."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ from reportgen.document.tree import (
     listed,
 )
 from reportgen.exercise import file
-from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.figures import FIGURES
+from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import Literal, symbol
 from reportgen.exercise.views import AT, FurtherView, Solution, lettered
 from reportgen.notation import vocabulary
@@ -46,7 +46,7 @@ ANSWER = (25.0, 65.0, 70.0)
 """Widths (mm) of the columns of the answers."""
 
 
-def solution(case: ExerciseCase) -> Document:
+def solution(case: SolvedExercise) -> Document:
     """The finished, numbered document; raises `TemplateError`, and `NotOfferedError` where no steps are known."""
     words, assignment = case.words, case.assignment
     blocks = Prose(case.places).render("exercise", names(case))
@@ -63,7 +63,7 @@ def solution(case: ExerciseCase) -> Document:
     )
 
 
-def task_names(case: ExerciseCase) -> Mapping[str, Any]:
+def task_names(case: SolvedExercise) -> Mapping[str, Any]:
     """What the templates of an exercise name that say what is given and asked."""
     page = Page(case, case.worked)
     return {
@@ -81,7 +81,7 @@ def task_names(case: ExerciseCase) -> Mapping[str, Any]:
     }
 
 
-def names(case: ExerciseCase) -> Mapping[str, Any]:
+def names(case: SolvedExercise) -> Mapping[str, Any]:
     """What the templates of its solution name."""
     page = Page(case, case.worked)
     further = [Page(case, worked) for worked in case.further]

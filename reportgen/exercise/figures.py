@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from reportgen.exercise import file
-from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.views import Axes, DrawnAxis
 from reportgen.figures import style
 from reportgen.figures.draft import Draft, finish, settle
@@ -181,12 +181,12 @@ def _names(points: Mapping[str, complex]) -> list[Request]:
 # --- what is drawn of an exercise -----------------------------------------------------------------
 
 
-def system_figure(case: ExerciseCase) -> tuple[Scene, Chain | None] | None:
+def system_figure(case: SolvedExercise) -> tuple[Scene, Chain | None] | None:
     """The system alone, with no rates on it."""
     return _draw(case, {}, "", {}, [])
 
 
-def velocity_figure(case: ExerciseCase) -> tuple[Scene, Chain | None] | None:
+def velocity_figure(case: SolvedExercise) -> tuple[Scene, Chain | None] | None:
     """The system with the velocities of its points and the normals through the instant centres."""
     motion, layout = case.exercise.motion, case.worked.layout
     shown = [name for name in motion.system.points if f"v.{name}" in case.worked.ledger and motion.v(name)]
@@ -203,7 +203,7 @@ def velocity_figure(case: ExerciseCase) -> tuple[Scene, Chain | None] | None:
     return _draw(case, vectors, "v", extra, normals)
 
 
-def acceleration_figure(case: ExerciseCase) -> tuple[Scene, Chain | None] | None:
+def acceleration_figure(case: SolvedExercise) -> tuple[Scene, Chain | None] | None:
     """The system with the accelerations that are asked or used; None where there are none."""
     motion, ledger = case.exercise.motion, case.worked.ledger
     names = [name for name in motion.system.points if any(id.startswith(f"a.{name}") for id in ledger.families)]
@@ -213,7 +213,7 @@ def acceleration_figure(case: ExerciseCase) -> tuple[Scene, Chain | None] | None
 
 
 def _draw(
-    case: ExerciseCase,
+    case: SolvedExercise,
     vectors: dict[str, tuple[complex, Symbol]],
     what: str,
     extra: dict[str, complex],
@@ -260,7 +260,7 @@ def _draw(
     return scene_of(drawn, (length,)), note
 
 
-def _scale(case: ExerciseCase, extra: list[complex]) -> float:
+def _scale(case: SolvedExercise, extra: list[complex]) -> float:
     """mm of paper for a metre, round: what is farther apart than twice the system itself does not count."""
     system = case.exercise.motion.system
     places = np.array([*system.points.values(), *extra])
@@ -272,7 +272,7 @@ def _scale(case: ExerciseCase, extra: list[complex]) -> float:
     return 1 / nice_up(needed)
 
 
-def _racks(case: ExerciseCase, scale: float) -> Iterator[tuple[complex, complex]]:
+def _racks(case: SolvedExercise, scale: float) -> Iterator[tuple[complex, complex]]:
     """Where discs roll on lines of moving bodies, with the directions of the lines."""
     layout = case.worked.layout
     for index, joint in enumerate(case.exercise.given.joints):
@@ -280,7 +280,7 @@ def _racks(case: ExerciseCase, scale: float) -> Iterator[tuple[complex, complex]
             yield layout.points[layout.contacts[index]] * scale, layout.geometry.direction(joint)
 
 
-def _rails(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iterator[DrawnRail]:
+def _rails(case: SolvedExercise, points: dict[str, complex], scale: float) -> Iterator[DrawnRail]:
     given, system = case.exercise.given, case.exercise.motion.system
     racks = [*_racks(case, scale)]
     for joint in given.joints:
@@ -294,7 +294,7 @@ def _rails(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iter
             yield DrawnRail(points[first], case.worked.layout.geometry.direction(joint), joint.on == GROUND)
 
 
-def _slots(case: ExerciseCase, points: dict[str, complex]) -> Iterator[tuple[complex, complex]]:
+def _slots(case: SolvedExercise, points: dict[str, complex]) -> Iterator[tuple[complex, complex]]:
     """The lines of moving bodies along which points slide, on to beyond the block, with an arm to a point beside."""
     given, system = case.exercise.given, case.exercise.motion.system
     for joint in given.slots:
@@ -307,7 +307,7 @@ def _slots(case: ExerciseCase, points: dict[str, complex]) -> Iterator[tuple[com
             yield at + (u.conjugate() * (far - at)).real * u, far
 
 
-def _cords(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iterator[tuple[complex, complex]]:
+def _cords(case: SolvedExercise, points: dict[str, complex], scale: float) -> Iterator[tuple[complex, complex]]:
     """Cords, and both straight parts of each belt, mirrored in the line of its centres."""
     given, layout = case.exercise.given, case.worked.layout
     for index, joint in enumerate(given.joints):
@@ -322,7 +322,7 @@ def _cords(case: ExerciseCase, points: dict[str, complex], scale: float) -> Iter
             yield mirrored[0], mirrored[1]
 
 
-def _grounds(case: ExerciseCase, scale: float) -> Iterator[DrawnGround]:
+def _grounds(case: SolvedExercise, scale: float) -> Iterator[DrawnGround]:
     """The ground below discs that roll on a line of it."""
     given, layout = case.exercise.given, case.worked.layout
     for joint in given.joints:
@@ -333,7 +333,7 @@ def _grounds(case: ExerciseCase, scale: float) -> Iterator[DrawnGround]:
                 yield DrawnGround(centre.at * scale, out / abs(out))
 
 
-def _rotations(case: ExerciseCase, points: dict[str, complex]) -> Iterator[DrawnRotation]:
+def _rotations(case: SolvedExercise, points: dict[str, complex]) -> Iterator[DrawnRotation]:
     """The arrow of each angular velocity at a pivot."""
     motion = case.exercise.motion
     for body, centre in case.worked.layout.centres.items():

@@ -14,8 +14,7 @@ from typing import Any, cast
 from reportgen.exercise import algebra, file
 from reportgen.exercise.algebra import Algebraic, Plane
 from reportgen.exercise.conditions import GROUND, Condition, Rates, Velocities
-from reportgen.exercise.places import Geometry, carried, conditions
-from reportgen.exercise.plane_motion import Exercise
+from reportgen.exercise.places import Exercise, Geometry, carried, conditions
 from reportgen.exercise.solution import Worked
 from reportgen.exercise.solving import System
 from reportgen.exercise.symbols import Literal

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
+from reportgen.assignment import Assignment
 from reportgen.errors import Finding, Where
 from reportgen.exercise import conditions as on
 from reportgen.exercise import file
 from reportgen.exercise.conditions import Condition
-from reportgen.exercise.solving import System
+from reportgen.exercise.solving import Motion, System
 from reportgen.notation.constructions import circle_circle, circle_line, cross, foot, meet, real_root
 from reportgen.units import Given
 
@@ -332,3 +333,24 @@ def _vector(
     yield make(name, at, body, 1j * along, 0.0)
     if size is not None:
         yield make(name, at, body, along, size)
+
+
+# --- the exercise ---------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """A system in motion at one instant, and what is to be found of it."""
+
+    given: file.Parameters
+    motion: Motion
+
+    @property
+    def asked(self) -> tuple[file.Asked, ...]:
+        return self.given.find
+
+
+def exercise_of(assignment: Assignment) -> Exercise:
+    """The exercise of an assignment that is in order."""
+    given: file.Parameters = assignment.parameters
+    return Exercise(given, Motion(system(given)))

@@ -8,7 +8,6 @@ and whether the methods that are asked for can find it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +18,6 @@ from reportgen.errors import Finding, Where
 from reportgen.exercise import file, symbols
 from reportgen.exercise.centres import NEAR, Layout, lay_out
 from reportgen.exercise.conditions import GROUND
-from reportgen.exercise.file import Asked, Parameters
 from reportgen.exercise.places import TOP, MisplacedError, direction_of, named, perpendicular, system
 from reportgen.exercise.solving import Motion
 from reportgen.notation.expressions import Negative, Ref
@@ -30,24 +28,6 @@ if TYPE_CHECKING:
 
 TURNS = 1
 HAS_POSITIONS = False
-
-
-@dataclass(frozen=True)
-class Exercise:
-    """A system in motion at one instant, and what is to be found of it."""
-
-    given: Parameters
-    motion: Motion
-
-    @property
-    def asked(self) -> tuple[Asked, ...]:
-        return self.given.find
-
-
-def exercise(assignment: Assignment) -> Exercise:
-    """The exercise of an assignment that is in order."""
-    given: Parameters = assignment.parameters
-    return Exercise(given, Motion(system(given)))
 
 
 def case(assignment: Assignment) -> ExerciseCase:

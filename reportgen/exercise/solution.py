@@ -15,7 +15,7 @@ from reportgen.exercise.board import Board, Quantities, Step
 from reportgen.exercise.centres import NEAR, Centre, Layout, lay_out, name_of_centre
 from reportgen.exercise.file import Asked, Method
 from reportgen.exercise.loops import enter_proportion, solve_accelerations_together, solve_velocities_together
-from reportgen.exercise.plane_motion import Exercise
+from reportgen.exercise.places import Exercise
 from reportgen.exercise.speeds import (
     about_joints,
     by_base_point,

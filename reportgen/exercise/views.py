@@ -15,10 +15,10 @@ from typing import Any
 from reportgen.document.prose import PointName
 from reportgen.document.tree import Equation, InlineMath, Inlines, Text, Value
 from reportgen.exercise.board import Axis, Step, Vector
-from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.centres import NEAR
 from reportgen.exercise.places import parallel
 from reportgen.exercise.solution import Worked
+from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import symbol
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol, Term, VectorEquation, refs, substitute
@@ -76,7 +76,7 @@ class FurtherView:
 class Solution:
     """A solution of an exercise, as it is set out step by step."""
 
-    case: ExerciseCase
+    case: SolvedExercise
     worked: Worked
 
     @property
