@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from reportgen.assignment import Assignment
     from reportgen.exercise.case import ExerciseCase
 
+Parameters = file.Parameters
 TURNS = 1
 HAS_POSITIONS = False
 
