@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 SAMPLE := assignments/engine-twin-05.yaml
 
-.PHONY: setup report reports test lint bench fuzz pictures clean
+.PHONY: setup report reports test proof lint bench fuzz pictures clean
 
 setup: $(VENV)/.installed
 
@@ -18,6 +18,10 @@ reports: setup
 test: $(VENV)/.developing
 	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -rs -n auto
 
+# What `make test` leaves out: the rest of each matrix, pages in a browser, killed batches, fuzz.
+proof: $(VENV)/.developing
+	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -rs -n auto -m proof
+
 lint: $(VENV)/.developing
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
@@ -28,6 +32,7 @@ bench: $(VENV)/.developing
 	$(BIN)/python -m tests.bench
 	$(BIN)/python -m tests.bench.batch
 	$(BIN)/python -m tests.bench.page
+	$(BIN)/python -m tests.bench.reading
 	$(BIN)/python -m tests.bench.growth --plot docs/growth.png
 
 # The seed of the day: another ten thousand files each time.

@@ -22,10 +22,14 @@ from reportgen.document.prose import Prose
 from reportgen.kinds import kinds
 from reportgen.words import search_path
 from reportgen.writers import pdflatex
+from tests.lanes import matrix
 
 ROOT = Path(__file__).parent.parent
 PAGES = ("README.md", *sorted(f"docs/{page.name}" for page in (ROOT / "docs").glob("*.md")))
 """For users: each is read, and its commands are run, by itself."""
+
+TELLING = ("README.md", "docs/assignment.md", "docs/class.md", "docs/results.md", "docs/sheets.md")
+"""Pages on which each command of the program stands at least once."""
 
 DOCUMENTS = (*PAGES, "CONTRIBUTING.md", "ARCHITECTURE.md", "CHANGELOG.md")
 LARGEST_PICTURE = 150_000
@@ -163,9 +167,21 @@ def follow(document: str, place: Path) -> list[str]:
 # --- what is shown is so --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if fences(page, "console")])
+@pytest.mark.parametrize("page", matrix([page for page in PAGES if fences(page, "console")], TELLING))
 def test_the_commands_of_a_page_print_what_it_shows(page: str, tmp_path: Path) -> None:
     assert follow(page, copy_of_repository(tmp_path)) == []
+
+
+def test_each_command_is_run_in_the_first_lane() -> None:
+    def shown(pages: Sequence[str]) -> set[str]:
+        return {
+            command.line.split()[1]
+            for page in pages
+            for command in commands(page)
+            if command.line.startswith("reportgen ")
+        }
+
+    assert shown(PAGES) == shown(TELLING)
 
 
 def test_no_command_is_run_on_two_pages() -> None:

@@ -1,4 +1,4 @@
-"""A thousand spoilt assignments, rosters, specs, sheets and policies: results or located faults, and soon."""
+"""A thousand spoilt assignments, rosters, specs, sheets and policies: results or located faults."""
 
 from __future__ import annotations
 
@@ -7,14 +7,15 @@ from pathlib import Path
 import pytest
 
 from tests import fuzz
+from tests.lanes import matrix
 
 CASES, PARTS, SEED = 600, 6, 16
 
 
-@pytest.mark.parametrize("part", range(PARTS))
+@pytest.mark.parametrize("part", matrix(range(PARTS), [0]))
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_spoilt_files_come_to_results_or_faults(tmp_path: Path, part: int) -> None:
-    """No traceback, nothing that takes long, no nan in results, both torques the same to nine figures."""
+    """No traceback, no nan in results, both torques the same to nine figures."""
     outcomes = [fuzz.attempt(number, SEED, tmp_path) for number in range(part, CASES, PARTS)]
     assert [(one.number, one.kind, one.wrong) for one in outcomes if one.wrong] == []
     # Both ends are met, or the test would see little.

@@ -22,9 +22,10 @@ from reportgen.grading.submission import read_submission
 from reportgen.notation.numbers import Language
 from reportgen.notation.vocabulary import Chapter
 from reportgen.workbook import write_csv, write_xlsx
-from tests.answers.test_wording import FILES, key
+from tests.answers.test_wording import FILES, TELLING, key
 from tests.grading import students
 from tests.grading.keys import csv_rows, small_key
+from tests.lanes import matrix
 
 
 def ids(patterns: tuple[str, ...], found: Key) -> set[str]:
@@ -41,7 +42,7 @@ def test_the_last_pattern_that_fits_decides() -> None:
     assert ids(("-torque",), found) == {"omega.1", "v.B", "dir.v.B"}
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", matrix(FILES, TELLING))
 def test_what_is_asked_by_default_is_a_sheet_that_a_student_can_fill_in(name: str) -> None:
     """Some 20 to 80 cells for one position where there were up to 224; every section with a result keeps some.
 

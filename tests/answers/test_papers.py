@@ -14,6 +14,7 @@ from reportgen.grading.grades import class_document
 from reportgen.notation.numbers import Language
 from tests.answers.test_sheet import handout
 from tests.grading.test_feedback import marking
+from tests.lanes import matrix
 from tests.reports.built import needs_tex
 from tests.reports.pages import BEARING, INK, Page, outside, overlaps
 
@@ -36,7 +37,7 @@ PAPERS: dict[str, Paper] = {
 }
 
 
-@pytest.mark.parametrize("engine", ["typst", pytest.param("latex", marks=needs_tex)])
+@pytest.mark.parametrize("engine", matrix(["typst", pytest.param("latex", marks=needs_tex)], ["typst"]))
 @pytest.mark.parametrize(("name", "language"), [("task", "vi"), ("key", "en"), ("feedback", "vi"), ("class", "en")])
 def test_a_paper_keeps_to_its_page(name: str, language: Language, engine: api.Engine) -> None:
     pymupdf = pytest.importorskip("pymupdf")

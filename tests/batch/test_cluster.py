@@ -17,6 +17,7 @@ from reportgen.batch.cluster import ClusterError, cluster
 from reportgen.batch.pool import Results
 from reportgen.batch.run import Order, run_batch
 from tests.batch.classes import Batch, tree, write_class
+from tests.lanes import proof
 
 ROOT = Path(__file__).parents[2]
 
@@ -29,6 +30,7 @@ def scheduler() -> Iterator[Any]:
         yield running
 
 
+@proof
 def test_a_killed_worker_takes_nothing_along(scheduler: Any, tmp_path: Path) -> None:
     """One of two workers is killed when the first result comes, while both are busy."""
     batch = Batch(tmp_path, {f"K{k}": f"seconds: 0.{k}" for k in range(8)})
@@ -47,6 +49,7 @@ def test_a_killed_worker_takes_nothing_along(scheduler: Any, tmp_path: Path) -> 
     assert tree(batch.out) == tree(plain.out)
 
 
+@proof
 def test_a_job_that_kills_every_worker_fails_alone(scheduler: Any, tmp_path: Path) -> None:
     batch = Batch(tmp_path, {"K1": "dies: always", "K2": "wrong: not so", "K3": "seconds: 0"})
     done = batch.run(pool=cluster(scheduler.scheduler_address, "en"))
@@ -64,6 +67,7 @@ def test_papers_of_the_cluster_are_those_made_here(scheduler: Any, tmp_path: Pat
     assert tree(tmp_path / "here") == tree(tmp_path / "there")
 
 
+@proof
 def test_a_scheduler_that_goes_keeps_what_is_done(tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed")
     batch = Batch(tmp_path, {f"K{k}": f"seconds: 0.{k}" for k in range(8)})

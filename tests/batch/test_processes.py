@@ -26,6 +26,7 @@ from reportgen.files import put_file
 from reportgen.notation.numbers import Language
 from tests.batch.classes import Batch, tree, write_class
 from tests.batch.little import little
+from tests.lanes import proof
 
 ROOT = Path(__file__).parents[2]
 
@@ -203,6 +204,7 @@ def test_an_end_at_any_file_is_made_good(tmp_path: Path, monkeypatch: pytest.Mon
     assert ends == 3 * 2 + 2
 
 
+@proof
 def test_killed_again_and_again_nothing_is_lost(tmp_path: Path) -> None:
     """Whatever was told as done before the kill is not made again; the tree ends as if nothing had happened."""
     log, count = tmp_path / "log", 8
@@ -268,6 +270,7 @@ def lives(group: int) -> bool:
     return True
 
 
+@proof
 def test_reports_are_the_same_whoever_makes_them(tmp_path: Path) -> None:
     """Two real reports, by one process and by two."""
     text = (ROOT / "assignments" / "slotted-lever-01.yaml").read_text(encoding="utf-8")

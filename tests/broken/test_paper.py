@@ -12,6 +12,7 @@ from reportgen.cases import MachineCase
 from reportgen.catalogue import check
 from reportgen.document import outline
 from reportgen.document.tree import Plate
+from tests.lanes import matrix
 
 FOUR_BAR = """\
 kind: four-bar
@@ -64,7 +65,7 @@ def test_the_longest_drawn_crank_is_named_and_fits(tmp_path: Path, name: str) ->
 @pytest.mark.parametrize(
     ("text", "old"), [(FOUR_BAR, "crank: 30 mm"), (SLIDER, "crank: 30 mm"), (TWIN, "crank: 50 mm")]
 )
-@pytest.mark.parametrize("drawn", [60, 100, 150])
+@pytest.mark.parametrize("drawn", matrix([60, 100, 150], [150]))
 def test_a_larger_drawing_takes_a_larger_sheet_of_the_series(tmp_path: Path, text: str, old: str, drawn: int) -> None:
     file = put(tmp_path, text, old, f"crank: {drawn} mm")
     report = outline.compose(MachineCase(api.load(file)))

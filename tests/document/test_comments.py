@@ -12,11 +12,12 @@ from reportgen.document import comments, overview
 from reportgen.document.report import Report
 from reportgen.document.tree import Block, Paragraph, Table, plain
 from reportgen.notation import vocabulary
+from tests.lanes import matrix
 from tests.reports import built
 
 HALF = 0.5000001
 """Half a unit of the last digit, with room for the rounding of binary numbers."""
-FILES = pytest.mark.parametrize("path", built.FILES, ids=lambda path: path.stem)
+FILES = pytest.mark.parametrize("path", matrix(built.FILES, built.TYPESET), ids=lambda path: path.stem)
 
 
 def opened(path: Path) -> Report:

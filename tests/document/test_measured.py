@@ -15,6 +15,7 @@ from reportgen.ledger.core import Ledger
 from reportgen.ledger.kinematics.linkage import POLES
 from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Symbol, refs
+from tests.lanes import matrix
 from tests.reports import built
 from tests.reports.built import Written
 
@@ -92,7 +93,7 @@ def ends(ledger: Ledger, id: str, k: int, label: str, turn: str) -> tuple[list[s
     return figures, wanted
 
 
-@pytest.mark.parametrize("file", built.FILES, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", matrix(built.FILES, built.TYPESET), ids=lambda file: file.stem)
 def test_ends_of_what_is_measured_are_named_in_its_figure(file: Path) -> None:
     written = built.written(file, built.own_language(file))
     ledger, machine, shown = written.case.ledger, written.case.analysis.machine, names(written.document)

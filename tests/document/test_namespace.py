@@ -12,9 +12,8 @@ import pytest
 from jinja2 import Environment, meta, nodes
 
 from reportgen import api
-from reportgen.answers.key import make_key
 from reportgen.answers.paper import task
-from reportgen.case import opened
+from reportgen.cases import opened
 from reportgen.document import namespace
 from reportgen.document.outline import compose
 from reportgen.document.prose import Prose, _environment
@@ -72,7 +71,7 @@ def handed(file: str) -> set[str]:
 
     with mock.patch.object(Prose, "render", noted):
         compose(case)
-        task(case, make_key(case))
+        case.task(case.key())
     return found
 
 

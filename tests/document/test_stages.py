@@ -12,6 +12,7 @@ from reportgen.document.report import Report
 from reportgen.figures.plan import Plan, merged, stages
 from reportgen.figures.scene import Arrow, Line
 from reportgen.figures.style import NEW
+from tests.lanes import matrix
 from tests.reports import built
 
 VISIBLE = 1e-6
@@ -33,7 +34,7 @@ def additions(drawing: Plan, stage: int) -> list[tuple[complex, complex]]:
     return [(start, end) for start, end in (*new, *lines) if abs(end - start) > VISIBLE]
 
 
-@pytest.mark.parametrize("file", built.FILES, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", matrix(built.FILES, built.TYPESET), ids=lambda file: file.stem)
 def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> None:
     report = Report(built.case(file, built.own_language(file)))
     k = report.assignment.worked_positions[0]
@@ -56,7 +57,7 @@ def test_force_plans_begin_with_what_is_known_without_moments(file: Path) -> Non
         assert not by_moments or not second & {s.start + s.end for s in group.polygon.edges if s.unknown}
 
 
-@pytest.mark.parametrize("file", built.FILES, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", matrix(built.FILES, built.TYPESET), ids=lambda file: file.stem)
 def test_every_stage_adds_an_arrow_or_a_line(file: Path) -> None:
     report = Report(built.case(file, built.own_language(file)))
     for k in range(1, report.count + 1):

@@ -1,26 +1,17 @@
 """A student who works out a slider-crank machine by hand: own formulas, own drawing, own rounding.
 
-Nothing of the ledger or of marking is used: a plan is drawn on paper in complex numbers (m), everything else by the
-textbook's formulas.  Whatever the student finds is first changed by the mistake made there, then written down, and
-the work goes on from what is written.
+A plan is drawn on paper in complex numbers (m), everything else by the textbook's formulas.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 
-MM, DEGREE = 1e-3, math.pi / 180
-PRINTED = {"drawn": MM, "seg": MM, "ic.seg": MM, "h": MM, "F": 1e-4, "p": 1e4, "mu": 1e3} | dict.fromkeys(
-    ("dir", "beta", "ic.angle", "theta", "alpha", "psi", "swing"), DEGREE
-)
-"""What one printed unit is in SI, by the first part of an id; 1 for all others."""
-
-Change = Callable[[float], float]
-"""What a student makes of a value that should be another."""
+from tests.grading.written import Student
 
 
 @dataclass(frozen=True)
@@ -54,50 +45,26 @@ class Task:
 
 
 @dataclass
-class Hand:
-    """One position of a task worked out; `changes` are mistakes by id, `left_out` and `turned` forces of the plans.
+class Hand(Student):
+    """One position of a task worked out by drawing; `left_out` and `turned` are forces of the plans.
 
-    `paper` is the drawn crank and `force_scale` the scale of the force plans (N to a metre on paper); `figures` are
-    written, all there are if 0; the scales of the plans of velocity and acceleration are chosen (`plan_scales`, SI), or
-    v_A/pa `by_lengths`, or ω μ_l; a drawn point is read up to `blunt` (m) beside where it lies, lengths to `step` mm.
+    `paper` is the drawn crank and `force_scale` the scale of the force plans (N to a metre on paper); the scales of the
+    plans of velocity and acceleration are chosen (`plan_scales`, SI), or v_A/pa `by_lengths`, or ω μ_l.
     """
 
     task: Task
-    changes: Mapping[str, Change] = field(default_factory=dict)
     left_out: frozenset[str] = frozenset()
     turned: frozenset[str] = frozenset()
     paper: float = 0.05
     force_scale: float | Mapping[str, float] = 1e5
     plan_scales: Mapping[str, float] = field(default_factory=dict)
     by_lengths: bool = True
-    figures: int = 4
-    blunt: float = 0.0
-    step: float = 0.1
-    seed: int = 0
-    written: dict[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.rng = np.random.default_rng(self.seed)
+        super().__post_init__()
         self._work()
 
     # --- writing and reading
-
-    def say(self, id: str, value: float) -> float:
-        """A value found: changed by the mistake made here, rounded, written down; the work goes on from it."""
-        if id in self.changes:
-            value = self.changes[id](value)
-        unit = unit_of(id)
-        printed = value / unit
-        if not self.figures:
-            pass
-        elif id.startswith("dir."):
-            printed = float(round(printed % 360))
-        elif unit == MM:
-            printed = round(round(printed / self.step) * self.step, 2) if self.blunt else round(printed, 2)
-        elif printed:
-            printed = float(f"{printed:.{self.figures - 1}e}")
-        self.written[id] = printed
-        return printed * unit
 
     def read(self, point: complex) -> complex:
         """A drawn point as it is measured."""
@@ -109,10 +76,6 @@ class Hand:
         scale = self.force_scale if isinstance(self.force_scale, float) else self.force_scale[plan]
         self.written[f"mu.R{plan}"] = scale / 1e3
         return scale
-
-    def heading(self, id: str, vector: complex) -> None:
-        if abs(vector) > 1e-9:
-            self.say(f"dir.{id}", float(np.angle(vector)) % (2 * np.pi))
 
     # --- the work
 
@@ -189,7 +152,7 @@ class Hand:
         self.say("M.eq", -moment)
         drawn = self.say("seg.1.R01", abs(self.read(total) - self.read(0j)))
         self.say("R.01", drawn * μ)
-        self.heading("R01", -total)
+        self.direct("R01", -total)
         work, per = 0.0, self.mu_v / self.omega if self.plan_scales else self.mu_l
         for side in sides:
             for name, size, force, image, beside in side.loads():
@@ -211,14 +174,7 @@ class Hand:
         return self._measured(id, float(self.task.turn * ((np.conj(force) * image).real / size + turned)))
 
     def _measured(self, id: str, h: float) -> float:
-        noise = self.rng.uniform(-self.blunt, self.blunt, 2).sum()
-        return math.copysign(self.say(id, abs(h) + noise if abs(h) > 2 * self.blunt else abs(h)), h)
-
-
-def unit_of(id: str) -> float:
-    """What one printed unit of a quantity is in SI."""
-    first, *rest = id.split(".")
-    return PRINTED.get(f"ic.{rest[0]}" if first == "ic" else first, 1.0)
+        return math.copysign(self.measure(id, h), h)
 
 
 class _Side:
@@ -252,12 +208,12 @@ class _Side:
         self.omega = abs(say(f"turn.omega.{i}", sense * v_BA / self.length))
         self.turning = sense * self.omega
         v_B = say(f"v.{end}", hand.mu_v * say(f"seg.v.p{e}", abs(read(b1))))
-        hand.heading(f"v.{end}", b1)
+        hand.direct(f"v.{end}", b1)
         as2 = say(f"seg.v.{p}{s}", hand.shares[rod] / self.length * ab)
         s1 = a1 + as2 * (b1 - a1) / abs(b1 - a1)
         self.b1, self.s1 = b1, s1
         say(f"v.{centre}", hand.mu_v * say(f"seg.v.p{s}", abs(read(s1))))
-        hand.heading(f"v.{centre}", s1)
+        hand.direct(f"v.{centre}", s1)
         # Accelerations.
         a2 = -A * hand.larger[1]
         normal = say(f"seg.a.n.{end}{pin}", say(f"a.{end}{pin}.n", v_BA**2 / self.length) / hand.mu_a)
@@ -267,12 +223,12 @@ class _Side:
         turning = float(np.sign((np.conj(along) * (b2 - n2)).imag))
         self.eps = turning * abs(say(f"turn.eps.{i}", turning * tangential / self.length))
         a_B = say(f"a.{end}", hand.mu_a * say(f"seg.a.p{e}", abs(read(b2))))
-        hand.heading(f"a.{end}", b2)
+        hand.direct(f"a.{end}", b2)
         whole = say(f"seg.a.{p}{e}", abs(read(b2) - read(a2)))
         part = say(f"seg.a.{p}{s}", hand.shares[rod] / self.length * whole)
         s2 = a2 + part * (b2 - a2) / abs(b2 - a2)
         a_S = say(f"a.{centre}", hand.mu_a * say(f"seg.a.p{s}", abs(read(s2))))
-        hand.heading(f"a.{centre}", s2)
+        hand.direct(f"a.{centre}", s2)
         self._centre_of_velocity(v_B)
         self._formulas(angle)
         # Loads.
@@ -374,7 +330,7 @@ class _Side:
         found = {}
         for name, (point, vector) in ends.items():
             found[name] = say(name.replace("R", "R.", 1), μ * say(f"seg.{plan}.{name}", abs(read_n - point)))
-            hand.heading(name, vector)
+            hand.direct(name, vector)
         say(f"x.0{j}", 0.0)
         whole = ends[f"R1{i}"][1]
         return -found[f"R1{i}"] * whole / abs(whole)

@@ -18,9 +18,10 @@ from reportgen.errors import Mark
 from reportgen.grading.guide import Guide
 from reportgen.grading.marks import Answer, Submission
 from tests.grading import students
-from tests.grading.hand import Change, Hand, Rod, Task
+from tests.grading.hand import Hand, Rod, Task
 from tests.grading.machines import WAYS
 from tests.grading.vectors import Paper, Vectors
+from tests.grading.written import Change, Student
 
 TWIN, SLIDER, FOUR_BAR = "engine-twin-05", "slider-crank-01", "four-bar-01"
 DRAWING = {"engine-twin", "slider-crank"}
@@ -56,7 +57,7 @@ def task(guide: Guide, position: int) -> Task:
     return Task(given, (Rod("B", "C", "S2", (2, 3), 0.0, force=si("P3")),), angle, 1 + 0j, "AB")
 
 
-def handed_in(guide: Guide, worked: Mapping[int, Hand | Vectors]) -> Submission:
+def handed_in(guide: Guide, worked: Mapping[int, Student]) -> Submission:
     """The sheet of a student who worked so at each position."""
     values = {}
     for row in guide.key.asked:
@@ -68,7 +69,7 @@ def handed_in(guide: Guide, worked: Mapping[int, Hand | Vectors]) -> Submission:
     return Submission(guide.key.id, "sheet.csv", values, {})
 
 
-def at_work(guide: Guide, position: int, **how: Any) -> Hand | Vectors:
+def at_work(guide: Guide, position: int, **how: Any) -> Student:
     """A student's work at one position: by drawing on the machines of `DRAWING`, by vectors on all others."""
     if guide.key.kind in DRAWING:
         return Hand(task(guide, position), **how)

@@ -11,12 +11,15 @@ import pytest
 from reportgen.grading.marking import mark
 from reportgen.ledger.core import follow
 from tests.grading import hands, students
-from tests.grading.hand import unit_of
 from tests.grading.machines import ASSIGNMENTS
 from tests.grading.rates import injected, lost, misread
 from tests.grading.test_following import CLOSE, computed, size
+from tests.grading.written import unit_of
+from tests.lanes import matrix
 
 AT = hands.WRONG_AT
+TELLING = ("four-bar-01", "shaper-02", "scotch-yoke-01", "linkage-slide")
+"""Groups of all kinds, and a sliding driver; the others are for `make proof`."""
 STEP = 6
 """Every sixth value of a sheet is made wrong here; `python -m tests.bench.hands` takes all."""
 
@@ -47,7 +50,7 @@ OF_THE_CYCLE = {
 """What takes the whole cycle, not one position; the tests of the flywheel have it."""
 
 
-@pytest.mark.parametrize("name", ASSIGNMENTS)
+@pytest.mark.parametrize("name", matrix(ASSIGNMENTS, TELLING))
 def test_following_is_what_the_chain_comes_to(name: str) -> None:
     """Each given or computed quantity by a tenth too large, and every value of the sheet that follows from it."""
     guide = students.guide(name)
@@ -75,7 +78,7 @@ def test_following_is_what_the_chain_comes_to(name: str) -> None:
     assert tried > 25
 
 
-@pytest.mark.parametrize("name", ASSIGNMENTS)
+@pytest.mark.parametrize("name", matrix(ASSIGNMENTS, TELLING))
 def test_one_wrong_value_is_told_as_it_is_and_costs_one_mark(name: str) -> None:
     tally = injected(name, np.random.default_rng(1), STEP)
     made = tally.counted["made"]
@@ -85,7 +88,9 @@ def test_one_wrong_value_is_told_as_it_is_and_costs_one_mark(name: str) -> None:
     assert max(tally.marks) <= 2
 
 
-@pytest.mark.parametrize("name", ["engine-v-01", "four-bar-01", "slotted-lever-02", "lever-six-bar-01"])
+@pytest.mark.parametrize(
+    "name", matrix(["engine-v-01", "four-bar-01", "slotted-lever-02", "lever-six-bar-01"], ["slotted-lever-02"])
+)
 def test_a_misread_datum_costs_one_mark(name: str) -> None:
     """The crank, a fixed point, an angle of the frame, a rod of a plan, a load: most of them no single value shows."""
     losses = misread(name)

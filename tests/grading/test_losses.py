@@ -11,9 +11,10 @@ from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking
 from reportgen.grading.mistakes import Mistake
 from tests.grading import hands, students
-from tests.grading.hand import Change
 from tests.grading.published import FIGURES, POSITION
 from tests.grading.rates import lost
+from tests.grading.written import Change
+from tests.lanes import matrix
 
 AT = (4,)
 MOST = 2
@@ -42,7 +43,7 @@ MADE: dict[str, tuple[str, Change]] = {
 }
 
 
-@pytest.mark.parametrize("blunt", [0.0, 0.3e-3])
+@pytest.mark.parametrize("blunt", matrix([0.0, 0.3e-3], [0.3e-3]))
 @pytest.mark.parametrize("what", MADE)
 def test_one_mistake_costs_one_mark(what: str, blunt: float) -> None:
     guide = students.guide(hands.TWIN, AT)
@@ -52,7 +53,7 @@ def test_one_mistake_costs_one_mark(what: str, blunt: float) -> None:
     assert marking.flags == ()
 
 
-@pytest.mark.parametrize("blunt", [0.0, 0.3e-3])
+@pytest.mark.parametrize("blunt", matrix([0.0, 0.3e-3], [0.3e-3]))
 @pytest.mark.parametrize("name", ["Pqt3", "Pqt2", "Pqt5", "P5"])
 @pytest.mark.parametrize("how", ["left_out", "turned"])
 def test_a_force_wrong_in_its_plan_is_one_mistake_with_a_name(name: str, how: str, blunt: float) -> None:
@@ -92,7 +93,7 @@ SCALES = (
 )
 
 
-@pytest.mark.parametrize("blunt", [0.0, 0.3e-3, 0.5e-3])
+@pytest.mark.parametrize("blunt", matrix([0.0, 0.3e-3, 0.5e-3], [0.5e-3]))
 @pytest.mark.parametrize("scale", SCALES, ids=str)
 def test_a_freely_chosen_scale_costs_nothing(scale: dict[str, float], blunt: float) -> None:
     guide = students.guide(hands.TWIN, AT)
@@ -147,7 +148,7 @@ def test_a_right_value_that_the_own_ones_do_not_give_is_told_and_costs_nothing(w
     assert [cell.id for cell in marking.elsewhere] == [id]
 
 
-@pytest.mark.parametrize("name", [hands.TWIN, hands.SLIDER])
+@pytest.mark.parametrize("name", matrix([hands.TWIN, hands.SLIDER], [hands.SLIDER]))
 def test_who_went_on_from_the_own_values_hears_of_nothing(name: str) -> None:
     guide = students.guide(name, AT)
     for seed, how in enumerate(({}, {"figures": 3}, {"by_lengths": False}, *SCALES)):

@@ -18,6 +18,7 @@ from reportgen.grading.guide import Guide, open_guide
 from reportgen.grading.marking import mark
 from reportgen.grading.marks import Marking, Verdict
 from tests.grading import students
+from tests.lanes import matrix
 
 Position = Mapping[str, Any]
 WORKED = (2, 4, 7)
@@ -53,6 +54,8 @@ def along(vector: complex, axis: complex) -> float:
     return (vector * np.conj(axis / abs(axis))).real
 
 
+TELLING = ("slider-crank-01", "four-bar-01", "slotted-lever-02")
+"""Axes of a guide and of a frame, a lever that swings; the others are for `make proof`."""
 AXES: dict[str, dict[str, Callable[[Position], complex]]] = {
     "engine-twin-05": {
         # The crank leaves its upper dead centre to the left: it turns anticlockwise.
@@ -176,14 +179,14 @@ def tried(name: str, turned: float = 1.0) -> tuple[Marking, list[tuple[str, int]
     return mark(guide, students.sheet(guide, cell)), places
 
 
-@pytest.mark.parametrize("name", AXES)
+@pytest.mark.parametrize("name", matrix(AXES, TELLING))
 def test_signs_by_the_words_beside_the_rows_lose_nothing(name: str) -> None:
     marking, places = tried(name)
     assert len({id for id, _ in places}) >= 8
     assert {cell.verdict for cell in marking.cells if cell.given is not None} == {Verdict.right}
 
 
-@pytest.mark.parametrize("name", AXES)
+@pytest.mark.parametrize("name", matrix(AXES, TELLING))
 def test_the_words_decide_the_sign(name: str) -> None:
     marking, places = tried(name, -1.0)
     cells = {(cell.id, cell.position): cell for cell in marking.cells}
@@ -192,7 +195,9 @@ def test_the_words_decide_the_sign(name: str) -> None:
     )
 
 
-@pytest.mark.parametrize("name", ["engine-twin-05", "engine-single-III", "four-bar-01", "linkage-8"])
+@pytest.mark.parametrize(
+    "name", matrix(["engine-twin-05", "engine-single-III", "four-bar-01", "linkage-8"], ["engine-single-III"])
+)
 def test_a_couple_of_inertia_has_either_sign(name: str) -> None:
     """It is asked for as a magnitude; anticlockwise positive, it has the sign that ε has not."""
     guide, positions = opened(name)

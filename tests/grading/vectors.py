@@ -1,24 +1,19 @@
 """A student who solves a linkage by vectors: own loop equations, own equilibrium, own rounding.
 
-Nothing of the ledger or of marking is used.  Positions come from circles and lines, velocities and accelerations from
+Positions come from circles and lines, velocities and accelerations from
 one vector equation a group, reactions from moments about the inner joint and the closed polygon, M_cb from the crank
-and from virtual work, all in complex numbers and SI.  Whatever the student finds is first changed by the mistake made
-there, then written down, and the work goes on from what is written.  What the machines of the book are made of is said
-in `machines`.
+and from virtual work, all in complex numbers and SI.  What the machines of the book are made of is said in `machines`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
-from tests.grading.hand import Change, unit_of
-
-NOTHING = 1e-9
-"""A vector shorter than this has no direction."""
+from tests.grading.written import NOTHING, Student
 
 
 @dataclass(frozen=True)
@@ -61,23 +56,15 @@ class Group:
 
 
 @dataclass
-class Vectors:
-    """One position of a machine worked out; `given` are the data of the task (SI), `changes` mistakes by id.
-
-    `figures` are written, all there are if 0; a drawn point is read up to `blunt` (m) beside where it lies.
-    """
+class Vectors(Student):
+    """One position of a machine worked out by vectors; `given` are the data of the task (SI)."""
 
     given: Mapping[str, float]
     paper: Paper
-    changes: Mapping[str, Change] = field(default_factory=dict)
-    figures: int = 4
-    blunt: float = 0.0
-    seed: int = 0
     turn: int = 1
-    written: dict[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.rng = np.random.default_rng(self.seed)
+        super().__post_init__()
         self.used: set[str] = set()
         self.p: dict[str, complex] = {}
         self.v: dict[str, complex] = {}
@@ -96,29 +83,6 @@ class Vectors:
         self.used.add(id)
         value = self.given[id]
         return self.changes[id](value) if id in self.changes else value
-
-    def say(self, id: str, value: float) -> float:
-        """A value found: changed by the mistake made here, rounded, written down; the work goes on from it."""
-        if id in self.changes:
-            value = self.changes[id](value)
-        unit = unit_of(id)
-        printed = value / unit
-        if self.figures and id.startswith("dir."):
-            printed = float(round(printed % 360))
-        elif self.figures and printed:
-            printed = float(f"{printed:.{self.figures - 1}e}")
-        self.written[id] = printed
-        return printed * unit
-
-    def measure(self, id: str, value: float, scale: float) -> float:
-        """A size read from a drawing, off at both ends; what is nearly nothing is seen to be nothing."""
-        noise = self.rng.uniform(-self.blunt, self.blunt, 2).sum() * scale
-        return self.say(id, abs(value + noise) if abs(value) > 2 * self.blunt * scale else abs(value))
-
-    def direct(self, id: str, vector: complex, scale: float) -> None:
-        """Where a drawn vector points, if it has a length to show it."""
-        if abs(vector) > max(NOTHING, 4 * self.blunt * scale):
-            self.say(f"dir.{id}", float(np.angle(vector)) % (2 * np.pi))
 
     # --- points and links
 

@@ -17,6 +17,7 @@ from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 
 from reportgen.mechanism.structure import DyadKind
+from tests.lanes import matrix
 
 STEPS = np.array([0.0, 0.01, 0.02])
 """Three positions near the one where a made linkage is assembled."""
@@ -111,8 +112,14 @@ def test_one_group(kind: DyadKind, sliding: bool, data: Any) -> None:
     check_forces(book)
 
 
-@pytest.mark.parametrize("second", lk.KINDS)
-@pytest.mark.parametrize("first", lk.KINDS)
+@pytest.mark.parametrize(
+    ("first", "second"),
+    matrix(
+        [(first, second) for first in lk.KINDS for second in lk.KINDS],
+        # Each kind once before and once behind another.
+        list(zip(lk.KINDS, lk.KINDS[1:] + lk.KINDS[:1], strict=True)),
+    ),
+)
 @settings(ONE, max_examples=5)
 @given(st.data())
 def test_chain(first: DyadKind, second: DyadKind, data: Any) -> None:

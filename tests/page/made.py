@@ -18,12 +18,16 @@ from reportgen.document.report import Report
 from reportgen.figures.moving import Film, Stage, Track
 from reportgen.notation.numbers import Language
 from reportgen.pages import page
+from tests.lanes import matrix
 from tests.reports import built
 
-SLIDE = built.ROOT / "assignments" / "linkage-slide.yaml"
-MACHINES = [*built.PRINTED, (SLIDE, built.own_language(SLIDE))]
+MACHINES = [*built.PRINTED, (built.SLIDE, built.own_language(built.SLIDE))]
 """Every kind in its file's language, the sample in both, and a machine that a slider drives."""
-CASES = [pytest.param((path, language), id=f"{path.stem}-{language}") for path, language in MACHINES]
+CASES = matrix(
+    [pytest.param((path, language), id=f"{path.stem}-{language}") for path, language in MACHINES],
+    telling=[(built.SAMPLE, "vi")],
+)
+"""In `make test` one page is looked at: all kinds of figures are on that of the sample."""
 MM = 1e3
 
 

@@ -20,7 +20,7 @@ from tests.page.made import made
 from tests.page.text import elements
 from tests.reports import built
 
-SLIDE = built.ROOT / "assignments" / "linkage-slide.yaml"
+SLIDE = built.SLIDE
 EXERCISE = built.ROOT / "assignments" / "plane-motion" / "01.yaml"
 LARGEST = 3_000_000
 

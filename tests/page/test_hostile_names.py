@@ -9,9 +9,11 @@ import pytest
 from reportgen import api
 from reportgen.cases import opened
 from reportgen.pages import page
+from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.reports import built
 
+pytestmark = proof
 NAMES = (
     "<script>window.pwned = 1</script>",
     "<img src=x onerror='window.pwned = 2'>",

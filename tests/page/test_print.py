@@ -11,6 +11,7 @@ from reportgen.document.tree import Plate
 from reportgen.figures.scene import Arrow, Scene
 from reportgen.notation.numbers import Language
 from reportgen.writers.drawing import arrow_head
+from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.page.made import made
 from tests.reports import built
@@ -20,10 +21,8 @@ ALLOWED = 0.2
 """Of a segment (mm)."""
 MEASURED = 20.0
 """Shorter ones (mm) are not measured."""
-CASES = [
-    pytest.param(built.SAMPLE, "vi", id=f"{built.SAMPLE.stem}-vi"),
-    pytest.param(built.ROOT / "assignments" / "four-bar-01.yaml", "vi", id="four-bar-01-vi"),
-]
+FOUR_BAR = built.ROOT / "assignments" / "four-bar-01.yaml"
+CASES = [pytest.param(path, "vi", id=f"{path.stem}-vi", marks=proof) for path in (built.SAMPLE, FOUR_BAR)]
 
 
 def shafts(scene: Scene) -> list[complex]:
@@ -61,6 +60,7 @@ def test_segments_are_printed_in_their_length(path: Path, language: Language, br
     assert made(path, language).case.words["page"]["theme"] not in text
 
 
+@proof
 def test_a_dark_screen_prints_dark_on_light(browser: Browser) -> None:
     pymupdf = pytest.importorskip("pymupdf")
     browser.show(made(built.SAMPLE, "vi").file, dark=True)

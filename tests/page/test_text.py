@@ -10,13 +10,17 @@ import pytest
 
 from reportgen.notation.numbers import Language
 from reportgen.writers import html
+from tests.lanes import matrix
 from tests.page.text import Text
 from tests.reports import built, pages
 from tests.reports.test_report_agreement import EXEMPT, compared, prose
 
 pytest.importorskip("pymupdf")
 
-PRINTED = [pytest.param((path, language), id=f"{path.stem}-{language}") for path, language in built.PRINTED]
+PRINTED = matrix(
+    [pytest.param((path, language), id=f"{path.stem}-{language}") for path, language in built.PRINTED],
+    telling=built.BY_BOTH,
+)
 
 
 @pytest.fixture(params=PRINTED)
@@ -44,7 +48,9 @@ def test_prose_stands_word_by_word_in_order(both: tuple[built.Report, str]) -> N
         at = found + len(words)
 
 
-@pytest.mark.parametrize(("path", "language"), built.PRINTED[:2], ids=lambda one: getattr(one, "stem", one))
+@pytest.mark.parametrize(
+    ("path", "language"), matrix(built.PRINTED, built.BY_BOTH), ids=lambda one: getattr(one, "stem", one)
+)
 def test_every_reference_leads_somewhere(path: Path, language: Language) -> None:
     body = html.report(built.written(path, language).document).body
     places = re.findall(r' id="([^"]+)"', body)

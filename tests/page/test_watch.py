@@ -22,6 +22,7 @@ from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.watch.edition import Desk
 from reportgen.watch.server import Server
+from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.reports import built
 
@@ -60,6 +61,7 @@ def watching(file: Path, *options: str) -> Iterator[tuple[str, subprocess.Popen[
         process.wait()
 
 
+@proof
 def test_the_page_follows_the_file(file: Path, browser: Browser) -> None:
     given = FILE.read_text(encoding="utf-8")
     typed = "  r: 0.2 m"
@@ -99,6 +101,7 @@ def test_the_page_follows_the_file(file: Path, browser: Browser) -> None:
         assert process.stderr.read() == ""
 
 
+@proof
 def test_a_faulty_file_has_a_page_that_comes_when_it_is_mended(file: Path, browser: Browser) -> None:
     given = file.read_text(encoding="utf-8")
     file.write_text("kind: slider-crank\nnonsense: 1\n", encoding="utf-8")

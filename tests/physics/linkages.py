@@ -6,6 +6,7 @@ signs follow from them, so that every linkage exists there.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -27,11 +28,19 @@ REFERENCE = 0.7
 
 
 def bodies(linkage: Linkage) -> dict[int, ne.Body]:
-    at = locals_of(linkage)
     found = {link: ne.Body(0.0, 0.0, 0j) for link in linkage.links}
     for body in linkage.inertias:
-        found[body.link] = ne.Body(body.mass, body.moment, at[body.centre][1])
+        found[body.link] = ne.Body(body.mass, body.moment, _on(linkage, body.link, body.centre))
     return found
+
+
+def _on(linkage: Linkage, link: int, name: str) -> complex:
+    """The local coordinate of a point on a link: its own, or a joint that is named for the other link in it."""
+    owner, local = locals_of(linkage)[name]
+    if owner == link:
+        return local
+    dyad = next(dyad for dyad in linkage.dyads if link in dyad.links)
+    return complex(dyad.lengths[1]) if name == dyad.middle else 0j
 
 
 def locals_of(linkage: Linkage) -> dict[str, tuple[int, complex]]:
@@ -81,6 +90,21 @@ def joints(linkage: Linkage) -> list[ne.Pin | ne.Slot]:
 def reaction_keys(linkage: Linkage) -> list[str]:
     """Names of the reactions on the second body of each joint of `joints`."""
     return [f"R{joint.a}{joint.b}" for joint in joints(linkage)]
+
+
+def told(linkage: Linkage) -> tuple[dict[int, ne.Body], list[ne.Pin | ne.Slot], list[str]]:
+    """Bodies, joints, and the names of the reactions in them."""
+    return bodies(linkage), joints(linkage), reaction_keys(linkage)
+
+
+def poses(motion: Motion) -> Iterator[dict[int, tuple[complex, float]]]:
+    """The poses of the moving bodies, position by position."""
+    for k in range(motion.driver.size):
+        yield {
+            link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k]))
+            for link in motion.origins
+            if link
+        }
 
 
 # --- made --------------------------------------------------------------------------------------------

@@ -4,44 +4,30 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import agreement
 import linkages as made
-import newton_euler as ne
 import numpy as np
 import pytest
-from agreement import Pairs, agree, collect
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from reportgen import api
 from reportgen.analysis import Analysis
 
-AGREEMENT = 1e-9
-"""Of each quantity's greatest size over the positions."""
-CONDITION = 1e4
-"""The Jacobian mixes metres and radians: small machines condition it worse, and ε·10⁴·10 is still 1e-11."""
 EIGHT = Path(__file__).parents[2] / "assignments" / "linkage-8.yaml"
 quick = settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
 
 
 def prove(analysis: Analysis) -> None:
-    """Rates, reactions and the driver's effort at every position; weights and applied loads as plain numbers."""
-    linkage, motion = analysis.machine.linkage, analysis.motion
-    bodies, joints = made.bodies(linkage), made.joints(linkage)
-    keys = made.reaction_keys(linkage)
-    pairs: Pairs = {}
-    for k in range(len(analysis.cycle_angle)):
-        pose = {
-            link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k])) for link in linkage.links
-        }
-        loads = [
+    """At every position; weights and applied loads as plain numbers."""
+    loads = [
+        [
             (load.link, complex(load.force[k]), complex(load.point[k]), float(load.couple[k]))
             for load in (*analysis.weights, *analysis.applied)
         ]
-        answer = ne.solve(bodies, joints, True, motion.rate, pose, loads, CONDITION)
-        assert answer is not None
-        assert answer.residual < 1e-12
-        collect(pairs, analysis, keys, answer, k)
-    agree(pairs, AGREEMENT)
+        for k in range(len(analysis.cycle_angle))
+    ]
+    agreement.prove(analysis, *made.told(analysis.machine.linkage), made.poses(analysis.motion), loads)
 
 
 def whole(first: int, last: int) -> st.SearchStrategy[int]:

@@ -11,21 +11,16 @@ import math
 from pathlib import Path
 
 import newton_euler as ne
-import numpy as np
 import pytest
+from agreement import Acting, Pose, prove, weights
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from reportgen import api
 from reportgen.analysis import Analysis
 
-AGREEMENT = 1e-9
-"""Of each quantity's greatest size over the turn."""
-CONDITION = 1e4
-"""Machines of some decimetres condition the Jacobian worse than 1 m; ε·10⁴·10² is still within 1e-9."""
-GRAVITY = 9.81
+GRAVITY = -9.81j
 quick = settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
-Load = tuple[int, complex, complex, float]
 
 
 def whole(first: int, last: int) -> st.SearchStrategy[int]:
@@ -37,43 +32,6 @@ def meeting(p: complex, to_p: float, t: complex, to_t: float, side: int) -> comp
     way = t - p
     angle = math.acos((to_p**2 + abs(way) ** 2 - to_t**2) / (2 * to_p * abs(way)))
     return p + cmath.rect(to_p, cmath.phase(way) + side * angle)
-
-
-def compare(
-    analysis: Analysis,
-    bodies: dict[int, ne.Body],
-    joints: list[ne.Pin | ne.Slot],
-    names: list[str],
-    poses: list[dict[int, tuple[complex, float]]],
-    loads: list[list[Load]],
-) -> None:
-    """All links' motion, all reactions (by the names of the joints) and the torque, at all positions."""
-    motion, reactions = analysis.motion, analysis.forces.reactions
-    pairs: dict[str, list[tuple[complex, complex]]] = {}
-    for k, (pose, acting) in enumerate(zip(poses, loads, strict=True)):
-        weights = [
-            (body, -1j * it.mass * GRAVITY, pose[body][0] + it.centre * np.exp(1j * pose[body][1]), 0.0)
-            for body, it in bodies.items()
-        ]
-        answer = ne.solve(bodies, joints, True, motion.rate, pose, [*acting, *weights], CONDITION)
-        assert answer is not None
-        assert answer.residual < AGREEMENT
-
-        def note(name: str, ours: complex, theirs: complex) -> None:
-            pairs.setdefault(name, []).append((complex(ours), complex(theirs)))
-
-        for body in bodies:
-            note("v", motion.origins[body].v[k], answer.velocity[body][0])
-            note("ω", motion.links[body].omega[k], answer.velocity[body][1])
-            note("a", motion.origins[body].a[k], answer.acceleration[body][0])
-            note("ε", motion.links[body].epsilon[k], answer.acceleration[body][1])
-        for name, (force, _) in zip(names, answer.wrenches, strict=True):
-            note("R", reactions[name].force[k], force)
-        note("M", analysis.torque[k], answer.effort)
-        note("M", analysis.torque_by_work[k], answer.effort)
-    for name, found in pairs.items():
-        largest = max(abs(theirs) for _, theirs in found)
-        assert max(abs(ours - theirs) for ours, theirs in found) <= AGREEMENT * largest, name
 
 
 def solved(folder: Path, text: str) -> Analysis:
@@ -132,14 +90,16 @@ def test_four_bar(
         ne.Pin(2, complex(c), 3, complex(o)),
         ne.Pin(0, fixed, 3, 0j),
     ]
-    poses, loads = [], []
+    poses: list[Pose] = []
+    loads: list[list[Acting]] = []
     for phi in map(float, analysis.motion.driver):
         pin = cmath.rect(r, phi)
         joint = meeting(pin, c, fixed, o, -1 if crossed else 1)
         poses.append({1: (0j, phi), 2: (pin, cmath.phase(joint - pin)), 3: (fixed, cmath.phase(joint - fixed))})
         push = cmath.rect(force, math.radians(120))
         loads.append([(3, 0j, fixed, -float(torque)), (3, push, joint, 0.0)])
-    compare(analysis, bodies, joints, ["R01", "R12", "R23", "R03"], poses, loads)
+    loads = [acting + weights(bodies, pose, GRAVITY) for pose, acting in zip(poses, loads, strict=True)]
+    prove(analysis, bodies, joints, ["R01", "R12", "R23", "R03"], poses, loads)
 
 
 @quick
@@ -192,7 +152,8 @@ def test_lever_six_bar(
         ne.Pin(4, complex(f), 5, 0j),
         ne.Slot(0, 1j * height, 0.0, 5, 0j, 0.0),
     ]
-    poses, loads = [], []
+    poses: list[Pose] = []
+    loads: list[list[Acting]] = []
     for phi in map(float, analysis.motion.driver):
         pin = cmath.rect(b, phi)
         joint = meeting(pin, c, fixed, d, 1)
@@ -208,7 +169,8 @@ def test_lever_six_bar(
             }
         )
         loads.append([(5, complex(force), slider, 0.0)])
-    compare(analysis, bodies, joints, ["R01", "R12", "R23", "R03", "R24", "R45", "R05"], poses, loads)
+    loads = [acting + weights(bodies, pose, GRAVITY) for pose, acting in zip(poses, loads, strict=True)]
+    prove(analysis, bodies, joints, ["R01", "R12", "R23", "R03", "R24", "R45", "R05"], poses, loads)
 
 
 @quick
@@ -246,10 +208,12 @@ def test_slotted_lever(
         ne.Slot(3, 0j, 0.0, 2, 0j, 0.0),
         ne.Pin(0, pivot, 3, 0j),
     ]
-    poses, loads = [], []
+    poses: list[Pose] = []
+    loads: list[list[Acting]] = []
     for phi in map(float, analysis.motion.driver):
         pin = cmath.rect(r, phi)
         lean = cmath.phase(pin - pivot)
         poses.append({1: (0j, phi), 2: (pin, lean), 3: (pivot, lean)})
         loads.append([(3, 0j, pivot, float(torque))])
-    compare(analysis, bodies, joints, ["R01", "R12", "R32", "R03"], poses, loads)
+    loads = [acting + weights(bodies, pose, GRAVITY) for pose, acting in zip(poses, loads, strict=True)]
+    prove(analysis, bodies, joints, ["R01", "R12", "R32", "R03"], poses, loads)

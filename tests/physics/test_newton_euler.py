@@ -10,22 +10,22 @@ import linkages as made
 import newton_euler as ne
 import numpy as np
 import pytest
+from agreement import AGREEMENT, Acting, Pairs, collect, off, weights
 from hypothesis import HealthCheck, given, reject, settings
 from hypothesis import strategies as st
 
-from reportgen.mechanism.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
+from reportgen.mechanism.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque
+from reportgen.mechanism.forces import weights as forces_of_weight
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 
-AGREEMENT = 1e-9
-"""Of each quantity's greatest size over the positions compared."""
 CONDITION = 1e3
 """Greatest condition number of the constraint Jacobian (lengths near 1 m): beyond it a position counts as
 near-singular.  Accelerations and forces then hold ε·10³·10³ = 2e-10 of their greatest."""
 
 quick = settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
 
-Given = list[tuple[int, complex, complex, float]]
+Given = list[Acting]
 Change = Callable[[Linkage, Motion], tuple[Motion, tuple[Load, ...]]]
 
 
@@ -46,38 +46,17 @@ def disagreement(
     """
     motion, inertia = change(linkage, motion)
     given_arrays = made.as_loads(given_loads, motion)
-    forces = change_forces(solve_forces(linkage, motion, (*given_arrays, *weights(linkage, motion), *inertia)))
-    bodies, joints = made.bodies(linkage), made.joints(linkage)
-    keys = made.reaction_keys(linkage)
-    pairs: dict[str, list[tuple[complex, complex]]] = {}
+    forces = change_forces(solve_forces(linkage, motion, (*given_arrays, *forces_of_weight(linkage, motion), *inertia)))
+    bodies, joints, keys = made.told(linkage)
+    poses = list(made.poses(motion))
+    pairs: Pairs = {}
     for k in np.flatnonzero(motion.reachable):
-        pose = {
-            link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k])) for link in linkage.links
-        }
-        by_weight = [
-            (body.link, body.mass * linkage.gravity, complex(motion.points[body.centre].p[k]), 0.0)
-            for body in linkage.inertias
-        ]
-        answer = ne.solve(
-            bodies, joints, isinstance(linkage.driver, Crank), motion.rate, pose, given_loads + by_weight, CONDITION
-        )
-        if answer is None:
-            continue
-
-        def note(name: str, ours: complex, theirs: complex) -> None:
-            pairs.setdefault(name, []).append((complex(ours), complex(theirs)))
-
-        note("residual", answer.residual + 1.0, 1.0)
-        for link in linkage.links:
-            ours, origin = motion.links[link], motion.origins[link]
-            note("v", origin.v[k], answer.velocity[link][0])
-            note("ω", ours.omega[k], answer.velocity[link][1])
-            note("a", origin.a[k], answer.acceleration[link][0])
-            note("ε", ours.epsilon[k], answer.acceleration[link][1])
-        for key, (force, couple) in zip(keys, answer.wrenches, strict=True):
-            note("R", forces.reactions[key].force[k], force)
-            note("moment", forces.reactions[key].moment[k], couple)
-        note("effort", forces.torque[k], answer.effort)
+        loads = [*given_loads, *weights(bodies, poses[k], linkage.gravity)]
+        turning = isinstance(linkage.driver, Crank)
+        answer = ne.solve(bodies, joints, turning, motion.rate, poses[k], loads, CONDITION)
+        if answer is not None:
+            collect(pairs, motion, forces, keys, answer, int(k))
+            pairs.setdefault("residual", []).append((answer.residual + 1.0, 1.0))
     if not pairs:
         return None
     # What is nothing by the linkage's nature (ε of a sliding link, say) is read against the size that
@@ -85,11 +64,7 @@ def disagreement(
     rate = abs(motion.rate)
     floor = {"residual": 1.0, "v": rate, "ω": rate, "a": rate**2, "ε": rate**2, "R": 1.0, "effort": 1.0}
     floor["moment"] = max(abs(theirs) for _, theirs in pairs["R"])
-    return {
-        name: max(abs(ours - theirs) for ours, theirs in found)
-        / max(floor[name], *(abs(theirs) for _, theirs in found))
-        for name, found in pairs.items()
-    }
+    return off(pairs, floor)
 
 
 def prove(linkage: Linkage, rate: float, given_loads: Given) -> None:

@@ -11,16 +11,13 @@ import math
 import newton_euler as ne
 import numpy as np
 import pytest
+from agreement import Acting, Pose, prove, weights
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from reportgen import api
 from reportgen.analysis import Analysis
 
-AGREEMENT = 1e-9
-"""Of each quantity's greatest size over the cycle."""
-CONDITION = 1e4
-"""The Jacobian mixes metres and radians: small machines condition it worse, and ε·10⁴·10 is still 1e-11."""
 quick = settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
 
 
@@ -54,40 +51,16 @@ def machine(
         ne.Pin(2, complex(rod), 3, 0j),
         ne.Slot(0, at, angle, 3, 0j, angle),
     ]
-    motion, reactions = analysis.motion, analysis.forces.reactions
-    pairs: dict[str, list[tuple[complex, complex]]] = {}
-    for k, force in enumerate(loads):
-        phi = float(motion.driver[k])
+    poses: list[Pose] = []
+    acting: list[list[Acting]] = []
+    for phi, force in zip(map(float, analysis.motion.driver), loads, strict=True):
         pin = r * np.exp(1j * phi)
         # The slider's place by Pythagoras along the guide, the rod's direction from both.
         foot = at + guide * (np.conj(guide) * (pin - at)).real
-        slider = foot + guide * math.sqrt(rod**2 - abs(pin - foot) ** 2)
-        pose = {1: (0j, phi), 2: (complex(pin), float(np.angle(slider - pin))), 3: (complex(slider), angle)}
-        s = pin + (slider - pin) * centre / rod
-        given_loads = [(3, force * guide, complex(slider), 0.0)]
-        given_loads += [
-            (body, -1j * mass * gravity, {1: 0j, 2: complex(s), 3: complex(slider)}[body], 0.0)
-            for body, mass in masses.items()
-        ]
-        answer = ne.solve(bodies, joints, True, motion.rate, pose, given_loads, CONDITION)
-        assert answer is not None
-        for name, ours, theirs in (
-            ("p", motion.points["C"].p[k], slider),
-            ("v", motion.points["C"].v[k], answer.velocity[3][0]),
-            ("a", motion.points["C"].a[k], answer.acceleration[3][0]),
-            ("ω", motion.links[2].omega[k], answer.velocity[2][1]),
-            ("ε", motion.links[2].epsilon[k], answer.acceleration[2][1]),
-            ("R", reactions["R01"].force[k], answer.wrenches[0][0]),
-            ("R", reactions["R12"].force[k], answer.wrenches[1][0]),
-            ("R", reactions["R23"].force[k], answer.wrenches[2][0]),
-            ("R", reactions["R03"].force[k], answer.wrenches[3][0]),
-            ("M", analysis.torque[k], answer.effort),
-            ("M", analysis.torque_by_work[k], answer.effort),
-        ):
-            pairs.setdefault(name, []).append((complex(ours), complex(theirs)))
-    for name, found in pairs.items():
-        greatest = max(abs(theirs) for _, theirs in found)
-        assert max(abs(ours - theirs) for ours, theirs in found) <= AGREEMENT * greatest, name
+        slider = complex(foot + guide * math.sqrt(rod**2 - abs(pin - foot) ** 2))
+        poses.append({1: (0j, phi), 2: (complex(pin), float(np.angle(slider - pin))), 3: (slider, angle)})
+        acting.append([(3, force * guide, slider, 0.0), *weights(bodies, poses[-1], -1j * gravity)])
+    prove(analysis, bodies, joints, ["R01", "R12", "R23", "R03"], poses, acting)
 
 
 @quick

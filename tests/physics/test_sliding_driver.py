@@ -6,18 +6,14 @@ from itertools import pairwise
 from pathlib import Path
 
 import linkages as made
-import newton_euler as ne
 import numpy as np
 import pytest
-from agreement import Pairs, agree, collect
+from agreement import prove
 
 from reportgen import api
 from reportgen.analysis import Analysis, analyse
 from reportgen.catalogue.loads import WayLaw
 
-AGREEMENT = 1e-9
-"""Of each quantity's greatest size over the way."""
-CONDITION = 1e4
 FILE = Path(__file__).parents[2] / "assignments" / "linkage-slide.yaml"
 WAYS, FORCES = (0.0, 0.06, 0.1, 0.12), (300.0, 380.0, 600.0, 900.0)
 """The file's table of the force on slider 5."""
@@ -47,24 +43,18 @@ def test_loads_are_those_of_the_file(analysis: Analysis) -> None:
 
 
 def test_motion_reactions_and_effort_by_multipliers(analysis: Analysis) -> None:
-    linkage, motion = analysis.machine.linkage, analysis.motion
-    bodies, joints, keys = made.bodies(linkage), made.joints(linkage), made.reaction_keys(linkage)
-    pairs: Pairs = {}
-    for k, way in enumerate(travelled(analysis)):
-        pose = {
-            link: (complex(motion.origins[link].p[k]), float(motion.links[link].angle[k])) for link in linkage.links
-        }
-        applied = [
+    motion = analysis.motion
+    poses = list(made.poses(motion))
+    loads = [
+        [
             (5, complex(0, np.interp(way, WAYS, FORCES)), complex(motion.points["F"].p[k]), 0.0),
-            (3, 0j, pose[3][0], -4.0 * float(np.sign(motion.links[3].omega[k]))),
+            (3, 0j, poses[k][3][0], -4.0 * float(np.sign(motion.links[3].omega[k]))),
             (3, -60j, complex(motion.points["S3"].p[k]), 0.0),
             (5, -80j, complex(motion.points["F"].p[k]), 0.0),
         ]
-        answer = ne.solve(bodies, joints, False, motion.rate, pose, applied, CONDITION)
-        assert answer is not None
-        assert answer.residual < 1e-12
-        collect(pairs, analysis, keys, answer, k)
-    agree(pairs, AGREEMENT)
+        for k, way in enumerate(travelled(analysis))
+    ]
+    prove(analysis, *made.told(analysis.machine.linkage), poses, loads, turning=False)
 
 
 def test_the_drivers_work_is_what_the_loads_take_and_the_links_gain(analysis: Analysis) -> None:

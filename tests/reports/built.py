@@ -21,6 +21,7 @@ from reportgen.figures.scene import Scene
 from reportgen.ledger.core import Ledger
 from reportgen.notation.expressions import Chain
 from reportgen.notation.numbers import Language
+from tests.lanes import matrix
 from tests.reports.pages import Glyph, Page
 
 ROOT = Path(__file__).parents[2]
@@ -55,22 +56,42 @@ SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 SIBLINGS = _first_of_each_kind(path for path in FILES if path not in TYPESET)
 """Where a kind has further files, one of them is made by one writer; the others differ in numbers only."""
 
+SLIDE = ROOT / "assignments" / "linkage-slide.yaml"
+"""A machine of the user's own, which a slider drives; its file is in English."""
+
 ENGINE_CASES = [pytest.param(engine, marks=MARKS[engine], id=engine) for engine in ENGINES]
-WRITTEN = [
-    pytest.param((path, language), id=f"{path.stem}-{language}")
-    for path in FILES
-    for language in (LANGUAGES if path in TYPESET else (own_language(path),))
-]
+WRITTEN = matrix(
+    [
+        pytest.param((path, language), id=f"{path.stem}-{language}")
+        for path in FILES
+        for language in (LANGUAGES if path in TYPESET else (own_language(path),))
+    ],
+    telling=[(SAMPLE, "en"), (SLIDE, own_language(SLIDE)), *((path, own_language(path)) for path in TYPESET)],
+)
+"""Each kind, the sample in both languages, a sliding driver; other numbers and translations are for `make proof`."""
 PRINTED = [
     (path, language) for path in TYPESET for language in (LANGUAGES if path == SAMPLE else (own_language(path),))
 ]
 """The sample is printed in both languages, other kinds in their file's own; trees are compared in both."""
-CASES = [
-    pytest.param((path, engine, language), marks=MARKS[engine], id=f"{path.stem}-{engine}-{language}")
-    for path, language in PRINTED
-    for engine in ENGINES
-]
-PAIRS = [pytest.param((path, language), marks=(needs_tex,), id=f"{path.stem}-{language}") for path, language in PRINTED]
+BY_BOTH = [(SAMPLE, "en"), (ROOT / "assignments" / "shaper-01.yaml", "vi")]
+BY_ONE = [(ROOT / "assignments" / f"{name}-01.yaml", "vi") for name in ("lever-six-bar", "scotch-yoke")]
+TELLING = [path for path, _ in (*BY_BOTH, *BY_ONE)]
+"""What `make test` prints, by both writers and by typst alone: both languages, a sliding block, groups of all kinds."""
+CASES = matrix(
+    [
+        pytest.param((path, engine, language), marks=MARKS[engine], id=f"{path.stem}-{engine}-{language}")
+        for path, language in PRINTED
+        for engine in ENGINES
+    ],
+    telling=[
+        *((path, engine, language) for path, language in BY_BOTH for engine in ENGINES),
+        *((path, "typst", language) for path, language in BY_ONE),
+    ],
+)
+PAIRS = matrix(
+    [pytest.param((path, language), marks=(needs_tex,), id=f"{path.stem}-{language}") for path, language in PRINTED],
+    telling=BY_BOTH,
+)
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ import pytest
 
 from reportgen import api
 from reportgen.document.tree import Contents, Section, plain
+from tests.lanes import matrix, proof
 from tests.reports import built, pages
 from tests.reports.built import Report
 from tests.reports.pages import Glyph, Page, squash
@@ -113,6 +114,7 @@ def test_no_box_is_overfull(report: Report) -> None:
 IN_TURN = cycle(built.ENGINES if shutil.which("pdflatex") else ("typst",))
 
 
+@proof
 @pytest.mark.parametrize(
     ("path", "engine"), list(zip(built.SIBLINGS, IN_TURN, strict=False)), ids=[path.stem for path in built.SIBLINGS]
 )
@@ -148,15 +150,14 @@ def text_of(pdf: bytes) -> list[Any]:
     return [page.get_text() for page in pymupdf.open(stream=pdf, filetype="pdf")]
 
 
-OWN = built.ROOT / "assignments" / "linkage-slide.yaml"
-COLD = [
-    pytest.param(path, engine, marks=built.MARKS[engine], id=f"{path.stem}-{engine}")
-    for path, engines in (
-        (built.SAMPLE, built.ENGINES),
-        (built.ROOT / "assignments" / "linkage-slide.yaml", ("typst",)),
-    )
-    for engine in engines
-]
+COLD = matrix(
+    [
+        pytest.param(path, engine, marks=built.MARKS[engine], id=f"{path.stem}-{engine}")
+        for path, engines in ((built.SAMPLE, built.ENGINES), (built.SLIDE, ("typst",)))
+        for engine in engines
+    ],
+    telling=[(built.SLIDE, "typst")],
+)
 """The sample by both writers, and a machine of the user's own: a new process takes seconds."""
 
 

@@ -12,6 +12,7 @@ import pytest
 
 from reportgen.document.tree import text_of
 from reportgen.notation.numbers import write
+from tests.lanes import matrix
 from tests.reports import built, recompute
 from tests.reports.built import Report, Written
 from tests.reports.printed_lines import NUMBER, PrintedLine, printed_lines
@@ -55,7 +56,7 @@ def corrupted(text: str, at: int) -> str:
     return f"{text[:at]}{(int(text[at]) + 5) % 10}{text[at + 1 :]}"
 
 
-@pytest.mark.parametrize("path", built.TYPESET, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", matrix(built.TYPESET, built.TELLING), ids=lambda path: path.stem)
 def test_one_corrupted_digit_is_caught(path: Path) -> None:
     """Every digit of the results, and the first digit of what is put in, of lines read from a PDF."""
     report = built.report(path, "typst", "vi")

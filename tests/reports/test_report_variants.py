@@ -13,6 +13,7 @@ from reportgen import api
 from reportgen.document.numbering import unreferenced
 from reportgen.document.tree import text_of
 from reportgen.notation.numbers import write
+from tests.lanes import matrix
 from tests.reports import built, pages, recompute, variants
 from tests.reports.built import Written
 from tests.reports.test_report_arrows import measured
@@ -32,7 +33,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("variants")
 
 
-@pytest.mark.parametrize("name", variants.CHANGES)
+@pytest.mark.parametrize("name", matrix(variants.CHANGES, variants.TELLING))
 def test_every_line_of_a_variant_holds(name: str, folder: Path) -> None:
     written = variant(name, folder)
     assert recompute.off(written) == []
@@ -47,8 +48,8 @@ def test_every_line_of_a_variant_holds(name: str, folder: Path) -> None:
     assert [key for key in unreferenced(written.document) if not re.search(r"\.[2-9]\d*$", key)] == []
 
 
-@pytest.mark.parametrize("engine", built.ENGINE_CASES)
-@pytest.mark.parametrize("name", variants.ON_PAPER)
+@pytest.mark.parametrize("engine", matrix(built.ENGINE_CASES, ["typst"]))
+@pytest.mark.parametrize("name", matrix(variants.ON_PAPER, ["clockwise"]))
 def test_a_variant_on_paper(name: str, engine: api.Engine, folder: Path) -> None:
     report = built.typeset(variant(name, folder), engine)
     assert report.overfull == ()

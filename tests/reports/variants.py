@@ -90,6 +90,8 @@ CHANGES: dict[str, Change] = {
 
 ON_PAPER = ("clockwise", "crank angle 90")
 """Variants that are typeset, too."""
+TELLING = ("clockwise", "count 5", "crank angle 90", "centre at the crankpin", "indicator by angle")
+"""Variants that `make test` has: of the direction, the positions, the crank, the masses, the diagram."""
 
 
 def content(name: str) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen import api, catalogue
+from reportgen import api
 from reportgen.analysis import Analysis
 from reportgen.ledger.report import write_ledger
 
@@ -110,17 +110,3 @@ def test_without_mass_and_force_there_is_kinematics_only(tmp_path: Path) -> None
     analysis = analysed(tmp_path, CRANK)
     assert analysis.loads == ()
     assert not {"working", "loads", "groups", "crank"} & set(analysis.machine.outline)
-
-
-@pytest.mark.parametrize(
-    ("parameters", "code"),
-    [
-        ("r: 50 mm", "missing-key"),
-        ("r: -50 mm, n: 240 rpm", "out-of-range"),
-        (CRANK + ", flywheel: {delta: 1/30}", "flywheel-without-loads"),
-        (CRANK + ", force: {by: stroke, unit: N, s: [0, 1], inward: [1, 2, 3], outward: [0, 0]}", "row-length"),
-    ],
-)
-def test_wrong_input_is_a_located_fault(parameters: str, code: str, tmp_path: Path) -> None:
-    (found,) = catalogue.check(write(tmp_path, parameters))
-    assert (found.code, found.mark.line) == (code, 3)

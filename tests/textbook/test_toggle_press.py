@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen import api, catalogue
+from reportgen import api
 from reportgen.analysis import Analysis
 from reportgen.ledger.report import write_ledger
 
@@ -121,26 +121,3 @@ def test_without_mass_and_force_there_is_kinematics_only(tmp_path: Path) -> None
     analysis = analysed(tmp_path, f"{LENGTHS}, {LEFT}")
     assert analysis.loads == ()
     assert not {"working", "loads", "groups", "crank"} & set(analysis.machine.outline)
-
-
-@pytest.mark.parametrize(
-    ("parameters", "code", "key"),
-    [
-        # |OB| would have to reach 300 mm at the least; the rod is too short at one end of the turn.
-        ("OA: 60 mm, AB: 150 mm, BD: 150 mm, n: 150 rpm, " + LEFT, "never-assembled", "AB"),
-        ("OA: 60 mm, AB: 180 mm, BD: 180 mm, n: 150 rpm, " + LEFT, "no-assembly", "AB"),
-        # D below the crank: the knee stands above D and the ram would stay in D.
-        (LENGTHS + ", D: {x: -200 mm, y: -200 mm}, B: right", "out-of-range", "y"),
-        # The toggle goes through its stretched position and presses twice in a turn.
-        ("OA: 60 mm, AB: 260 mm, BD: 250 mm, n: 150 rpm, " + LEFT + ", " + PRESS, "not-to-and-fro", "press"),
-        (LENGTHS + ", " + LEFT + ", press: {unit: N, s: [0, 1], P: [0, 1, 2]}", "row-length", "P"),
-        (LENGTHS + ", " + LEFT + ", press: {unit: N, s: [0, 0.5], P: [0, 1]}", "table-end", "s"),
-    ],
-)
-def test_wrong_input_is_a_located_fault(parameters: str, code: str, key: str, tmp_path: Path) -> None:
-    file = write(tmp_path, parameters)
-    (found,) = catalogue.check(file)
-    assert found.code == code
-    line = file.read_text().splitlines()[found.mark.line - 1]
-    assert found.mark.line == 3
-    assert f"{key}:" in line[max(0, found.mark.column - len(key) - 12) : found.mark.column + len(key) + 4], found

@@ -106,3 +106,14 @@ TWICE = (
     f'<workbook xmlns="{MAIN}" xmlns:r="{OFFICE}"><sheets><sheet name="S" sheetId="1" r:id="r1"/>'
     '<sheet name="T" sheetId="2" r:id="r1"/></sheets></workbook>'
 )
+
+
+def bordered(count: int) -> bytes:
+    """A workbook with two values, and a border drawn round so many rows of a hundred columns below them."""
+    letters = [f"{first}{second}" for first in "ABCDE" for second in "ABCDEFGHIJKLMNOPQRST"]
+    rows = "".join(
+        f'<row r="{row}">' + "".join(f'<c r="{column}{row}" s="1"/>' for column in letters) + "</row>"
+        for row in range(2, count + 2)
+    )
+    first = '<row r="1"><c r="A1" t="inlineStr"><is><t>id</t></is></c><c r="B1" s="1"></c><c r="C1"><v>7</v></c></row>'
+    return package(first + rows)

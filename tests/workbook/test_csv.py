@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import re
-import time
 import unicodedata
 from collections.abc import Callable
 from pathlib import Path
@@ -130,10 +129,9 @@ def test_what_was_guarded_inside_comes_back(row: list[str]) -> None:
     assert [unguarded(guarded(text)) for text in row] == row
 
 
-def test_a_long_run_of_blanks_is_looked_at_once() -> None:
-    start = time.process_time()
+def test_a_long_run_of_blanks_stays_as_it_is() -> None:
+    """In a time that grows with the blanks: `tests/bench/reading.py`."""
     assert guarded("x" + "\n" * 30_000) == "x" + "\n" * 30_000
-    assert time.process_time() - start < 0.5
 
 
 def test_negative_numbers_stay_numbers_in_csv() -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import io
 import re
-import time
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -16,7 +15,21 @@ from hypothesis import strategies as st
 
 from reportgen.errors import AssignmentError
 from reportgen.workbook import Page, read, write_xlsx
-from tests.workbook.tables import BOOK, HALF, MAIN, REL, SPREAD, STRINGS, STYLES, TWICE, TYPES, package, refusal, rels
+from tests.workbook.tables import (
+    BOOK,
+    HALF,
+    MAIN,
+    REL,
+    SPREAD,
+    STRINGS,
+    STYLES,
+    TWICE,
+    TYPES,
+    bordered,
+    package,
+    refusal,
+    rels,
+)
 
 ENTITY = '<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]>'
 HOSTILE = {
@@ -185,19 +198,11 @@ def test_a_workbook_with_damaged_parts_is_read_or_refused(
         assert all(isinstance(page, Page) for page in read(path))
 
 
-def test_a_million_empty_cells_with_a_border_cost_next_to_nothing(tmp_path: Path) -> None:
-    """A border drawn round ten thousand rows of a hundred columns, with two values among them."""
-    letters = [f"{first}{second}" for first in "ABCDE" for second in "ABCDEFGHIJKLMNOPQRST"]
-    rows = "".join(
-        f'<row r="{row}">' + "".join(f'<c r="{column}{row}" s="1"/>' for column in letters) + "</row>"
-        for row in range(2, 10_002)
-    )
-    first = '<row r="1"><c r="A1" t="inlineStr"><is><t>id</t></is></c><c r="B1" s="1"></c><c r="C1"><v>7</v></c></row>'
+def test_a_million_empty_cells_with_a_border_are_none(tmp_path: Path) -> None:
+    """A border drawn round ten thousand rows of a hundred columns; `make bench` says how soon they are read."""
     path = tmp_path / "a.xlsx"
-    path.write_bytes(package(first + rows))
-    start = time.process_time()
+    path.write_bytes(bordered(10_000))
     (page,) = read(path)
-    assert time.process_time() - start < 2
     assert [[cell.value for cell in row] for row in page.rows] == [["id", None, 7.0]]
 
 

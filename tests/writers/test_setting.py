@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.case import open_any
+from reportgen.cases import open_case
 from reportgen.notation.expressions import Chain, Expression, Number, Symbol, cos, rebuild, sin, sqrt
 from reportgen.notation.numbers import Language
 from reportgen.notation.plain import Plain
@@ -84,7 +84,7 @@ def bare(node: Expression) -> Expression:
 
 def of_ledger(path: Path) -> list[Expression]:
     """Every worked line of a report at its first position."""
-    ledger = open_any(path).ledger
+    ledger = open_case(path).ledger
     return [ledger.chain(id, 0) for id, family in ledger.families.items() if family.line is not None]
 
 
