@@ -258,7 +258,7 @@ LIMITS: Mapping[Callable[[House], Counted], int] = {
     circles: 0,
     modules: 218,
     longest_module: 449,
-    lines_of_code: 30064,
+    lines_of_code: 30056,
     template_files: 488,
     words_of_architecture: 2923,
     ids_by_f_string: 592,
