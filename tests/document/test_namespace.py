@@ -12,19 +12,20 @@ import pytest
 from jinja2 import Environment, meta, nodes
 
 from reportgen import api
-from reportgen.answers.paper import task
 from reportgen.cases import opened
 from reportgen.document import namespace
-from reportgen.document.outline import compose
 from reportgen.document.prose import Prose, _environment
 from reportgen.document.tree import Block
-from reportgen.words import load_words, search_path, templates
+from reportgen.kinds import SAMPLE
+from reportgen.sections import sections
+from reportgen.words import SECTION, load_words, search_path, templates
 
 ROOT = templates()
 REPOSITORY = Path(__file__).parents[2]
 ASSIGNMENTS = REPOSITORY / "assignments"
-EXERCISE = "plane-motion"
-"""What the paths of templates for exercises hold."""
+OF_EXERCISES = {"plane-motion.md", "steps.md"}
+"""The files of words that are for exercises alone."""
+Sections = Mapping[tuple[Path, str], nodes.Template]
 OF_REPORT = {*namespace.PROPERTIES, *namespace.VALUES, *namespace.FUNCTIONS}
 
 
@@ -35,27 +36,29 @@ def environment() -> Environment:
 
 
 @cache
-def parsed() -> Mapping[Path, nodes.Template]:
+def parsed() -> Sections:
     return {
-        path.relative_to(ROOT): environment().parse(path.read_text(encoding="utf-8"))
+        (path.relative_to(ROOT), name): environment().parse(section.text)
         for path in sorted(ROOT.rglob("*.md"))
+        for name, section in sections(path).items()
+        if name not in (SECTION, SAMPLE)
     }
 
 
-def of_machines() -> dict[Path, nodes.Template]:
-    return {path: tree for path, tree in parsed().items() if EXERCISE not in str(path)}
+def of_machines() -> Sections:
+    return {place: tree for place, tree in parsed().items() if place[0].name not in OF_EXERCISES}
 
 
-def of_exercises() -> dict[Path, nodes.Template]:
-    return {path: tree for path, tree in parsed().items() if EXERCISE in str(path)}
+def of_exercises() -> Sections:
+    return {place: tree for place, tree in parsed().items() if place[0].name in OF_EXERCISES}
 
 
-def used(trees: Mapping[Path, nodes.Template]) -> dict[str, Path]:
+def used(trees: Sections) -> dict[str, tuple[Path, str]]:
     """The names that templates use without binding them themselves, each with a template that does."""
     return {name: path for path, tree in trees.items() for name in meta.find_undeclared_variables(tree)}
 
 
-def bound(trees: Mapping[Path, nodes.Template]) -> set[str]:
+def bound(trees: Sections) -> set[str]:
     """The names that templates bind, which those that they include may use."""
     named = (one for tree in trees.values() for one in tree.find_all(nodes.Name))
     return {one.name for one in named if one.ctx != "load"}
@@ -70,7 +73,7 @@ def handed(file: str) -> set[str]:
         return render(prose, name, names)
 
     with mock.patch.object(Prose, "render", noted):
-        compose(case)
+        case.document()
         case.task(case.key())
     return found
 
