@@ -229,9 +229,9 @@ def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
     chain = report.ledger.chain(id, position, note)
     result = chain.parts[-1]
     if not note and isinstance(result, Number) and result.value == 0 and report.ledger[id].definition:
-        patterns = report.words["zero"].items()
-        reason = next((str(why) for pattern, why in patterns if re.fullmatch(str(pattern), id)), "")
-        return Chain((chain.parts[0], result), reason)
+        family = report.ledger[id]
+        reasons = vocabulary.words_of(report.words["zero"], id, family.kind, family.symbol)
+        return Chain((chain.parts[0], result), next(reasons, ""))
     return chain
 
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 
 from reportgen.document.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
 from reportgen.document.report import Report, function
 from reportgen.document.tables import rows, table
 from reportgen.document.tree import Cell, Column, Inline, InlineMath, Inlines, Table, Text, Value, listed
+from reportgen.notation import vocabulary
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.notation.vocabulary import on_plan
 
@@ -62,8 +63,7 @@ def main_figures(report: Report) -> Iterator[Sequence[object]]:
 
 def of_kind(report: Report, name: str) -> str:
     """The id of a quantity that is named so, or with its kind as in `M.eq:torque`; "" for one that is not there."""
-    id, _, kind = name.partition(":")
-    return id if id in report.ledger and kind in ("", report.ledger[id].kind) else ""
+    return next((id for id, one in report.ledger.families.items() if name in (id, f"{id}:{one.kind}")), "")
 
 
 def extreme_place(report: Report, id: str) -> Inlines:
@@ -104,21 +104,13 @@ def symbol_kinds(report: Report) -> Mapping[str, list[str]]:
 
     A quantity that no kind fits is explained where it stands.
     """
-    kinds: dict[str, list[str]] = {}
-    meanings = [(re.compile(str(pattern)), str(name)) for pattern, name in report.words["meanings"].items()]
-    for _, name in meanings:
-        kinds.setdefault(name, [])
+    meanings: Mapping[str, str] = report.words["meanings"]
+    kinds: dict[str, list[str]] = {name: [] for name in meanings.values()}
     for id, family in report.ledger.families.items():
         if not (family.hidden or family.is_plane):
-            name = next((name for pattern, name in meanings if _fits(pattern, id, family.kind)), "")
-            if name:
+            for name in islice(vocabulary.words_of(meanings, id, family.kind, family.symbol), 1):
                 kinds[name].append(id)
     return {name: ids for name, ids in kinds.items() if ids}
-
-
-def _fits(pattern: re.Pattern[str], id: str, kind: str) -> bool:
-    """Whether a pattern is that of an id, or of an id with its kind as in `s.3:length`."""
-    return bool(pattern.fullmatch(id) or pattern.fullmatch(f"{id}:{kind}"))
 
 
 @function
