@@ -20,6 +20,7 @@ from reportgen.case import Case, ExerciseCase, Opened
 from reportgen.document.outline import open_report
 from reportgen.document.tree import formula
 from reportgen.ledger.core import Ledger
+from reportgen.notation import ids
 from reportgen.notation.expressions import Number, Symbol, refs
 from reportgen.notation.numbers import Language, significant_decimals
 from reportgen.notation.sheet import Family, is_short
@@ -197,7 +198,7 @@ def _key(case: Opened, ledger: Ledger, span: Span, sense_of: Callable[[str], str
         role = _role(ledger, family)
         part = Chapter.data if role is Role.given and len(values) == 1 else family.chapter
         # What is read from a diagram can be worked out on paper, an integral over the cycle cannot.
-        integral = family.definition is None or f"rest.{id}" in ledger
+        integral = family.definition is None or ids.rest(id) in ledger
         workable = id != "M.difference" and (len(values) > 1 or not integral)
         workable = workable and (part is not Chapter.cycle or complete) and is_workable(ledger, id, by_rule)
         asked = (role is Role.scale and not is_round_scale(family)) or (role is Role.asked and workable)

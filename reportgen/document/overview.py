@@ -10,7 +10,7 @@ from reportgen.document.comments import Peak, each_peak, reaction_ids, slider_ra
 from reportgen.document.report import Report, function
 from reportgen.document.tables import rows, table
 from reportgen.document.tree import Cell, Column, Inline, InlineMath, Inlines, Table, Text, Value, listed
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.notation.vocabulary import on_plan
 
@@ -41,7 +41,7 @@ def extremes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tab
 def _extremes(report: Report) -> Iterator[Peak]:
     """Of points in translation, else of all that a plan seeks; then of links, then of joints."""
     for what, rotation in (("v", "omega"), ("a", "eps")):
-        points = slider_rates(report, what) or report.known(f"{what}.{group.M}" for group in report.groups)
+        points = slider_rates(report, what) or report.known(ids.POINT_RATE[what](group.M) for group in report.groups)
         yield from each_peak(report, [*points, *turning_rates(report, rotation)], report.positions)
     yield from each_peak(report, reaction_ids(report), report.all_positions)
 
@@ -83,9 +83,9 @@ def extreme_place(report: Report, id: str) -> Inlines:
 @rows("symbols", 40.0, 92.0, 28.0)
 def symbols(report: Report) -> Iterator[Sequence[object]]:
     """The kinds of quantities that this report has: some of their symbols, the meaning, the unit."""
-    for name, ids in symbol_kinds(report).items():
-        shown = tuple(dict.fromkeys(report.ledger.symbol(id) for id in ids))
-        units = dict.fromkeys(_unit(report, id) for id in ids)
+    for name, alike in symbol_kinds(report).items():
+        shown = tuple(dict.fromkeys(report.ledger.symbol(id) for id in alike))
+        units = dict.fromkeys(_unit(report, id) for id in alike)
         yield _some(shown), name, ", ".join(unit or "–" for unit in units)
 
 
@@ -110,7 +110,7 @@ def symbol_kinds(report: Report) -> Mapping[str, list[str]]:
         if not (family.hidden or family.is_plane):
             for name in islice(vocabulary.words_of(meanings, id, family.kind, family.symbol), 1):
                 kinds[name].append(id)
-    return {name: ids for name, ids in kinds.items() if ids}
+    return {name: alike for name, alike in kinds.items() if alike}
 
 
 @function

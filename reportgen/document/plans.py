@@ -23,7 +23,7 @@ from reportgen.figures.scheme import thumbnail
 from reportgen.ledger.forces.polygon import Edge, Polygon
 from reportgen.ledger.kinematics.linkage import POLES, What
 from reportgen.ledger.kinematics.sides import Side, image
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import Chain, Symbol
 
 SCENE_GAP = 4.0
@@ -69,11 +69,11 @@ def _register(name: str, what: What) -> None:
             return str(names["steps"].format(first, last) if first < last else names["step"].format(last))
 
         until = drawing(report, k).until(begin + STAGES - 1)
-        return _stages(report, until, f"mu.{what}", titles, begin)
+        return _stages(report, until, ids.scale(what), titles, begin)
 
     def on_plates(report: Report) -> Drawn:
         told = _mirrored(report, what).at
-        return _plates(report, drawing, [k for k in _one_turn(report) if k not in told], f"mu.{what}")
+        return _plates(report, drawing, [k for k in _one_turn(report) if k not in told], ids.scale(what))
 
     figure(name, f"fig.{what}")(whole)
     figure(f"{name}-stages", f"fig.{what}.stages")(in_stages)
@@ -129,7 +129,7 @@ def motion_plan_through(report: Report, what: What, place: Place) -> Plan:
         sketch.group(group, stage)
         stage += STAGES
     points = (PlanPoint(Symbol(POLES[what]), 0j), *sketch.points)
-    return Plan(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, f"mu.{what}"))
+    return Plan(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, ids.scale(what)))
 
 
 def _worked(report: Report, drawing: Plan, k: int) -> Scene:
@@ -206,7 +206,7 @@ class _Sketch:
         self.lines: list[PlanLine] = []
 
     def at(self, name: str) -> complex:
-        return self.place(f"plan.{self.what}.{name}")
+        return self.place(ids.plan_point(self.what, name))
 
     def absolute(self, name: str, style: Style, stage: int) -> None:
         """Enter the vector of a point's own velocity or acceleration, from the pole, with its end."""
@@ -243,7 +243,7 @@ class _Sketch:
         start = 0j if side.still else self.at(image(side.base))
         if self.what == "v" or not side.part:
             return start
-        end = self.at(f"{side.part}.{side.relative}")
+        end = self.at(ids.relative_corner(side.part, side.relative))
         self.relative(side, side.part, start, end, stage)
         self.points.append(PlanPoint(Symbol(side.part, side.pair), end, stage))
         return end
@@ -299,14 +299,14 @@ def force_plates(report: Report, group: GroupView) -> Drawn:
 def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
     """A force plan at a position, in mm."""
     drawing = force_plan_through(report, polygon, _places(report, k))
-    return replace(drawing, scale=_scale(report, f"mu.R{polygon.name}", k))
+    return replace(drawing, scale=_scale(report, ids.force_scale(polygon.name), k))
 
 
 def force_plan_through(report: Report, polygon: Polygon, place: Place) -> Plan:
     """A force plan with these corners: known edges one by one, what closing it gives, what is read from it."""
 
     def corner(letter: str) -> complex:
-        return place(f"plan.R{polygon.name}.{letter}")
+        return place(ids.force_corner(polygon.name, letter))
 
     known = sum(not edge.unknown for edge in polygon.edges)
     drawn: list[tuple[Edge, int, Style]] = [

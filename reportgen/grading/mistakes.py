@@ -15,6 +15,7 @@ import numpy as np
 from reportgen.answers.bands import is_direction
 from reportgen.grading.guide import Guide, Values
 from reportgen.grading.working import Change
+from reportgen.notation import ids
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Call, Expression, Negative, Sum, rebuild, refs, walk
 from reportgen.notation.sheet import Family
@@ -171,7 +172,7 @@ def _power(guide: Guide, definition: Expression, scale: str) -> int:
 def _in_reading_a_pressure(guide: Guide, id: str) -> Iterator[tuple[str, Change]]:
     """The pressure of another piston, or of another stroke at the piston's own place."""
     gas = guide.analysis.gas if guide.analysis else {}
-    here = next((state for state in gas.values() if f"p.{state.piston.link}" == id), None)
+    here = next((state for state in gas.values() if ids.pressure(state.piston.link) == id), None)
     if here is None:
         return
     for state in gas.values():
@@ -190,9 +191,9 @@ def _whole_rod(guide: Guide, id: str) -> str | None:
     linkage = guide.analysis.machine.linkage
     centres = {body.centre for body in linkage.inertias}
     for dyad in linkage.dyads:
-        ends = [end for end in (dyad.start, dyad.end) if id in {f"l.{end}{centre}" for centre in centres}]
+        ends = [end for end in (dyad.start, dyad.end) if id in {ids.length(end, centre) for centre in centres}]
         for end in ends:
-            names = {f"l.{end}{dyad.middle}", f"l.{dyad.middle}{end}"}
+            names = {ids.length(end, dyad.middle), ids.length(dyad.middle, end)}
             earlier = takewhile(lambda name: name != id, guide.ledger.families)
             return next((name for name in earlier if name in names), None)
     return None

@@ -14,12 +14,13 @@ from reportgen.notation.names import Name
 # --- geometry: true lengths, lengths on the drawing, places and directions
 
 percussion = Name("l.{point}K{link}")  # to the centre of percussion
-length = Name("l.{line}")
-drawn = Name("drawn.{line}")
-laid_line = Name("laid.{line}")
+length = Name("l.{line}[{to}]")  # AB in one word or in two
+drawn = Name("drawn.{line}[{to}]")
+laid_line = Name("laid.{line}[{to}]")
 scale = Name("mu.{plan}")
 place = Name("p.{point}")
 coordinate = Name("{point}.{axis}")
+mass_centre = Name("s.{link}")  # its share of the length of a rod
 along_link = Name("{point}.along")
 across_link = Name("{point}.across")
 frame_coordinate = Name("frame.{axis}.{point}")
@@ -85,7 +86,7 @@ centre_omega = Name("ic.omega.{link}")
 centre_velocity = Name("ic.v.{link}")
 rod_angle = Name("ic.angle.{link}.{point}")
 projection = Name("ic.along.{link}.{point}")
-BY_CENTRES = (centre, centre_reach, centre_distance, centre_omega, centre_velocity, rod_angle, projection)
+CENTRES = (centre, centre_reach, centre_distance, centre_omega, centre_velocity, rod_angle, projection)
 
 # --- closed formulas
 

@@ -3,6 +3,7 @@
     velocity = Name("v.{point}")
     velocity("B") == "v.B"
     velocity.read("v.B") == {"point": "B"}
+    "v.B" in velocity
 
 A template is text with places, of which `PLACES` says what may stand in them; what is in brackets may be missing.
 """
@@ -26,6 +27,7 @@ PLACES: Mapping[str, str] = {
     "point": r"[A-Z][^.]*",
     "about": r"[A-Z][^.]*",
     "line": r"[A-Z][^.]*",
+    "to": r"[A-Z][^.]*",
     "relative": r"[A-Z][^.]*[A-Z][^.]*",
     "start": r"[a-z]\d*",
     "end": r"[a-z]\d*",
@@ -67,6 +69,9 @@ class Name:
         """What stands in the places of an id, "" in one that is missing; None for an id of another family."""
         found = self._pattern.fullmatch(id)
         return None if found is None else {name: text or "" for name, text in found.groupdict().items()}
+
+    def __contains__(self, id: str) -> bool:
+        return self._pattern.fullmatch(id) is not None
 
     def only(self, **words: str) -> Name:
         """The narrower family that has these words in these places."""

@@ -178,7 +178,7 @@ class Row:
         return self.below.format(**words) if self.below else next(reversed(named), "")
 
 
-_NOT_BELOW = frozenset({"axis", "part", "about", "letter"})
+_NOT_BELOW = frozenset({"to", "axis", "part", "about", "letter"})
 """Places whose words are not printed below a letter."""
 
 _G, _V, _A = Chapter.geometry, Chapter.velocity, Chapter.acceleration
@@ -395,7 +395,7 @@ def scale_on_paper(id: str) -> str:
 
 def is_laid(id: str) -> bool:
     """Whether it is a length or vector as it is laid off on paper."""
-    return any(family.read(id) for family in (ids.laid_line, ids.laid, ids.laid_force))
+    return any(id in family for family in (ids.laid_line, ids.laid, ids.laid_force))
 
 
 def distance(id: str, one: Value, other: Value) -> Value:
