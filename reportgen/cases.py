@@ -24,6 +24,7 @@ from reportgen.document.key import Key
 from reportgen.document.tree import Document
 from reportgen.figures.moving import Film
 from reportgen.figures.sheet import Sheet
+from reportgen.notation import ids
 from reportgen.notation.numbers import Language
 from reportgen.notation.sheet import Family
 
@@ -139,21 +140,21 @@ def _wrong_readings(analysis: Analysis) -> Mapping[str, list[tuple[str, np.ndarr
         others = [("other-piston", state.pressure) for state in analysis.gas.values() if state is not here]
         strokes = (here.angle + 2 * np.pi, -here.angle, 2 * np.pi - here.angle)
         table = piston.law.table
-        found[f"p.{piston.link}"] = others + [
+        found[ids.pressure(piston.link)] = others + [
             ("wrong-stroke", table.pressure(angle, here.fraction, piston.dead_centres)) for angle in strokes
         ]
     return found
 
 
-def _whole_rods(machine: Machine, ids: tuple[str, ...]) -> Mapping[str, str]:
-    """The length of the rod on which `l.AS2` places a mass centre; of `ids`, those before it."""
+def _whole_rods(machine: Machine, entered: tuple[str, ...]) -> Mapping[str, str]:
+    """The length of the rod on which `l.AS2` places a mass centre; of those `entered`, one before it."""
     centres = {body.centre for body in machine.linkage.inertias}
     found: dict[str, str] = {}
     for dyad in machine.linkage.dyads:
         for end in (dyad.start, dyad.end):
-            names = {f"l.{end}{dyad.middle}", f"l.{dyad.middle}{end}"}
-            for id in (f"l.{end}{centre}" for centre in centres):
-                rod = next((name for name in takewhile(id.__ne__, ids) if name in names), "")
-                if id in ids and rod:
+            names = {ids.length(end, dyad.middle), ids.length(dyad.middle, end)}
+            for id in (ids.length(end, centre) for centre in centres):
+                rod = next((name for name in takewhile(id.__ne__, entered) if name in names), "")
+                if id in entered and rod:
                     found.setdefault(id, rod)
     return found

@@ -17,7 +17,7 @@ import numpy as np
 
 from reportgen.answers.trapezoid import trapezoid_errors
 from reportgen.ledger.core import Ledger
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import Call, Ref, refs
 from reportgen.notation.sheet import Family
 
@@ -101,17 +101,17 @@ def measuring_errors(
             scale = ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
             errors[id] = np.full(len(family.values), 2 * error * scale)
     for link, slope in _pressure_slopes(ledger).items():
-        pressure = np.abs(ledger[f"p.{link}"].values)
+        pressure = np.abs(ledger[ids.pressure(link)].values)
         # Read from a diagram that the student has plotted; what is small stands in the table.
         height = np.minimum(error / DIAGRAM * np.nanmax(pressure), SMALL * pressure)
-        errors[f"p.{link}"] = slope * 2 * error * ledger["mu.l"].values * drawn_at.get("mu.l", 1.0) + height
+        errors[ids.pressure(link)] = slope * 2 * error * ledger["mu.l"].values * drawn_at.get("mu.l", 1.0) + height
     return errors
 
 
 def _may_be_measured(family: Family) -> bool:
     """Whether a length from a plan's pole, worked out by similarity from another, can be read from the plan as well."""
-    plan = vocabulary.plan(family.id)
-    from_pole = plan and family.kind == "segment" and family.id.startswith((f"seg.{plan[3:]}.p",))
+    plan, found = vocabulary.plan(family.id), ids.segment.read(family.id)
+    from_pole = found is not None and found["start"] == ids.POLE
     return bool(from_pole and family.definition and any(vocabulary.plan(id) == plan for id in refs(family.definition)))
 
 
@@ -119,9 +119,9 @@ def _pressure_slopes(ledger: Ledger) -> dict[str, np.ndarray]:
     """How steeply the pressure on each piston changes over its way [N], from the flatter side of each position."""
     slopes: dict[str, np.ndarray] = {}
     for id, family in ledger.families.items():
-        link = id.removeprefix("p.")
-        if family.kind == "pressure" and f"s.{link}" in ledger:
-            way = ledger[f"s.{link}"].values
+        found = ids.pressure.read(id)
+        if found and (displacement := ids.displacement(link := found["link"])) in ledger:
+            way = ledger[displacement].values
             with np.errstate(all="ignore"):
                 sides = [np.abs((np.roll(family.values, k) - family.values) / (np.roll(way, k) - way)) for k in (1, -1)]
             slopes[link] = np.nan_to_num(np.min(np.where(np.isfinite(sides), sides, np.inf), axis=0), posinf=0.0)

@@ -17,6 +17,7 @@ from reportgen.case import Calculation, Opened
 from reportgen.document.key import INSTANT, Key, Role, Row, Span
 from reportgen.document.report import Report
 from reportgen.ledger.core import Ledger
+from reportgen.notation import ids
 from reportgen.notation.expressions import Number, refs
 from reportgen.notation.numbers import significant_decimals
 from reportgen.notation.plain import formula
@@ -73,7 +74,7 @@ def make_key(case: Opened, ledger: Ledger, span: Span = INSTANT, sense_of: Calla
         role = _role(ledger, family)
         part = Chapter.data if role is Role.given and len(values) == 1 else family.chapter
         # What is read from a diagram can be worked out on paper, an integral over the cycle cannot.
-        integral = family.definition is None or f"rest.{id}" in ledger
+        integral = family.definition is None or ids.rest(id) in ledger
         workable = id != "M.difference" and (len(values) > 1 or not integral)
         workable = workable and (part is not Chapter.cycle or complete) and is_workable(ledger, id, by_rule)
         asked = (role is Role.scale and not is_round_scale(family)) or (role is Role.asked and workable)

@@ -17,6 +17,7 @@ from reportgen.analysis import Analysis
 from reportgen.case import Calculation, Opened
 from reportgen.mechanism.forces import Load
 from reportgen.mechanism.structure import Crank
+from reportgen.notation import ids
 from reportgen.notation.numbers import Language, significant_decimals, write
 from reportgen.words import word
 
@@ -67,7 +68,7 @@ def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
     entry["weights"] = _loads(analysis.weights, k)
     entry["inertia"] = _loads(analysis.inertia, k)
     if analysis.gas:
-        entry["pressures"] = {name.replace("P", "p"): float(gas.pressure[k]) for name, gas in analysis.gas.items()}
+        entry["pressures"] = {f"p{gas.piston.link}": float(gas.pressure[k]) for gas in analysis.gas.values()}
     reactions = analysis.forces.reactions.items()
     entry["reactions"] = {name: pair(reaction.force[k]) for name, reaction in reactions}
     entry["reactions_in_guides"] = {
@@ -98,10 +99,16 @@ def _loads(loads: tuple[Load, ...], k: int) -> Mapping[str, Any]:
 
 def _slides(analysis: Analysis, name: str) -> bool:
     """Whether a reaction acts in a prismatic joint."""
-    digits = name.removeprefix("R")
-    one, other = digits.split(",") if "," in digits else (digits[0], digits[1:])
-    pair = (int(one), int(other))
+    pair = _links(name)
     return pair in analysis.motion.slides or pair[::-1] in analysis.motion.slides
+
+
+def _links(name: str) -> tuple[int, int]:
+    """The two links of a reaction, the acting one first."""
+    found = ids.reaction_force.read(name)
+    assert found is not None, f"{name} is no reaction"
+    one, other = ids.linked(found["joint"])
+    return int(one), int(other)
 
 
 def pair(value: complex) -> list[float] | None:
@@ -188,7 +195,7 @@ def _once(reactions: Row) -> Row:
     """Each pair R_ij, R_ji once: their sizes are the same."""
     shown: Row = {}
     for name, size in reactions.items():
-        if f"{name[0]}{name[:0:-1]}" not in shown:
+        if ids.reaction_force(ids.joint(*reversed(_links(name)))) not in shown:
             shown[name] = size
     return shown
 

@@ -2,13 +2,12 @@
 
 The phrases ("normal acceleration of B about A") stand in `words.yaml` under `quantities`, by the families of the
 vocabulary; a quantity that a machine has for itself, or calls by another name, stands there by its own id, or among
-the names of the given data.  Those of the senses stand under `positive`, by patterns of kind and id, of which the
-first that fits decides; those of a machine come before the common ones.
+the names of the given data.  Those of the senses stand under `positive`, by ids, families and kinds, of which the
+nearest decides; those of a machine come before the common ones.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -17,7 +16,7 @@ import numpy as np
 from reportgen.document.equations import heading_words
 from reportgen.document.report import Report
 from reportgen.ledger.core import Ledger
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import Expression, Symbol, refs
 
 MAGNITUDE = "magnitude"
@@ -26,21 +25,16 @@ MAGNITUDE = "magnitude"
 
 def phrase(id: str, ledger: Ledger, words: Mapping[str, Any]) -> str:
     """What a quantity is, without a capital; "" where the words have no phrase for it."""
+    if given := words.get("given", {}).get(id):
+        return _uncapitalised(str(given))
     phrases: Mapping[str, str] = words["quantities"]
-    # A sliding driver is balanced by a force, which has the ids of the torque.
-    kind = f":{ledger[id].kind}" if id in ledger else ""
-    own = words.get("given", {}).get(id) or phrases.get(f"{id}{kind}") or phrases.get(id)
-    if own:
-        return _uncapitalised(str(own))
-    shown = ledger[id].symbol if id in ledger else _symbol(id)
-    name, parts = vocabulary.wording(id, shown)
-    name = f"{name}{kind}" if f"{name}{kind}" in phrases else name
-    if name not in phrases:
-        return ""
+    shown, kind = (ledger[id].symbol, ledger[id].kind) if id in ledger else (_symbol(id), "")
     vector = vocabulary.vector_of(id)
+    _, parts = vocabulary.wording(id, shown)
     of = phrase(vector, ledger, words) if vector else ""
     bodies = {name: _body(parts[link], phrases) for name, link in (("body", "link"), ("onto", "other"))}
-    return str(phrases[name]).format(**parts, **bodies, of=of)
+    found = next(vocabulary.words_of(phrases, id, kind, shown), "")
+    return found.format(**parts, **bodies, of=of)
 
 
 def _body(link: str, phrases: Mapping[str, str]) -> str:
@@ -68,28 +62,32 @@ def positive_sense(id: str, report: Report) -> str:
     """The phrase of a quantity, `MAGNITUDE`, or "" where no words say anything."""
     family, ledger = report.ledger[id], report.ledger
     known = _points(id, ledger) | _way(id, report)
-    for pattern, phrase in report.words["positive"].items():
-        if re.fullmatch(pattern, f"{family.kind} {id}"):
-            try:
-                return str(phrase).format(**known)
-            except KeyError:
-                # It speaks of something that this quantity has not.
-                continue
+    for phrase in vocabulary.words_of(report.words["positive"], id, family.kind, family.symbol):
+        try:
+            return phrase.format(**known)
+        except KeyError:
+            # It speaks of something that this quantity has not.
+            continue
     return ""
 
 
 def _points(id: str, ledger: Ledger) -> dict[str, str]:
     """Both ends, and the letters, of the rod or slot that a projection or an assumed sense goes by."""
-    link = id.split(".")[2] if id.startswith("ic.along.") else ""
-    assumed = ledger.known([f"assumed.{id.replace('.', '', 1)}"])
-    if assumed:
-        along = refs(_definition(ledger, assumed[0]))[0]
-        link = along.partition(".")[2] if along.startswith(("rod.", "slot.")) else ""
-    rod = f"rod.{link}"
-    if rod not in ledger:
+    along, component = ids.projection.read(id), ids.reaction.read(id)
+    if component and (assumed := ids.assumed(ids.reaction_force.of(component))) in ledger:
+        (direction, *_) = refs(_definition(ledger, assumed))
+        along = ids.rod.read(direction) or ids.slot.read(direction)
+    if along is None or (rod := ids.rod(along["link"])) not in ledger:
         return {}
-    end, start = (vocabulary.lowered(point.removeprefix("p.")) for point in refs(_definition(ledger, rod)))
+    end, start = (vocabulary.lowered(_point(place)) for place in refs(_definition(ledger, rod)))
     return {"start": start, "end": end, "line": f"{start}{end}"}
+
+
+def _point(id: str) -> str:
+    """The name of the point whose place it is."""
+    found = ids.place.read(id)
+    assert found is not None, f"{id} is no place"
+    return found["point"]
 
 
 def _definition(ledger: Ledger, id: str) -> Expression:
@@ -100,7 +98,8 @@ def _definition(ledger: Ledger, id: str) -> Expression:
 
 def _way(id: str, report: Report) -> dict[str, str]:
     """Where a slider's motion counts as positive, in words."""
-    way = report.slider_senses.get(id.rpartition(".")[2])
+    found = ids.formula_velocity.read(id) or ids.formula_acceleration.read(id)
+    way = report.slider_senses.get(found["point"]) if found else None
     return {} if way is None else {"way": heading_words(report, float(np.degrees(np.angle(way))))}
 
 

@@ -28,7 +28,7 @@ from reportgen.catalogue.loads import Applied, Torque
 from reportgen.catalogue.machine import Machine
 from reportgen.errors import Finding
 from reportgen.mechanism.structure import Inertia, Linkage, LinkPoint
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import PI, Number, Operand, Ref, Symbol, turned
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import drawn_length
@@ -160,12 +160,12 @@ class GivenSheet(Sheet):
 
     def drawn(self, start: str, end: str, asked: Given | None, default: float = CRANK_DRAWN) -> None:
         """The crank's drawn length: as asked for, else `default` (m on paper)."""
-        self.give(f"drawn.{start}{end}", asked.si if asked else default, drawn_length(start, end))
+        self.give(ids.drawn(start, end), asked.si if asked else default, drawn_length(start, end))
 
     def drawn_by(self, scale: float, start: str, end: str, crank: Ref) -> None:
         """The crank's drawn length by a round scale of the drawing."""
         μ = self.give("scale", scale, Symbol("μ", "l"), "length scale")
-        self.define(f"drawn.{start}{end}", crank / μ, drawn_length(start, end))
+        self.define(ids.drawn(start, end), crank / μ, drawn_length(start, end))
 
     # --- links
 
@@ -183,23 +183,23 @@ class GivenSheet(Sheet):
     def mass(self, link: int, weight: Given | None = None, mass: Given | None = None, like: int = 0) -> None:
         """Weight and mass of a link: one as typed, or as that of the link `like`, the other from it; else none."""
         weight, mass = weight or self.typed("G", link), mass or self.typed("m", link)
-        G, m = f"G{link}", f"m.{link}"
+        G, m = ids.weight(link), ids.mass(link)
         if weight is not None:
             self.define(m, self.give(G, weight.si) / self["g"])
         elif mass is not None:
             self.define(G, self.give(m, mass.si) * self["g"])
-        elif like and self.families[f"G{like}"].definition is None:
-            self.define(m, self.define(G, self[f"G{like}"]) / self["g"])
+        elif like and self.families[ids.weight(like)].definition is None:
+            self.define(m, self.define(G, self[ids.weight(like)]) / self["g"])
         elif like:
-            self.define(G, self.define(m, self[f"m.{like}"]) * self["g"])
+            self.define(G, self.define(m, self[ids.mass(like)]) * self["g"])
 
     def moment(self, link: int, default: Operand | None) -> None:
         """J about the mass centre: as given, else its `default`, such as m l²/12; none where there is no default."""
         given = self.typed("J", link)
         if given is not None:
-            self.give(f"J.{link}", given.si)
+            self.give(ids.inertia(link), given.si)
         elif default is not None:
-            self.define(f"J.{link}", default)
+            self.define(ids.inertia(link), default)
 
     def bar(self, link: int, start: str, end: str, always: bool = False) -> None:
         """A straight link from pin `start` to pin `end`: the place of its mass centre, l_AS = s·l, its mass, its J.
@@ -209,24 +209,24 @@ class GivenSheet(Sheet):
         self.set_out("places")
         if not (always or any(self.typed(letter, link) for letter in "sGmJ")):
             return
-        length, share = self[f"l.{start}{end}"], self.typed("s", link)
-        s = self.give(f"s.{link}", MIDDLE if share is None else share.si, kind="ratio")
-        self.set_out("places", self.define(f"l.{start}S{link}", s * length))
+        length, share = self[ids.length(start, end)], self.typed("s", link)
+        s = self.give(ids.mass_centre(link), MIDDLE if share is None else share.si, kind="ratio")
+        self.set_out("places", self.define(ids.length(start, f"S{link}"), s * length))
         self.mass(link)
-        m = self.find(f"m.{link}")
+        m = self.find(ids.mass(link))
         self.moment(link, None if m is None else m * length**2 / 12)
 
     def point(self, name: str, place: FixedPoint) -> None:
         """The coordinates of a fixed point as typed."""
-        x = self.datum(f"{name}.x", place.x, Symbol("x", name), "length")
-        y = self.datum(f"{name}.y", place.y, Symbol("y", name), "length")
-        self.construct(f"p.{name}", x + turned(y))
+        x = self.datum(ids.coordinate(name, "x"), place.x, Symbol("x", name), "length")
+        y = self.datum(ids.coordinate(name, "y"), place.y, Symbol("y", name), "length")
+        self.construct(ids.place(name), x + turned(y))
 
     def fix(self, id: str, at: complex, length: Operand) -> None:
         """A fixed point or a guide's point that lies at a given `length` from the origin, and so goes with it."""
-        far = self.construct(f"far.{id}", length)
+        far = self.construct(ids.far(id), length)
         if self.si(far):
-            self.construct(id, far * self.give(f"unit.{id}", complex(at / self.si(far)), Symbol(id), "ratio"))
+            self.construct(id, far * self.give(ids.unit(id), complex(at / self.si(far)), Symbol(id), "ratio"))
 
     def bodies(self, bars: Mapping[int, tuple[str, str]], slider: int, always: bool = False) -> None:
         """Gravity if anything has mass; the bars by the pins at their ends, as `bar` does; the slider's mass."""
@@ -237,7 +237,7 @@ class GivenSheet(Sheet):
 
     def centre_points(self, pins: Mapping[int, str]) -> tuple[LinkPoint, ...]:
         """The mass centres S2, … that stand here, by their links and the pins they are measured from."""
-        arms = {link: self.find(f"l.{pin}S{link}") for link, pin in pins.items()}
+        arms = {link: self.find(ids.length(pin, f"S{link}")) for link, pin in pins.items()}
         return tuple(LinkPoint(f"S{link}", link, complex(self.si(arm))) for link, arm in arms.items() if arm)
 
     def inertias(self, centres: Mapping[int, str]) -> tuple[Inertia, ...]:
@@ -246,7 +246,9 @@ class GivenSheet(Sheet):
         def size(id: str) -> float:
             return self.si(id) if id in self else 0.0
 
-        every = (Inertia(link, centre, size(f"m.{link}"), size(f"J.{link}")) for link, centre in centres.items())
+        every = (
+            Inertia(link, centre, size(ids.mass(link)), size(ids.inertia(link))) for link, centre in centres.items()
+        )
         return tuple(one for one in every if one.mass or one.moment)
 
 

@@ -22,6 +22,7 @@ from reportgen.catalogue.sliders import centred_slider, compared
 from reportgen.cycle import STROKES, Stroke, stroke_at
 from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
+from reportgen.notation import ids
 from reportgen.notation.expressions import PI
 from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
@@ -109,7 +110,7 @@ def machine(assignment: Assignment) -> Machine:
     R = q.define("R", H / 2)
     L = q.define("L", R / λ)
     for id, length in {"O1A": R, "O1C": R, "AB": L, "CD": L, "AS2": s * L, "CS4": s * L}.items():
-        q.define(f"l.{id}", length)
+        q.define(ids.length(id), length)
     q.set_out("synthesis", R, *q.worked(λ), L, q["l.AS2"], q["l.CS4"])
     q.drawn("O1", "A", assignment.drawing.crank, CRANK_DRAWN)
     q.define("F", PI * D**2 / 4)

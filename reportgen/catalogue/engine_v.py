@@ -22,6 +22,7 @@ from reportgen.catalogue.reach import Member
 from reportgen.catalogue.sliders import centred_slider, compared, second_cylinder
 from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
+from reportgen.notation import ids
 from reportgen.notation.expressions import PI, Symbol, cis
 from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
@@ -110,7 +111,7 @@ def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> Give
     q, rod = GivenSheet(given), f"{given.joint}E"
     for id, length in {"AB": given.AB, "BC": given.BC, "BD": given.BD, rod: given.DE}.items():
         if length.si:
-            q.datum(f"l.{id}", length)
+            q.datum(ids.length(id), length)
     q.datum("alpha", given.alpha, "α", "angle")
     q.datum("beta", given.beta, "β", "angle")
     q.speed()
@@ -120,7 +121,7 @@ def _sheet(given: Parameters, turn: int = 1, crank: Given | None = None) -> Give
     q.give("delta", turn * (given.beta.si - given.alpha.si), "δ", "angle")
     for force, pin in ((given.PC, "C"), (given.PE, "E")):
         if force is not None:
-            q.datum(f"P{pin}.given", force, Symbol("P", pin), "force")
+            q.datum(ids.given_force(pin), force, Symbol("P", pin), "force")
     if given.D is not None:
         q.define("F", PI * q.datum("D", given.D) ** 2 / 4)
     q.gravity()
@@ -154,8 +155,8 @@ def machine(assignment: Assignment) -> Machine:
     q = _sheet(given, turn, assignment.drawing.crank)
     linkage, start = _linkage(given, q), positions.start_or()
     for link, axis in ((3, q["alpha"]), (5, q["beta"])):
-        outwards = q.construct(f"guide.{link}", cis(axis))
-        q.construct(f"sense.P{link}", -outwards)
+        outwards = q.construct(ids.guide(link), cis(axis))
+        q.construct(ids.sense(ids.applied_force(link)), -outwards)
     places, labels = _places(given, positions)
 
     motion_at = crank_motion(linkage, positions, start, given.speed)
@@ -196,7 +197,7 @@ def _constant(given: Parameters) -> tuple[Applied, ...]:
     """Constant forces that push the pistons towards the crank."""
     ends = ((3, "C", given.PC, given.alpha), (5, "E", given.PE, given.beta))
     return tuple(
-        Applied(f"P{link}", link, pin, -cmath.exp(1j * axis.si), Constant(force.si))
+        Applied(ids.applied_force(link), link, pin, -cmath.exp(1j * axis.si), Constant(force.si))
         for link, pin, force, axis in ends
         if force is not None
     )

@@ -25,6 +25,7 @@ from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.sliders import compared, components
 from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Linkage, LinkPoint
+from reportgen.notation import ids
 from reportgen.notation.expressions import (
     Chain,
     Expression,
@@ -68,7 +69,7 @@ def proportions(q: Sheet) -> None:
 
     AC₁ = BC + AB and AC₂ = BC − AB with the angles α at A and ψ at D; θ = α₁ − α₂, K = (180° + θ)/(180° − θ).
     """
-    AB, BC, CD, AD = sides = tuple(q[f"l.{id}"] for id in ("AB", "BC", "DC", "AD"))
+    AB, BC, CD, AD = sides = tuple(q[ids.length(id)] for id in ("AB", "BC", "DC", "AD"))
     first, one, other, last = sorted(sides, key=q.si)
     ends = q.define("sum.ends", first + last, Symbol("l", "", "′"), "length")
     q.set_out("sums", ends, q.define("sum.others", one + other, Symbol("l", "", "″"), "length"))
@@ -78,9 +79,9 @@ def proportions(q: Sheet) -> None:
     angle = partial(q.define, kind="angle", scale=1.0)
     lengths, α, ψ = [], [], []
     for number, length in (("1", BC + AB), ("2", BC - AB)):
-        lengths.append(AC := q.define(f"l.AC{number}", length))
-        α.append(angle(f"alpha.{number}", acos(_cosine(AC, AD, CD)), Symbol("α", number)))
-        ψ.append(angle(f"psi.{number}", acos(_cosine(AD, CD, AC)), Symbol("ψ", number)))
+        lengths.append(AC := q.define(ids.length(f"AC{number}"), length))
+        α.append(angle(ids.inner_angle(number), acos(_cosine(AC, AD, CD)), Symbol("α", number)))
+        ψ.append(angle(ids.outer_angle(number), acos(_cosine(AD, CD, AC)), Symbol("ψ", number)))
     larger, smaller = sorted(α, key=q.si, reverse=True)
     θ = angle("theta", larger - smaller)
     K = q.define("K", (STRAIGHT + θ) / (STRAIGHT - θ))
@@ -90,16 +91,16 @@ def proportions(q: Sheet) -> None:
 
 def triangle(q: Sheet, name: str) -> None:
     """l_BE² = x² + y² of a coupler point given by x along BC and y across it; off BC, l_CE² = (l − x)² + y²."""
-    x, y, BC = q[f"{name}.along"], q[f"{name}.across"], q["l.BC"]
-    BE = q.define(f"l.B{name}", sqrt(x**2 + y**2) if q.si(y) else abs(x))
+    x, y, BC = q[ids.along_link(name)], q[ids.across_link(name)], q["l.BC"]
+    BE = q.define(ids.length("B", name), sqrt(x**2 + y**2) if q.si(y) else abs(x))
     q.set_out("places", BE)
     if q.si(y):
-        CE = q.define(f"l.C{name}", sqrt((BC - x) ** 2 + y**2))
+        CE = q.define(ids.length("C", name), sqrt((BC - x) ** 2 + y**2))
         q.set_out("places", CE)
         if abs(q.si(y)) > FLAT * q.si(BE):
             # It is drawn as the triangle of these sides.
             angle = cis(acos((BE**2 + BC**2 - CE**2) / (2 * BE * BC)))
-            q.construct(f"turn.{name}", angle if q.si(y) > 0 else 1 / angle)
+            q.construct(ids.point_turn(name), angle if q.si(y) > 0 else 1 / angle)
 
 
 # --- the analytic method --------------------------------------------------------------------------
@@ -133,8 +134,8 @@ def analytic_method(q: Sheet, angle: Floats, points: Iterable[LinkPoint], turn: 
     top2 = ω1**2 * AB * cos(φ1 - φ3) + ω2**2 * BC * cos(φ2 - φ3) - ω3**2 * CD
     top3 = ω1**2 * AB * cos(φ1 - φ2) + ω2**2 * BC - ω3**2 * CD * cos(φ2 - φ3)
     for link, top, length in (("2", top2, BC), ("3", top3, CD)):
-        q_k = q.define(f"q.{link}", top, Symbol("q", link), "acceleration", scale=1.0)
-        ε = q.define(f"f.eps.{link}", signed(-turn, q_k / (length * sin(φ2 - φ3))), scale=1.0)
+        q_k = q.define(ids.numerator(link), top, Symbol("q", link), "acceleration", scale=1.0)
+        ε = q.define(ids.formula_angular_acceleration(link), signed(-turn, q_k / (length * sin(φ2 - φ3))), scale=1.0)
         q.set_out("acceleration", q_k, ε)
     q.set_out("slopes")
     q.set_out("coupler_velocity")
@@ -162,20 +163,20 @@ def _entries(
 ) -> list[Ref]:
     """The entries of a matrix by their places: a₁₁ of [A], ȧ₁₁ of [Ȧ]."""
     return [
-        q.define(f"{matrix}.{place}", entry, Symbol(letter, place), kind, scale=scale)
+        q.define(ids.matrix_entry(matrix, place), entry, Symbol(letter, place), kind, scale=scale)
         for place, entry in entries.items()
     ]
 
 
 def _coupler_point(q: Sheet, point: LinkPoint, turn: int) -> None:
     """v and a of a point P of the coupler by components, BP at the angle φ₂ + η from x."""
-    name, AB, BP, φ1, ω1 = point.name, q["l.AB"], q[f"l.B{point.name}"], q["f.phi.1"], q["omega.1"]
+    name, AB, BP, φ1, ω1 = point.name, q["l.AB"], q[ids.length("B", point.name)], q["f.phi.1"], q["omega.1"]
     ω2, ε2 = q["f.omega.2"], q["f.eps.2"]
     φ: Expression = q["f.phi.2"]
     if point.local.imag:
-        x, y = q[f"{name}.along"], q[f"{name}.across"]
+        x, y = q[ids.along_link(name)], q[ids.across_link(name)]
         slope = atan(y / x) if point.local.real > 0 else atan2(y, x)
-        η = q.define(f"eta.{name}", slope if turn > 0 else -slope, Symbol("η", name), "angle", scale=1.0)
+        η = q.define(ids.slope(name), slope if turn > 0 else -slope, Symbol("η", name), "angle", scale=1.0)
         φ = φ + η
         q.set_out("slopes", η)
     v, a = signed(turn, ω2), signed(turn, ε2)
@@ -206,9 +207,9 @@ def equations(turn: int) -> dict[str, tuple[Chain, ...]]:
     dB = column(signed(turn, ω1 * AB * cos(φ1)), signed(turn, ω1 * AB * sin(φ1)))
     a11, a12, a21, a22 = (Symbol("a", place) for place in ("11", "12", "21", "22"))
     filled_A, filled_dA = (
-        Matrix(tuple(tuple(Ref(f"{name}.{i}{j}") for j in "12") for i in "12")) for name in ("A", "dA")
+        Matrix(tuple(tuple(Ref(ids.matrix_entry(name, f"{i}{j}")) for j in "12") for i in "12")) for name in ("A", "dA")
     )
-    filled_B, filled_dB = (column(Ref(f"{name}.1"), Ref(f"{name}.2")) for name in ("B", "dB"))
+    filled_B, filled_dB = (column(*(Ref(ids.matrix_entry(name, i)) for i in "12")) for name in ("B", "dB"))
     filled_ω, filled_ω1 = column(Ref("f.omega.2"), Ref("f.omega.3")), Ref("omega.1")
     return {
         "closure": (
@@ -267,7 +268,7 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     """Given data, coupler points, mass centres, masses and moments of inertia, Grashof's sums."""
     q = GivenSheet(given)
     for id, length in {"AB": given.AB, "BC": given.BC, "DC": given.CD, "AD": given.AD}.items():
-        q.datum(f"l.{id}", length, Symbol("l", "CD" if id == "DC" else id))
+        q.datum(ids.length(id), length, Symbol("l", "CD" if id == "DC" else id))
     if given.frame.si:
         q.datum("frame", given.frame, "α", "angle")
     q.speed()
@@ -333,7 +334,14 @@ def machine(assignment: Assignment) -> Machine:
     points = tuple(point for point in linkage.points if point.link == 2)
     names = [point.name for point in points]
     φ1 = turn * (start + turn * even_angles(positions) - frame)
-    plans = ("omega.2", "omega.3", *(f"v.{name}" for name in names), "eps.2", "eps.3", *(f"a.{name}" for name in names))
+    plans = (
+        "omega.2",
+        "omega.3",
+        *(ids.velocity(name) for name in names),
+        "eps.2",
+        "eps.3",
+        *(ids.acceleration(name) for name in names),
+    )
     return driven(
         assignment,
         q,

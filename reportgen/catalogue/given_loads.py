@@ -21,6 +21,7 @@ from reportgen.assignment.fields import (
 from reportgen.catalogue.loads import Constant, Law, Torque, by_angle, by_stroke, crank_motion, opposing
 from reportgen.cycle import STROKES, AngleIndicator, Indicator, StrokeIndicator
 from reportgen.mechanism.structure import Linkage
+from reportgen.notation import ids
 from reportgen.units import Given
 
 # --- the indicator diagram of a four-stroke engine --------------------------------------------------
@@ -192,4 +193,4 @@ def torque_on(
         law: Law = opposing(size, lambda angle: motion_at(angle).links[link].omega)
     else:
         law = Constant(size if given.sense == "anticlockwise" else -size)
-    return (Torque(f"M{link}", link, law),)
+    return (Torque(ids.applied_torque(link), link, law),)

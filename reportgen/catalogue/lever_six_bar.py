@@ -16,6 +16,7 @@ from reportgen.catalogue.loads import Applied, Constant, Law, crank_motion, oppo
 from reportgen.catalogue.machine import Machine
 from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
+from reportgen.notation import ids
 from reportgen.notation.expressions import Symbol, turned
 from reportgen.notation.vocabulary import drawn_length
 from reportgen.units import Given
@@ -62,7 +63,13 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     q.set_out("places", q.define("l.AE", q["l.AC"] - q["l.CE"]))
     q.bodies(BARS, 5, always=True)
     q.set_out(
-        "lengths", "l.BA", "l.AC", "l.DC", "l.AE", "l.EF", *(f"l.{start}S{link}" for link, (start, _) in BARS.items())
+        "lengths",
+        "l.BA",
+        "l.AC",
+        "l.DC",
+        "l.AE",
+        "l.EF",
+        *(ids.length(start, f"S{link}") for link, (start, _) in BARS.items()),
     )
     q.set_out("loads", "P5")
     if given.force is not None:

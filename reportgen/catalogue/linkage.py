@@ -37,7 +37,9 @@ from reportgen.catalogue.machine import Machine, lettered
 from reportgen.errors import Finding
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import DRIVER, Linkage
+from reportgen.notation import ids
 from reportgen.notation.expressions import Symbol, turned
+from reportgen.notation.names import Name
 from reportgen.notation.numbers import nice_up
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import drawn_length
@@ -116,7 +118,7 @@ def machine(assignment: Assignment) -> Machine:
     loads = tuple(load for load in declared if load.law.acts)
     drawn = assignment.drawing.crank
     q = _sheet(given, linkage, built, drawn.si if drawn else None)
-    q.set_out("lengths", *(f"l.{arm}" for arm in linkage_words.arms(given)))
+    q.set_out("lengths", *(ids.length(arm) for arm in linkage_words.arms(given)))
     q.set_out("loads", *(load.name for load in loads))
     return replace(
         built,
@@ -142,32 +144,32 @@ def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | N
     q, driver = GivenSheet(), given.driver
     for name, place in linkage.ground.items():
         x, y = (
-            q.give(f"frame.{axis}.{name}", value, Symbol(axis, name), "length")
+            q.give(ids.frame_coordinate(axis, name), value, Symbol(axis, name), "length")
             for axis, value in (("x", place.real), ("y", place.imag))
         )
-        q.construct(f"p.{name}", x + turned(y))
+        q.construct(ids.place(name), x + turned(y))
     if isinstance(driver, file.CrankDriver):
-        q.datum(f"l.{driver.centre}{driver.pin}", driver.length)
+        q.datum(ids.length(driver.centre, driver.pin), driver.length)
         q.speed(driver.n, driver.omega1, given.flywheel)
         paper = _drawn(built, driver.length.si) if drawn is None else drawn
-        q.give(f"drawn.{driver.centre}{driver.pin}", paper, drawn_length(driver.centre, driver.pin))
+        q.give(ids.drawn(driver.centre, driver.pin), paper, drawn_length(driver.centre, driver.pin))
     else:
-        q.datum(f"v.{driver.pin}", driver.speed)
+        q.datum(ids.velocity(driver.pin), driver.speed)
         q.give("span", built.span, Symbol("H", "1"), "length")
     for group in given.groups:
         if isinstance(group, file.RRR):
             first, middle, last = group.joints
             for outer, length in zip((first, last), group.lengths, strict=True):
-                q.datum(f"l.{outer}{middle}", length)
+                q.datum(ids.length(outer, middle), length)
         elif isinstance(group, file.RRP):
-            q.datum("l." + "".join(group.joints), group.length)
+            q.datum(ids.length(*group.joints), group.length)
     if any(body.G or body.m for body in given.masses):
         q.datum("g", given.g)
     for body in given.masses:
         q.mass(body.link, body.G, body.m)
         if body.J is not None:
             at = body.at if body.at[0] == "S" else f"{body.at}{body.link}"
-            q.datum(f"J.{body.link}", body.J, Symbol("J", at))
+            q.datum(ids.inertia(body.link), body.J, Symbol("J", at))
     return q
 
 
@@ -207,21 +209,21 @@ def _loads(given: file.Parameters, linkage: Linkage, motion_at: MotionAt) -> tup
     for load in given.loads:
         link = load.link
         if isinstance(load, file.OverStroke | file.Gas):
-            found.append(_on_slider(load, given, linkage, motion_at, _name("P", link, found)))
+            found.append(_on_slider(load, given, linkage, motion_at, _name(ids.applied_force, link, found)))
             continue
         direction = cmath.exp(1j * load.direction.si)
         law = _law(load, direction, given.driver, motion_at)
         if load.at is None:
-            found.append(Torque(_name("M", link, found), link, law))
+            found.append(Torque(_name(ids.applied_torque, link, found), link, law))
         else:
-            found.append(Applied(_name("P", link, found), link, load.at, direction, law))
+            found.append(Applied(_name(ids.applied_force, link, found), link, load.at, direction, law))
     return tuple(found)
 
 
-def _name(letter: str, link: int, others: Iterable[Applied | Torque]) -> str:
+def _name(family: Name, link: int, others: Iterable[Applied | Torque]) -> str:
     """P3; a second one on the same link P3a, then P3b."""
-    count = sum(one.link == link and one.name[0] == letter for one in others)
-    return f"{letter}{link}{chr(ord('a') + count - 1) if count else ''}"
+    count = sum(one.link == link and one.name in family for one in others)
+    return family(link, chr(ord("a") + count - 1)) if count else family(link)
 
 
 def _on_slider(

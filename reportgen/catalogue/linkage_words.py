@@ -9,7 +9,7 @@ from typing import Any
 
 from reportgen.catalogue import linkage_file as file
 from reportgen.mechanism.structure import DyadKind, Guide
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import Number
 from reportgen.units import Given
 
@@ -138,16 +138,16 @@ def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[
     """Ids of given quantities, what they are, and of which link or between which points."""
     driver = given.driver
     if isinstance(driver, file.CrankDriver):
-        yield f"l.{driver.centre}{driver.pin}", "crank", ""
+        yield ids.length(driver.centre, driver.pin), "crank", ""
         yield "n", "n", ""
         yield "omega.1", "omega1", ""
     else:
-        yield f"v.{driver.pin}", "speed", ""
+        yield ids.velocity(driver.pin), "speed", ""
         yield "span", "span", ""
     for row in rows:
-        yield from ((f"l.{rod}", "length", rod) for rod, _ in row.lengths)
+        yield from ((ids.length(rod), "length", rod) for rod, _ in row.lengths)
     for body in given.masses:
-        for id, what in ((f"G{body.link}", "G"), (f"m.{body.link}", "m"), (f"J.{body.link}", "J")):
+        for id, what in ((ids.weight(body.link), "G"), (ids.mass(body.link), "m"), (ids.inertia(body.link), "J")):
             yield id, what, str(body.link)
     yield "g", "g", ""
 

@@ -21,6 +21,7 @@ from reportgen.assignment.common import Positions
 from reportgen.cycle import AngleIndicator, Indicator, StrokeIndicator, crossings
 from reportgen.mechanism.motion import Motion, solve_motion
 from reportgen.mechanism.structure import GROUND, Dyad, Guide, Linkage
+from reportgen.notation import ids
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -387,7 +388,7 @@ class Piston(Course):
     @property
     def name(self) -> str:
         """The id of its gas force."""
-        return f"P{self.link}"
+        return ids.applied_force(self.link)
 
     @property
     def area(self) -> float:

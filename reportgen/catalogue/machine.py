@@ -14,6 +14,7 @@ import numpy as np
 
 from reportgen.catalogue.loads import Applied, Course, Piston, Torque
 from reportgen.mechanism.structure import Crank, Linkage
+from reportgen.notation import ids
 from reportgen.notation.expressions import Chain
 from reportgen.notation.sheet import Sheet
 
@@ -114,7 +115,7 @@ class Machine:
     def drawn(self) -> float:
         """The crank's drawn length (m on paper) where the file or the kind sets it, else 0."""
         driver = self.linkage.driver
-        id = f"drawn.{driver.centre}{driver.pin}" if isinstance(driver, Crank) else ""
+        id = ids.drawn(driver.centre, driver.pin) if isinstance(driver, Crank) else ""
         return self.sheet.si(id) if id in self.sheet else 0.0
 
     def position(self, number: int) -> Position:

@@ -18,6 +18,7 @@ from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.slotted import HIGHEST, Ram, SlottedCrank
 from reportgen.errors import Finding
+from reportgen.notation import ids
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import nice_up
 from reportgen.notation.sheet import Sheet
@@ -72,9 +73,9 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     for link in CENTRES:
         q.mass(link)
     for link, rod in RODS.items():
-        l, m, share, moment = q[f"l.{rod}"], f"m.{link}", getattr(given, f"s{link}"), q.typed("J", link)  # noqa: E741
+        l, m, share, moment = q[ids.length(rod)], ids.mass(link), getattr(given, f"s{link}"), q.typed("J", link)  # noqa: E741
         if m in q or moment:
-            centre = q.define(f"l.{rod[0]}S{link}", q.give(f"s.{link}", share.si, kind="ratio") * l)
+            centre = q.define(ids.length(rod[0], f"S{link}"), q.give(ids.mass_centre(link), share.si, kind="ratio") * l)
             q.set_out("lengths", centre)
             q.moment(link, q[m] * l**2 / 12 if m in q else None)
     q.set_out("loads", "f.x.E", "P5")

@@ -24,6 +24,7 @@ import numpy as np
 
 from reportgen.catalogue.loads import FULL_TURN, Course, Floats, halved
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+from reportgen.notation import ids
 from reportgen.notation.expressions import Chain, Expression, Number, Ref, Symbol, asin, cos, signed, sin, sqrt, tan
 from reportgen.notation.sheet import Sheet
 
@@ -34,7 +35,7 @@ ROUND = 1e-12
 
 def compared(plans: Iterable[str]) -> tuple[tuple[str, str], ...]:
     """Plan quantities and the closed formulas that must give the same sizes."""
-    return tuple((plan, f"f.{plan}") for plan in plans)
+    return tuple((plan, ids.formula(plan)) for plan in plans)
 
 
 # --- centred --------------------------------------------------------------------------------------
@@ -50,13 +51,13 @@ def centred_slider(
     """
     R, L, λ, ω1 = q["R"], q["L"], q["lambda"], q["omega.1"]
     line = partial(q.define, scale=1.0)
-    φ = q.angle(f"phi.{slider}", angle)
-    β = line(f"beta.{rod}", asin(λ * sin(φ)))
-    x = q.define(f"x.{slider}", R * (1 - cos(φ)) + L * (1 - cos(β)), Symbol("x", joint), "length", scale=0.01)
-    v = line(f"f.v.{joint}", ω1 * R * sin(φ + β) / cos(β))
-    ω2 = line(f"f.omega.{rod}", signed(-turn, ω1 * λ * cos(φ) / cos(β)))
-    a = line(f"f.a.{joint}", ω1**2 * R * (cos(φ + β) / cos(β) + λ * cos(φ) ** 2 / cos(β) ** 3))
-    ε2 = line(f"f.eps.{rod}", signed(turn, ω1**2 * λ * (1 - λ**2) * sin(φ) / cos(β) ** 3))
+    φ = q.angle(ids.angle(slider), angle)
+    β = line(ids.inclination(rod), asin(λ * sin(φ)))
+    x = q.define(ids.slider_way(slider), R * (1 - cos(φ)) + L * (1 - cos(β)), Symbol("x", joint), "length", scale=0.01)
+    v = line(ids.formula_velocity(joint), ω1 * R * sin(φ + β) / cos(β))
+    ω2 = line(ids.formula_angular_velocity(rod), signed(-turn, ω1 * λ * cos(φ) / cos(β)))
+    a = line(ids.formula_acceleration(joint), ω1**2 * R * (cos(φ + β) / cos(β) + λ * cos(φ) ** 2 / cos(β) ** 3))
+    ε2 = line(ids.formula_angular_acceleration(rod), signed(turn, ω1**2 * λ * (1 - λ**2) * sin(φ) / cos(β) ** 3))
     velocity, acceleration = f"velocity_{slider}", f"acceleration_{slider}"
     q.set_out(velocity, β, x, v, ω2)
     q.set_out(acceleration, a, ε2)
@@ -71,9 +72,9 @@ def centred_slider(
 def components(q: Sheet, what: str, point: str, x: Expression, y: Expression) -> tuple[Ref, Ref, Ref]:
     """The velocity or acceleration of a point by its components, and its size."""
     kind = {"v": "velocity", "a": "acceleration"}[what]
-    along = q.define(f"f.x.{point}.{what}", x, Symbol(what, f"{point}x"), kind, scale=1.0)
-    across = q.define(f"f.y.{point}.{what}", y, Symbol(what, f"{point}y"), kind, scale=1.0)
-    return along, across, q.define(f"f.{what}.{point}", sqrt(along**2 + across**2))
+    along = q.define(ids.formula_component("x", point, what), x, Symbol(what, f"{point}x"), kind, scale=1.0)
+    across = q.define(ids.formula_component("y", point, what), y, Symbol(what, f"{point}y"), kind, scale=1.0)
+    return along, across, q.define(ids.formula(ids.POINT_RATE[what](point)), sqrt(along**2 + across**2))
 
 
 # --- the second cylinder of a V engine --------------------------------------------------------------
@@ -85,7 +86,7 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
     sin γ = h/l₄;  v_E = v⊥ tan γ − v∥;  a_E = a⊥ tan γ + v⊥²/(l₄ cos³γ) − a∥, towards the crank.  Uses `delta` and
     what `centred_slider` enters; enters `beta.4`, `f.v.E`, `f.omega.4`, `f.a.E`, `f.eps.4`.
     """
-    R, ω1, φ, δ, l4 = q["R"], q["omega.1"], q["phi.3"], q["delta"], q[f"l.{joint}E"]
+    R, ω1, φ, δ, l4 = q["R"], q["omega.1"], q["phi.3"], q["delta"], q[ids.length(joint, "E")]
     line = partial(q.define, scale=1.0)
     x: Expression = R * sin(φ)
     y: Expression = R * cos(φ)
@@ -95,30 +96,32 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
         line("f.x.B.a", -(ω1**2 * R * sin(φ)), Symbol("a", "Bx"))
         line("f.y.B.a", -(ω1**2 * R * cos(φ)), Symbol("a", "By"))
     else:
-        s = q[f"l.B{joint}"]
+        s = q[ids.length("B", joint)]
         x, y = R * (1 - s / q["L"]) * sin(φ), y + s * cos(q["beta.2"])
-    line(f"f.x.{joint}", x)
-    line(f"f.y.{joint}", y)
+    place = ids.formula_coordinate("x", joint), ids.formula_coordinate("y", joint)
+    rates = {what: tuple(ids.formula_component(axis, joint, what) for axis in "xy") for what in "va"}
+    for coordinate, value in zip(place, (x, y), strict=True):
+        line(coordinate, value)
 
-    def across(rate: str) -> Expression:
-        return q[f"f.x.{joint}{rate}"] * cos(δ) - q[f"f.y.{joint}{rate}"] * sin(δ)
+    def across(x: str, y: str) -> Expression:
+        return q[x] * cos(δ) - q[y] * sin(δ)
 
-    def along(rate: str) -> Expression:
-        return q[f"f.y.{joint}{rate}"] * cos(δ) + q[f"f.x.{joint}{rate}"] * sin(δ)
+    def along(x: str, y: str) -> Expression:
+        return q[y] * cos(δ) + q[x] * sin(δ)
 
-    h = line("f.h", across(""), "h", "length")
+    h = line("f.h", across(*place), "h", "length")
     γ = line("beta.4", asin(h / l4), "γ")
-    v1 = line("f.across.v", across(".v"), Symbol("v", "⊥"), "velocity")
-    v2 = line("f.along.v", along(".v"), Symbol("v", "∥"), "velocity")
+    v1 = line("f.across.v", across(*rates["v"]), Symbol("v", "⊥"), "velocity")
+    v2 = line("f.along.v", along(*rates["v"]), Symbol("v", "∥"), "velocity")
     v = line("f.v.E", v1 * tan(γ) - v2)
     ω4 = line("f.omega.4", signed(-turn, v1 / (l4 * cos(γ))))
-    a1 = line("f.across.a", across(".a"), Symbol("a", "⊥"), "acceleration")
-    a2 = line("f.along.a", along(".a"), Symbol("a", "∥"), "acceleration")
+    a1 = line("f.across.a", across(*rates["a"]), Symbol("a", "⊥"), "acceleration")
+    a2 = line("f.along.a", along(*rates["a"]), Symbol("a", "∥"), "acceleration")
     a = line("f.a.E", a1 * tan(γ) + v1**2 / (l4 * cos(γ) ** 3) - a2)
     ε4 = line("f.eps.4", signed(-turn, (a1 + l4 * ω4**2 * sin(γ)) / (l4 * cos(γ))))
-    of_joint = {what: (f"f.x.{joint}.{what}", f"f.y.{joint}.{what}", f"f.{what}.{joint}") for what in "va"}
+    of_joint = {what: (*rates[what], ids.formula(ids.POINT_RATE[what](joint))) for what in "va"}
     q.set_out("velocity_main", φ, "beta.2", "f.v.C", "f.omega.2", *of_joint["v"])
-    q.set_out("velocity_second", f"f.x.{joint}", f"f.y.{joint}", h, γ, v1, v2, v, ω4)
+    q.set_out("velocity_second", *place, h, γ, v1, v2, v, ω4)
     q.set_out("acceleration_main", "f.a.C", "f.eps.2", *of_joint["a"])
     q.set_out("acceleration_second", a1, a2, a, ε4)
 

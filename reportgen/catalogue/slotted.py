@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from reportgen.catalogue.driven import natural_lines
 from reportgen.catalogue.loads import FULL_TURN, Course, Floats
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+from reportgen.notation import ids
 from reportgen.notation.expressions import (
     PI,
     Chain,
@@ -227,13 +228,13 @@ def strokes(q: Sheet, H: Ref) -> None:
 
 
 LEVER_COMPARED = (
-    *((plan, f"f.{plan}") for plan in ("omega.3", "v.D", "eps.3", "a.D")),
+    *((plan, ids.formula(plan)) for plan in ("omega.3", "v.D", "eps.3", "a.D")),
     ("v.B3B", "f.v.r"),
     ("a.B3B.k", "f.a.k"),
     ("a.B3B.r", "f.a.r"),
 )
 RAM_COMPARED = (
-    *((plan, f"f.{plan}") for plan in ("omega.3", "omega.4", "v.E", "eps.3", "eps.4", "a.E")),
+    *((plan, ids.formula(plan)) for plan in ("omega.3", "omega.4", "v.E", "eps.3", "eps.4", "a.E")),
     ("v.B3B", "f.v.r"),
 )
 """Plan quantities and the closed formulas that must give the same sizes."""

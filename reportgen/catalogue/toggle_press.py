@@ -19,6 +19,7 @@ from reportgen.catalogue.loads import Applied, TableLaw, course, crank_motion
 from reportgen.catalogue.machine import Machine
 from reportgen.errors import Finding
 from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage
+from reportgen.notation import ids
 from reportgen.notation.expressions import Symbol, acos, atan2, cos, signed, sin, sqrt
 from reportgen.notation.sheet import Sheet
 from reportgen.units import Given
@@ -42,7 +43,7 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     """Given data, mass centres, masses and moments of inertia."""
     q = GivenSheet(given)
     for id, length in {"OA": given.OA, "AB": given.AB, "DB": given.BD, "BC": given.BD}.items():
-        q.datum(f"l.{id}", length, Symbol("l", "BD" if id == "DB" else id))
+        q.datum(ids.length(id), length, Symbol("l", "BD" if id == "DB" else id))
     q.point("D", given.D)
     q.speed()
     q.drawn("O", "A", crank)
@@ -126,5 +127,5 @@ def machine(assignment: Assignment) -> Machine:
         sliders=sliders,
         paths=("B",),
         facts={"form": "less" if minus else "plus"},
-        compared=tuple((plan, f"f.{plan}") for plan in ("omega.2", "omega.3", "v.C", "eps.3", "a.C")),
+        compared=tuple((plan, ids.formula(plan)) for plan in ("omega.2", "omega.3", "v.C", "eps.3", "a.C")),
     )

@@ -11,7 +11,8 @@ from reportgen.document.groups import PlaneLink
 from reportgen.document.report import Report
 from reportgen.figures.positions import Centre, PlaneMotion, centre_plan
 from reportgen.figures.scene import Scene
-from reportgen.ledger.kinematics.centres import NEAREST, PREFIX, centre_symbol
+from reportgen.ledger.kinematics.centres import NEAREST, centre_symbol
+from reportgen.notation import ids
 from reportgen.notation.expressions import Symbol
 
 
@@ -20,17 +21,17 @@ def centre_state(report: Report, link: PlaneLink, k: int) -> str:
     ledger = report.ledger
     if ledger[link.omega].at(k) == 0:
         return "shift"
-    if ledger[f"v.{link.base}"].at(k) == 0:
+    if ledger[ids.velocity(link.base)].at(k) == 0:
         return "rest"
     if np.isfinite([ledger[id].at(k) for id in link.distances]).all():
         return "found"
-    base = complex(ledger[f"p.{link.base}"].at(k))
-    to_base = abs(complex(ledger[f"{PREFIX}{link.link}"].at(k)) - base) / float(ledger["mu.l"].values[0])
+    base = complex(ledger[ids.place(link.base)].at(k))
+    to_base = abs(complex(ledger[ids.centre(link.link)].at(k)) - base) / float(ledger["mu.l"].values[0])
     return "near" if to_base < NEAREST else "far"
 
 
 def _place(report: Report, link: PlaneLink, k: int) -> complex:
-    return complex(report.ledger[f"{PREFIX}{link.link}"].at(k)) * drawing_scale(report)
+    return complex(report.ledger[ids.centre(link.link)].at(k)) * drawing_scale(report)
 
 
 def centres(report: Report, k: int) -> Drawn:
@@ -65,7 +66,7 @@ def _motion(report: Report, link: PlaneLink, k: int) -> PlaneMotion:
     """The velocities of a link's two points and their angles with the line between them."""
     ledger, points = report.ledger, report.analysis.motion.points
     ends = (link.base, link.point)
-    moving = [not report.is_zero(f"v.{name}", k) for name in ends]
+    moving = [not report.is_zero(ids.velocity(name), k) for name in ends]
     return PlaneMotion(
         ends,
         tuple(complex(points[name].v[k - 1]) if there else 0j for name, there in zip(ends, moving, strict=True)),

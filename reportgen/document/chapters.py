@@ -6,6 +6,7 @@ from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.catalogue.loads import Applied
 from reportgen.document.report import Report
 from reportgen.document.tree import Block, Paragraph, Text
+from reportgen.notation import ids
 from reportgen.notation.expressions import Number, walk
 
 UNIFORM = Number(12.0)
@@ -63,12 +64,14 @@ def gas_forces(report: Report) -> list[str]:
 def without_mass(report: Report) -> list[str]:
     """The links whose mass is not given."""
     links = sorted({1, *(link for group in report.groups for link in (group.i, group.j))})
-    return [str(link) for link in links if f"m.{link}" not in report.mass_lines]
+    return [str(link) for link in links if ids.mass(link) not in report.mass_lines]
 
 
 def uniform_rods(report: Report) -> list[str]:
     """The links whose moment of inertia is that of a uniform rod, J = m l²/12, for want of a given one."""
-    moments = {link: report.ledger[id].definition for link in report.bodies if (id := f"J.{link}") in report.ledger}
+    moments = {
+        link: report.ledger[id].definition for link in report.bodies if (id := ids.inertia(link)) in report.ledger
+    }
     return [link for link, formula in moments.items() if formula is not None and UNIFORM in walk(formula)]
 
 
@@ -78,7 +81,7 @@ def driver_joints(report: Report) -> list[str]:
 
 
 def driver_reactions(report: Report) -> list[str]:
-    return [f"R.{digits}" for digits in driver_joints(report)]
+    return [ids.reaction(digits) for digits in driver_joints(report)]
 
 
 def mean_lines(report: Report) -> list[str]:
@@ -102,12 +105,12 @@ def shares_pins(report: Report) -> bool:
 
 def lever_couples(report: Report) -> list[str]:
     """What torques, which have no arm, contribute to the balance by virtual work."""
-    return report.known(f"M.{torque.name}.p" for torque in report.machine.torques)
+    return report.known(ids.lever_moment(torque.name) for torque in report.machine.torques)
 
 
 def inertia_parts(report: Report) -> list[str]:
     """The shares of the links in the reduced moment of inertia, and their sum."""
-    return report.known([*(f"J.r.{link}" for link in report.machine.linkage.links), "J.r"])
+    return report.known([*(ids.reduced_inertia(link) for link in report.machine.linkage.links), "J.r"])
 
 
 def energy_bounds(report: Report) -> list[str]:

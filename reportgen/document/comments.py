@@ -14,6 +14,7 @@ from reportgen.document.phrases import say
 from reportgen.document.report import Report
 from reportgen.document.tree import InlineMath, Inlines, Text, Value, listed
 from reportgen.mechanism.structure import DRIVER, GROUND
+from reportgen.notation import ids
 
 RUN = 3
 """So many positions in a row are written as from – to."""
@@ -107,18 +108,18 @@ def peak(report: Report, id: str, positions: Sequence[int]) -> Peak | None:
     )
 
 
-def peaks(report: Report, ids: Iterable[str], cycle: bool = False) -> list[Peak]:
+def peaks(report: Report, quantities: Iterable[str], cycle: bool = False) -> list[Peak]:
     """How quantities go over one turn, or over the cycle, those that go alike together; nothing is left out."""
     positions = report.all_positions if cycle else report.positions
     alike: dict[tuple[object, ...], list[Peak]] = {}
-    for one in each_peak(report, ids, positions):
+    for one in each_peak(report, quantities, positions):
         alike.setdefault((one.value.number.shown, one.at, one.zero, one.turns), []).append(one)
     return [_joined(report, some) for some in alike.values()]
 
 
-def each_peak(report: Report, ids: Iterable[str], positions: Sequence[int]) -> list[Peak]:
+def each_peak(report: Report, quantities: Iterable[str], positions: Sequence[int]) -> list[Peak]:
     """How each quantity goes over positions; those that are nothing are left out."""
-    found = (peak(report, id, positions) for id in report.known(ids))
+    found = (peak(report, id, positions) for id in report.known(quantities))
     return [one for one in found if one is not None]
 
 
@@ -151,7 +152,7 @@ def sliders(report: Report) -> tuple[Slider, ...]:
 
 def slider_rates(report: Report, what: str) -> list[str]:
     """The ids of the velocities ("v") or accelerations ("a") of what slides along fixed guides."""
-    return report.known(f"{what}.{slider.pin}" for slider in sliders(report))
+    return report.known(ids.POINT_RATE[what](slider.pin) for slider in sliders(report))
 
 
 def turning_rates(report: Report, what: str) -> list[str]:
@@ -161,7 +162,7 @@ def turning_rates(report: Report, what: str) -> list[str]:
     """
     seen: dict[tuple[float, ...], str] = {}
     for link in report.machine.linkage.links:
-        id = f"turn.{what}.{link}"
+        id = ids.signed(what, link)
         if link != DRIVER and id in report.ledger:
             seen[tuple(report.ledger[id].values)] = id
     return list(seen.values())
@@ -169,7 +170,7 @@ def turning_rates(report: Report, what: str) -> list[str]:
 
 def reverses(report: Report, rate: Peak) -> bool:
     """Whether a slider runs the other way after each position at which its velocity is zero."""
-    return all(_reverses(report, slider.link) for slider in sliders(report) if f"v.{slider.pin}" in rate.ids)
+    return all(_reverses(report, slider.link) for slider in sliders(report) if ids.velocity(slider.pin) in rate.ids)
 
 
 def _reverses(report: Report, link: int) -> bool:
@@ -180,7 +181,7 @@ def _reverses(report: Report, link: int) -> bool:
 
 def at_rest(report: Report, rate: Peak) -> bool:
     """Whether the point whose acceleration this is stands still wherever the acceleration is greatest."""
-    velocities = [f"v.{id.removeprefix('a.')}" for id in rate.ids]
+    velocities = [ids.velocity(found["point"]) for id in rate.ids if (found := ids.acceleration.read(id))]
     return all(bool(np.all(shown(report, id, rate.places) == 0)) for id in velocities)
 
 
@@ -194,18 +195,18 @@ def load_ids(report: Report) -> list[str]:
 
 def inertia_forces(report: Report) -> list[str]:
     """The inertia forces of all links."""
-    return report.known(f"Pqt{link}" for link in report.bodies)
+    return report.known(ids.inertia_force(link) for link in report.bodies)
 
 
 def reaction_ids(report: Report) -> list[str]:
     """The reactions in all joints, each pair once."""
     names = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
-    return report.known(f"R.{name}" for name in (*names, "01"))
+    return report.known(ids.reaction(name) for name in (*names, "01"))
 
 
-def greatest(report: Report, ids: Iterable[str]) -> list[Peak]:
+def greatest(report: Report, quantities: Iterable[str]) -> list[Peak]:
     """Which of the quantities take the greatest value of all over the cycle, and where."""
-    every = peaks(report, ids, True)
+    every = peaks(report, quantities, True)
     top = max((one.value.number.shown for one in every), default=0.0)
     return [one for one in every if one.value.number.shown == top]
 
@@ -222,7 +223,7 @@ def cause(report: Report, top: Peak) -> Inlines:
 def chief_load(report: Report, at: Peak) -> Peak | None:
     """The largest of all forces on the links, inertia included, where another quantity is greatest."""
     forces = [id for id in load_ids(report) if report.ledger[id].kind == "force"]
-    bodies = [f"{name}{body}" for body in report.bodies for name in ("Pqt", "G")]
+    bodies = [name(body) for body in report.bodies for name in (ids.inertia_force, ids.weight)]
     place = at.places[:1]
     found = (peak(report, id, place) for id in report.known([*forces, *bodies]))
     return max((one for one in found if one is not None), key=lambda one: one.value.number.value, default=None)

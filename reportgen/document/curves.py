@@ -20,6 +20,7 @@ from reportgen.figures.scene import Content, Scene
 from reportgen.flywheel import Flywheel
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank
+from reportgen.notation import ids
 from reportgen.notation.expressions import Chain, Symbol
 from reportgen.notation.vocabulary import KINDS
 
@@ -171,7 +172,7 @@ def polar(report: Report) -> Drawn:
     for edge in report.driver_polygon.edges:
         if edge.unknown or not edge.is_reaction:
             continue
-        pin = next(group.P for group in report.groups if edge.name == f"R{group.i}{DRIVER}")
+        pin = next(group.P for group in report.groups if edge.name == ids.reaction_force(ids.joint(group.i, DRIVER)))
         radius = fine.motion.points[pin].p - fine.motion.points[report.driver.centre].p
         load = fine.forces.reactions[edge.name].force * np.conj(radius / np.abs(radius)) * 1j
         loads.setdefault(pin, {})[lower_digits(edge.name)] = load

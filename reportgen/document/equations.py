@@ -16,7 +16,7 @@ from reportgen.document.tree import Equation, Inline, InlineMath, Inlines, Text,
 from reportgen.ledger.forces.polygon import Edge, Polygon
 from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.structure import mobility
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import (
     Chain,
     Expression,
@@ -113,7 +113,7 @@ def group_kind(report: Report, group: GroupView) -> str:
 
 def stroke_name(report: Report, link: int, position: int) -> str:
     """The stroke that a piston is on."""
-    return str(report.words["strokes"][int(report.analysis.gas[f"P{link}"].stroke[position - 1])])
+    return str(report.words["strokes"][int(report.analysis.gas[ids.applied_force(link)].stroke[position - 1])])
 
 
 def force_list(report: Report, group: GroupView, position: int) -> Inlines:
@@ -122,7 +122,7 @@ def force_list(report: Report, group: GroupView, position: int) -> Inlines:
     shown: list[Inline] = []
     for edge in group.polygon.edges:
         if not edge.unknown:
-            length = quantity(report, f"seg.{group.name}.{edge.name}", position)
+            length = quantity(report, ids.force_segment(group.name, edge.name), position)
             force = InlineMath(report.force_symbol(edge.name))
             shown += [*((Text(", "),) if shown else ()), *length, Text(" ("), force, Text(")")]
     return tuple(shown)
@@ -133,16 +133,17 @@ def force_list(report: Report, group: GroupView, position: int) -> Inlines:
 
 def assumed(report: Report, group: GroupView, position: int) -> Inlines:
     """The reactions of a group that are drawn on its links in an assumed sense."""
-    ids = (id for id in group.assumed if not report.is_zero(id, position))
-    return listed(InlineMath(vocabulary.vector(report.ledger.symbol(id))) for id in ids)
+    sought = (id for id in group.assumed if not report.is_zero(id, position))
+    return listed(InlineMath(vocabulary.vector(report.ledger.symbol(id))) for id in sought)
 
 
 def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
     """Where the reactions of some joints point, in words and by their angles; those that are nothing left out."""
     shown: list[Inline] = []
     for digits in joints:
-        if not report.is_zero(f"R.{digits}", position):
-            vector, angle = report.force_vector(f"R{digits}"), report.ledger.number(f"dir.R{digits}", position)
+        if not report.is_zero(ids.reaction(digits), position):
+            force = ids.reaction_force(digits)
+            vector, angle = report.force_vector(force), report.ledger.number(ids.force_direction(force), position)
             way = Text(f" {heading_words(report, angle.shown)} (")
             shown += [*((Text("; "),) if shown else ()), InlineMath(vector), way, Value(angle), Text(")")]
     return tuple(shown)
@@ -170,15 +171,15 @@ def opposites(report: Report, polygon: Polygon, position: int) -> Equation:
     rows: list[Expression] = []
     for edge in polygon.carried:
         size = report.force_symbol(edge.name)
-        (source,) = refs(report.ledger[f"F.{edge.name}"].definition or Number(0.0))
-        vectors = vocabulary.vector(size), -report.force_vector(source.removeprefix("F."))
-        rows += [Chain(vectors), report.ledger.chain(f"R.{edge.name.removeprefix('R')}", position)]
+        (source,) = refs(report.ledger[ids.vector(edge.name)].definition or Number(0.0))
+        vectors = vocabulary.vector(size), -vocabulary.vector(report.ledger.symbol(report.ledger[source].of))
+        rows += [Chain(vectors), report.ledger.chain(ids.of_force(edge.name), position)]
     return Equation(tuple(rows))
 
 
 def through_pin(report: Report, contact: Contact, position: int) -> Equation:
     """ΣM about the pin of a slide that nothing tends to turn: R x = 0, hence x = 0."""
-    reaction, place = report.ledger.symbol(f"R.{contact.digits}"), report.ledger.symbol(contact.place)
+    reaction, place = report.ledger.symbol(contact.reaction), report.ledger.symbol(contact.place)
     moments = Chain((Symbol("ΣM", str(contact.pin)), reaction * place, Number(0.0)))
     return Equation((moments, Chain((place, Number(0.0)))))
 
@@ -191,9 +192,11 @@ def line(report: Report, id: str, position: int | None = None, note: str = "", k
     return lines(report, [id], position, note, key)
 
 
-def lines(report: Report, ids: Sequence[str], position: int | None = None, note: str = "", key: str = "") -> Equation:
+def lines(
+    report: Report, quantities: Sequence[str], position: int | None = None, note: str = "", key: str = ""
+) -> Equation:
     """Several worked lines, aligned."""
-    return Equation(tuple(_worked(report, id, position, note) for id in ids), key)
+    return Equation(tuple(_worked(report, id, position, note) for id in quantities), key)
 
 
 def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
@@ -201,9 +204,9 @@ def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
     chain = report.ledger.chain(id, position, note)
     result = chain.parts[-1]
     if not note and isinstance(result, Number) and result.value == 0 and report.ledger[id].definition:
-        patterns = report.words["zero"].items()
-        reason = next((str(why) for pattern, why in patterns if re.fullmatch(str(pattern), id)), "")
-        return Chain((chain.parts[0], result), reason)
+        family = report.ledger[id]
+        reasons = vocabulary.words_of(report.words["zero"], id, family.kind, family.symbol)
+        return Chain((chain.parts[0], result), next(reasons, ""))
     return chain
 
 
@@ -288,7 +291,7 @@ def _relative(report: Report, side: Side) -> tuple[Term, ...]:
     words, ledger = report.words["vector"], report.ledger
     sought = _unknown(report, "a", side.pair, "τ" if side.turns else "r", side)
     if side.turns:
-        size = ledger.symbol(side.velocity) ** 2 / ledger.symbol(f"l.{side.rod}")
+        size = ledger.symbol(side.velocity) ** 2 / ledger.symbol(ids.length(side.rod))
         way = f"{lower_digits(side.point)} → {lower_digits(side.base)}"
         direction = f"∥ {lower_digits(side.rod)}"
         return _term(report, "a", side.pair, "n", direction=direction, sense=way, size=size), sought
@@ -305,10 +308,10 @@ def _base(report: Report, side: Side, what: str) -> Term:
     """The vector of a side's base: on the crank with its direction and size, else known from before."""
     words, ledger = report.words["vector"], report.ledger
     arm = f"{report.driver.centre}{side.base}"
-    if not report.driver.centre or f"l.{arm}" not in ledger or not _on_crank(report, side.base):
+    if not report.driver.centre or ids.length(arm) not in ledger or not _on_crank(report, side.base):
         given = words["given"]
         return _term(report, what, side.shown, "", direction=given, sense=given, size=given)
-    length, omega = ledger.symbol(f"l.{arm}"), ledger.symbol("omega.1")
+    length, omega = ledger.symbol(ids.length(arm)), ledger.symbol("omega.1")
     if what == "v":
         direction, sense = f"⊥ {lower_digits(arm)}", words["with_crank"]
         return _term(report, "v", side.shown, "", direction=direction, sense=sense, size=omega * length)
@@ -319,7 +322,7 @@ def _base(report: Report, side: Side, what: str) -> Term:
 
 def _on_crank(report: Report, name: str) -> bool:
     """Whether a point's velocity is computed as that of a point of the crank."""
-    definition = report.ledger[f"v.{name}"].definition
+    definition = report.ledger[ids.velocity(name)].definition
     return definition is not None and "omega.1" in refs(definition)
 
 

@@ -28,7 +28,7 @@ from reportgen.figures.scene import Scene
 from reportgen.figures.scheme import Looks
 from reportgen.ledger.kinematics.sides import Side
 from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import Chain, Number, Symbol
 
 MM = 1e3
@@ -274,7 +274,7 @@ def _branches(
 def coriolis(report: Report, k: int, group: GroupView, side: Side) -> Drawn:
     """The relative velocity in a turning guide, turned by 90° in the sense of its ω."""
     ledger, points = report.ledger, report.analysis.motion.points
-    omega = float(ledger[f"turn.omega.{side.turning}"].at(k).real)
+    omega = float(ledger[ids.signed("omega", side.turning)].at(k).real)
     relative = complex(points[side.point].v[k - 1]) - complex(points[side.base].v[k - 1])
     sliding = Sliding(
         vocabulary.point(side.point),

@@ -23,7 +23,7 @@ from reportgen.figures.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.mechanism.forces import Load, as_single_force, percussion_meeting
 from reportgen.mechanism.structure import DRIVER
-from reportgen.notation import constructions, vocabulary
+from reportgen.notation import constructions, ids, vocabulary
 from reportgen.notation.expressions import Chain, Expression, Symbol, size
 
 
@@ -72,17 +72,17 @@ class _Bodies:
                 continue
             torque = _is_torque(report, load)
             if torque or report.is_zero(load.name, self.k):
-                shown: Expression = report.ledger.symbol(load.name if torque else f"M.{load.name}")
+                shown: Expression = report.ledger.symbol(load.name if torque else ids.inertia_couple(load.link))
                 if torque and load.couple[index] < 0:
                     # The arc shows the true sense: a torque with a minus acts so with its size.
                     shown = size(shown)
                 result.append(Couple(shown, complex(load.point[index]) * self.scale, float(load.couple[index])))
         return result
 
-    def arms(self, ids: Sequence[str], pin: str) -> list[ArmOf]:
+    def arms(self, known: Sequence[str], pin: str) -> list[ArmOf]:
         """The arms about a pin that are not zero."""
         ledger, about = self.report.ledger, self.at(pin)
-        return [ArmOf(ledger.symbol(id), about, ledger[id].of) for id in ids if not self.report.is_zero(id, self.k)]
+        return [ArmOf(ledger.symbol(id), about, ledger[id].of) for id in known if not self.report.is_zero(id, self.k)]
 
     # --- reactions
 
@@ -106,19 +106,20 @@ class _Bodies:
         first = link == group.i
         digits = group.outer if first else group.guide
         pin = group.P if first else group.T or group.Q
-        parts = (".t", ".n") if f"R.{digits}.t" in self.report.ledger else ("",)
-        return [self.reaction(f"R{digits}{part}", self.at(pin)) for part in parts]
+        whole, parts = ids.reaction_force(digits), [ids.reaction_force(digits, part) for part in "tn"]
+        by_parts = ids.reaction(digits, "t") in self.report.ledger
+        return [self.reaction(name, self.at(pin)) for name in (parts if by_parts else [whole])]
 
     def inner(self, group: GroupView, link: int) -> Force:
         """The reaction in the inner joint on one link of the group: as moments assume it, else as the plan gives it."""
         # Of an RPP the inner joint is the slide of the block, which stands at its pin.
         at, on_i = self.at(group.P if group.kind == "RPP" else group.Q), link == group.i
         if group.by_slot in self.report.ledger:
-            sense = drawn_sense(self.report, f"R{group.across}.s", self.k) * (-1 if on_i else 1)
+            sense = drawn_sense(self.report, ids.reaction_force(group.across, "s"), self.k) * (-1 if on_i else 1)
         else:
-            sense = drawn_sense(self.report, f"R{group.inner}", self.k) * (1 if on_i else -1)
+            sense = drawn_sense(self.report, ids.reaction_force(group.inner), self.k) * (1 if on_i else -1)
         digits = group.inner if on_i else group.across
-        return Force(Symbol("R", digits, over="vector"), at, sense, "reaction", f"R{digits}")
+        return Force(Symbol("R", digits, over="vector"), at, sense, "reaction", ids.reaction_force(digits))
 
 
 def drawn_sense(report: Report, name: str, k: int) -> complex:
@@ -126,10 +127,10 @@ def drawn_sense(report: Report, name: str, k: int) -> complex:
 
     The formula's value times the arrow drawn is then the true force.
     """
-    ledger, vector = report.ledger, report.ledger[f"F.{name}"]
+    ledger, vector = report.ledger, report.ledger[ids.vector(name)]
     if report.is_zero(vector.of, k):
         return 0j
-    assumed = ledger.known((f"assumed.{name}", f"F.{name}"))[0]
+    assumed = ledger.known((ids.assumed(name), ids.vector(name)))[0]
     return complex(ledger[assumed].at(k))
 
 
@@ -254,7 +255,7 @@ def _foot(report: Report, group: GroupView, link: int, k: int) -> Draft:
         return Draft()
     scale, ledger = drawing_scale(report), report.ledger
     pivot, block = (complex(report.analysis.motion.points[name].p[k - 1]) * scale for name in (group.T, group.Q))
-    along = complex(ledger[f"slot.{link}"].at(k))
+    along = complex(ledger[ids.slot(link)].at(k))
     at = complex(constructions.foot(pivot, block, along))
     marks = (Line(pivot, at, CONSTRUCTION), Line(at, block, CONSTRUCTION), Circle(at, 0.6, VISIBLE, PAPER))
     return Draft(marks, (label(at, Symbol("H", str(link)), gap=1.2),))
@@ -275,8 +276,8 @@ def lever(report: Report, k: int) -> Drawn:
         image = complex(motion.of(load.link, at).v[index]) * per
         shown = report.force_vector(load.name)
         forces.append(Force(shown, image, complex(load.force[index]), "load", load.name))
-        if not report.is_zero(f"h.{load.name}.p", k):
-            arms.append(ArmOf(ledger.symbol(f"h.{load.name}.p"), 0j, load.name))
+        if not report.is_zero(ids.lever_arm(load.name), k):
+            arms.append(ArmOf(ledger.symbol(ids.lever_arm(load.name)), 0j, load.name))
     if machine.span and not report.is_zero("R.cb", k):
         # The force that balances a sliding driver acts on the lever too; that of a crank is a torque.
         image = complex(motion.points[report.driver.pin].v[index]) * per

@@ -10,11 +10,12 @@ from dataclasses import dataclass
 
 from reportgen.document.prose import PointName
 from reportgen.ledger.core import Ledger
-from reportgen.ledger.forces.loads import joint
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics.sides import Scheme, Side, image, sides
 from reportgen.mechanism.structure import DRIVER, Crank, Dyad, Guide, Linkage
+from reportgen.notation import ids
 from reportgen.notation.expressions import refs
+from reportgen.notation.names import Name
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,12 +53,12 @@ class DriverView:
         self.names = (self.pin, *(place.name for place in self.others))
         self.arm = f"{self.centre}{self.pin}" if self.centre else ""
         self.kind = "crank" if self.centre else "slide"
-        self.rate = ledger.symbol("omega.1" if self.centre else f"v.{self.pin}")
-        self.drawn, self.velocity = f"drawn.{self.arm}", f"v.{self.pin}"
-        self.velocity_segment, self.acceleration_segment = (f"seg.{what}.p{image(self.pin)}" for what in "va")
-        self.round_velocity, self.round_acceleration = (ledger[f"mu.{what}"].definition is None for what in "va")
+        self.rate = ledger.symbol("omega.1" if self.centre else ids.velocity(self.pin))
+        self.drawn, self.velocity = ids.drawn(self.arm), ids.velocity(self.pin)
+        self.velocity_segment, self.acceleration_segment = (ids.segment(what, "p", image(self.pin)) for what in "va")
+        self.round_velocity, self.round_acceleration = (ledger[ids.scale(what)].definition is None for what in "va")
         self.velocity_lines, self.acceleration_lines = (
-            [id for name in self.names if (id := f"{what}.{name}") in ledger] for what in "va"
+            [id for name in self.names if (id := rate(name)) in ledger] for rate in ids.POINT_RATE.values()
         )
         self.scale_lines = [self.velocity, "mu.v", self.velocity_segment]
 
@@ -83,11 +84,11 @@ class CarriedPoint:
 
     @property
     def omega(self) -> str:
-        return f"omega.{self.link}"
+        return ids.angular_velocity(self.link)
 
     @property
     def epsilon(self) -> str:
-        return f"eps.{self.link}"
+        return ids.angular_acceleration(self.link)
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +105,10 @@ class Contact:
     moments: list[str]
     displaced: bool
     """Whether other forces have a moment about the pin, so that the reaction may act beside it."""
+
+    @property
+    def reaction(self) -> str:
+        return ids.reaction(self.digits)
 
     @property
     def lines(self) -> list[str]:
@@ -130,10 +135,10 @@ class GroupView:
         self.T = PointName(dyad.end if isinstance(dyad.end, str) else "")
         self.M, self.relative, self.rod = PointName(self.one.point), self.one.relative, self.one.rod
         self.carrier, last = (end.link if isinstance(end, Guide) else plan.owner[end] for end in (dyad.start, dyad.end))
-        self.outer, self.inner = joint(self.carrier, i), joint(j, i)
-        self.guide, self.across = joint(last, j), joint(i, j)
-        self.name = joint(i, j)
-        self.scale = f"mu.R{self.name}"
+        self.outer, self.inner = ids.joint(self.carrier, i), ids.joint(j, i)
+        self.guide, self.across = ids.joint(last, j), ids.joint(i, j)
+        self.name = ids.joint(i, j)
+        self.scale = ids.force_scale(self.name)
         self.offset = dyad.kind == "RPR" and bool(dyad.lengths[1])
         self.points_i, self.points_j = (points_on(plan.linkage, link) for link in dyad.links)
         self.points = (*self.points_i, *self.points_j)
@@ -186,38 +191,38 @@ class GroupView:
     def normals(self) -> list[str]:
         """The known relative accelerations and their segments, to be worked out before the plan."""
         known = [side for side in self.sides if side.part]
-        return [id for side in known for id in (f"a.{side.relative}.{side.part}", side.known)]
+        return [id for side in known for id in (ids.acceleration(side.relative, side.part), side.known)]
 
     @property
     def velocity_lines(self) -> list[str]:
         """What is worked out from the velocity plan: points, relative velocities, rotations."""
         return self._in_order(
-            *(f"v.{side.base}" for side in self.under),
-            f"v.{self.M}",
+            *(ids.velocity(side.base) for side in self.under),
+            ids.velocity(self.M),
             *(side.velocity for side in self.sides),
-            f"v.{self.Q}",
-            *self._point_lines("v", ("",)),
+            ids.velocity(self.Q),
+            *self._point_lines(ids.velocity),
             *self._measured(),
-            f"omega.{self.i}",
-            f"omega.{self.j}",
+            ids.angular_velocity(self.i),
+            ids.angular_velocity(self.j),
         )
 
     @property
     def acceleration_lines(self) -> list[str]:
         """What is worked out from the acceleration plan."""
         return self._in_order(
-            *(f"a.{side.base}" for side in self.under),
-            f"a.{self.M}",
-            *(f"a.{side.relative}.{side.sought}" for side in self.sides),
-            f"a.{self.Q}",
-            *self._point_lines("a", (".n", ".t")),
-            f"eps.{self.i}",
-            f"eps.{self.j}",
+            *(ids.acceleration(side.base) for side in self.under),
+            ids.acceleration(self.M),
+            *(ids.acceleration(side.relative, side.sought) for side in self.sides),
+            ids.acceleration(self.Q),
+            *self._point_lines(ids.acceleration, "n", "t"),
+            ids.angular_acceleration(self.i),
+            ids.angular_acceleration(self.j),
         )
 
-    def _in_order(self, *ids: str) -> list[str]:
+    def _in_order(self, *quantities: str) -> list[str]:
         """The ids that exist, but before each what it is worked out from."""
-        known = self.ledger.known(ids)
+        known = self.ledger.known(quantities)
         ordered: dict[str, None] = {}
 
         def put(id: str) -> None:
@@ -233,15 +238,16 @@ class GroupView:
             put(id)
         return list(ordered)
 
-    def _point_lines(self, what: str, parts: tuple[str, ...]) -> Iterator[str]:
+    def _point_lines(self, rate: Name, *parts: str) -> Iterator[str]:
         for place in self.points:
-            yield from (f"{what}.{place.name}{self._origin(place.link)}{part}" for part in parts)
-            yield f"{what}.{place.name}"
+            relative = f"{place.name}{self._origin(place.link)}"
+            yield from [rate(relative, part) for part in parts] or [rate(relative)]
+            yield rate(place.name)
 
     def _measured(self) -> list[str]:
         """Lengths that change and are measured on the position drawing."""
         rods = [side.rod for side in self.sides if side.measured]
-        return [f"{what}.{rod}" for rod in rods for what in ("drawn", "l")]
+        return [name(rod) for rod in rods for name in (ids.drawn, ids.length)]
 
     def _origin(self, link: int) -> PointName:
         """The joint that a link's points are measured from."""
@@ -254,20 +260,20 @@ class GroupView:
         for place in self.points:
             origin = self._origin(place.link)
             relative = f"{place.name}{origin}"
-            if f"v.{relative}" in self.ledger:
-                swings, still = f"a.{relative}.t" in self.ledger, origin in self.fixed
+            if ids.velocity(relative) in self.ledger:
+                swings, still = ids.acceleration(relative, "t") in self.ledger, origin in self.fixed
                 found.append(CarriedPoint(place.name, place.link, origin, relative, still, swings))
         return found
 
     def similar(self, what: str) -> list[str]:
         """A link's segment ab and what the similarity theorem gives: as₂, and be where E is off the line of joints."""
-        ids: list[str] = []
+        found: list[str] = []
         for place in self.points:
             for side in self.sides:
                 if side.turns and side.link == place.link:
                     ends = "p" if side.still else image(side.base), image(self.M)
-                    ids += [f"seg.{what}.{''.join(ends)}", *(f"seg.{what}.{end}{image(place.name)}" for end in ends)]
-        return self.ledger.known(ids)
+                    found += [ids.segment(what, *ends), *(ids.segment(what, end, image(place.name)) for end in ends)]
+        return self.ledger.known(found)
 
     def base(self, what: str, side: Side, k: int) -> str:
         """How the end of a base's vector comes on the plan: at the "pole", "drawn" before, or "new"."""
@@ -277,17 +283,17 @@ class GroupView:
 
     def base_segment(self, what: str, side: Side) -> str:
         """The segment of a plan that stands for the velocity or acceleration of a side's base."""
-        return f"seg.{what}.p{image(side.base)}"
+        return ids.segment(what, "p", image(side.base))
 
     @property
     def drawn(self) -> str:
         """The drawn length of the rod."""
-        return f"drawn.{self.rod}"
+        return ids.drawn(self.rod)
 
     @property
     def relative_segment(self) -> str:
         """The segment of the velocity plan that stands for the relative velocity of the rod's ends."""
-        return f"seg.v.{image(self.P)}{image(self.Q)}"
+        return ids.segment("v", image(self.P), image(self.Q))
 
     # --- forces
 
@@ -296,36 +302,37 @@ class GroupView:
         if self.polygon is None:
             return []
         known = [(edge.name, edge.link) for edge in self.polygon.edges if not edge.unknown]
-        known.append((f"R{self.across}", self.j))
-        return self.ledger.known(f"h.{name}.{about}" for name, carrier in known if carrier == link)
+        known.append((ids.reaction_force(self.across), self.j))
+        return self.ledger.known(ids.arm(name, about) for name, carrier in known if carrier == link)
 
     @property
     def outer_lines(self) -> list[str]:
         """Moments on link i about the inner pin, which give the component across the link in its outer joint."""
-        return [*self.arms(self.Q, self.i), f"R.{self.outer}.t"]
+        return [*self.arms(self.Q, self.i), ids.reaction(self.outer, "t")]
 
     @property
     def guide_lines(self) -> list[str]:
         """Moments on link j about the inner pin, which give the component across the link in its outer joint."""
-        return [*self.arms(self.Q, self.j), f"R.{self.guide}.t"]
+        return [*self.arms(self.Q, self.j), ids.reaction(self.guide, "t")]
 
     @property
     def slot_lines(self) -> list[str]:
         """Moments on a slotted link about its outer pin, which give the reaction of the block."""
-        foot = [f"drawn.H{self.j}{self.Q}", f"l.H{self.j}{self.Q}"] if self.offset else []
-        return [*self.arms(self.T, self.j), *foot, f"R.{self.across}.s"]
+        H = f"H{self.j}"
+        foot = [ids.drawn(H, self.Q), ids.length(H, self.Q)] if self.offset else []
+        return [*self.arms(self.T, self.j), *foot, ids.reaction(self.across, "s")]
 
     @property
     def reactions(self) -> list[str]:
         """What is measured on the force plan, in the order of the construction."""
         joints = {
-            "RRR": (f"{self.outer}.n", f"{self.guide}.n", self.outer, self.guide, self.inner),
-            "RRP": (f"{self.outer}.n", self.guide, self.outer, self.inner),
-            "RPR": (self.guide, self.outer, self.inner),
-            "PRP": (self.outer, self.guide, self.inner),
-            "RPP": (self.inner, self.guide, self.outer),
+            "RRR": ((self.outer, "n"), (self.guide, "n"), (self.outer,), (self.guide,), (self.inner,)),
+            "RRP": ((self.outer, "n"), (self.guide,), (self.outer,), (self.inner,)),
+            "RPR": ((self.guide,), (self.outer,), (self.inner,)),
+            "PRP": ((self.outer,), (self.guide,), (self.inner,)),
+            "RPP": ((self.inner,), (self.guide,), (self.outer,)),
         }
-        return [f"R.{name}" for name in joints[self.kind]]
+        return [ids.reaction(*joint) for joint in joints[self.kind]]
 
     @property
     def joints(self) -> tuple[str, str, str]:
@@ -340,17 +347,23 @@ class GroupView:
         return [self._contact(*slide) for slide in found.get(self.kind, [])]
 
     def _contact(self, digits: str, pin: PointName, link: int) -> Contact:
-        moment, arms = f"M.{digits}", self.arms(pin, link)
+        moment, arms = ids.reaction_couple(digits), self.arms(pin, link)
         displaced = moment in self.ledger and self.ledger[moment].definition is not None
         moments = [*arms, moment] if displaced else arms
         return Contact(
-            digits=digits, pin=pin, link=link, moment=moment, place=f"x.{digits}", moments=moments, displaced=displaced
+            digits=digits,
+            pin=pin,
+            link=link,
+            moment=moment,
+            place=ids.application(digits),
+            moments=moments,
+            displaced=displaced,
         )
 
     @property
     def by_slot(self) -> str:
         """The reaction of the block on a slotted link, which moments give with its sign."""
-        return f"R.{self.across}.s"
+        return ids.reaction(self.across, "s")
 
     @property
     def assumed(self) -> list[str]:
@@ -360,7 +373,7 @@ class GroupView:
     @property
     def tangential(self) -> list[str]:
         """The components across links that moments give."""
-        return self.ledger.known((f"R.{self.outer}.t", f"R.{self.guide}.t"))
+        return self.ledger.known((ids.reaction(self.outer, "t"), ids.reaction(self.guide, "t")))
 
     def components(self, k: int) -> list[str]:
         """The components that are found by moments; none where all of them are zero."""
@@ -393,11 +406,11 @@ class BodyView:
 
     @property
     def force(self) -> str:
-        return f"Pqt{self.link}"
+        return ids.inertia_force(self.link)
 
     @property
     def couple(self) -> str:
-        return f"M.{self.force}"
+        return ids.inertia_couple(self.link)
 
 
 class PlaneLink:
@@ -409,10 +422,11 @@ class PlaneLink:
     def __init__(self, turn: Side, group: str) -> None:
         self.link, self.rod, self.group = turn.link, turn.rod, group
         self.base, self.point = PointName(turn.base), PointName(turn.point)
-        self.omega = f"omega.{self.link}"
-        self.rates = [f"ic.omega.{self.link}", f"ic.v.{self.link}"]
+        self.omega = ids.angular_velocity(self.link)
+        self.rates = [ids.centre_omega(self.link), ids.centre_velocity(self.link)]
         self.distances, self.angles, self.projections = (
-            [f"ic.{what}.{self.link}.{name}" for name in (self.base, self.point)] for what in ("seg", "angle", "along")
+            [name(self.link, point) for point in (self.base, self.point)]
+            for name in (ids.centre_distance, ids.rod_angle, ids.projection)
         )
 
     def __str__(self) -> str:
@@ -426,8 +440,8 @@ def displaced_inertia(linkage: Linkage, groups: Iterable[GroupView], ledger: Led
     starts |= {side.link: PointName(side.base) for group in groups for side in group.sides if side.turns}
     found = []
     for body in linkage.inertias:
-        ids = ledger.known((f"e.Pqt{body.link}", f"l.{body.centre}K{body.link}"))
-        if len(ids) == 2:
+        shown = ledger.known((ids.inertia_offset(body.link), ids.percussion(body.centre, body.link)))
+        if len(shown) == 2:
             start = starts[body.link]
-            found.append(BodyView(body.link, PointName(body.centre), start, ids, start in linkage.ground))
+            found.append(BodyView(body.link, PointName(body.centre), start, shown, start in linkage.ground))
     return tuple(found)

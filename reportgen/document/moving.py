@@ -44,11 +44,12 @@ from reportgen.figures.moving import (
 )
 from reportgen.figures.scene import Circle, Content, Stroke
 from reportgen.ledger.forces.polygon import Polygon
-from reportgen.ledger.kinematics.centres import PREFIX, centre_symbol
+from reportgen.ledger.kinematics.centres import centre_symbol
 from reportgen.ledger.kinematics.linkage import What
 from reportgen.ledger.report import enter_plans
 from reportgen.mechanism.forces import Load
 from reportgen.mechanism.motion import Motion
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import Chain, Number, Symbol
 from reportgen.notation.numbers import nice_up, significant_decimals
 from reportgen.notation.plain import formula
@@ -131,7 +132,8 @@ class _Samples:
         """The corners of all plans at the samples, and the scales of force plans, by id."""
         worked = [self._sample(k) + 1 for k in self.case.assignment.worked_positions]
         sheet, _ = enter_plans(self.analysis, worked)
-        return {id: sheet.value(id) for id in sheet.families if id.startswith(("plan.", "mu.", PREFIX))}
+        drawn = ids.plan_point, ids.force_corner, ids.force_scale, ids.centre
+        return {id: sheet.value(id) for id in sheet.families if any(id in name for name in drawn)}
 
     def _sample(self, k: int) -> int:
         """The sample that is the numbered position `k`."""
@@ -168,7 +170,7 @@ class _Samples:
         names: tuple[tuple[What, str], ...] = (("v", "velocity_plan"), ("a", "acceleration_plan"))
         for what, name in names:
             items = self._plan_of_motion(what)
-            yield Stage(what, words[name], tuple(items), *extent(items), (self._scale(f"mu.{what}"),))
+            yield Stage(what, words[name], tuple(items), *extent(items), (self._scale(ids.scale(what)),))
         titles = {group.polygon.name: f"{group.i}, {group.j}" for group in report.groups if group.polygon is not None}
         for polygon in self.case.polygons:
             of = titles.get(polygon.name)
@@ -231,7 +233,7 @@ class _Samples:
                 Track(p.p * scale + getattr(p, rate) * per),
                 style.RELATIVE if base == "v" else style.FOUND,
                 label=Symbol(base, name, over="vector"),
-                name=f"{base}.{name}",
+                name=ids.POINT_RATE[base](name),
                 layer=layer,
             )
             for name, p in points.items()
@@ -243,7 +245,7 @@ class _Samples:
         middle, reach = (low + high) / 2, FAR * abs(high - low)
         for link in self.report.plane_links:
             with np.errstate(invalid="ignore"):
-                at = self.corners[f"{PREFIX}{link.link}"][: self.knots.size] * scale
+                at = self.corners[ids.centre(link.link)][: self.knots.size] * scale
             at = np.where(np.abs(at - middle) < reach, at, complex(np.nan, np.nan))
             centre = Track(at)
             for name in (link.base, link.point):
@@ -287,10 +289,8 @@ class _Samples:
         ], per
 
     def _force_symbol(self, name: str) -> Symbol:
-        ledger = self.report.ledger
-        if name.startswith("R") and f"F.{name}" not in ledger:
-            return Symbol("R", name[1:], over="vector")
-        return self.report.force_vector(name) if f"F.{name}" in ledger else Symbol(name[:1], name[1:], over="vector")
+        entered = ids.vector(name) in self.report.ledger
+        return self.report.force_vector(name) if entered else vocabulary.vector(vocabulary.symbol(ids.of_force(name)))
 
     def _plan_of_motion(self, what: What) -> list[MovingItem]:
         """The plan of velocities or accelerations."""
@@ -303,7 +303,7 @@ class _Samples:
 
         Forces of combustion are many times those of the other strokes: at one scale those would be points.
         """
-        id, plan = f"mu.R{polygon.name}", force_construction(self.report, polygon)
+        id, plan = ids.force_scale(polygon.name), force_construction(self.report, polygon)
         places = {corner: _places(self.corners[corner]) for corner in plan.corners}
         own = np.broadcast_to(self.corners[id], self.angles.shape)
         each, at = np.unique(own, return_inverse=True)
@@ -431,7 +431,5 @@ def _scalar(symbol: Symbol) -> Symbol:
 
 def _pair(name: str) -> tuple[str, ...]:
     """The two links of a reaction, whichever acts on the other; a load is its own."""
-    if not name.startswith("R"):
-        return (name,)
-    digits = name[1:]
-    return tuple(sorted(digits.split(",") if "," in digits else digits))
+    found = ids.reaction_force.read(name)
+    return tuple(sorted(ids.linked(found["joint"]))) if found else (name,)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 
 from reportgen.document.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
 from reportgen.document.report import Report
 from reportgen.document.tree import Cell, Column, Inline, InlineMath, Inlines, Table, Text, Value, listed
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import Number, Symbol
 from reportgen.notation.vocabulary import on_plan
 
@@ -38,7 +39,7 @@ def extremes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tab
 def _extremes(report: Report) -> Iterator[Peak]:
     """Of points in translation, else of all that a plan seeks; then of links, then of joints."""
     for what, rotation in (("v", "omega"), ("a", "eps")):
-        points = slider_rates(report, what) or report.known(f"{what}.{group.M}" for group in report.groups)
+        points = slider_rates(report, what) or report.known(ids.POINT_RATE[what](group.M) for group in report.groups)
         yield from each_peak(report, [*points, *turning_rates(report, rotation)], report.positions)
     yield from each_peak(report, reaction_ids(report), report.all_positions)
 
@@ -59,8 +60,7 @@ def main_figures(report: Report) -> Iterator[Sequence[object]]:
 
 def of_kind(report: Report, name: str) -> str:
     """The id of a quantity that is named so, or with its kind as in `M.eq:torque`; "" for one that is not there."""
-    id, _, kind = name.partition(":")
-    return id if id in report.ledger and kind in ("", report.ledger[id].kind) else ""
+    return next((id for id, one in report.ledger.families.items() if name in (id, f"{id}:{one.kind}")), "")
 
 
 def extreme_place(report: Report, id: str) -> Inlines:
@@ -79,9 +79,9 @@ def extreme_place(report: Report, id: str) -> Inlines:
 
 def symbols(report: Report) -> Iterator[Sequence[object]]:
     """The kinds of quantities that this report has: some of their symbols, the meaning, the unit."""
-    for name, ids in symbol_kinds(report).items():
-        shown = tuple(dict.fromkeys(report.ledger.symbol(id) for id in ids))
-        units = dict.fromkeys(_unit(report, id) for id in ids)
+    for name, alike in symbol_kinds(report).items():
+        shown = tuple(dict.fromkeys(report.ledger.symbol(id) for id in alike))
+        units = dict.fromkeys(_unit(report, id) for id in alike)
         yield _some(shown), name, ", ".join(unit or "–" for unit in units)
 
 
@@ -100,21 +100,13 @@ def symbol_kinds(report: Report) -> Mapping[str, list[str]]:
 
     A quantity that no kind fits is explained where it stands.
     """
-    kinds: dict[str, list[str]] = {}
-    meanings = [(re.compile(str(pattern)), str(name)) for pattern, name in report.words["meanings"].items()]
-    for _, name in meanings:
-        kinds.setdefault(name, [])
+    meanings: Mapping[str, str] = report.words["meanings"]
+    kinds: dict[str, list[str]] = {name: [] for name in meanings.values()}
     for id, family in report.ledger.families.items():
         if not (family.hidden or family.is_plane):
-            name = next((name for pattern, name in meanings if _fits(pattern, id, family.kind)), "")
-            if name:
+            for name in islice(vocabulary.words_of(meanings, id, family.kind, family.symbol), 1):
                 kinds[name].append(id)
-    return {name: ids for name, ids in kinds.items() if ids}
-
-
-def _fits(pattern: re.Pattern[str], id: str, kind: str) -> bool:
-    """Whether a pattern is that of an id, or of an id with its kind as in `s.3:length`."""
-    return bool(pattern.fullmatch(id) or pattern.fullmatch(f"{id}:{kind}"))
+    return {name: alike for name, alike in kinds.items() if alike}
 
 
 def images(report: Report) -> Inlines:

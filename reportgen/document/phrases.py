@@ -15,7 +15,7 @@ from reportgen.document.equations import math, quantity, slider_ways, value
 from reportgen.document.prose import PointName
 from reportgen.document.report import Report
 from reportgen.document.tree import Inline, InlineMath, Inlines, Reference, Text, Value
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import Expression, Number
 
 if TYPE_CHECKING:
@@ -203,7 +203,7 @@ def load_sense(report: Report, name: str) -> Inlines:
 
 def drawn_group(report: Report, row: GroupRow) -> Inlines:
     """How a group of a declared linkage is drawn: its rods, its outer joints, the inner one."""
-    drawn = [value(report, f"drawn.{rod}") for rod, _ in row.lengths]
+    drawn = [value(report, ids.drawn(rod)) for rod, _ in row.lengths]
     rods = dict(zip(("first", "second"), drawn, strict=False))
     first, *others = map(PointName, row.joints)
     joints = {"start": first} | dict(zip(("inner", "end"), others, strict=False))

@@ -34,7 +34,7 @@ from reportgen.figures.scheme import thumbnail
 from reportgen.ledger.forces.polygon import Edge, Polygon
 from reportgen.ledger.kinematics.linkage import POLES, What
 from reportgen.ledger.kinematics.sides import Side, image
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import Chain, Symbol
 
 SCENE_GAP = 4.0
@@ -82,11 +82,11 @@ class MotionFigures:
             return str(names["steps"].format(first, last) if first < last else names["step"].format(last))
 
         until = self._plan(report, k).until(begin + STAGES - 1)
-        return _stages(report, until, f"mu.{self.what}", titles, begin)
+        return _stages(report, until, ids.scale(self.what), titles, begin)
 
     def on_plates(self, report: Report) -> Drawn:
         told = _mirrored(report, self.what).at
-        return _plates(report, self._plan, [k for k in _one_turn(report) if k not in told], f"mu.{self.what}")
+        return _plates(report, self._plan, [k for k in _one_turn(report) if k not in told], ids.scale(self.what))
 
     def _plan(self, report: Report, k: int) -> Plan:
         return motion_plan(report, self.what, k)
@@ -132,7 +132,7 @@ def motion_construction(report: Report, what: What) -> Construction[str]:
         sketch.group(group, stage)
         stage += STAGES
     points = (PlanPoint(Symbol(POLES[what]), POLE), *sketch.points)
-    return Construction(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, f"mu.{what}"))
+    return Construction(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, ids.scale(what)))
 
 
 def _worked(report: Report, drawing: Plan, k: int) -> Scene:
@@ -209,7 +209,7 @@ class _Sketch:
         self.lines: list[PlanLine[str]] = []
 
     def at(self, name: str) -> str:
-        return f"plan.{self.what}.{name}"
+        return ids.plan_point(self.what, name)
 
     def absolute(self, name: str, style: Style, stage: int) -> None:
         """Enter the vector of a point's own velocity or acceleration, from the pole, with its end."""
@@ -246,7 +246,7 @@ class _Sketch:
         start = POLE if side.still else self.at(image(side.base))
         if self.what == "v" or not side.part:
             return start
-        end = self.at(f"{side.part}.{side.relative}")
+        end = self.at(ids.relative_corner(side.part, side.relative))
         self.relative(side, side.part, start, end, stage)
         self.points.append(PlanPoint(Symbol(side.part, side.pair), end, stage))
         return end
@@ -298,14 +298,16 @@ def force_plates(report: Report, group: GroupView) -> Drawn:
 
 def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
     """A force plan at a position, in mm."""
-    return replace(_at(force_construction(report, polygon), report, k), scale=_scale(report, f"mu.R{polygon.name}", k))
+    return replace(
+        _at(force_construction(report, polygon), report, k), scale=_scale(report, ids.force_scale(polygon.name), k)
+    )
 
 
 def force_construction(report: Report, polygon: Polygon) -> Construction[str]:
     """A force plan with the ids of its corners: known edges one by one, what closing it gives, what is read from it."""
 
     def corner(letter: str) -> str:
-        return f"plan.R{polygon.name}.{letter}"
+        return ids.force_corner(polygon.name, letter)
 
     known = sum(not edge.unknown for edge in polygon.edges)
     drawn: list[tuple[Edge, int, Style]] = [

@@ -40,7 +40,9 @@ from reportgen.figures.scene import Content, Scene
 from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics.linkage import What
 from reportgen.ledger.scales import NOTHING, PER_MM, extents
+from reportgen.notation import ids
 from reportgen.notation.expressions import Number
+from reportgen.notation.names import Name
 from reportgen.notation.numbers import nice_up
 
 Set = Literal["kinematics", "forces"]
@@ -123,8 +125,8 @@ def _kinematics(report: Report) -> Iterator[Series]:
     yield one("scheme", layer="scheme", draw=_scheme, scale="mu.l", key="scheme", size=whole)
     yield one("positions", layer="positions", draw=_positions, scale="mu.l", size=whole)
     for what, name in NAMES.items():
-        size = _on_plan(report, f"plan.{what}.", f"mu.{what}")
-        yield one(name, layer=name, draw=partial(_motion_plans, what=what), scale=f"mu.{what}", size=size)
+        size = _on_plan(report, ids.plan_point.only(what=what), ids.scale(what))
+        yield one(name, layer=name, draw=partial(_motion_plans, what=what), scale=ids.scale(what), size=size)
     for k in report.worked:
         if any(centre_state(report, link, k) == "found" for link in report.plane_links):
             draw = partial(_centres, k=k)
@@ -145,14 +147,14 @@ def _largest(sizes: np.ndarray) -> float:
     return float(np.nanmax(sizes, initial=0.0))
 
 
-def _on_plan(report: Report, prefix: str, scale: str) -> float:
-    """The largest side (SI) of the plans whose points have ids that begin so, at all positions that are drawn."""
-    return _largest(_on_plans(report, prefix, scale)[[k - 1 for k in report.plates]])
+def _on_plan(report: Report, corners: Name, scale: str) -> float:
+    """The largest side (SI) of the plans with these corners, at all positions that are drawn."""
+    return _largest(_on_plans(report, corners, scale)[[k - 1 for k in report.plates]])
 
 
-def _on_plans(report: Report, prefix: str, scale: str) -> np.ndarray:
+def _on_plans(report: Report, corners: Name, scale: str) -> np.ndarray:
     """The larger side (SI) of the plan at each position [N]; nothing where the mechanism has no position."""
-    families = [family for id, family in report.ledger.families.items() if id.startswith(prefix)]
+    families = [family for id, family in report.ledger.families.items() if id in corners]
     count = report.cycle_count
     points = [np.broadcast_to(family.values, (count,)) for family in families]
     sizes = extents([*points, np.zeros(count)], count) * report.ledger[scale].values
@@ -206,7 +208,7 @@ def _forces(report: Report) -> Iterator[Series]:
     if report.driver_polygon is not None:
         yield _plans_of(report, report.driver_polygon, "")
     for k in report.worked_forces:
-        size = _on_plan(report, "plan.v.", "mu.v")
+        size = _on_plan(report, ids.plan_point.only(what="v"), "mu.v")
         yield one("lever", draw=partial(_lever, k=k), scale="mu.v", key="lever", size=size)
     yield _curve("torque", "forces", torque)
     if report.loads_crank and report.driver.centre:
@@ -218,8 +220,8 @@ def _forces(report: Report) -> Iterator[Series]:
             yield _curve("wittenbauer", "forces", wittenbauer)
         if report.needs_flywheel:
             yield _curve("flywheel-speed", "forces", flywheel_speed)
-    for name, ids in (("loads", (gas, applied, inertia)), ("reactions", (reactions,)), ("balance", (balance,))):
-        yield one(name, layer="tables", draw=_table(*ids, cycle=True))
+    for name, columns in (("loads", (gas, applied, inertia)), ("reactions", (reactions,)), ("balance", (balance,))):
+        yield one(name, layer="tables", draw=_table(*columns, cycle=True))
 
 
 def _plans_of(report: Report, polygon: Polygon, group: str) -> Series:
@@ -227,7 +229,7 @@ def _plans_of(report: Report, polygon: Polygon, group: str) -> Series:
 
     Forces of combustion are many times those of the other strokes: at one scale those would be points.
     """
-    scale = f"mu.R{polygon.name}"
+    scale = ids.force_scale(polygon.name)
 
     def drawings(report: Report) -> Iterator[Drawing]:
         for k in report.plates:
@@ -235,7 +237,7 @@ def _plans_of(report: Report, polygon: Polygon, group: str) -> Series:
             if drawing.drawn():
                 yield _place(report, k, _of(report, group)), _plain(drawing)
 
-    sizes = _on_plans(report, f"plan.R{polygon.name}.", scale)
+    sizes = _on_plans(report, ids.force_corner.only(group=polygon.name), scale)
     return Series(
         "forces",
         belongs="forces",
@@ -293,7 +295,7 @@ def _table(*listed: Callable[[Report], Sequence[str]], cycle: bool = False) -> C
 
     def drawings(report: Report) -> Iterator[Drawing]:
         at = report.all_positions if cycle else report.positions
-        found = dict.fromkeys(id for ids in listed for id in ids(report))
+        found = dict.fromkeys(id for columns in listed for id in columns(report))
         shown = [id for id in found if not all(report.is_zero(id, k) for k in at)]
         while shown:
             count = _columns(report, shown, at)
@@ -304,22 +306,22 @@ def _table(*listed: Callable[[Report], Sequence[str]], cycle: bool = False) -> C
     return drawings
 
 
-def _columns(report: Report, ids: Sequence[str], positions: Sequence[int]) -> int:
+def _columns(report: Report, quantities: Sequence[str], positions: Sequence[int]) -> int:
     """How many of the quantities a table has room for, beside the column of positions."""
-    head, rows = _quantities(report, ids, positions)
+    head, rows = _quantities(report, quantities, positions)
     right = accumulate(widths([*head, *rows]))
     return max(sum(ENLARGED * one <= report.form.widest for one in right) - 1, 1)
 
 
 def _quantities(
-    report: Report, ids: Sequence[str], positions: Sequence[int]
+    report: Report, quantities: Sequence[str], positions: Sequence[int]
 ) -> tuple[list[list[Content]], list[list[Content]]]:
     """The head of a table of quantities and its rows."""
     head: list[list[Content]] = [
-        [report.words["table"]["position"], *(report.ledger.symbol(id) for id in ids)],
-        ["", *(_unit(report, id) for id in ids)],
+        [report.words["table"]["position"], *(report.ledger.symbol(id) for id in quantities)],
+        ["", *(_unit(report, id) for id in quantities)],
     ]
-    return head, [[str(report.machine.position(k)), *(_bare(report, id, k) for id in ids)] for k in positions]
+    return head, [[str(report.machine.position(k)), *(_bare(report, id, k) for id in quantities)] for k in positions]
 
 
 def _unit(report: Report, id: str) -> str:
@@ -341,8 +343,8 @@ def _dimensions(report: Report) -> Iterator[Drawing]:
     """True lengths with those drawn at the scale of the position plan."""
     ledger, words = report.ledger, report.words["plates"]
     rows = [
-        [ledger.symbol(id), _bare(report, id, None), _unit(report, id), _bare(report, f"drawn.{id[2:]}", None)]
-        for id in report.lengths
+        [ledger.symbol(id), _bare(report, id, None), _unit(report, id), _bare(report, ids.drawn(line), None)]
+        for id, line in ((ids.length(line), line) for line in report.drawn_lines)
     ]
     if rows:
         yield "", grid([words["dimension-heads"]], rows)

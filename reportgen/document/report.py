@@ -27,7 +27,7 @@ from reportgen.ledger.forces.polygon import Polygon
 from reportgen.ledger.kinematics.centres import links_in_plane_motion
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import GROUND, Mobility, mobility
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import Symbol
 
 PLATES_UP_TO = 24
@@ -204,7 +204,7 @@ class Report:
     @cached_property
     def sheet(self) -> Mapping[str, list[str]]:
         """What the machine's sheet sets out together, by name: `lines(sheet.velocity, k)`."""
-        return {name: self.known(ids) for name, ids in self.ledger.lines.items()}
+        return {name: self.known(lines) for name, lines in self.ledger.lines.items()}
 
     @property
     def given_names(self) -> Mapping[str, str]:
@@ -228,7 +228,12 @@ class Report:
         if "lengths" in self.sheet:
             return self.sheet["lengths"]
         single = [id for id, family in self.ledger.families.items() if len(family.values) == 1]
-        return [id for id in single if id[:2] == "l." and f"drawn.{id[2:]}" in single]
+        return [id for id in single if (found := ids.length.read(id)) and ids.drawn.of(found) in single]
+
+    @property
+    def drawn_lines(self) -> list[str]:
+        """What those lengths are lengths of, by its ends."""
+        return [found["line"] for id in self.lengths if (found := ids.length.read(id))]
 
     @property
     def pistons(self) -> tuple[Piston, ...]:
@@ -262,14 +267,14 @@ class Report:
     @property
     def all_zero(self) -> bool:
         """Whether masses or loads are given, but are all zero."""
-        given = (id for id in self.ledger.families if id[:1] == "G" or id[:2] == "m.")
-        return not self.has_forces and (bool(self.machine.idle) or any(given))
+        given = any(id in ids.weight or id in ids.mass for id in self.ledger.families)
+        return not self.has_forces and (bool(self.machine.idle) or given)
 
     @property
     def loads_crank(self) -> bool:
         """Whether any group hands a force on to the crank, at whatever position."""
         edges = self.driver_polygon.edges if self.driver_polygon else ()
-        reactions = (self.ledger[f"R.{edge.name[1:]}"] for edge in edges if edge.is_reaction and not edge.unknown)
+        reactions = (self.ledger[ids.of_force(edge.name)] for edge in edges if edge.is_reaction and not edge.unknown)
         return any(one.at(k) != 0 for one in reactions for k in range(1, self.cycle_count + 1))
 
     @property
@@ -289,7 +294,7 @@ class Report:
     @property
     def has_turning_links(self) -> bool:
         """Whether any link of the groups turns, rather than all being in translation."""
-        return any(f"turn.omega.{link}" in self.ledger for link in self.machine.linkage.links)
+        return any(ids.signed("omega", link) in self.ledger for link in self.machine.linkage.links)
 
     @property
     def has_formulas(self) -> bool:
@@ -308,9 +313,9 @@ class Report:
 
     # --- motion
 
-    def known(self, ids: Iterable[str]) -> list[str]:
+    def known(self, quantities: Iterable[str]) -> list[str]:
         """Those of the ids that the ledger knows, each once."""
-        return self.ledger.known(ids)
+        return self.ledger.known(quantities)
 
     @cached_property
     def plane_links(self) -> tuple[PlaneLink, ...]:
@@ -340,11 +345,11 @@ class Report:
 
     @property
     def mass_lines(self) -> list[str]:
-        return self.known(f"{what}.{link}" for what in "mJ" for link in self.bodies)
+        return self.known(name(link) for name in (ids.mass, ids.inertia) for link in self.bodies)
 
     @property
     def inertia_lines(self) -> list[str]:
-        return self.known(f"{what}{link}" for what in ("Pqt", "M.Pqt") for link in self.bodies)
+        return self.known(name(link) for name in (ids.inertia_force, ids.inertia_couple) for link in self.bodies)
 
     @cached_property
     def couples(self) -> tuple[BodyView, ...]:
@@ -354,8 +359,8 @@ class Report:
     @property
     def displaced_reactions(self) -> bool:
         """Whether the reaction of any slide may act beside its pin."""
-        digits = [name for group in self.groups for name in (group.outer, group.inner, group.guide)]
-        return any(f"M.{name}" in self.computed for name in digits)
+        joints = [joint for group in self.groups for joint in (group.outer, group.inner, group.guide)]
+        return any(ids.reaction_couple(joint) in self.computed for joint in joints)
 
     @property
     def has_slides(self) -> bool:
@@ -398,7 +403,7 @@ class Report:
 
     def force_symbol(self, name: str) -> Symbol:
         """The symbol of a force of a plan: of a load, or of a reaction R12, R12.t."""
-        return self.ledger.symbol(self.ledger[f"F.{name}"].of)
+        return self.ledger.symbol(self.ledger[ids.vector(name)].of)
 
     def force_vector(self, name: str) -> Symbol:
         return vocabulary.vector(self.force_symbol(name))

@@ -13,6 +13,7 @@ from reportgen.document.tables import bare, list_table, side_by_side, tables
 from reportgen.document.tree import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Paragraph, Table, Text, Value
 from reportgen.ledger.kinematics.sides import Side, image
 from reportgen.mechanism.structure import Crank
+from reportgen.notation import ids
 from reportgen.notation.expressions import Chain, Number, Power, Symbol
 from reportgen.notation.vocabulary import Chapter
 
@@ -92,15 +93,15 @@ def angular_velocities(report: Report, k: int) -> Iterator[Sequence[object]]:
     """The angular velocities with their sense in words."""
     if report.driver.centre:
         yield report.ledger.symbol("omega.1"), bare(report, "omega.1", k, size=True), report.turn_words
-    yield from _rotations(report, "turn.omega.", k)
+    yield from _rotations(report, "omega", k)
 
 
 def angular_accelerations(report: Report, k: int) -> Iterator[Sequence[object]]:
-    return _rotations(report, "turn.eps.", k)
+    return _rotations(report, "eps", k)
 
 
-def _rotations(report: Report, prefix: str, k: int) -> Iterator[Sequence[object]]:
-    for id in _of_links(report, prefix):
+def _rotations(report: Report, rate: str, k: int) -> Iterator[Sequence[object]]:
+    for id in _of_links(report, rate):
         sense = report.sense(report.ledger.number(id, k).value)
         yield report.ledger.symbol(id), bare(report, id, k, size=True), sense
 
@@ -113,47 +114,50 @@ def summary(report: Report, k: int) -> Iterator[Sequence[object]]:
 
 
 def velocity_segments(report: Report) -> list[str]:
-    ids: list[str] = []
+    columns: list[str] = []
     for group in report.groups:
-        ids += [f"seg.v.p{image(group.M)}", *(f"seg.v.{image(side.base)}{image(group.M)}" for side in group.moving)]
-        ids += _images("v", group)
-    return report.known(ids)
+        columns += [
+            ids.segment("v", "p", image(group.M)),
+            *(ids.segment("v", image(side.base), image(group.M)) for side in group.moving),
+        ]
+        columns += _images("v", group)
+    return report.known(columns)
 
 
 def velocities(report: Report) -> list[str]:
-    ids: list[str] = []
+    columns: list[str] = []
     for group in report.groups:
         # Relative to a fixed point a velocity is the point's own.
-        ids += [f"v.{group.M}", *(side.velocity for side in group.moving), f"v.{group.Q}"]
-        ids += [f"v.{place}" for place in group.points]
-    return [*report.known(ids), *_of_links(report, "turn.omega.")]
+        columns += [ids.velocity(group.M), *(side.velocity for side in group.moving), ids.velocity(group.Q)]
+        columns += [ids.velocity(place) for place in group.points]
+    return [*report.known(columns), *_of_links(report, "omega")]
 
 
 def acceleration_segments(report: Report) -> list[str]:
-    ids: list[str] = []
+    columns: list[str] = []
     for group in report.groups:
-        ids.append(f"seg.a.p{image(group.M)}")
-        ids += [f"seg.a.{part}.{side.relative}" for side in group.sides for part in _parts(side)]
-        ids += _images("a", group)
-    return report.known(ids)
+        columns.append(ids.segment("a", "p", image(group.M)))
+        columns += [ids.relative_segment(part, side.relative) for side in group.sides for part in _parts(side)]
+        columns += _images("a", group)
+    return report.known(columns)
 
 
 def accelerations(report: Report) -> list[str]:
-    ids: list[str] = []
+    columns: list[str] = []
     for group in report.groups:
-        ids.append(f"a.{group.M}")
-        ids += [f"a.{side.relative}.{part}" for side in group.sides for part in _parts(side)]
-        ids += [f"a.{group.Q}", *(f"a.{place}" for place in group.points)]
-    return [*report.known(ids), *_of_links(report, "turn.eps.")]
+        columns.append(ids.acceleration(group.M))
+        columns += [ids.acceleration(side.relative, part) for side in group.sides for part in _parts(side)]
+        columns += [ids.acceleration(group.Q), *(ids.acceleration(place) for place in group.points)]
+    return [*report.known(columns), *_of_links(report, "eps")]
 
 
-def _of_links(report: Report, prefix: str) -> list[str]:
+def _of_links(report: Report, rate: str) -> list[str]:
     """Signed angular quantities of the links that turn."""
-    return report.known(f"{prefix}{link}" for link in report.machine.linkage.links)
+    return report.known(ids.signed(rate, link) for link in report.machine.linkage.links)
 
 
 def _images(what: str, group: GroupView) -> list[str]:
-    return [f"seg.{what}.p{image(place)}" for place in (group.Q, *(place.name for place in group.points))]
+    return [ids.segment(what, "p", image(place)) for place in (group.Q, *(place.name for place in group.points))]
 
 
 def _parts(side: Side) -> list[str]:
@@ -190,7 +194,11 @@ def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tabl
 
 def gas(report: Report) -> list[str]:
     """The way of each piston, the pressure on it and its force."""
-    return report.known(id for piston in report.pistons for id in (f"s.{piston.link}", f"p.{piston.link}", piston.name))
+    return report.known(
+        id
+        for piston in report.pistons
+        for id in (ids.displacement(piston.link), ids.pressure(piston.link), piston.name)
+    )
 
 
 def inertia(report: Report) -> list[str]:
@@ -198,24 +206,23 @@ def inertia(report: Report) -> list[str]:
 
 
 def reactions(report: Report) -> list[str]:
-    ids = [
-        f"R.{name}"
-        for group in reversed(report.groups)
-        for name in (f"{group.outer}.t", f"{group.guide}.t", group.outer, group.inner, group.guide)
-    ]
-    return report.known([*ids, "R.01"])
+    columns: list[str] = []
+    for group in reversed(report.groups):
+        columns += [ids.reaction(joint, "t") for joint in (group.outer, group.guide)]
+        columns += [ids.reaction(joint) for joint in (group.outer, group.inner, group.guide)]
+    return report.known([*columns, "R.01"])
 
 
 def reaction_angles(report: Report) -> list[str]:
     joints = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
-    return report.known(f"dir.R{name}" for name in (*joints, "01"))
+    return report.known(ids.force_direction(ids.reaction_force(name)) for name in (*joints, "01"))
 
 
 def lever(report: Report, k: int) -> Iterator[Sequence[object]]:
     """Loads on the turned velocity plan: size, arm, moment about the pole by μ_l, anticlockwise positive."""
     for id in report.arms_about("p"):
         load = report.ledger[id].of
-        yield report.ledger.symbol(load), *(bare(report, one, k) for one in (load, id, f"M.{load}.p"))
+        yield report.ledger.symbol(load), *(bare(report, one, k) for one in (load, id, ids.lever_moment(load)))
 
 
 def balance(report: Report) -> list[str]:
@@ -227,8 +234,8 @@ def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tup
     words = report.words["tables"]["flywheel"]
     inertia = words["inertia"] if report.has_reduced_inertia else ""
     speed = words["speed"] if report.needs_flywheel else ""
-    ids = report.known(("M.r", "A.excess", "J.r", "omega.of"))
-    return tables(report, key, f"{caption}{inertia}{speed}", ids, report.all_positions)
+    columns = report.known(("M.r", "A.excess", "J.r", "omega.of"))
+    return tables(report, key, f"{caption}{inertia}{speed}", columns, report.all_positions)
 
 
 # --- checks
@@ -258,9 +265,9 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
             found[name] = (max(differences), "")
     if analysis.loads:
         forces = [
-            float(np.nanmax(np.abs(reaction.force - values[f"F.{name}"].values)))
+            float(np.nanmax(np.abs(reaction.force - values[ids.vector(name)].values)))
             for name, reaction in analysis.forces.reactions.items()
-            if f"F.{name}" in values
+            if ids.vector(name) in values
         ]
         found["ledger"] = (max(forces), "N")
         difference = float(np.nanmax(np.abs(analysis.torque - analysis.torque_by_work)))
@@ -274,7 +281,7 @@ def _closure(report: Report) -> float:
     motion, families = report.analysis.motion, report.ledger.families
     pairs = [(group.P, group.Q) for group in report.groups]
     pairs += [(group.T, group.Q) for group in report.groups if group.kind == "RRR"]
-    rods = [(p, q, families[f"l.{p}{q}"].values) for p, q in pairs if f"l.{p}{q}" in families]
+    rods = [(p, q, families[ids.length(p, q)].values) for p, q in pairs if ids.length(p, q) in families]
     differences = [np.abs(motion.points[p].p - motion.points[q].p) - length for p, q, length in rods]
     differences += [
         np.abs(motion.points[point.name].p - motion.origins[point.link].p) - abs(point.local)

@@ -26,7 +26,7 @@ from reportgen.document.tree import (
     Value,
     listed,
 )
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import Chain, Expression, Fraction, Number, Symbol, refs, size
 
 MM = 1e3
@@ -73,19 +73,19 @@ def bare(report: Report, id: str, position: int | None, size: bool = False) -> I
 def head_symbol(report: Report, id: str) -> Expression:
     """The symbol over a column: |v| over magnitudes, read from plans, of what has a direction of its own."""
     symbol = report.ledger.symbol(id)
-    return size(symbol) if id.startswith(("v.", "a.")) else symbol
+    return size(symbol) if any(id in rate for rate in ids.POINT_RATE.values()) else symbol
 
 
 def tables(
-    report: Report, key: str, caption: str, ids: Sequence[str], positions: Iterable[int]
+    report: Report, key: str, caption: str, quantities: Sequence[str], positions: Iterable[int]
 ) -> tuple[Table | Paragraph, ...]:
     """Quantities at positions: one table, or several below one another where the columns are too many.
 
     Those that are zero at every position have no column; a sentence says so instead.
     """
     at, columns = list(positions), []
-    zeros = [id for id in ids if all(report.is_zero(id, k) for k in at)]
-    shown = [id for id in ids if id not in zeros] or list(ids)
+    zeros = [id for id in quantities if all(report.is_zero(id, k) for k in at)]
+    shown = [id for id in quantities if id not in zeros] or list(quantities)
     for id in shown:
         unit = report.ledger[id].how.unit
         unit = report.ledger.units.get(unit, unit)
@@ -94,7 +94,7 @@ def tables(
     found = side_by_side(
         report, key, caption, Column(FIRST_COLUMN), titles=titles, columns=columns, most=MOST_COLUMNS - 1, heads=2
     )
-    if not zeros or shown == list(ids):
+    if not zeros or shown == list(quantities):
         return found
     equations = listed(InlineMath(Chain((report.ledger.symbol(id), Number(0.0)))) for id in zeros)
     return *found, Paragraph((Text(f"{report.words['table']['zero']} "), *equations, Text(".")))
@@ -312,8 +312,8 @@ def joints(report: Report) -> Iterator[Sequence[object]]:
 def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
     """Real and drawn lengths, one column a length; many lengths in several tables below one another."""
     columns = [
-        (lower_digits(arm), *(bare(report, f"{prefix}.{arm}", None) for prefix in ("l", "drawn")))
-        for arm in (id.removeprefix("l.") for id in report.lengths)
+        (lower_digits(line), *(bare(report, name(line), None) for name in (ids.length, ids.drawn)))
+        for line in report.drawn_lines
     ]
     return side_by_side(
         report, key, caption, Column(46.0, "left"), titles=head, columns=columns, most=MOST_LENGTHS, widest=22.0

@@ -15,7 +15,7 @@ from reportgen.grading.marks import Cells, Place
 from reportgen.grading.mistakes import Mistake
 from reportgen.grading.naming import foreseen
 from reportgen.grading.working import Working
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import refs
 
 FEWEST = 2
@@ -41,12 +41,12 @@ def behind_many(
 ) -> dict[Place, Mistake]:
     """The mistakes that explain nearly all wrong values behind them, `fewest` at least, those of the most first."""
     guide = working.guide
-    ids = list(dict.fromkeys(id for id, _ in places))
-    before = {id: {*guide.before[id]} for id in ids}
-    candidates = [one for one in candidates if any(one.changes.keys() & before[id] for id in ids)]
+    first = list(dict.fromkeys(id for id, _ in places))
+    before = {id: {*guide.before[id]} for id in first}
+    candidates = [one for one in candidates if any(one.changes.keys() & before[id] for id in first)]
     if len(places) < fewest or not candidates:
         return {}
-    values = foreseen(working, ids, candidates)
+    values = foreseen(working, first, candidates)
     met = {place: _met(working, cells, place, values[place[0]]) for place in places}
     found: dict[Place, Mistake] = {}
     left = list(places)
@@ -69,7 +69,7 @@ def _candidates(guide: Guide) -> Iterator[Mistake]:
             elif source.definition is not None:
                 yield from _either("part-left-out", "part-reversed", refs(source.definition)[0], id)
     for load in guide.pitfalls.loads:
-        vector = f"F.{load}"
+        vector = ids.vector(load)
         yield from _either("load-forgotten", "load-reversed", load, vector if vector in ledger else load)
 
 

@@ -14,7 +14,7 @@ from reportgen.grading.drawn_scales import CONFIRMED, drawn_at, in_use
 from reportgen.grading.guide import Guide, Values, makes_scale
 from reportgen.grading.marks import Place, Submission
 from reportgen.ledger.core import follow
-from reportgen.notation import vocabulary
+from reportgen.notation import ids, vocabulary
 
 Change = Callable[[np.ndarray, Values], np.ndarray]
 """A quantity's value (SI) from what it comes to and all values before it."""
@@ -114,8 +114,11 @@ class Working:
 
     def _by_length_scale(self, row: Row, index: int) -> list[float]:
         """The moment of a load on the lever by its drawn arm and μ_l as it is written down."""
-        load, arm = vocabulary.vector_of(row.id), f"h.{row.id.removeprefix('M.')}"
-        if vocabulary.row(row.id).name != "lever moment" or not {arm, "mu.l"} <= self.values.keys():
+        found = ids.lever_moment.read(row.id)
+        if found is None:
+            return []
+        load, arm = found["force"], ids.lever_arm(found["force"])
+        if not {arm, "mu.l"} <= self.values.keys():
             return []
         drawn = self.world[arm] / self.factors.get("mu.v", np.ones(1))
         return [float((self.world[load] * drawn)[index].real) * self._stated("mu.l")] if load in self.world else []

@@ -15,8 +15,9 @@ from reportgen.ledger.core import Ledger
 from reportgen.ledger.decimals import choose_decimals
 from reportgen.ledger.forces import enter_forces
 from reportgen.ledger.forces.polygon import Polygon
-from reportgen.ledger.kinematics import centres, enter_kinematics
+from reportgen.ledger.kinematics import enter_kinematics
 from reportgen.mechanism.structure import Crank, Linkage
+from reportgen.notation import ids
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import PI, Expression, Number, Ref, Symbol, call, circle_line, sqrt, total
 from reportgen.notation.expressions import size as size_of
@@ -58,7 +59,7 @@ def write_ledger(
             if machine.unevenness is not None:
                 regulated = flywheel.flywheel(machine, machine.unevenness)
                 _flywheel(q, analysis, regulated)
-    checks = {id for id in q.families if id.startswith(centres.PREFIX)}
+    checks = {id for id in q.families if any(id in name for name in ids.CENTRES)}
     decimals: Mapping[str, int | None] = dict.fromkeys(q.families)
     cancellations: tuple[str, ...] = ()
     if printed:
@@ -104,7 +105,7 @@ def enter_plans(
 def _masses(q: Sheet, analysis: Analysis) -> None:
     """Mass m = G/g where the weight is given, weight G = m g where the mass is."""
     for body in analysis.machine.linkage.inertias:
-        weight, mass = f"G{body.link}", f"m.{body.link}"
+        weight, mass = ids.weight(body.link), ids.mass(body.link)
         if body.mass > 0 and weight in q and mass not in q:
             q.define(mass, q[weight] / q["g"])
         elif mass in q and weight not in q:
@@ -119,26 +120,28 @@ def _gas(q: Sheet, analysis: Analysis) -> None:
             continue
         link, stroke = state.piston.link, state.piston.stroke
         _way(q, machine.linkage, link, state.fraction * stroke, stroke)
-        p = q.give(f"p.{link}", state.pressure, exact=False)
+        p = q.give(ids.pressure(link), state.pressure, exact=False)
         q.define(name, p * q["F"])
 
 
 def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
     """A slider's way from its dead centre, measured on the drawing; there crank and rod lie in one line."""
-    driver, id = linkage.driver, f"s.{link}"
+    driver, id = linkage.driver, ids.displacement(link)
     dyad = next((one for one in linkage.dyads if one.kind == "RRP" and one.links[1] == link), None)
-    if dyad is not None and isinstance(driver, Crank) and f"l.{driver.centre}{dyad.start}" in q:
-        on_paper = q.find(f"laid.{driver.centre}{dyad.start}") or q[f"drawn.{driver.centre}{dyad.start}"]
-        crank, rod = q["drawing"] * on_paper, q["drawing"] * q[f"laid.{dyad.start}{dyad.middle}"]
+    if dyad is not None and isinstance(driver, Crank) and ids.length(driver.centre, dyad.start) in q:
+        on_paper = q.find(ids.laid_line(driver.centre, dyad.start)) or q[ids.drawn(driver.centre, dyad.start)]
+        crank, rod = q["drawing"] * on_paper, q["drawing"] * q[ids.laid_line(dyad.start, dyad.middle)]
         for reach in (rod + crank, rod - crank):
-            line = q[f"guide.{link}.at"], q[f"guide.{link}"], float(dyad.sign)
-            stop = circle_line(q[f"p.{driver.centre}"], reach, *line)
-            way = abs((q[f"p.{dyad.middle}"] - stop) * (q["mu.l"] / q["drawing"]))
+            line = q[ids.guide_place(link)], q[ids.guide(link)], float(dyad.sign)
+            stop = circle_line(q[ids.place(driver.centre)], reach, *line)
+            way = abs((q[ids.place(dyad.middle)] - stop) * (q["mu.l"] / q["drawing"]))
             found = evaluate(way, {name: family.values for name, family in q.families.items()})
             if np.allclose(found, values, rtol=0, atol=ZERO * stroke):
                 q.define(id, way, scale=stroke)
                 return
-    drawn = q.give(f"way.{link}", values / q.si("mu.l"), Symbol("s"), "ratio", exact=False, hidden=True)
+    drawn = q.give(
+        ids.displacement_on_paper(link), values / q.si("mu.l"), Symbol("s"), "ratio", exact=False, hidden=True
+    )
     q.define(id, abs(q["mu.l"] * drawn), scale=stroke)
 
 
@@ -167,7 +170,7 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
         size = possible
     # A sliding driver is balanced by a force, and its way takes the place of the angle.
     letter, kind = ("P", "force") if machine.span else ("M", "torque")
-    rate = q[f"v.{machine.linkage.driver.pin}"] if machine.span else q["omega.1"]
+    rate = q[ids.velocity(machine.linkage.driver.pin)] if machine.span else q["omega.1"]
     way = q["span"] if machine.span else 2.0 * machine.turns * PI
     q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size)
     nothing = abs(float(np.nanmean(q.value("M.eq")))) < ZERO * size
@@ -206,7 +209,11 @@ def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.Flywheel) -> Non
     else:
         J_r = Number(0.0)
     largest, δ, ω1 = float(np.abs(regulated.torque).max()), q["unevenness"], q["omega.1"]
-    on_lever = [q[f"M.{load.name}.p"] for load in (*analysis.weights, *analysis.applied) if f"M.{load.name}.p" in q]
+    on_lever = [
+        q[ids.lever_moment(load.name)]
+        for load in (*analysis.weights, *analysis.applied)
+        if ids.lever_moment(load.name) in q
+    ]
     ways = np.diff(np.append(machine.cycle_angles, machine.turns * FULL_TURN))
     steps = q.give("steps", ways, Symbol("φ"), "ratio", hidden=True)
     torque = machine.turn * total(on_lever) if on_lever else Number(0.0)
@@ -227,7 +234,7 @@ def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.Flywheel) -> Non
         scale=most,
     )
     most_energy, least_energy = (
-        A - q.define(f"omega.{name}", ω1 * (1 + side * δ / 2)) ** 2 * J_r / 2
+        A - q.define(ids.bound_of_speed(name), ω1 * (1 + side * δ / 2)) ** 2 * J_r / 2
         for name, side in (("max", 1), ("min", -1))
     )
     a = _with_rest(q, "A.upper", regulated.upper, call("highest", most_energy), "a", "work")
@@ -248,8 +255,8 @@ def _with_rest(
     scale: float = 0.0,
 ) -> Ref:
     """Enter what is integrated: it follows what stands in a rule for the positions, by which it is nearly found."""
-    found = q.construct(f"rule.{id}", by_rule)
-    rest = q.give(f"rest.{id}", np.asarray(values) - q.value(found), Symbol(id), "ratio", hidden=True)
+    found = q.construct(ids.rule(id), by_rule)
+    rest = q.give(ids.rest(id), np.asarray(values) - q.value(found), Symbol(id), "ratio", hidden=True)
     return q.define(id, call("re", found + rest), symbol, kind, scale=scale)
 
 
@@ -261,12 +268,12 @@ def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:
     ω1 = q["omega.1"]
     parts: dict[int, list[Expression]] = {}
     for body in linkage.inertias:
-        link, centre, rotation = body.link, f"v.{body.centre}", f"omega.{body.link}"
+        link, centre, rotation = body.link, ids.velocity(body.centre), ids.angular_velocity(body.link)
         own: list[Expression] = []
         if body.mass > 0 and centre in q:
-            own.append(q[f"m.{link}"] * q[centre] ** 2)
+            own.append(q[ids.mass(link)] * q[centre] ** 2)
         if body.moment > 0 and rotation in q:
-            own.append(q[f"J.{link}"] * q[rotation] ** 2)
+            own.append(q[ids.inertia(link)] * q[rotation] ** 2)
         if own:
             parts[link] = own
     terms = [term for own in parts.values() for term in own]
@@ -274,5 +281,7 @@ def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:
         return None
     if len(terms) <= TERMS or len(parts) == 1:
         return total(terms) / ω1**2
-    each = [q.define(f"J.r.{link}", total(own) / ω1**2, Symbol("J", f"tt{link}")) for link, own in parts.items()]
+    each = [
+        q.define(ids.reduced_inertia(link), total(own) / ω1**2, Symbol("J", f"tt{link}")) for link, own in parts.items()
+    ]
     return total(each)

@@ -18,6 +18,7 @@ import numpy as np
 from reportgen.mechanism.dyads import Complexes, Floats, solve2
 from reportgen.mechanism.motion import Motion
 from reportgen.mechanism.structure import DRIVER, GROUND, Dyad, Joint, Linkage, joints
+from reportgen.notation import ids
 from reportgen.notation.constructions import cross, dot
 
 CONVERGED = 1e-12
@@ -48,7 +49,7 @@ def weights(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
     still = np.zeros_like(motion.driver)
     return tuple(
         Load(
-            f"G{body.link}",
+            ids.weight(body.link),
             body.link,
             np.full(still.shape, body.mass * linkage.gravity, dtype=np.complex128),
             motion.points[body.centre].p,
@@ -63,7 +64,7 @@ def inertia_loads(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
     """D'Alembert's loads −m a_S at S with the couple −J ε, named "Pqt" and the link's number."""
     return tuple(
         Load(
-            f"Pqt{body.link}",
+            ids.inertia_force(body.link),
             body.link,
             -body.mass * motion.points[body.centre].a,
             motion.points[body.centre].p,
@@ -203,7 +204,7 @@ class _Wrench(NamedTuple):
 
 def reaction_name(source: int, target: int) -> str:
     """The key of the force of link `source` on link `target`: "R12"; "R1,12" with long numbers."""
-    return f"R{source}{target}" if max(source, target) < 10 else f"R{source},{target}"
+    return ids.reaction_force(ids.joint(source, target))
 
 
 def solve_forces(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> Forces:

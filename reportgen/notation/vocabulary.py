@@ -1,7 +1,7 @@
 """What an id says: for each family of ids its letter, its kind, its chapter, its plan and how values compare.
 
-This is the one place where the text of an id is read.  A quantity asks here for its symbol, a key for its
-chapter, marking for the scale of a length on paper and for the distance of two values.
+A row for each family of `ids`, which reads the id.  A quantity asks here for its symbol, a key for its chapter,
+marking for the scale of a length on paper and for the distance of two values, the words for what they call it.
 
 A *kind* fixes the printed unit, what one such unit is in SI, and the preferred number of significant
 figures; `ledger.decimals` then raises or lowers decimals so that printed lines recompute.
@@ -11,15 +11,17 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 
+from reportgen.notation import ids
 from reportgen.notation.constructions import Value
 from reportgen.notation.expressions import Symbol
+from reportgen.notation.names import Name
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,128 +156,146 @@ class Chapter(StrEnum):
 
 @dataclass(frozen=True)
 class Row:
-    """A family of ids, as a regular expression.
+    """A family of ids, or a single one.
 
-    Its groups `sub`, after the text `before`, and `sup` are printed below and above the `letter`.  `plan` is the id
-    of the scale that lengths on paper are measured with.  Values that go `around` the circle are directions.
-    `name` is the family's key under `quantities` in `words.yaml`; the groups `link`, `axis` and `about` are words of
-    its phrase only.
+    Under the `letter` stands the text `below`, else the word in the last place, above it the `part`.  `plan` is the id
+    of the scale that lengths on paper are measured with.  What is in braces is a word that stands in that place of the
+    id.  Values that go `around` the circle are directions.  `name` is what `words.yaml` calls the family.
     """
 
-    ids: str
+    ids: Name
     letter: str = ""
     kind: str = ""
     chapter: Chapter | None = None
     plan: str = ""
-    before: str = ""
+    below: str = ""
     around: bool = False
     name: str = ""
 
-    @cached_property
-    def pattern(self) -> re.Pattern[str]:
-        return re.compile(self.ids)
+    def index(self, words: Mapping[str, str]) -> str:
+        """What is printed below the letter."""
+        named = [word for place, word in words.items() if place not in _NOT_BELOW]
+        return self.below.format(**words) if self.below else next(reversed(named), "")
 
 
-_NAME = r"(?P<sub>[^.]+)"
-_PART = r"(\.(?P<sup>[ntkrs]))?"
+_NOT_BELOW = frozenset({"to", "axis", "part", "about", "letter"})
+"""Places whose words are not printed below a letter."""
+
+_G, _V, _A = Chapter.geometry, Chapter.velocity, Chapter.acceleration
+_LOADS, _FORCES, _TORQUE, _CYCLE = Chapter.loads, Chapter.forces, Chapter.torque, Chapter.cycle
 
 ROWS: tuple[Row, ...] = (
     # geometry
-    Row(rf"l\.{_NAME}(?<=K\d)", "l", "length", Chapter.loads, name="percussion"),  # the centre of percussion K
-    Row(rf"l\.{_NAME}", "l", "length", Chapter.geometry, name="length"),
-    Row(r"drawn\.(?P<sub>.+)", "", "segment", Chapter.geometry, "mu.l", name="drawn length"),
-    Row(r"mu\.(?P<sub>l)", "μ", "length scale", Chapter.geometry),
-    Row(r"R", "R", "length", Chapter.geometry),
-    Row(r"L", "L", "length", Chapter.geometry),
-    Row(r"H", "H", "length"),
-    Row(r"e", "e", "length"),
-    Row(r"D", "D", "diameter"),
-    Row(r"F", "F", "area", Chapter.geometry),
-    Row(r"lambda", "λ", "ratio", Chapter.geometry),
-    Row(r"theta", "θ", "angle"),
-    Row(r"K", "K", "ratio"),
-    Row(r"s", "s", "ratio"),
+    Row(ids.percussion, "l", "length", _LOADS, below="{point}K{link}", name="percussion"),
+    Row(ids.length, "l", "length", _G, name="length"),
+    Row(ids.drawn, "", "segment", _G, "mu.l", name="drawn length"),
+    Row(ids.scale.only(plan="l"), "μ", "length scale", _G, below="l"),
+    Row(Name("R"), "R", "length", _G),
+    Row(Name("L"), "L", "length", _G),
+    Row(Name("H"), "H", "length"),
+    Row(Name("e"), "e", "length"),
+    Row(Name("D"), "D", "diameter"),
+    Row(Name("F"), "F", "area", _G),
+    Row(Name("lambda"), "λ", "ratio", _G),
+    Row(Name("theta"), "θ", "angle"),
+    Row(Name("K"), "K", "ratio"),
+    Row(Name("s"), "s", "ratio"),
     # masses
-    Row(r"g", "g", "gravity"),
-    Row(r"G(?P<sub>\d+)", "G", "weight", Chapter.loads, name="weight"),
-    Row(rf"m\.{_NAME}", "m", "mass", Chapter.geometry, name="mass"),
-    Row(r"J\.(?P<sub>\d+)", "J", "moment of inertia", Chapter.geometry, before="S", name="inertia"),
-    Row(rf"J\.{_NAME}(\.(?P<link>.+))?", "J", "moment of inertia", Chapter.cycle, name="reduced inertia"),
+    Row(Name("g"), "g", "gravity"),
+    Row(ids.weight, "G", "weight", _LOADS, name="weight"),
+    Row(ids.mass, "m", "mass", _G, name="mass"),
+    Row(ids.inertia, "J", "moment of inertia", _G, below="S{link}", name="inertia"),
+    Row(ids.reduced_inertia, "J", "moment of inertia", _CYCLE, name="reduced inertia"),
+    Row(Name("J.r"), "J", "moment of inertia", _CYCLE, below="r"),
+    Row(Name("J.d"), "J", "moment of inertia", _CYCLE, below="d"),
     # rotation
-    Row(r"n", "n", "speed of rotation"),
-    Row(r"omega\.of", "ω", "angular velocity", Chapter.cycle),
-    Row(rf"(turn\.)?omega\.{_NAME}", "ω", "angular velocity", Chapter.velocity, name="angular velocity"),
-    Row(rf"(turn\.)?eps\.{_NAME}", "ε", "angular acceleration", Chapter.acceleration, name="angular acceleration"),
+    Row(Name("n"), "n", "speed of rotation"),
+    Row(Name("omega.of"), "ω", "angular velocity", _CYCLE),
+    Row(ids.bound_of_speed, "ω", "angular velocity", _V),
+    Row(ids.angular_velocity, "ω", "angular velocity", _V, name="angular velocity"),
+    Row(ids.signed.only(rate="omega"), "ω", "angular velocity", _V, name="signed angular velocity"),
+    Row(ids.angular_acceleration, "ε", "angular acceleration", _A, name="angular acceleration"),
+    Row(ids.signed.only(rate="eps"), "ε", "angular acceleration", _A, name="signed angular acceleration"),
     # plans of velocities and accelerations
-    Row(r"mu\.(?P<sub>v)", "μ", "velocity scale", Chapter.velocity),
-    Row(r"mu\.(?P<sub>a)", "μ", "acceleration scale", Chapter.acceleration),
-    Row(r"seg\.v\..+", "", "segment", Chapter.velocity, "mu.v", name="segment"),
-    Row(r"seg\.a\..+", "", "segment", Chapter.acceleration, "mu.a", name="segment"),
-    Row(rf"v\.{_NAME}", "v", "velocity", Chapter.velocity, name="velocity"),
+    Row(ids.scale.only(plan="v"), "μ", "velocity scale", _V, below="v"),
+    Row(ids.scale.only(plan="a"), "μ", "acceleration scale", _A, below="a"),
+    Row(ids.segment.only(what="v"), "", "segment", _V, "mu.v", name="segment"),
+    Row(ids.segment.only(what="a"), "", "segment", _A, "mu.a", name="segment"),
+    Row(ids.relative_segment, "", "segment", _A, "mu.a", name="segment"),
+    Row(ids.velocity, "v", "velocity", _V, name="velocity"),
+    Row(ids.stroke_velocity, "v", "velocity", _V),
+    Row(ids.acceleration, "a", "acceleration", _A, name="acceleration"),
+    Row(ids.direction.only(what="v"), "α", "angle", _V, below="v{point}", around=True, name="direction"),
+    Row(ids.direction.only(what="a"), "α", "angle", _A, below="a{point}", around=True, name="direction"),
     # exercises of plane motion: components, the velocity along a moving line, instant centres, angles of projection
-    Row(r"v\.(?P<sub>[^.]+)\.(?P<axis>[xy])", "v", "velocity", Chapter.velocity, name="velocity component"),
-    Row(r"a\.(?P<sub>[^.]+)\.(?P<axis>[xy])", "a", "acceleration", Chapter.acceleration, name="acceleration component"),
-    Row(r"v\.(?P<sub>[^.]+)\.r", "v", "velocity", Chapter.velocity, name="sliding velocity"),
-    Row(r"centre\.(?P<link>\d+)\.(?P<axis>[xy])", "x", "length", Chapter.velocity, name="centre coordinate"),
-    Row(rf"k\.{_NAME}", "k", "length", Chapter.velocity, name="velocity factor"),
-    Row(r"alpha\.(?P<sub>\d+)", "α", "angle", name="projection angle"),
-    Row(r"t", "t", "time", name="time"),
-    Row(rf"a\.{_NAME}{_PART}", "a", "acceleration", Chapter.acceleration, name="acceleration"),
-    Row(rf"dir\.v\.{_NAME}", "α", "angle", Chapter.velocity, before="v", around=True, name="direction"),
-    Row(rf"dir\.a\.{_NAME}", "α", "angle", Chapter.acceleration, before="a", around=True, name="direction"),
+    Row(ids.velocity_component, "v", "velocity", _V, name="velocity component"),
+    Row(ids.acceleration_component, "a", "acceleration", _A, name="acceleration component"),
+    Row(ids.sliding_velocity, "v", "velocity", _V, name="sliding velocity"),
+    Row(ids.centre_coordinate, "x", "length", _V, name="centre coordinate"),
+    Row(ids.velocity_factor, "k", "length", _V, name="velocity factor"),
+    Row(ids.inner_angle, "α", "angle", name="projection angle"),
+    Row(Name("t"), "t", "time", name="time"),
     # instant centres
-    Row(r"ic\.seg\.(?P<link>\d+)\.(?P<sub>.+)", "", "segment", Chapter.velocity, "mu.l", name="centre distance"),
-    Row(rf"ic\.omega\.{_NAME}", "ω", "angular velocity", Chapter.velocity, name="centre rotation"),
-    Row(r"ic\.v\..+", "v", "velocity", Chapter.velocity, name="centre velocity"),
-    Row(rf"ic\.angle\.(?P<link>\d+)\.{_NAME}", "ψ", "angle", Chapter.velocity, name="rod angle"),
-    Row(rf"ic\.along\.(?P<link>\d+)\.{_NAME}", "u", "velocity", Chapter.velocity, name="projection"),
+    Row(ids.centre_distance, "", "segment", _V, "mu.l", name="centre distance"),
+    Row(ids.centre_omega, "ω", "angular velocity", _V, name="centre rotation"),
+    Row(ids.centre_velocity, "v", "velocity", _V, name="centre velocity"),
+    Row(ids.rod_angle, "ψ", "angle", _V, name="rod angle"),
+    Row(ids.projection, "u", "velocity", _V, name="projection"),
     # closed formulas
-    Row(rf"(f\.)?phi\.{_NAME}", "φ", "angle", name="angle"),
-    Row(rf"beta\.{_NAME}", "β", "angle", name="inclination"),
-    Row(rf"f\.v\.{_NAME}", "v", "velocity", name="formula velocity"),
-    Row(rf"f\.a\.{_NAME}{_PART}", "a", "acceleration", name="formula acceleration"),
-    Row(rf"f\.omega\.{_NAME}", "ω", "angular velocity", name="formula angular velocity"),
-    Row(rf"f\.eps\.{_NAME}", "ε", "angular acceleration", name="formula angular acceleration"),
-    Row(rf"f\.(?P<axis>x)\.{_NAME}", "x", "length", name="coordinate"),
-    Row(rf"f\.(?P<axis>y)\.{_NAME}", "y", "length", name="coordinate"),
-    Row(r"f\.(?P<axis>[xy])\.(?P<sub>.+)\.v", "v", "velocity", name="velocity component"),
-    Row(r"f\.(?P<axis>[xy])\.(?P<sub>.+)\.a", "a", "acceleration", name="acceleration component"),
+    Row(ids.angle, "φ", "angle", name="angle"),
+    Row(ids.formula_angle, "φ", "angle", name="angle"),
+    Row(ids.inclination, "β", "angle", name="inclination"),
+    Row(ids.formula_velocity, "v", "velocity", name="formula velocity"),
+    Row(ids.formula_acceleration, "a", "acceleration", name="formula acceleration"),
+    Row(ids.formula_sliding.only(what="v"), "v", "velocity"),
+    Row(ids.formula_sliding.only(what="a"), "a", "acceleration"),
+    Row(ids.formula_angular_velocity, "ω", "angular velocity", name="formula angular velocity"),
+    Row(ids.formula_angular_acceleration, "ε", "angular acceleration", name="formula angular acceleration"),
+    Row(ids.formula_coordinate, "{axis}", "length", name="coordinate"),
+    Row(ids.formula_component.only(what="v"), "v", "velocity", name="velocity component"),
+    Row(ids.formula_component.only(what="a"), "a", "acceleration", name="acceleration component"),
+    Row(ids.slider_way, name="way of a slider"),
+    Row(ids.matrix_entry, name="matrix entry"),
+    Row(ids.numerator, name="numerator"),
+    Row(ids.slope, name="slope"),
     # loads
-    Row(r"s\.(?P<sub>\d+)", "s", "length", Chapter.loads, name="displacement"),
-    Row(r"p\.(?P<sub>\d+)", "p", "pressure", Chapter.loads, name="pressure"),
-    Row(r"Pqt(?P<sub>\d+)", "P", "force", Chapter.loads, before="qt", name="inertia force"),
-    Row(r"M\.Pqt(?P<sub>\d+)", "M", "torque", Chapter.loads, before="qt", name="inertia couple"),
-    Row(r"e\.Pqt(?P<sub>\d+)", "e", "length", Chapter.loads, before="qt", name="inertia offset"),
-    Row(r"P(?P<sub>\d*)\w*", "P", "force", Chapter.loads, name="applied force"),
-    Row(r"M(?P<sub>\d+)\w*", "M", "torque", name="applied torque"),
+    Row(ids.displacement, "s", "length", _LOADS, name="displacement"),
+    Row(ids.pressure, "p", "pressure", _LOADS, name="pressure"),
+    Row(ids.inertia_force, "P", "force", _LOADS, below="qt{link}", name="inertia force"),
+    Row(ids.inertia_couple, "M", "torque", _LOADS, below="qt{link}", name="inertia couple"),
+    Row(ids.inertia_offset, "e", "length", _LOADS, below="qt{link}", name="inertia offset"),
+    Row(ids.applied_force, "P", "force", _LOADS, name="applied force"),
+    Row(ids.applied_torque, "M", "torque", name="applied torque"),
+    Row(ids.given_force, name="given force"),
     # the balance of the driver
-    Row(r"h\.(?P<sub>.+)\.p", "h", "segment", Chapter.torque, "mu.v", name="lever arm"),
-    Row(r"M\.(?P<sub>.+)\.p", "M", "torque", Chapter.torque, name="lever moment"),
-    Row(r"M\.(eq|vw)", "M", "torque", Chapter.torque),
+    Row(ids.lever_arm, "h", "segment", _TORQUE, "mu.v", name="lever arm"),
+    Row(ids.lever_moment, "M", "torque", _TORQUE, name="lever moment"),
+    Row(ids.lone_moment, "M", "torque", _TORQUE),
+    Row(ids.balance, "M", "torque", _TORQUE, name="balance"),
     # reactions
-    Row(rf"R\.{_NAME}{_PART}", "R", "force", Chapter.forces, name="reaction"),
-    Row(r"M\.(?P<sub>[\d,]+)", "M", "torque", Chapter.forces, name="reaction couple"),
-    Row(r"x\.(?P<sub>\d[\d,]+)", "x", "length", Chapter.forces, name="application"),
-    Row(r"h\.R?(?P<sub>[^.]+)\.(?P<about>.+)", "h", "segment", Chapter.forces, "mu.l", name="arm"),
-    Row(r"mu\.R.+", "μ", "force scale", Chapter.forces, name="force scale"),
-    Row(r"dir\.R(?P<sub>[^.]+)(\..+)?", "α", "angle", Chapter.forces, around=True, name="direction"),
-    Row(r"seg\.(?P<group>[^.]+)\..+", "", "segment", Chapter.forces, "mu.R{group}", name="segment"),
+    Row(ids.reaction, "R", "force", _FORCES, name="reaction"),
+    Row(ids.reaction_couple, "M", "torque", _FORCES, name="reaction couple"),
+    Row(ids.application, "x", "length", _FORCES, name="application"),
+    Row(ids.arm, "h", "segment", _FORCES, "mu.l", name="arm"),
+    Row(ids.force_scale, "μ", "force scale", _FORCES, name="force scale"),
+    Row(ids.force_direction, "α", "angle", _FORCES, around=True, name="direction"),
+    Row(ids.force_segment, "", "segment", _FORCES, "mu.R{group}", name="segment"),
     # given data of a linkage
-    Row(r"frame\.(?P<axis>[xy])\.(?P<sub>.+)", name="coordinate"),
+    Row(ids.frame_coordinate, name="coordinate"),
     # the cycle
-    Row(rf"M\.{_NAME}(\..+)?", "M", "torque"),
-    Row(r"W", "W", "work"),
-    Row(r"power", "N", "power"),
+    Row(ids.figure_of_balance, "M", "torque", name="balance over the cycle"),
+    Row(Name("W"), "W", "work"),
+    Row(Name("power"), "N", "power"),
 )
 _PRINTED = {"t": "τ"}
-_NO_ROW = Row("")
+_NO_ROW = Row(Name(""))
 
 
 @lru_cache(maxsize=4096)
 def _found(id: str) -> tuple[Row, dict[str, str]]:
     for row in ROWS:
-        if match := row.pattern.fullmatch(id):
-            return row, {name: text or "" for name, text in match.groupdict().items()}
+        if (words := row.ids.read(id)) is not None:
+            return row, words
     return _NO_ROW, {}
 
 
@@ -289,28 +309,15 @@ def symbol(id: str) -> Symbol:
 
     Raises `KeyError` for an id that no row gives a letter.
     """
-    found, parts = _found(id)
+    found, words = _found(id)
     if not found.letter:
         raise KeyError(f"no letter for {id}")
-    sup = parts.get("sup", "")
-    return Symbol(found.letter, found.before + parts.get("sub", ""), _PRINTED.get(sup, sup))
+    part = words.get("part", "")
+    return Symbol(found.letter.format(**words), found.index(words), _PRINTED.get(part, part))
 
 
 _POINT = re.compile(r"[A-Z]\d*")
 _OF_POINTS = frozenset({"velocity", "acceleration", "coordinate"})
-_BETWEEN_LINKS = frozenset({"reaction", "reaction couple", "application"})
-_VECTORS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
-    (re.compile(ids), vector)
-    for ids, vector in (
-        (r"dir\.([va]\..+)", r"\1"),
-        (r"seg\.a\.([ntkr])\.(.+)", r"a.\2.\1"),
-        (r"(?:dir\.|seg\.[^.]+\.|h\.)R([^.]+)(\.[ntkrs])?(?:\..+)?", r"R.\1\2"),
-        (r"seg\.\d[^.]*\.([^.]+)", r"\1"),
-        (r"h\.([^.]+)\..+", r"\1"),
-        (r"M\.([^.]+)\.p", r"\1"),
-    )
-)
-_ON_PLAN = re.compile(r"seg\.([va])\.([a-z]\d*)([a-z]\d*)")
 
 
 def vector_of(id: str) -> str:
@@ -318,11 +325,17 @@ def vector_of(id: str) -> str:
 
     seg.v.pb → v.B, seg.v.ab → v.BA, seg.a.n.BA → a.BA.n, dir.R12.n → R.12.n, h.Pqt2.B → Pqt2.
     """
-    if match := _ON_PLAN.fullmatch(id):
-        what, base, tip = match.groups()
-        return f"{what}.{tip.upper()}{'' if base == 'p' else base.upper()}"
-    found = ((pattern.fullmatch(id), vector) for pattern, vector in _VECTORS)
-    return next((match.expand(vector) for match, vector in found if match), "")
+    if found := ids.segment.read(id):
+        base = "" if found["start"] == ids.POLE else found["start"]
+        return ids.POINT_RATE[found["what"]](f"{found['end']}{base}".upper())
+    if found := ids.relative_segment.read(id):
+        return ids.acceleration(found["relative"], found["part"])
+    if found := ids.direction.read(id):
+        return ids.POINT_RATE[found["what"]](found["point"])
+    for of_force in (ids.force_segment, ids.force_direction, ids.arm, ids.lever_arm, ids.lever_moment):
+        if found := of_force.read(id):
+            return ids.of_force(found["force"])
+    return ""
 
 
 def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
@@ -331,20 +344,35 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
     `shown` is the quantity's symbol, whose points may say more than the id's (B₃B₂ for B3B).
     """
     found, parts = _found(id)
-    sub = parts.get("sub", "")
-    points = _POINT.findall(shown.sub) if found.kind in ("velocity", "acceleration") else _POINT.findall(sub)
-    links = sub.split(",") if "," in sub else list(sub) if found.name in _BETWEEN_LINKS else [sub]
+    index = found.index(parts)
+    points = _POINT.findall(shown.sub if found.kind in ("velocity", "acceleration") else index)
+    link, other = ids.linked(parts["joint"]) if "joint" in parts else (parts.get("link", index), "")
     words = {
-        "line": lowered(sub),
-        "link": parts.get("link") or links[0],
-        "other": links[-1],
+        "line": lowered(index),
+        "link": link,
+        "other": other,
         "axis": parts.get("axis", ""),
         "about": lowered(parts.get("about", "")),
         "plan": shown.sub.removeprefix("R"),
         **dict(zip(("point", "base"), map(lowered, points), strict=False)),
     }
-    name = f"{found.name}.{parts['sup']}" if parts.get("sup") else found.name
+    name = f"{found.name}.{parts['part']}" if found.letter and parts.get("part") else found.name
     return (f"{name}.relative" if name in _OF_POINTS and len(points) > 1 else name), words
+
+
+def words_of(table: Mapping[str, str], id: str, kind: str, shown: Symbol) -> Iterator[str]:
+    """What a table of `words.yaml` says of a quantity, the nearest first: of its id, its family, its kind.
+
+    A key of the table names one or several of them, with commas between; with a kind behind it, as in `balance:force`,
+    it means only quantities of that kind, and all of them by `:force`.  Where two keys name the same, the first counts.
+    """
+    said: dict[str, str] = {}
+    for names, text in table.items():
+        said = dict.fromkeys(names.split(", "), text) | said
+    found, parts = _found(id)
+    families = (f"{found.name}.{parts.get('axis')}", wording(id, shown)[0])
+    named = (one for name in (id, *families) for one in (f"{name}:{kind}", name))
+    return (said[one] for one in (*named, f":{kind}") if one in said)
 
 
 @lru_cache(maxsize=4096)
@@ -354,20 +382,20 @@ def plan(id: str) -> str:
     return found.plan.format(**parts)
 
 
-_PLAN = re.compile(r"plan\.([^.]+)\..+")
-
-
 def scale_on_paper(id: str) -> str:
     """The id of the scale of a length or a point on paper; "" for anything else."""
     if is_laid(id):
         return "mu.l"
-    point_of = _PLAN.fullmatch(id)
-    return f"mu.{point_of[1]}" if point_of else plan(id)
+    if found := ids.plan_point.read(id):
+        return ids.scale(found["what"])
+    if found := ids.force_corner.read(id):
+        return ids.force_scale(found["group"])
+    return plan(id)
 
 
 def is_laid(id: str) -> bool:
     """Whether it is a length or vector as it is laid off on paper."""
-    return id.startswith("laid.")
+    return any(id in family for family in (ids.laid_line, ids.laid, ids.laid_force))
 
 
 def distance(id: str, one: Value, other: Value) -> Value:

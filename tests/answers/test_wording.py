@@ -103,7 +103,8 @@ def test_every_phrase_is_that_of_a_quantity_or_a_family() -> None:
     names = {row.name for row in vocabulary.ROWS}
     ids = {row.id for name in FILES for row in key(name, "en").rows}
     for language in get_args(Language):
-        for phrase in load_words(search_path(language))["quantities"]:
+        keys = load_words(search_path(language))["quantities"]
+        for phrase in (name for key in keys for name in key.split(", ")):
             # What is a torque elsewhere is a force where the driver slides.
             name = phrase.removesuffix(":force")
             family = name if name in names else name.rpartition(".")[0]

@@ -32,6 +32,7 @@ from reportgen.document.tree import (
 )
 from reportgen.kinds import SAMPLE, kinds
 from reportgen.mechanism.structure import DyadKind
+from reportgen.notation import vocabulary
 from reportgen.notation.numbers import Language
 from reportgen.notation.plain import formula
 from reportgen.sections import Passage, sections
@@ -234,9 +235,27 @@ def test_every_word_is_used() -> None:
     assert unused == []
 
 
-def test_every_reason_for_a_nothing_fits_a_quantity() -> None:
-    """Each pattern of `zero` is the first that fits some quantity of some machine."""
-    ids = {id for path in built.TYPESET for id in built.case(path, "en").ledger.families}
-    patterns = list(load_words(search_path("en"))["zero"])
-    first = {next((p for p in patterns if re.fullmatch(p, id)), None) for id in ids}
-    assert set(patterns) - first == set()
+@pytest.mark.parametrize("table", ["meanings", "zero", "positive"])
+def test_every_name_of_quantities_is_that_of_one(table: str) -> None:
+    """Each name in a key of these tables, common or a machine's own, is that of a quantity that the words are for."""
+    names: dict[str, set[bool]] = {}
+    for path in (built.ROOT / "assignments").glob("*.yaml"):
+        case = built.case(path, "en")
+        for kind in ("", case.assignment.kind):
+            for name in (name for key in _own(table, kind) for name in key.split(", ")):
+                fits = (
+                    any(vocabulary.words_of({name: "said"}, one.id, one.kind, one.symbol))
+                    for one in case.ledger.families.values()
+                )
+                names.setdefault(f"{kind} {name}", set()).add(any(fits))
+    assert [name for name, fits in names.items() if True not in fits] == []
+
+
+def _own(table: str, kind: str) -> Mapping[str, str]:
+    """A table of the common words or of a machine's own."""
+    import yaml
+
+    path = TEMPLATES / "en" / kind / "words.yaml"
+    words = yaml.safe_load(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    own: Mapping[str, str] = words.get(table, {})
+    return own

@@ -24,9 +24,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.ledger.forces.loads import FAINT, LoadOn, Origin, Statics, above, joint, lone_couple, moments, opposite
+from reportgen.ledger.forces.loads import FAINT, LoadOn, Origin, Statics, above, lone_couple, moments, opposite
 from reportgen.ledger.forces.polygon import Edge, Path, Polygon, force_plan, read
 from reportgen.mechanism.structure import DRIVER, Crank, Dyad, DyadKind, Guide
+from reportgen.notation import ids
 from reportgen.notation.expressions import Expression, Ref, Sum, Symbol, dot, meet, quotient, sign, total, turned, unit
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import drawn_length
@@ -55,7 +56,7 @@ class Group:
 
     @property
     def name(self) -> str:
-        return joint(self.i, self.j)
+        return ids.joint(self.i, self.j)
 
     @property
     def start(self) -> str:
@@ -73,9 +74,9 @@ def group(statics: Statics, dyad: Dyad) -> Polygon:
         dyad,
         i,
         j,
-        outer=joint(carriers[0], i),
-        inner=joint(j, i),
-        end=joint(carriers[1], j),
+        outer=ids.joint(carriers[0], i),
+        inner=ids.joint(j, i),
+        end=ids.joint(carriers[1], j),
         on_i=statics.on(i),
         on_j=statics.on(j),
     )
@@ -87,13 +88,13 @@ def _rrr(g: Group) -> Polygon:
     middle = g.dyad.middle
     _tangential(g, g.i, g.outer, g.start, middle, g.on_i)
     _tangential(g, g.j, g.end, g.dyad.end, middle, g.on_j)
-    return _close(g, g.q[f"rod.{g.i}"], g.q[f"rod.{g.j}"], tangents=(True, True))
+    return _close(g, g.q[ids.rod(g.i)], g.q[ids.rod(g.j)], tangents=(True, True))
 
 
 def _rrp(g: Group) -> Polygon:
     middle = g.dyad.middle
     _tangential(g, g.i, g.outer, g.start, middle, g.on_i)
-    polygon = _close(g, g.q[f"rod.{g.i}"], turned(g.q[f"guide.{g.j}"]), tangents=(True, False))
+    polygon = _close(g, g.q[ids.rod(g.i)], turned(g.q[ids.guide(g.j)]), tangents=(True, False))
     _slide(g, g.end, middle, g.on_j)
     return polygon
 
@@ -101,15 +102,15 @@ def _rrp(g: Group) -> Polygon:
 def _rpr(g: Group) -> Polygon:
     """Lever j about T: R_ij l = ΣM_T(j) + ΣM_P(i), l the distance of T from the line of R_ij."""
     assert isinstance(g.dyad.end, str)
-    q, across = g.q, joint(g.i, g.j)
+    q, across = g.q, ids.joint(g.i, g.j)
     couple = _moment(g, g.inner, g.start, g.on_i)
     moment = moments(g.statics, g.on_j, g.dyad.end)
     # One flat sum: a sum within it would vanish with the first of its terms that is left out.
     known = [*(moment.terms if isinstance(moment, Sum) else [moment] if moment else []), *([couple] if couple else [])]
     size = total(known) / _reach(g) if known else 0.0
-    found = q.define(f"R.{across}.s", size, Symbol("R", across), scale=g.statics.force)
-    assumed = q.construct(f"assumed.R{across}.s", -float(g.dyad.sign) * turned(q[f"slot.{g.j}"]))
-    laid = q.construct(f"F.R{across}.s", found * assumed, of=found.id)
+    found = q.define(ids.reaction(across, "s"), size, Symbol("R", across), scale=g.statics.force)
+    assumed = q.construct(ids.assumed(ids.reaction_force(across, "s")), -float(g.dyad.sign) * turned(q[ids.slot(g.j)]))
+    laid = q.construct(ids.vector(ids.reaction_force(across, "s")), found * assumed, of=found.id)
     polygon = _close(g, None, None, laid=laid)
     _offset(g, g.inner)
     return polygon
@@ -117,7 +118,7 @@ def _rpr(g: Group) -> Polygon:
 
 def _prp(g: Group) -> Polygon:
     middle = g.dyad.middle
-    polygon = _close(g, turned(g.q[f"guide.{g.i}"]), turned(g.q[f"guide.{g.j}"]))
+    polygon = _close(g, turned(g.q[ids.guide(g.i)]), turned(g.q[ids.guide(g.j)]))
     _slide(g, g.outer, middle, g.on_i)
     _slide(g, g.end, middle, g.on_j)
     return polygon
@@ -125,12 +126,12 @@ def _prp(g: Group) -> Polygon:
 
 def _rpp(g: Group) -> Polygon:
     """Link j under its loads, R_ij across the slot and R_kj across the guide; then block i."""
-    polygon = _close(g, turned(g.q[f"slot.{g.j}"]), turned(g.q[f"guide.{g.j}"]), from_between=True)
+    polygon = _close(g, turned(g.q[ids.slot(g.j)]), turned(g.q[ids.guide(g.j)]), from_between=True)
     _slide(g, g.inner, g.start, g.on_i)
-    q, back = g.q, joint(g.i, g.j)
+    q, back = g.q, ids.joint(g.i, g.j)
     reaction = opposite(q, back, g.inner, g.j, g.start)
-    if f"M.{g.inner}" in q:
-        q.construct(f"couple.R{back}", q[f"M.{g.inner}"])
+    if ids.reaction_couple(g.inner) in q:
+        q.construct(ids.couple(ids.reaction_force(back)), q[ids.reaction_couple(g.inner)])
     _slide(g, g.end, g.dyad.middle, (reaction, *g.on_j))
     return polygon
 
@@ -140,22 +141,22 @@ def _rpp(g: Group) -> Polygon:
 
 def _tangential(g: Group, link: int, digits: str, pin: str, middle: str, loads: tuple[LoadOn, ...]) -> None:
     """Moments of a rod about the inner joint: Rᵗ l = ΣM, positive along the rod turned by 90°."""
-    q, length = g.q, g.q[f"l.{pin}{middle}"]
+    q, length = g.q, g.q[ids.length(pin, middle)]
     moment = moments(g.statics, loads, middle)
-    size = q.define(f"R.{digits}.t", 0.0 if moment is None else moment / length, scale=g.statics.force)
-    assumed = q.construct(f"assumed.R{digits}.t", turned(unit(q[f"rod.{link}"])))
-    q.construct(f"F.R{digits}.t", size * assumed, of=size.id)
+    size = q.define(ids.reaction(digits, "t"), 0.0 if moment is None else moment / length, scale=g.statics.force)
+    assumed = q.construct(ids.assumed(ids.reaction_force(digits, "t")), turned(unit(q[ids.rod(link)])))
+    q.construct(ids.vector(ids.reaction_force(digits, "t")), size * assumed, of=size.id)
 
 
 def _reach(g: Group) -> Ref:
     """The length from T to the line of R_ij: TP itself, or from the foot H of T on the slot's line."""
     q, middle, end = g.q, g.dyad.middle, g.dyad.end
     if not g.dyad.lengths[1]:
-        return q[f"l.{end}{middle}"]
+        return q[ids.length(end, middle)]
     foot, μ_l = f"H{g.j}", q["mu.l"]
-    along = abs(dot(q[f"rod.{g.j}"], q[f"slot.{g.j}"])) / q["drawing"]
-    drawn = q.define(f"drawn.{foot}{middle}", along, drawn_length(foot, middle), scale=g.statics.span)
-    return q.define(f"l.{foot}{middle}", μ_l * drawn)
+    along = abs(dot(q[ids.rod(g.j)], q[ids.slot(g.j)])) / q["drawing"]
+    drawn = q.define(ids.drawn(foot, middle), along, drawn_length(foot, middle), scale=g.statics.span)
+    return q.define(ids.length(foot, middle), μ_l * drawn)
 
 
 def _close(
@@ -174,7 +175,7 @@ def _close(
     """
     path = Path(g.q)
     if tangents[1]:
-        path.lay(f"R{g.end}.t", g.j)
+        path.lay(ids.reaction_force(g.end, "t"), g.j)
     after = path.last
     for load in g.on_j:
         if load.point:
@@ -185,7 +186,7 @@ def _close(
             path.lay(load.name, g.i)
     before = path.last
     if tangents[0]:
-        path.lay(f"R{g.outer}.t", g.i)
+        path.lay(ids.reaction_force(g.outer, "t"), g.i)
     start = between if from_between else path.last
     statics, name = g.statics, g.name
 
@@ -199,13 +200,13 @@ def _close(
     force_plan(statics, name, f"R({g.i},{g.j})", path, closing)
 
     def take(digits: str, part: str, begin: str, end: str) -> None:
-        dotted = f".{part}" if part else ""
+        force = {"joint": digits, "part": part}
         read(
             statics,
             name,
-            name=f"R{digits}{dotted}",
+            name=ids.reaction_force.of(force),
             symbol=Symbol("R", digits, part),
-            id=f"R.{digits}{dotted}",
+            id=ids.reaction.of(force),
             start=begin,
             end=end,
         )
@@ -218,11 +219,13 @@ def _close(
     take(g.end, "", "n", after)
     take(g.inner, "", "n", between)
 
-    outer = Edge(f"R{g.outer}.n" if tangents[0] else f"R{g.outer}", path.last, "n", True, g.i)
-    end = Edge(f"R{g.end}.n" if tangents[1] else f"R{g.end}", "n", path.first, True, g.j)
-    reads = [Edge(f"R{g.outer}", before, "n", True, g.i)] if tangents[0] else []
-    reads += [Edge(f"R{g.end}", "n", after, True, g.j)] if tangents[1] else []
-    reads.append(Edge(f"R{g.inner}", "n", between, True, g.i))
+    outer = Edge(
+        ids.reaction_force(g.outer, "n") if tangents[0] else ids.reaction_force(g.outer), path.last, "n", True, g.i
+    )
+    end = Edge(ids.reaction_force(g.end, "n") if tangents[1] else ids.reaction_force(g.end), "n", path.first, True, g.j)
+    reads = [Edge(ids.reaction_force(g.outer), before, "n", True, g.i)] if tangents[0] else []
+    reads += [Edge(ids.reaction_force(g.end), "n", after, True, g.j)] if tangents[1] else []
+    reads.append(Edge(ids.reaction_force(g.inner), "n", between, True, g.i))
     return Polygon(name, (*path.edges, outer, end), tuple(reads))
 
 
@@ -235,12 +238,12 @@ def _slide(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> None:
 def _moment(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> Expression | None:
     """Enter the moment about the pin that a slide's reaction has to balance, if there is any."""
     moment = moments(g.statics, loads, pin)
-    return None if moment is None else g.q.define(f"M.{digits}", moment, scale=g.statics.torque)
+    return None if moment is None else g.q.define(ids.reaction_couple(digits), moment, scale=g.statics.torque)
 
 
 def _offset(g: Group, digits: str) -> None:
     """The distance x = M/R from the pin to the line of a slide's reaction."""
-    q, statics, size, id = g.q, g.statics, g.q[f"R.{digits}"], f"M.{digits}"
+    q, statics, size, id = g.q, g.statics, g.q[ids.reaction(digits)], ids.reaction_couple(digits)
     values = q.value(size)
     formula: Expression
     if id not in q:
@@ -249,7 +252,7 @@ def _offset(g: Group, digits: str) -> None:
         formula = q[id] / size
     else:
         formula = quotient(q[id], above(size, FAINT * statics.force))
-    q.define(f"x.{digits}", formula, scale=statics.span)
+    q.define(ids.application(digits), formula, scale=statics.span)
 
 
 DYADS: Mapping[DyadKind, Callable[[Group], Polygon]] = {"RRR": _rrr, "RRP": _rrp, "RPR": _rpr, "PRP": _prp, "RPP": _rpp}
@@ -307,29 +310,28 @@ def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
     Enters the arms `h.X.p`, what each load contributes, `M.X.p`, and `M.vw`.
     """
     q, turning = statics.q, isinstance(statics.scheme.linkage.driver, Crank)
-    rate = q["omega.1"] if turning else q[f"v.{statics.scheme.linkage.driver.pin}"]
+    rate = q["omega.1"] if turning else q[ids.velocity(statics.scheme.linkage.driver.pin)]
     # Where pa is the drawn crank, μ_v/ω₁ is μ_l.
     per = q["mu.v"] / rate if q.families["mu.v"].definition is None else q["mu.l"]
     letter, kind, scale = ("M", "torque", statics.torque) if turning else ("P", "force", statics.force)
     parts: list[Expression] = []
 
-    def contribute(name: str, amount: Expression, optional: bool = False) -> None:
-        id, symbol = f"M.{name}.p", Symbol(letter, name)
-        parts.append(q.define(id, amount, symbol, kind, scale=scale, optional=optional))
+    def contribute(id: str, index: str, amount: Expression, optional: bool = False) -> None:
+        parts.append(q.define(id, amount, Symbol(letter, index), kind, scale=scale, optional=optional))
 
     for load in loads:
         omega, couple = _omega(statics, load.link), statics.couple(load)
         if not load.point:
             if omega is not None:
                 power = load.size * omega
-                contribute(load.name, (power if statics.turn > 0 else -power) / rate)
+                contribute(ids.lever_moment(load.name), load.name, (power if statics.turn > 0 else -power) / rate)
             continue
         work: Expression = dot(statics.vector(load), statics.image("v", load.point))
         drawn: Expression = quotient(work, load.size)
         if couple is not None and omega is not None:
             drawn = drawn + statics.beside(load, load.size) * omega / q["mu.v"]
         arm = q.define(
-            f"h.{load.name}.p",
+            ids.lever_arm(load.name),
             statics.turn * drawn,
             Symbol("h", load.name, "′"),
             arm=True,
@@ -337,10 +339,10 @@ def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
             about="p",
             scale=statics.span,
         )
-        contribute(load.name, load.size * arm * per)
+        contribute(ids.lever_moment(load.name), load.name, load.size * arm * per)
         if couple is not None and omega is not None:
             alone = statics.turn * lone_couple(statics, load) * omega
-            contribute(f"{load.name}.lone", alone / rate, optional=True)
+            contribute(ids.lone_moment(load.name), f"{load.name}.lone", alone / rate, optional=True)
     balance = -Sum(tuple(parts)) if parts else 0.0
     q.define("M.vw", balance, Symbol(letter, "cb", "(2)"), kind, scale=scale)
 
@@ -348,8 +350,8 @@ def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
 def _omega(statics: Statics, link: int) -> Expression | None:
     """A link's signed angular velocity, None if it does not turn."""
     q = statics.q
-    if f"turn.omega.{link}" in q:
-        return q[f"turn.omega.{link}"]
+    if ids.signed("omega", link) in q:
+        return q[ids.signed("omega", link)]
     if link == DRIVER and statics.scheme.spins[DRIVER]:
         return q["omega.1"] if statics.turn > 0 else -q["omega.1"]
     return None

@@ -15,6 +15,7 @@ import numpy as np
 from reportgen.ledger.kinematics.linkage import NOWHERE, Sizes, longest
 from reportgen.ledger.kinematics.sides import Scheme, image
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Guide, Inertia
+from reportgen.notation import ids
 from reportgen.notation.expressions import Expression, Number, Ref, Sum, Symbol, call, cross, quotient, sign
 from reportgen.notation.sheet import Sheet
 
@@ -32,11 +33,6 @@ class Origin(IntEnum):
     inertia = 1
     applied = 2
     weight = 3
-
-
-def joint(one: int, other: int) -> str:
-    """The digits of the force of one link on another: 12, or 1,12 with long numbers."""
-    return f"{one}{other}" if max(one, other) < 10 else f"{one},{other}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +68,7 @@ class Statics:
         """The size on paper of what arms are compared with: the drawn crank."""
         driver = self.scheme.linkage.driver
         if isinstance(driver, Crank):
-            return self.q.si(f"drawn.{driver.centre}{driver.pin}")
+            return self.q.si(ids.drawn(driver.centre, driver.pin))
         return longest(self.scheme.linkage) / self.q.si("mu.l")
 
     @property
@@ -87,18 +83,18 @@ class Statics:
 
     def image(self, what: str, name: str) -> Expression:
         """A point's image on a plan, 0 for a fixed one."""
-        return NOWHERE if self.scheme.still(name) else self.q[f"plan.{what}.{image(name)}"]
+        return NOWHERE if self.scheme.still(name) else self.q[ids.plan_point(what, image(name))]
 
     def vector(self, load: LoadOn) -> Ref:
-        return self.q[f"F.{load.name}"]
+        return self.q[ids.vector(load.name)]
 
     def couple(self, load: LoadOn) -> Ref | None:
         """A load's couple, None if it has none."""
-        return self.q.find(f"couple.{load.name}")
+        return self.q.find(ids.couple(load.name))
 
     def beside(self, load: LoadOn, divisor: Expression) -> Expression:
         """How far (m) a load is moved to its side for its couple, h = M/F, signed as the couple."""
-        laid, couple = self.q.find(f"beside.{load.name}"), self.couple(load)
+        laid, couple = self.q.find(ids.beside(load.name)), self.couple(load)
         return laid or (Number(0.0) if couple is None else quotient(couple, divisor))
 
 
@@ -111,19 +107,19 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
     """
     q, linkage, loads = statics.q, statics.scheme.linkage, []
     for body in linkage.inertias:
-        link, centre, name = body.link, body.centre, f"G{body.link}"
+        link, centre, name = body.link, body.centre, ids.weight(body.link)
         if body.mass > 0:
             down = linkage.gravity / abs(linkage.gravity) if linkage.gravity else -1j
-            downwards = q.give(f"down.{link}", complex(down), "g", "ratio")
-            q.construct(f"F.{name}", q[name] * downwards, of=name)
+            downwards = q.give(ids.down(link), complex(down), "g", "ratio")
+            q.construct(ids.vector(name), q[name] * downwards, of=name)
             loads.append(LoadOn(name, link, centre, q[name], Origin.weight, name))
         still_driver = link == DRIVER and isinstance(linkage.driver, Crank) and centre == linkage.driver.centre
         if (body.mass > 0 or body.moment > 0) and not still_driver:
             loads.append(_inertia(statics, body))
     for name, (link, place, sense) in applied.items():
         # The machine has entered the sense of a force along a guide that is given by its angle.
-        positive = q.find(f"sense.{name}") or q.give(f"sense.{name}", np.asarray(sense, dtype=complex), name, "ratio")
-        q.construct(f"F.{name}", q[name] * positive, of=name)
+        positive = q.find(ids.sense(name)) or q.give(ids.sense(name), np.asarray(sense, dtype=complex), name, "ratio")
+        q.construct(ids.vector(name), q[name] * positive, of=name)
         loads.append(LoadOn(name, link, place, q[name], Origin.applied, name))
     loads += [LoadOn(name, link, "", q[name], Origin.applied) for name, link in torques.items()]
     return tuple(sorted(loads, key=lambda load: (load.link, load.origin)))
@@ -132,21 +128,25 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
 def _inertia(statics: Statics, body: Inertia) -> LoadOn:
     """P_qt = m a_S against a_S, and M_qt = J ε against ε."""
     q, link, centre = statics.q, body.link, body.centre
-    name = f"Pqt{link}"
+    name = ids.inertia_force(link)
     nothing = statics.scheme.still(centre) or body.mass <= 0
-    size = 0.0 if nothing else q[f"m.{link}"] * q[f"a.{centre}"]
+    size = 0.0 if nothing else q[ids.mass(link)] * q[ids.acceleration(centre)]
     force = q.define(name, size, scale=body.mass * statics.sizes.acceleration)
-    vector = Number(0.0) if nothing else -(q[f"m.{link}"] * q["mu.a"] * statics.image("a", centre))
-    q.construct(f"F.{name}", vector, of=name)
-    if f"turn.eps.{link}" in q and body.moment > 0:
-        J = q[f"J.{link}"]
-        couple = q.define(f"M.{name}", J * q[f"eps.{link}"], scale=body.moment * statics.sizes.rotation**2)
-        turning = q.construct(f"couple.{name}", -(J * q[f"turn.eps.{link}"]), of=couple.id)
+    vector = Number(0.0) if nothing else -(q[ids.mass(link)] * q["mu.a"] * statics.image("a", centre))
+    q.construct(ids.vector(name), vector, of=name)
+    if ids.signed("eps", link) in q and body.moment > 0:
+        J = q[ids.inertia(link)]
+        couple = q.define(
+            ids.inertia_couple(link),
+            J * q[ids.angular_acceleration(link)],
+            scale=body.moment * statics.sizes.rotation**2,
+        )
+        turning = q.construct(ids.couple(name), -(J * q[ids.signed("eps", link)]), of=couple.id)
         if not nothing:
             # M/P, written out of mass and acceleration: a quotient of two products has more figures than they print.
-            written = J * q[f"eps.{link}"] / (q[f"m.{link}"] * q[f"a.{centre}"])
-            e = q.define(f"e.{name}", couple / force, scale=1e-3, written=written)
-            q.construct(f"beside.{name}", quotient(turning, force), of=e.id)
+            written = J * q[ids.angular_acceleration(link)] / (q[ids.mass(link)] * q[ids.acceleration(centre)])
+            e = q.define(ids.inertia_offset(link), couple / force, scale=1e-3, written=written)
+            q.construct(ids.beside(name), quotient(turning, force), of=e.id)
             _centre_of_percussion(statics, link, centre)
     return LoadOn(name, link, centre, force, Origin.inertia, name)
 
@@ -160,9 +160,9 @@ def _centre_of_percussion(statics: Statics, link: int, centre: str) -> None:
         for moved, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)
     }
     start = ends.get(link)
-    arm = f"l.{start}{centre}"
+    arm = ids.length(start, centre)
     if isinstance(start, str) and arm in q and q.si(arm) > 0:
-        q.define(f"l.{centre}K{link}", q[f"J.{link}"] / (q[f"m.{link}"] * q[arm]))
+        q.define(ids.percussion(centre, link), q[ids.inertia(link)] / (q[ids.mass(link)] * q[arm]))
 
 
 def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn, ...]:
@@ -173,19 +173,19 @@ def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn,
             carrier = outer.link if isinstance(outer, Guide) else statics.scheme.owner[outer]
             if carrier == GROUND or carrier not in links:
                 continue
-            here, there = joint(link, carrier), joint(carrier, link)
+            here, there = ids.joint(link, carrier), ids.joint(carrier, link)
             place = outer if isinstance(outer, str) else dyad.middle
             loads.append(opposite(q, here, there, carrier, place))
-            if f"M.{there}" in q:
-                q.construct(f"couple.R{here}", q[f"M.{there}"])
+            if ids.reaction_couple(there) in q:
+                q.construct(ids.couple(ids.reaction_force(here)), q[ids.reaction_couple(there)])
     return tuple(loads)
 
 
 def opposite(q: Sheet, here: str, there: str, link: int, point: str) -> LoadOn:
     """Enter a reaction as that of the other link turned round: R42 = −R24."""
-    size = q.define(f"R.{here}", q[f"R.{there}"], scale=q.families[f"R.{there}"].scale)
-    q.construct(f"F.R{here}", -q[f"F.R{there}"], of=size.id)
-    return LoadOn(f"R{here}", link, point, size, Origin.reaction, here)
+    size = q.define(ids.reaction(here), q[ids.reaction(there)], scale=q.families[ids.reaction(there)].scale)
+    q.construct(ids.vector(ids.reaction_force(here)), -q[ids.vector(ids.reaction_force(there))], of=size.id)
+    return LoadOn(ids.reaction_force(here), link, point, size, Origin.reaction, here)
 
 
 # --- moments --------------------------------------------------------------------------------------
@@ -206,12 +206,12 @@ def above(size: Ref, floor: float) -> Expression:
 def arm(statics: Statics, load: LoadOn, centre: str) -> Ref:
     """The signed arm, measured on the drawing, of a load about a point: h = M/(F μ_l), its couple included."""
     q, couple = statics.q, statics.couple(load)
-    moment = cross(q[f"p.{load.point}"] - q[f"p.{centre}"], statics.vector(load))
+    moment = cross(q[ids.place(load.point)] - q[ids.place(centre)], statics.vector(load))
     divisor = _divisor(statics, load)
     drawn: Expression = quotient(moment, divisor) / q["drawing"]
     if couple is not None:
         drawn = drawn + statics.beside(load, divisor) / q["mu.l"]
-    id, letters = f"h.{load.name}.{centre}", Symbol("h", load.letters)
+    id, letters = ids.arm(load.name, centre), Symbol("h", load.letters)
     return q.define(id, drawn, letters, arm=True, of=load.name, about=centre, scale=statics.span)
 
 
@@ -235,7 +235,7 @@ def moments(statics: Statics, loads: Iterable[LoadOn], centre: str) -> Expressio
 
 def lone_couple(statics: Statics, load: LoadOn) -> Expression:
     """The couple of a load at positions where its force is nothing; left out of a line elsewhere."""
-    q, id, couple = statics.q, f"lone.{load.name}", statics.couple(load)
+    q, id, couple = statics.q, ids.lone_couple(load.name), statics.couple(load)
     assert couple is not None
     if id not in q:
         letters = load.letters.removeprefix("P")

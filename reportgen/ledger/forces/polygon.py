@@ -9,6 +9,7 @@ import numpy as np
 
 from reportgen.ledger.forces.loads import Statics
 from reportgen.ledger.scales import LEAST_FORCES, extents, own_scales
+from reportgen.notation import ids
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.expressions import Expression, Number, Symbol, heading
 from reportgen.notation.sheet import Sheet
@@ -33,12 +34,13 @@ class Edge:
 
     @property
     def is_reaction(self) -> bool:
-        return self.name.startswith("R")
+        return self.name in ids.reaction_force
 
     @property
     def part(self) -> str:
         """The component of a reaction, n or t, "" for a whole force."""
-        return self.name.partition(".")[2]
+        found = ids.reaction_force.read(self.name)
+        return found["part"] if found else ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +73,7 @@ class Path:
     def lay(self, name: str, link: int) -> None:
         """Lay the force `F.name` on from the last vertex."""
         letter = next(self._letters)
-        self.corners[letter] = self.corners[self.last] + self._q[f"F.{name}"]
+        self.corners[letter] = self.corners[self.last] + self._q[ids.vector(name)]
         self.edges.append(Edge(name, self.last, letter, link=link))
         self.last = letter
 
@@ -89,22 +91,24 @@ def force_plan(statics: Statics, name: str, title: str, path: Path, closing: Clo
     corners = path.corners | ({} if closing is None else {"n": closing(path.corners, Number(1.0))})
     values = {id: family.values for id, family in q.families.items()}
     sizes = extents([np.asarray(evaluate(corner, values)) for corner in corners.values()], q.positions)
-    μ = q.give(f"mu.R{name}", own_scales(sizes, LEAST_FORCES), Symbol("μ", title))
-    vertices: dict[str, Expression] = {path.first: q.construct(f"plan.R{name}.{path.first}", Number(0.0))}
+    μ = q.give(ids.force_scale(name), own_scales(sizes, LEAST_FORCES), Symbol("μ", title))
+    vertices: dict[str, Expression] = {path.first: q.construct(ids.force_corner(name, path.first), Number(0.0))}
     for edge in path.edges:
-        laid = q.construct(f"laid.{name}.{edge.name}", q[f"F.{edge.name}"] / μ)
+        laid = q.construct(ids.laid_force(name, edge.name), q[ids.vector(edge.name)] / μ)
         letters = segment(edge.start, edge.end)
-        q.define(f"seg.{name}.{edge.name}", abs(laid), letters, scale=LEAST_FORCES, of=f"F.{edge.name}")
-        vertices[edge.end] = q.construct(f"plan.R{name}.{edge.end}", vertices[edge.start] + laid)
+        q.define(ids.force_segment(name, edge.name), abs(laid), letters, scale=LEAST_FORCES, of=ids.vector(edge.name))
+        vertices[edge.end] = q.construct(ids.force_corner(name, edge.end), vertices[edge.start] + laid)
     if closing is not None:
-        q.construct(f"plan.R{name}.n", closing(vertices, μ))
+        q.construct(ids.force_corner(name, "n"), closing(vertices, μ))
 
 
 def read(statics: Statics, plan: str, name: str, symbol: Symbol, id: str, start: str, end: str) -> None:
     """A force read from a plan between two vertices: its segment, its size, its vector and its direction."""
     q, scale = statics.q, statics.force
-    μ, along = q[f"mu.R{plan}"], q[f"plan.R{plan}.{end}"] - q[f"plan.R{plan}.{start}"]
-    drawn = q.define(f"seg.{plan}.{name}", abs(along), segment(start, end), scale=LEAST_FORCES, of=f"F.{name}")
+    μ, along = q[ids.force_scale(plan)], q[ids.force_corner(plan, end)] - q[ids.force_corner(plan, start)]
+    drawn = q.define(
+        ids.force_segment(plan, name), abs(along), segment(start, end), scale=LEAST_FORCES, of=ids.vector(name)
+    )
     q.define(id, μ * drawn, symbol, scale=scale)
-    vector = q.construct(f"F.{name}", μ * along, of=id)
-    q.define(f"dir.{name}", heading(vector), Symbol("α", symbol.sub), scale=1.0, of=id)
+    vector = q.construct(ids.vector(name), μ * along, of=id)
+    q.define(ids.force_direction(name), heading(vector), Symbol("α", symbol.sub), scale=1.0, of=id)

@@ -4,7 +4,7 @@ Ids: `p.B` a point; `drawn.AB` its drawn length; `seg.v.pb`, `seg.v.ab` segments
 `v.B`, `v.BA`, `omega.2`; likewise `seg.a…`, `a.B`, `a.BA.n`, `a.BA.t`, `a.BA.k`, `a.BA.r`, `eps.2`.  Sizes
 are positive; a signed angular velocity is `turn.omega.2` (anticlockwise positive).  Plan points `plan.v.b`,
 `plan.a.b` are metres on paper.  Directions of guides and slots are `guide.3`, `slot.3`.  Ids of `centres` begin
-with its `PREFIX`.
+with `ic.`.
 
 Expected from the machine: lengths `l.AB` (else entered as given), and of a crank its angle `phi.1`, its
 angular velocity `omega.1` and its drawn length `drawn.O1A`; of a sliding driver its coordinate `s.1` and the
@@ -20,6 +20,7 @@ from reportgen.ledger.kinematics.groups import group, images, places
 from reportgen.ledger.kinematics.linkage import Kinematics, chosen_scale, crank, slide
 from reportgen.ledger.kinematics.sides import scheme
 from reportgen.mechanism.structure import DRIVER, Crank, Linkage
+from reportgen.notation import ids
 from reportgen.notation.sheet import Sheet
 from reportgen.notation.vocabulary import point
 
@@ -37,8 +38,8 @@ def enter_kinematics(q: Sheet, linkage: Linkage, turn: int, worked: Sequence[int
 def _enter(q: Sheet, linkage: Linkage, turn: int, scales: Mapping[str, float | None] | None = None) -> Kinematics:
     for name, at in linkage.ground.items():
         # The machine has placed what follows from given lengths.
-        if f"p.{name}" not in q:
-            q.give(f"p.{name}", complex(at), point(name), "length")
+        if ids.place(name) not in q:
+            q.give(ids.place(name), complex(at), point(name), "length")
     plan = scheme(linkage)
     if isinstance(linkage.driver, Crank):
         k = crank(q, plan, linkage.driver, turn, scales or {})

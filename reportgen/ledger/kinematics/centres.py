@@ -14,10 +14,10 @@ from reportgen.ledger.kinematics.linkage import Kinematics
 from reportgen.ledger.kinematics.sides import Scheme, Side, image, sides
 from reportgen.ledger.scales import SHEET_BOXES, extents
 from reportgen.mechanism.structure import DRIVER, Crank
+from reportgen.notation import ids
 from reportgen.notation.expressions import Expression, Symbol, arg, call, cos, meet, quotient, turned
 from reportgen.notation.vocabulary import point, segment
 
-PREFIX = "ic."
 NEAREST = 0.002
 """The shortest distance of a centre from the base (m on paper) that is measured: a shorter one has no exact length."""
 FARTHEST = 0.4
@@ -44,29 +44,31 @@ def enter_centres(k: Kinematics) -> None:
 def _enter_centre(k: Kinematics, turn: Side) -> None:
     q, link, base, end, sizes = k.q, turn.link, turn.base, turn.point, k.sizes
     normals = k.place(base), _normal(k, base), k.place(end), _normal(k, end)
-    centre, μ_l = q.construct(f"ic.{link}", meet(*normals)), q["mu.l"]
+    centre, μ_l = q.construct(ids.centre(link), meet(*normals)), q["mu.l"]
 
-    reach = q.give(f"ic.reach.{link}", _reach(k, q.value(centre)), Symbol("reach"), "ratio", hidden=True)
+    reach = q.give(ids.centre_reach(link), _reach(k, q.value(centre)), Symbol("reach"), "ratio", hidden=True)
 
     def distance(name: str, nearest: float) -> Expression:
         within = call("within", abs(k.place(name) - centre) / q["drawing"], nearest, reach)
-        return q.define(f"ic.seg.{link}.{name}", within, segment(centre_symbol(link), point(name)), scale=k.span())
+        return q.define(
+            ids.centre_distance(link, name), within, segment(centre_symbol(link), point(name)), scale=k.span()
+        )
 
-    PB, PC, v = distance(base, NEAREST), distance(end, 0.0), q[f"v.{base}"]
-    q.define(f"ic.omega.{link}", v / (μ_l * PB), scale=sizes.rotation)
-    q.define(f"ic.v.{link}", v * (PC / PB), Symbol("v", end), scale=sizes.velocity)
+    PB, PC, v = distance(base, NEAREST), distance(end, 0.0), q[ids.velocity(base)]
+    q.define(ids.centre_omega(link), v / (μ_l * PB), scale=sizes.rotation)
+    q.define(ids.centre_velocity(link), v * (PC / PB), Symbol("v", end), scale=sizes.velocity)
     for name in (base, end):
-        to_link = abs(arg(quotient(k.image("v", name), q[f"rod.{link}"])))
-        q.define(f"ic.angle.{link}.{name}", to_link, scale=1.0)
+        to_link = abs(arg(quotient(k.image("v", name), q[ids.rod(link)])))
+        q.define(ids.rod_angle(link, name), to_link, scale=1.0)
     for name in (base, end):
-        along = q[f"v.{name}"] * cos(q[f"ic.angle.{link}.{name}"])
-        q.define(f"ic.along.{link}.{name}", along, scale=sizes.velocity)
+        along = q[ids.velocity(name)] * cos(q[ids.rod_angle(link, name)])
+        q.define(ids.projection(link, name), along, scale=sizes.velocity)
 
 
 def _reach(k: Kinematics, centre: np.ndarray) -> np.ndarray:
     """How far a centre may lie (m on paper) at each position: 0 where no sheet holds it and the mechanism."""
     q = k.q
-    points = [family.values for id, family in q.families.items() if id.startswith("p.")]
+    points = [family.values for id, family in q.families.items() if id in ids.place]
     sizes = extents([*points, centre], q.positions) / q.si("mu.l")
     fits = [(sizes <= np.array(box)[:, None]).all(axis=0) for box in SHEET_BOXES]
     return np.where(np.any(fits, axis=0), FARTHEST, 0.0)
@@ -84,6 +86,6 @@ def _normal(k: Kinematics, name: str) -> Expression:
         if side.turns:
             if side.point == name or side.link == owner:
                 return k.place(name) - k.place(side.base)
-        elif side.point == name or (side.carrier is not None and side.along == f"guide.{owner}"):
+        elif side.point == name or (side.carrier is not None and side.along == ids.guide(owner)):
             return turned(k.q[side.along])
-    return turned(k.q[f"plan.v.{image(name)}"])
+    return turned(k.q[ids.plan_point("v", image(name))])

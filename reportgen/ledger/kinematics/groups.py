@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from reportgen.ledger.kinematics.linkage import NOWHERE, POLES, Kinematics, PlacedLink, What
 from reportgen.ledger.kinematics.sides import Side, image, sides, under
 from reportgen.mechanism.structure import Dyad, DyadKind, Guide, LinkPoint
+from reportgen.notation import ids
 from reportgen.notation.expressions import (
     Expression,
     Symbol,
@@ -41,7 +42,7 @@ def velocity(k: Kinematics, one: Side, two: Side) -> None:
     for side in (one, two):
         if side.still and (side.turns or side.turning):
             # Relative to a fixed point the velocity is the velocity itself.
-            _enter_relative(k, side, k.q[f"v.{side.point}"])
+            _enter_relative(k, side, k.q[ids.velocity(side.point)])
 
 
 def acceleration(k: Kinematics, one: Side, two: Side) -> None:
@@ -71,12 +72,12 @@ def _start(k: Kinematics, what: What, side: Side) -> Expression:
 
 def _sought(k: Kinematics, side: Side) -> Expression:
     """The direction of the unknown velocity or acceleration of a side."""
-    return turned(k.q[f"rod.{side.link}"]) if side.turns else k.q[side.along]
+    return turned(k.q[ids.rod(side.link)]) if side.turns else k.q[side.along]
 
 
 def _along(k: Kinematics, side: Side) -> Expression:
     """The relative velocity on the plan, from the base's image to the point's."""
-    return k.q[f"plan.v.{image(side.point)}"] - _start(k, "v", side)
+    return k.q[ids.plan_point("v", image(side.point))] - _start(k, "v", side)
 
 
 def _symbol(base: str, side: Side, sup: str = "") -> Symbol:
@@ -85,19 +86,19 @@ def _symbol(base: str, side: Side, sup: str = "") -> Symbol:
 
 def _relative_velocity(k: Kinematics, side: Side) -> None:
     """The velocity of the point relative to its base, and ω of the link that turns with it."""
-    id = f"seg.v.{image(side.base)}{image(side.point)}"
+    id = ids.segment("v", image(side.base), image(side.point))
     drawn = k.segment(id, on_plan(side.base), on_plan(side.point), _along(k, side), "v")
     _enter_relative(k, side, k.q["mu.v"] * drawn)
 
 
 def _enter_relative(k: Kinematics, side: Side, definition: Expression) -> None:
     q, sizes = k.q, k.sizes
-    relative = q.define(f"v.{side.relative}", definition, _symbol("v", side), scale=sizes.velocity)
+    relative = q.define(ids.velocity(side.relative), definition, _symbol("v", side), scale=sizes.velocity)
     if side.turns:
-        size, rotation = relative / q[f"l.{side.rod}"], f"omega.{side.link}"
+        size, rotation = relative / q[ids.length(side.rod)], ids.angular_velocity(side.link)
         omega = q.define(rotation, size, scale=sizes.rotation)
-        sense = sign(cross(q[f"rod.{side.link}"], _along(k, side)))
-        q.define(f"turn.{rotation}", omega * sense, scale=sizes.rotation, of=rotation)
+        sense = sign(cross(q[ids.rod(side.link)], _along(k, side)))
+        q.define(ids.signed("omega", side.link), omega * sense, scale=sizes.rotation, of=rotation)
 
 
 def _known_acceleration(k: Kinematics, side: Side) -> Expression:
@@ -105,18 +106,24 @@ def _known_acceleration(k: Kinematics, side: Side) -> Expression:
     q, start, part = k.q, _start(k, "a", side), side.part
     if not part:
         return start
-    name, relative = f"{part}.{side.relative}", q[f"v.{side.relative}"]
-    formula = relative**2 / q[f"l.{side.rod}"] if side.turns else 2 * q[f"omega.{side.turning}"] * relative
-    known = q.define(f"a.{side.relative}.{part}", formula, _symbol("a", side, part), scale=k.sizes.acceleration)
+    corner, relative = ids.relative_corner(part, side.relative), q[ids.velocity(side.relative)]
+    formula = (
+        relative**2 / q[ids.length(side.rod)] if side.turns else 2 * q[ids.angular_velocity(side.turning)] * relative
+    )
+    known = q.define(
+        ids.acceleration(side.relative, part), formula, _symbol("a", side, part), scale=k.sizes.acceleration
+    )
     first = Symbol(POLES["a"]) if side.still else on_plan(side.base, True)
     last = Symbol(part, side.pair)
-    drawn = q.define(f"seg.a.{name}", known / q["mu.a"], segment(first, last), scale=k.paper("a"))
+    drawn = q.define(
+        ids.relative_segment(part, side.relative), known / q["mu.a"], segment(first, last), scale=k.paper("a")
+    )
     if side.turns:
-        laid: Expression = -(drawn * unit(q[f"rod.{side.link}"]))
+        laid: Expression = -(drawn * unit(q[ids.rod(side.link)]))
     else:
         # The relative velocity turned by 90° in the sense of ω.
         laid = drawn * sign(k.omega(side.turning)) * turned(unit(_along(k, side)))
-    return k.vertex("a", name, start + q.construct(f"laid.a.{name}", laid))
+    return k.vertex("a", corner, start + q.construct(ids.laid("a", corner), laid))
 
 
 def _unknown_acceleration(k: Kinematics, side: Side, start: Expression, same_letter: bool) -> None:
@@ -128,20 +135,20 @@ def _unknown_acceleration(k: Kinematics, side: Side, start: Expression, same_let
         return
     q, relative = k.q, side.relative
     part, sup = side.sought, "τ" if side.turns else "r"
-    along = q[f"plan.a.{image(side.point)}"] - start
+    along = q[ids.plan_point("a", image(side.point))] - start
     begin, end = Symbol(side.part), on_plan(side.point, True)
     if not begin.base:
         begin = on_plan(side.base, True)
     elif same_letter:
         begin, end = end, Symbol(begin.base, side.pair)
-    drawn = k.segment(f"seg.a.{part}.{relative}", begin, end, along, "a")
+    drawn = k.segment(ids.relative_segment(part, relative), begin, end, along, "a")
     size = q["mu.a"] * drawn
-    sought = q.define(f"a.{relative}.{part}", size, _symbol("a", side, sup), scale=k.sizes.acceleration)
+    sought = q.define(ids.acceleration(relative, part), size, _symbol("a", side, sup), scale=k.sizes.acceleration)
     if side.turns:
-        rotation, scale = f"eps.{side.link}", k.sizes.rotation**2
-        eps = q.define(rotation, sought / q[f"l.{side.rod}"], scale=scale)
-        sense = sign(cross(q[f"rod.{side.link}"], along))
-        q.define(f"turn.{rotation}", eps * sense, scale=scale, of=rotation)
+        rotation, scale = ids.angular_acceleration(side.link), k.sizes.rotation**2
+        eps = q.define(rotation, sought / q[ids.length(side.rod)], scale=scale)
+        sense = sign(cross(q[ids.rod(side.link)], along))
+        q.define(ids.signed("eps", side.link), eps * sense, scale=scale, of=rotation)
 
 
 OFF_LINE = 1e-9
@@ -181,10 +188,10 @@ def _guide(end: str | Guide) -> Guide:
 
 def _rod(k: Kinematics, link: int, start: str, middle: str) -> None:
     """A rod of fixed length from an outer joint to the inner one; its unit axis, if it carries a guide."""
-    rod = k.q.construct(f"rod.{link}", k.place(middle) - k.place(start))
+    rod = k.q.construct(ids.rod(link), k.place(middle) - k.place(start))
     ends = (end for dyad in k.scheme.linkage.dyads for end in (dyad.start, dyad.end))
     carries = any(isinstance(end, Guide) and end.link == link for end in ends)
-    k.put(link, start, k.q.construct(f"axis.{link}", unit(rod)) if carries else None, middle)
+    k.put(link, start, k.q.construct(ids.link_axis(link), unit(rod)) if carries else None, middle)
 
 
 def _rrr(k: Kinematics, dyad: Dyad) -> None:
@@ -192,7 +199,7 @@ def _rrr(k: Kinematics, dyad: Dyad) -> None:
     k.length(start, middle, dyad.lengths[0])
     k.length(end, middle, dyad.lengths[1])
     first, second = k.drawn(start, middle), k.drawn(end, middle)
-    k.q.construct(f"p.{middle}", circle_circle(k.place(start), first, k.place(end), second, float(dyad.sign)))
+    k.q.construct(ids.place(middle), circle_circle(k.place(start), first, k.place(end), second, float(dyad.sign)))
     _rod(k, dyad.links[0], start, middle)
     _rod(k, dyad.links[1], end, middle)
 
@@ -203,7 +210,7 @@ def _rrp(k: Kinematics, dyad: Dyad) -> None:
     at, along = k.guide(j, _guide(dyad.end))
     k.length(start, middle, dyad.lengths[0])
     length = k.drawn(start, middle)
-    k.q.construct(f"p.{middle}", circle_line(k.place(start), length, at, along, float(dyad.sign)))
+    k.q.construct(ids.place(middle), circle_line(k.place(start), length, at, along, float(dyad.sign)))
     _rod(k, i, start, middle)
     k.put(j, middle, along)
 
@@ -213,16 +220,16 @@ def _rpr(k: Kinematics, dyad: Dyad) -> None:
     start, end, middle = _pin(dyad.start), _pin(dyad.end), dyad.middle
     i, j = dyad.links
     q, offset, mu = k.q, dyad.lengths[1], k.q["mu.l"]
-    q.construct(f"p.{middle}", k.place(start))
-    rod = q.construct(f"rod.{j}", k.place(start) - k.place(end))
-    drawn = q.define(f"drawn.{end}{middle}", abs(rod) / q["drawing"], drawn_length(end, middle), scale=k.span())
-    q.define(f"l.{end}{middle}", mu * drawn)
+    q.construct(ids.place(middle), k.place(start))
+    rod = q.construct(ids.rod(j), k.place(start) - k.place(end))
+    drawn = q.define(ids.drawn(end, middle), abs(rod) / q["drawing"], drawn_length(end, middle), scale=k.span())
+    q.define(ids.length(end, middle), mu * drawn)
     along: Expression = float(dyad.sign) * abs(rod)
     if offset:
         e = k.length(end, f"H{j}", abs(offset))
         reach = sqrt(call("max", 0.0, abs(rod) ** 2 - e**2))
         along = float(dyad.sign) * reach + (1.0 if offset > 0 else -1.0) * turned(e)
-    slot = q.construct(f"slot.{j}", rod / along)
+    slot = q.construct(ids.slot(j), rod / along)
     k.put(i, start, slot)
     k.put(j, end, slot, middle)
 
@@ -231,7 +238,7 @@ def _prp(k: Kinematics, dyad: Dyad) -> None:
     (at1, along1), (at2, along2) = (
         k.guide(link, _guide(end)) for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)
     )
-    k.q.construct(f"p.{dyad.middle}", meet(at1, along1, at2, along2))
+    k.q.construct(ids.place(dyad.middle), meet(at1, along1, at2, along2))
     for link, along in zip(dyad.links, (along1, along2), strict=True):
         k.put(link, dyad.middle, along)
 
@@ -240,9 +247,9 @@ def _rpp(k: Kinematics, dyad: Dyad) -> None:
     start, middle = _pin(dyad.start), dyad.middle
     i, j = dyad.links
     at, along = k.guide(j, _guide(dyad.end))
-    slot = k.q.construct(f"slot.{j}", along * k.constant(f"slot.{j}.local", cmath.exp(1j * dyad.slide_angle)))
-    k.q.construct(f"p.{middle}", meet(at, along, k.place(start), slot))
-    k.q.construct(f"p.{under(start, j, k.scheme.owner)}", k.place(start))
+    slot = k.q.construct(ids.slot(j), along * k.constant(ids.slot_on_link(j), cmath.exp(1j * dyad.slide_angle)))
+    k.q.construct(ids.place(middle), meet(at, along, k.place(start), slot))
+    k.q.construct(ids.place(under(start, j, k.scheme.owner)), k.place(start))
     k.put(i, start, along)
     k.put(j, middle, along)
 
@@ -291,15 +298,15 @@ def places(k: Kinematics, link: int, turn: Side | None) -> None:
     q, placed = k.q, k.links[link]
     for point in _points(k, link):
         k.length(placed.origin, point.name, abs(point.local))
-        angle = k.constant(f"turn.{point.name}", cmath.exp(1j * cmath.phase(point.local)) if point.local else 1)
+        angle = k.constant(ids.point_turn(point.name), cmath.exp(1j * cmath.phase(point.local)) if point.local else 1)
         if turn is not None and not turn.measured:
             if _off_line(point):
-                k.length(turn.point, point.name, abs(point.local - q.si(f"l.{turn.rod}")))
-            axis: Expression = unit(q[f"rod.{link}"])
+                k.length(turn.point, point.name, abs(point.local - q.si(ids.length(turn.rod))))
+            axis: Expression = unit(q[ids.rod(link)])
         else:
             axis = k.axis(link)
         length = k.drawn(placed.origin, point.name)
-        q.construct(f"p.{point.name}", k.place(placed.origin) + length * angle * axis)
+        q.construct(ids.place(point.name), k.place(placed.origin) + length * angle * axis)
 
 
 def images(k: Kinematics, what: What, link: int, turn: Side | None) -> None:
@@ -319,39 +326,39 @@ def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Side) -> N
     q, base, tip = k.q, turn.base, turn.point
     first, last, new = "p" if turn.still else image(base), image(tip), image(point.name)
     along = k.image(what, tip) - k.image(what, base)
-    ratio = q[f"l.{base}{point.name}"] / q[f"l.{turn.rod}"]
-    angle = q[f"turn.{point.name}"]
+    ratio = q[ids.length(base, point.name)] / q[ids.length(turn.rod)]
+    angle = q[ids.point_turn(point.name)]
     if turn.measured:
-        id = f"similar.{point.name}"
+        id = ids.similar(point.name)
         if id not in q:
-            q.construct(id, angle * quotient(k.axis(point.link), unit(q[f"rod.{point.link}"])))
+            q.construct(id, angle * quotient(k.axis(point.link), unit(q[ids.rod(point.link)])))
         angle = q[id]
-    whole = f"seg.{what}.{first}{last}"
+    whole = ids.segment(what, first, last)
     letters = k.letter(what, base), on_plan(tip, what == "a")
     if whole not in q:
         k.segment(whole, *letters, along, what)
     target = on_plan(point.name, what == "a")
-    part = q.define(f"seg.{what}.{first}{new}", ratio * q[whole], segment(letters[0], target))
-    laid = q.construct(f"laid.{what}.{first}{new}", ratio * angle * along, of=part.id)
+    part = q.define(ids.segment(what, first, new), ratio * q[whole], segment(letters[0], target))
+    laid = q.construct(ids.laid(what, f"{first}{new}"), ratio * angle * along, of=part.id)
     k.vertex(what, new, k.image(what, base) + laid)
     if _off_line(point) and not turn.measured:
-        other = q[f"l.{tip}{point.name}"] / q[f"l.{turn.rod}"]
-        q.define(f"seg.{what}.{last}{new}", other * q[whole], segment(letters[1], target))
+        other = q[ids.length(tip, point.name)] / q[ids.length(turn.rod)]
+        q.define(ids.segment(what, last, new), other * q[whole], segment(letters[1], target))
     k.absolute(what, point.name)
 
 
 def _by_rotation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedLink) -> None:
     """v_E = v_O + ω l_OE, a_E = a_O + ω² l_OE + ε l_OE, as the link turns about its origin."""
     q, name, link = k.q, point.name, point.link
-    length, relative = q[f"l.{placed.origin}{name}"], f"{name}{placed.origin}"
+    length, relative = q[ids.length(placed.origin, name)], f"{name}{placed.origin}"
     if point.local:
-        omega, size = q[f"omega.{link}"], k.sizes.of(what)
+        omega, size = q[ids.angular_velocity(link)], k.sizes.of(what)
         if what == "v":
-            q.define(f"v.{relative}", omega * length, scale=size)
+            q.define(ids.velocity(relative), omega * length, scale=size)
         else:
-            q.define(f"a.{relative}.n", omega**2 * length, scale=size)
+            q.define(ids.acceleration(relative, "n"), omega**2 * length, scale=size)
             if placed.eps is not None:
-                q.define(f"a.{relative}.t", q[f"eps.{link}"] * length, scale=size)
+                q.define(ids.acceleration(relative, "t"), q[ids.angular_acceleration(link)] * length, scale=size)
     arm = k.place(name) - k.place(placed.origin)
     k.vertex(what, image(name), k.image_at(what, link, arm))
     k.absolute(what, name)
@@ -361,7 +368,8 @@ def _by_translation(k: Kinematics, what: What, point: LinkPoint, placed: PlacedL
     """All points of a link that does not turn have one velocity and one acceleration."""
     q, name = k.q, point.name
     plan = k.vertex(what, image(name), k.image(what, placed.origin))
-    k.segment(f"seg.{what}.p{image(name)}", Symbol(POLES[what]), on_plan(name, what == "a"), abs(plan), what)
-    same = NOWHERE if k.scheme.still(placed.origin) else q[f"{what}.{placed.origin}"]
-    q.define(f"{what}.{name}", same, scale=k.sizes.of(what))
+    k.segment(ids.segment(what, "p", image(name)), Symbol(POLES[what]), on_plan(name, what == "a"), abs(plan), what)
+    rate = ids.POINT_RATE[what]
+    same = NOWHERE if k.scheme.still(placed.origin) else q[rate(placed.origin)]
+    q.define(rate(name), same, scale=k.sizes.of(what))
     k.direction(what, name)

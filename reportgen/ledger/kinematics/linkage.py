@@ -15,6 +15,7 @@ import numpy as np
 from reportgen.ledger.kinematics.sides import Scheme, image
 from reportgen.ledger.scales import LEAST_MOTION, PER_MM, common_scale, extents
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Guide, Linkage, SlidingDriver
+from reportgen.notation import ids
 from reportgen.notation.expressions import Expression, Number, Ref, Symbol, cis, heading, turned
 from reportgen.notation.numbers import nice_up
 from reportgen.notation.sheet import Sheet, is_short
@@ -71,24 +72,24 @@ class Kinematics:
         """The length of the crank."""
         driver = self.scheme.linkage.driver
         assert isinstance(driver, Crank)
-        return self.q[f"l.{driver.centre}{driver.pin}"]
+        return self.q[ids.length(driver.centre, driver.pin)]
 
     # --- points and their images
 
     def place(self, name: str) -> Ref:
         """A point of the mechanism."""
-        return self.q[f"p.{name}"]
+        return self.q[ids.place(name)]
 
     def is_fixed(self, name: str) -> bool:
         return self.scheme.owner.get(name) == GROUND
 
     def image(self, what: What, name: str) -> Expression:
         """A point on a plan: 0, the pole, for one fixed to the ground."""
-        return NOWHERE if self.is_fixed(name) else self.q[f"plan.{what}.{image(name)}"]
+        return NOWHERE if self.is_fixed(name) else self.q[ids.plan_point(what, image(name))]
 
     def vertex(self, what: What, name: str, place: Expression) -> Ref:
         """Enter a point of a plan (m on paper)."""
-        self.vertices[what].append(self.q.construct(f"plan.{what}.{name}", place))
+        self.vertices[what].append(self.q.construct(ids.plan_point(what, name), place))
         return self.vertices[what][-1]
 
     def letter(self, what: What, name: str) -> Symbol:
@@ -100,7 +101,7 @@ class Kinematics:
         q, placed = self.q, self.links[link]
         base = self.image(what, placed.origin)
         if link == DRIVER and placed.omega is not None:
-            drawn = arm * (q[f"seg.{what}.p{image(self.scheme.linkage.driver.pin)}"] / self.arm_length)
+            drawn = arm * (q[ids.segment(what, "p", image(self.scheme.linkage.driver.pin))] / self.arm_length)
             return self.turn * turned(drawn) if what == "v" else -drawn
         if placed.tip:
             ratio = arm / (self.place(placed.tip) - self.place(placed.origin))
@@ -117,22 +118,22 @@ class Kinematics:
     def absolute(self, what: What, name: str) -> None:
         """The segment from the pole to a point's image, and the velocity or acceleration it stands for."""
         q, point = self.q, image(name)
-        on_paper = f"seg.{what}.p{point}"
+        on_paper = ids.segment(what, "p", point)
         if on_paper not in q:
             self.segment(on_paper, POLES[what], on_plan(name, what == "a"), self.image(what, name), what)
-        q.define(f"{what}.{name}", q[f"mu.{what}"] * q[on_paper], scale=self.sizes.of(what))
+        q.define(ids.POINT_RATE[what](name), q[ids.scale(what)] * q[on_paper], scale=self.sizes.of(what))
         self.direction(what, name)
 
     def direction(self, what: What, name: str) -> None:
         """The angle of a point's velocity or acceleration from +x."""
-        vector = self.q[f"plan.{what}.{image(name)}"]
-        self.q.define(f"dir.{what}.{name}", heading(vector), scale=1.0, of=f"{what}.{name}")
+        vector = self.q[ids.plan_point(what, image(name))]
+        self.q.define(ids.direction(what, name), heading(vector), scale=1.0, of=ids.POINT_RATE[what](name))
 
     # --- sizes on paper
 
     def paper(self, what: What) -> float:
         """The size of a plan on paper (m)."""
-        return self.sizes.of(what) / self.q.si(f"mu.{what}")
+        return self.sizes.of(what) / self.q.si(ids.scale(what))
 
     def span(self) -> float:
         """The size of the mechanism as it is drawn (m)."""
@@ -148,14 +149,14 @@ class Kinematics:
 
     def length(self, start: str, end: str, value: float) -> Ref:
         """A link's length, entered as given unless the machine has done so."""
-        id = f"l.{start}{end}"
+        id = ids.length(start, end)
         return self.q[id] if id in self.q else self.q.give(id, value, exact=is_short(value))
 
     def drawn(self, start: str, end: str) -> Expression:
         """Enter a length as it is drawn; gives the length (m) that the drawing then shows."""
-        q, name = self.q, f"{start}{end}"
-        drawn = q.define(f"drawn.{name}", q[f"l.{name}"] / q["mu.l"], drawn_length(start, end))
-        return q["drawing"] * q.construct(f"laid.{name}", q[f"l.{name}"] / q["mu.l"], of=drawn.id)
+        q, on_paper = self.q, self.q[ids.length(start, end)] / self.q["mu.l"]
+        drawn = q.define(ids.drawn(start, end), on_paper, drawn_length(start, end))
+        return q["drawing"] * q.construct(ids.laid_line(start, end), on_paper, of=drawn.id)
 
     # --- links
 
@@ -169,37 +170,38 @@ class Kinematics:
 
     def guide(self, slider: int, guide: Guide) -> tuple[Ref, Ref]:
         """A guide's point and direction, carried along by its link."""
-        at, along = f"guide.{slider}.at", f"guide.{slider}"
+        at, along = ids.guide_place(slider), ids.guide(slider)
         if guide.link == GROUND:
             return self.constant(at, guide.at), self.constant(along, cmath.exp(1j * guide.angle))
         axis = self.axis(guide.link)
-        own_place = self.constant(f"{at}.local", guide.at)
-        own_direction = self.constant(f"{along}.local", cmath.exp(1j * guide.angle))
+        own_place = self.constant(ids.guide_place_on_link(slider), guide.at)
+        own_direction = self.constant(ids.guide_on_link(slider), cmath.exp(1j * guide.angle))
         start = self.place(self.links[guide.link].origin)
         return self.q.construct(at, start + own_place * axis), self.q.construct(along, own_direction * axis)
 
     def share_rotation(self, what: What, link: int) -> None:
         """Enter ω or ε of a link that turns with another one as that of the other."""
         q, other = self.q, self.scheme.spins[link]
-        id, order = ROTATION[what]
-        if other == link or f"{id}.{other}" not in q:
+        rate, order = ROTATION[what]
+        rotation = ids.LINK_RATE[rate]
+        if other == link or rotation(other) not in q:
             return
         size = self.sizes.rotation**order
-        signed = self.omega(other) if what == "v" else q[f"turn.{id}.{other}"]
-        q.define(f"{id}.{link}", q[f"{id}.{other}"], scale=size)
-        q.define(f"turn.{id}.{link}", signed, scale=size, of=f"{id}.{link}")
+        signed = self.omega(other) if what == "v" else q[ids.signed(rate, other)]
+        q.define(rotation(link), q[rotation(other)], scale=size)
+        q.define(ids.signed(rate, link), signed, scale=size, of=rotation(link))
 
     def omega(self, link: int) -> Expression:
         """The signed angular velocity of a link that turns."""
         if link == DRIVER:
             return self.q["omega.1"] if self.turn > 0 else -self.q["omega.1"]
-        return Ref(f"turn.omega.{link}")
+        return Ref(ids.signed("omega", link))
 
     def put(self, link: int, origin: str, axis: Ref | None, tip: str = "") -> None:
         """Place a link; how its points move follows from what it turns with."""
         source = self.scheme.spins[link]
         omega = self.omega(link) if source else None
-        eps = Ref(f"turn.eps.{link}") if source not in (0, DRIVER) else None
+        eps = Ref(ids.signed("eps", link)) if source not in (0, DRIVER) else None
         self.links[link] = PlacedLink(origin, axis, tip, omega, eps)
 
 
@@ -217,7 +219,7 @@ def natural_sizes(q: Sheet, linkage: Linkage) -> Sizes:
     if isinstance(driver, Crank):
         omega = q.si("omega.1")
         return Sizes(omega * driver.length, omega**2 * driver.length, omega)
-    speed, size = float(np.abs(q.value(f"v.{driver.pin}")).max()), longest(linkage)
+    speed, size = float(np.abs(q.value(ids.velocity(driver.pin))).max()), longest(linkage)
     return Sizes(speed, speed**2 / size, speed / size)
 
 
@@ -232,30 +234,34 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[st
     centre, pin = driver.centre, driver.pin
     k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
     φ1, ω1, length = q["phi.1"], q["omega.1"], k.length(centre, pin, driver.length)
-    if f"drawn.{centre}{pin}" not in q:
-        q.give(f"drawn.{centre}{pin}", DRAWN, drawn_length(centre, pin))
-    drawn = q[f"drawn.{centre}{pin}"]
+    if ids.drawn(centre, pin) not in q:
+        q.give(ids.drawn(centre, pin), DRAWN, drawn_length(centre, pin))
+    drawn = q[ids.drawn(centre, pin)]
     exact = q.families[drawn.id].exact
     μ_l = q.define("mu.l", length / drawn)
     # What one length on paper is: the drawn crank says it, whatever is written down for μ_l.
     q.construct("drawing", length / drawn)
-    q.construct(f"p.{pin}", k.place(centre) + length * cis(φ1))
+    q.construct(ids.place(pin), k.place(centre) + length * cis(φ1))
     further = [place for place in scheme.linkage.points if place.link == DRIVER]
     for place in further:
         k.length(centre, place.name, abs(place.local))
         reach = k.drawn(centre, place.name)
-        q.construct(f"p.{place.name}", k.place(centre) + reach * cis(φ1 + cmath.phase(place.local)))
+        q.construct(ids.place(place.name), k.place(centre) + reach * cis(φ1 + cmath.phase(place.local)))
 
-    q.define(f"v.{pin}", ω1 * length)
-    q.define(f"a.{pin}", ω1**2 * length)
+    q.define(ids.velocity(pin), ω1 * length)
+    q.define(ids.acceleration(pin), ω1**2 * length)
     plans: tuple[tuple[What, Expression], ...] = ("v", ω1 * μ_l), ("a", ω1**2 * μ_l)
     for what, by_crank in plans:
         letters, chosen = segment(POLES[what], on_plan(pin, what == "a")), scales.get(what)
         if chosen is None:
-            q.define(f"seg.{what}.p{image(pin)}", drawn, letters, exact=exact)
-            q.define(f"mu.{what}", by_crank)
+            q.define(ids.segment(what, "p", image(pin)), drawn, letters, exact=exact)
+            q.define(ids.scale(what), by_crank)
         else:
-            q.define(f"seg.{what}.p{image(pin)}", q[f"{what}.{pin}"] / q.give(f"mu.{what}", chosen), letters)
+            q.define(
+                ids.segment(what, "p", image(pin)),
+                q[ids.POINT_RATE[what](pin)] / q.give(ids.scale(what), chosen),
+                letters,
+            )
     μ_v, μ_a = q["mu.v"], q["mu.a"]
 
     k.put(DRIVER, centre, None)
@@ -264,10 +270,10 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[st
         k.vertex("v", image(name), k.image_at("v", DRIVER, arm))
         k.vertex("a", image(name), k.image_at("a", DRIVER, arm))
         if name != pin:
-            own = q[f"l.{centre}{name}"]
-            v, a = q.define(f"v.{name}", ω1 * own), q.define(f"a.{name}", ω1**2 * own)
-            q.define(f"seg.v.p{image(name)}", v / μ_v, segment("p", on_plan(name)))
-            q.define(f"seg.a.p{image(name)}", a / μ_a, segment("π", on_plan(name, True)))
+            own = q[ids.length(centre, name)]
+            v, a = q.define(ids.velocity(name), ω1 * own), q.define(ids.acceleration(name), ω1**2 * own)
+            q.define(ids.segment("v", "p", image(name)), v / μ_v, segment("p", on_plan(name)))
+            q.define(ids.segment("a", "p", image(name)), a / μ_a, segment("π", on_plan(name, True)))
     ends = (end for dyad in scheme.linkage.dyads for end in (dyad.start, dyad.end))
     carries = any(getattr(end, "link", None) == DRIVER for end in ends)
     k.put(DRIVER, centre, q.construct("axis.1", cis(φ1)) if carries else None)
@@ -286,13 +292,13 @@ def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: Ma
     q.construct("drawing", q["mu.l"])
     along = k.constant("guide.1", cmath.exp(1j * driver.guide.angle))
     at = k.constant("guide.1.at", driver.guide.at)
-    q.construct(f"p.{pin}", at + q["s.1"] * along)
+    q.construct(ids.place(pin), at + q["s.1"] * along)
     μ_v = q.give("mu.v", scales.get("v") or PER_MM)
     q.give("mu.a", scales.get("a") or PER_MM)
-    drawn = q.define(f"seg.v.p{image(pin)}", q[f"v.{pin}"] / μ_v, segment("p", on_plan(pin)))
+    drawn = q.define(ids.segment("v", "p", image(pin)), q[ids.velocity(pin)] / μ_v, segment("p", on_plan(pin)))
     k.vertex("v", image(pin), turn * drawn * along)
-    q.give(f"a.{pin}", 0.0)
-    q.define(f"seg.a.p{image(pin)}", 0.0, segment("π", on_plan(pin, True)))
+    q.give(ids.acceleration(pin), 0.0)
+    q.define(ids.segment("a", "p", image(pin)), 0.0, segment("π", on_plan(pin, True)))
     k.vertex("a", image(pin), Number(0.0) * along)
     k.put(DRIVER, pin, along)
     return k
@@ -300,7 +306,7 @@ def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: Ma
 
 def chosen_scale(trial: Kinematics, what: What, worked: Sequence[int]) -> float | None:
     """The scale of all plans (SI), from a trial; None if the crank's gives the worked ones their size already."""
-    q, μ = trial.q, trial.q.si(f"mu.{what}")
+    q, μ = trial.q, trial.q.si(ids.scale(what))
     sizes = extents([np.zeros(1), *map(q.value, trial.vertices[what])], q.positions) * μ
     shown = sizes[:, [k - 1 for k in worked]] if worked else sizes
     least = np.nanmin(shown.max(axis=0), initial=np.inf) / μ

@@ -24,6 +24,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
 from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage, owners
+from reportgen.notation import ids
 
 
 def image(name: str) -> str:
@@ -108,16 +109,16 @@ class Side:
     @property
     def velocity(self) -> str:
         """The relative velocity."""
-        return f"v.{self.relative}"
+        return ids.velocity(self.relative)
 
     @property
     def known(self) -> str:
         """The segment of the relative acceleration that velocities give."""
-        return f"seg.a.{self.part}.{self.relative}"
+        return ids.relative_segment(self.part, self.relative)
 
     @property
     def omega(self) -> str:
-        return f"omega.{self.turning}"
+        return ids.angular_velocity(self.turning)
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,7 +163,7 @@ def _on_guide(plan: Scheme, point: str, guide: str | Guide, slider: int, *others
     assert isinstance(guide, Guide)
     base = under(point, guide.link, {*plan.owner, *others})
     on = guide.link
-    return Side(point, base, on == GROUND, base, along=f"guide.{slider}", turning=plan.spins[on], carrier=on)
+    return Side(point, base, on == GROUND, base, along=ids.guide(slider), turning=plan.spins[on], carrier=on)
 
 
 def _over_pin(plan: Scheme, dyad: Dyad, point: str) -> Side:
@@ -171,7 +172,7 @@ def _over_pin(plan: Scheme, dyad: Dyad, point: str) -> Side:
     i, j = dyad.links
     pin = dyad.start
     shown = pin if pin[-1].isdigit() else f"{pin}{i}"
-    return Side(point, pin, plan.still(pin), shown, along=f"slot.{j}", turning=plan.spins[j])
+    return Side(point, pin, plan.still(pin), shown, along=ids.slot(j), turning=plan.spins[j])
 
 
 def _rrr(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:

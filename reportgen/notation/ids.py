@@ -1,0 +1,172 @@
+"""The ids of all quantities, a family each: `ids.velocity("B")` is v.B, `ids.reaction("12", "t")` is R.12.t.
+
+A quantity that is one of its kind has its id as text (`mu.l`, `omega.1`, `M.eq`).  No two families read the same id,
+but that the distance of a centre of percussion is a length, too, and that those which put a word before any other id
+read more: where two do, the one that stands first means it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from reportgen.notation.names import Name
+
+# --- geometry: true lengths, lengths on the drawing, places and directions
+
+percussion = Name("l.{point}K{link}")  # to the centre of percussion
+length = Name("l.{line}[{to}]")  # AB in one word or in two
+drawn = Name("drawn.{line}[{to}]")
+laid_line = Name("laid.{line}[{to}]")
+scale = Name("mu.{plan}")
+place = Name("p.{point}")
+coordinate = Name("{point}.{axis}")
+mass_centre = Name("s.{link}")  # its share of the length of a rod
+along_link = Name("{point}.along")
+across_link = Name("{point}.across")
+frame_coordinate = Name("frame.{axis}.{point}")
+point_turn = Name("turn.{point}")  # from the rod to the arm of a point of its link
+rod = Name("rod.{link}")
+link_axis = Name("axis.{link}")
+slot = Name("slot.{link}")
+slot_on_link = Name("slot.{link}.local")
+guide = Name("guide.{link}")
+guide_on_link = Name("guide.{link}.local")
+guide_place = Name("guide.{link}.at")
+guide_place_on_link = Name("guide.{link}.at.local")
+similar = Name("similar.{point}")
+angle = Name("phi.{of}")
+inclination = Name("beta.{link}")
+slope = Name("eta.{point}")
+inner_angle = Name("alpha.{number}")
+outer_angle = Name("psi.{number}")
+
+# --- masses
+
+weight = Name("G{link}")
+mass = Name("m.{link}")
+inertia = Name("J.{link}")
+reduced_inertia = Name("J.r.{link}")
+
+# --- rotation of links
+
+angular_velocity = Name("omega.{link}")
+angular_acceleration = Name("eps.{link}")
+signed = Name("turn.{rate}.{link}")  # anticlockwise positive
+bound_of_speed = Name("omega.{bound}")
+LINK_RATE: Mapping[str, Name] = {"omega": angular_velocity, "eps": angular_acceleration}
+
+# --- plans of velocities and accelerations
+
+velocity = Name("v.{point}")
+acceleration = Name("a.{point}[.{part}]")
+POLE = "p"
+"""The corner of both plans that stands for what is fixed."""
+POINT_RATE: Mapping[str, Name] = {"v": velocity, "a": acceleration}
+stroke_velocity = Name("v.{stroke}")
+segment = Name("seg.{what}.{start}{end}")
+relative_segment = Name("seg.a.{part}.{relative}")
+laid = Name("laid.{what}.{edge}")
+plan_point = Name("plan.{what}.{corner}")
+direction = Name("dir.{what}.{point}")
+
+# --- exercises of plane motion
+
+velocity_component = Name("v.{point}.{axis}")
+acceleration_component = Name("a.{point}.{axis}")
+sliding_velocity = Name("v.{point}.r")
+centre_coordinate = Name("centre.{link}.{axis}")
+velocity_factor = Name("k.{point}")
+
+# --- instant centres
+
+centre = Name("ic.{link}")
+centre_reach = Name("ic.reach.{link}")
+centre_distance = Name("ic.seg.{link}.{point}")
+centre_omega = Name("ic.omega.{link}")
+centre_velocity = Name("ic.v.{link}")
+rod_angle = Name("ic.angle.{link}.{point}")
+projection = Name("ic.along.{link}.{point}")
+CENTRES = (centre, centre_reach, centre_distance, centre_omega, centre_velocity, rod_angle, projection)
+
+# --- closed formulas
+
+formula_angle = Name("f.phi.{link}")
+formula_coordinate = Name("f.{axis}.{line}")
+formula_component = Name("f.{axis}.{point}.{what}")
+formula_velocity = Name("f.v.{point}")
+formula_acceleration = Name("f.a.{point}[.{part}]")
+formula_sliding = Name("f.{what}.{slide}")
+formula_angular_velocity = Name("f.omega.{link}")
+formula_angular_acceleration = Name("f.eps.{link}")
+slider_way = Name("x.{slider}")
+matrix_entry = Name("{matrix}.{number}")
+numerator = Name("q.{link}")
+
+# --- loads
+
+displacement = Name("s.{link}")
+displacement_on_paper = Name("way.{link}")
+pressure = Name("p.{link}")
+applied_force = Name("P{link}[{letter}]")  # a letter where a link has several
+applied_torque = Name("M{link}[{letter}]")
+given_force = Name("P[{point}].given")
+inertia_force = Name("Pqt{link}")
+inertia_couple = Name("M.Pqt{link}")
+inertia_offset = Name("e.Pqt{link}")
+vector = Name("F.{force}")
+couple = Name("couple.{force}")
+lone_couple = Name("lone.{force}")
+beside = Name("beside.{force}")
+sense = Name("sense.{force}")
+assumed = Name("assumed.{force}")
+down = Name("down.{link}")
+
+# --- reactions
+
+reaction = Name("R.{joint}[.{part}]")
+reaction_couple = Name("M.{joint}")
+application = Name("x.{joint}")
+arm = Name("h.{force}.{about}")
+force_scale = Name("mu.R{group}")
+force_segment = Name("seg.{group}.{force}")
+laid_force = Name("laid.{group}.{force}")
+force_corner = Name("plan.R{group}.{corner}")
+force_direction = Name("dir.{force}")
+
+# --- the balance of the driver and the cycle
+
+lever_arm = Name("h.{force}.p")
+lever_moment = Name("M.{force}.p")
+lone_moment = Name("M.{force}.lone.p")
+balance = Name("M.{method}")
+figure_of_balance = Name("M.{figure}")  # over the cycle, or of the reduced torque
+
+# --- a word before the id of another quantity
+
+formula = Name("f.{id}")
+far = Name("far.{id}")
+unit = Name("unit.{id}")
+rule = Name("rule.{id}")
+rest = Name("rest.{id}")
+
+# --- names that are no ids: of the forces of a plan and of the corners of a plan of accelerations
+
+reaction_force = Name("R{joint}[.{part}]")
+relative_corner = Name("{part}.{relative}")
+
+
+def joint(one: int, other: int) -> str:
+    """The digits of the force of one link on another: 12, or 1,12 with long numbers."""
+    return f"{one}{other}" if max(one, other) < 10 else f"{one},{other}"
+
+
+def linked(joint: str) -> tuple[str, str]:
+    """The two links of a joint's digits, the acting one first: 12 is 1 and 2."""
+    one, other = joint.split(",") if "," in joint else tuple(joint)
+    return one, other
+
+
+def of_force(name: str) -> str:
+    """The id of a force's size by the force's name: R12.t has R.12.t, a load's size is called like the load."""
+    found = reaction_force.read(name)
+    return name if found is None else reaction.of(found)
