@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.case import open_any
+from reportgen.cases import open_case
 from reportgen.notation import ids, vocabulary
 from reportgen.notation.names import Name
 
@@ -26,7 +26,7 @@ ONES_OF_THEIR_KIND = frozenset(
 
 @cache
 def every_id() -> frozenset[str]:
-    return frozenset(id for path in FILES for id in open_any(path).ledger.families)
+    return frozenset(id for path in FILES for id in open_case(path).ledger.families)
 
 
 def readers(id: str) -> list[Name]:
