@@ -18,7 +18,7 @@ HEADING = "%%"
 MACHINES = "catalogue"
 """The folder beside `report.md` with a file for each kind of machine or exercise."""
 
-FILES = 128
+KEPT_FILES = 128
 """How many files are kept."""
 
 
@@ -41,7 +41,7 @@ def sections(file: Path) -> Mapping[str, Passage]:
         about = file.stat()
     except (FileNotFoundError, NotADirectoryError):
         return {}
-    return _as_of(file, about.st_mtime_ns, about.st_size)
+    return _sections_of(file, about.st_mtime_ns, about.st_size)
 
 
 def find(name: str, places: Sequence[Path]) -> Passage | None:
@@ -81,8 +81,8 @@ def _names(language: Path) -> Iterator[str]:
         yield from sections(file)
 
 
-@lru_cache(maxsize=FILES)
-def _as_of(file: Path, changed: int, size: int) -> Mapping[str, Passage]:
+@lru_cache(maxsize=KEPT_FILES)
+def _sections_of(file: Path, changed: int, size: int) -> Mapping[str, Passage]:
     """The sections of a file, read once for as long as it stays the same."""
     try:
         lines = file.read_text(encoding="utf-8-sig").split("\n")

@@ -40,7 +40,7 @@ def centres(report: Report, k: int) -> Drawn:
     Centres stand together on a sheet as far as one holds them.
     """
     linkage, scale, motion = report.machine.linkage, drawing_scale(report), report.analysis.motion
-    angles = [_motion(report, link, k) for link in report.plane_links]
+    angles = [_plane_motion(report, link, k) for link in report.plane_links]
 
     def scene(links: Sequence[PlaneLink], first: bool) -> Scene:
         marks = [Centre(centre_symbol(one.link), _place(report, one, k), (one.base, one.point)) for one in links]
@@ -62,7 +62,7 @@ def _has_a_sheet(scene: Scene) -> bool:
     return any(fits(scene.width, scene.height, paper) for paper in (A3_ACROSS, A3_UPRIGHT))
 
 
-def _motion(report: Report, link: PlaneLink, k: int) -> PlaneMotion:
+def _plane_motion(report: Report, link: PlaneLink, k: int) -> PlaneMotion:
     """The velocities of a link's two points and their angles with the line between them."""
     ledger, points = report.ledger, report.analysis.motion.points
     ends = (link.base, link.point)

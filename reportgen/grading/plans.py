@@ -18,7 +18,7 @@ from reportgen.grading.working import Working
 from reportgen.notation import ids, vocabulary
 from reportgen.notation.expressions import refs
 
-FEWEST = 2
+FEWEST_READ = 2
 """One value alone may have been read wrongly."""
 
 AGREED = 0.7
@@ -28,11 +28,11 @@ AGREED = 0.7
 def mistakes_of_plans(working: Working, cells: Cells) -> dict[Place, Mistake]:
     """The vectors reversed or left out behind first wrong values that have no name yet."""
     open_ones = [place for place, cell in cells.items() if cell.first and not cell.mistake and place[1]]
-    candidates = list(_candidates(working.guide))
+    candidates = list(_vectors_laid(working.guide))
     found: dict[Place, Mistake] = {}
     for position in dict.fromkeys(position for _, position in open_ones):
         here = [place for place in open_ones if place[1] == position]
-        found |= behind_many(working, cells, here, candidates, FEWEST)
+        found |= behind_many(working, cells, here, candidates, FEWEST_READ)
     return found
 
 
@@ -57,7 +57,7 @@ def behind_many(
     return found
 
 
-def _candidates(guide: Guide) -> Iterator[Mistake]:
+def _vectors_laid(guide: Guide) -> Iterator[Mistake]:
     """Each vector that is laid in a plan, and each load as a whole, left out or reversed."""
     ledger = guide.ledger
     for id, family in ledger.families.items():
