@@ -13,22 +13,8 @@ from functools import lru_cache, reduce
 from pathlib import Path
 
 from reportgen.figures.scene import Content
+from reportgen.notation import setting
 from reportgen.notation.expressions import Symbol
-from reportgen.notation.setting import (
-    Applied,
-    Fence,
-    Grid,
-    Note,
-    Part,
-    Quotient,
-    Radical,
-    Raised,
-    Role,
-    Row,
-    Setter,
-    Sign,
-    Written,
-)
 from reportgen.notation.vocabulary import numbered, runs
 
 POINT = 25.4 / 72.27
@@ -42,7 +28,7 @@ OVER = 0.25
 """What an arrow or a bar above takes, in font sizes."""
 RELATION = 0.56
 """Width of the space on both sides of a relation or a sign, in font sizes (thick spaces)."""
-GAPS: Mapping[Role, float] = {"product": RELATION, "separator": 0.5}
+GAPS: Mapping[setting.Role, float] = {"product": RELATION, "separator": 0.5}
 """Width of a sign with its space, in font sizes, where it is not as wide as a plus."""
 THIN = 0.17
 """Between a function and what it is applied to, in font sizes."""
@@ -59,10 +45,6 @@ class Box:
     def beside(self, other: Box) -> Box:
         """Both boxes on one baseline."""
         return Box(self.width + other.width, max(self.height, other.height), max(self.depth, other.depth))
-
-    @property
-    def high(self) -> float:
-        return self.height + self.depth
 
 
 NOTHING = Box(0.0, 0.0, 0.0)
@@ -125,7 +107,7 @@ def _letters(text: str, em: float) -> Box:
     return whole
 
 
-class Boxes(Setter[Box]):
+class Boxes(setting.Setter[Box]):
     """Formulas as the boxes that both typesetters set for them; em is the font size (mm)."""
 
     def __init__(self, em: float, displayed: bool = False) -> None:
@@ -136,40 +118,40 @@ class Boxes(Setter[Box]):
     def text(self, text: str) -> Box:
         return _text(text, self.em)
 
-    def part(self, part: Part) -> Box:
+    def part(self, part: setting.Part) -> Box:
         em, of = self.em, self.part
         match part:
             case Symbol():
                 return _symbol(part, em)
-            case Written(digits, unit):
+            case setting.Written(digits, unit):
                 return self.text(digits).beside(self.text(" " + unit)) if unit else self.text(digits)
-            case Sign(sign, "prefix" | "slash"):
+            case setting.Sign(sign, "prefix" | "slash"):
                 return self.text(sign)
-            case Sign(_, role):
+            case setting.Sign(_, role):
                 return _gap(GAPS.get(role, 0.78 + RELATION) * em)
-            case Row(parts):
+            case setting.Row(parts):
                 return _row(map(of, parts))
-            case Raised(base, exponent):
+            case setting.Raised(base, exponent):
                 return _scripts(of(base), NOTHING, self.script.part(exponent), em)
-            case Quotient(top, bottom):
+            case setting.Quotient(top, bottom):
                 return self.quotient(top, bottom)
-            case Radical(inner):
+            case setting.Radical(inner):
                 line = Box(0.85 * em, 0.2 * em, 0.0).beside(of(inner))
                 return Box(line.width, line.height + 0.1 * em, line.depth - 0.1 * em)
-            case Fence("[", inner):
+            case setting.Fence("[", inner):
                 return of(inner).beside(_gap(em))
-            case Fence(left, inner, right):
+            case setting.Fence(left, inner, right):
                 return self.text(left + right).beside(of(inner))
-            case Applied(name, exponent, to):
+            case setting.Applied(name, exponent, to):
                 power = NOTHING if exponent is None else self.script.part(exponent)
                 function = _scripts(self.text(name), NOTHING, power, em)
-                return function.beside(of(to) if isinstance(to, Fence) else _gap(THIN * em).beside(of(to)))
-            case Grid(rows):
+                return function.beside(of(to) if isinstance(to, setting.Fence) else _gap(THIN * em).beside(of(to)))
+            case setting.Grid(rows):
                 lines = [_row(map(of, row)).beside(_gap((len(row) - 1) * em)) for row in rows]
-                half = sum(line.high for line in lines) / 2
+                half = sum(line.height + line.depth for line in lines) / 2
                 width = max((line.width for line in lines), default=0.0)
                 return Box(width, half + 0.25 * em, half - 0.25 * em)
-            case Note(text):
+            case setting.Note(text):
                 # Both typesetters set the note in parentheses, a quad away.
                 return _gap(em).beside(self.text(f"({text})"))
 
@@ -177,13 +159,13 @@ class Boxes(Setter[Box]):
     def script(self) -> Boxes:
         return Boxes(SCRIPT * self.em)
 
-    def quotient(self, top: Part, bottom: Part) -> Box:
-        """A fraction, whose parts are in the size of scripts within a line of text."""
-        em, size = self.em, self if self.displayed else self.script
+    def quotient(self, top: setting.Part, bottom: setting.Part) -> Box:
+        """A fraction, whose parts are in the size of scripts and have white beside them within a line of text."""
+        em, size, white = self.em, self if self.displayed else self.script, 0.0 if self.displayed else 0.24
         above, below = size.part(top), size.part(bottom)
         axis, gap = 0.25 * em, 0.12 * em
-        width = max(above.width, below.width) + 0.24 * em
-        return Box(width, axis + gap + above.high, below.high + gap - axis)
+        width = max(above.width, below.width) + white * em
+        return Box(width, axis + gap + above.height + above.depth, below.height + below.depth + gap - axis)
 
 
 def _row(boxes: Iterable[Box]) -> Box:

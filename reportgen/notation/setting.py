@@ -7,8 +7,9 @@ else; pieces, sides and columns are what displayed equations are made of.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import repeat
 from typing import ClassVar, Generic, Literal, TypeVar
 
 from reportgen.errors import TypesetterError
@@ -148,7 +149,6 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
     """
 
     def of(node: Expression) -> Part:
-        line: list[Part]
         match node:
             case Symbol():
                 return node
@@ -156,10 +156,10 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
                 return written(node, language)
             case Ref(id):
                 raise TypesetterError(f"quantity {id!r} came to the page without its symbol or value")
-            case Sum((first, *others)):
-                return Row((of(first), *(part for term in others for part in signed(term))))
+            case Sum(members):
+                return Row((of(members[0]), *(part for term in members[1:] for part in signed(term))))
             case Product(factors):
-                return Row(tuple(_joined([tight(factor, PRODUCT) for factor in factors], DOT)))
+                return Row(tuple(_joined((tight(factor, PRODUCT) for factor in factors), repeat(DOT))))
             case Negative(inner):
                 return Row((NEGATIVE, tight(inner, PRODUCT)))
             case Fraction(top, bottom) if slashed or linear:
@@ -182,19 +182,15 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
             case Matrix(rows):
                 return Fence("[", Grid(tuple(tuple(map(of, row)) for row in rows)), "]")
             case Chain(parts):
-                signs = [FIRST, *(EQUALS for _ in parts[2:])][: len(parts) - 1]
+                signs = [FIRST] + [EQUALS] * (len(parts) - 2)
                 if short_end(node):
-                    signs[-1:] = [LAST]
-                line = [of(parts[0])]
-                for sign, side in zip(signs, parts[1:], strict=True):
-                    line += (sign, of(side))
-                return _noted(Row(tuple(line)), node)
+                    signs[-1] = LAST
+                return _noted(Row(tuple(_joined(map(of, parts), signs))), node)
             case VectorEquation():
-                line = []
+                line: list[Part] = []
                 for before, term in terms(node):
                     line += (*before, term.symbol)
                 return Row(tuple(line))
-        raise TypeError(f"{type(node).__name__} without operands")
 
     def tight(node: Expression, least: int) -> Fence:
         return Fence("", of(node), "") if level(node, linear) >= least else Fence("(", of(node), ")")
@@ -210,14 +206,16 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
             return Applied(name, exponent, of(arguments[0]))
         # A comma is the decimal mark in Vietnamese.
         mark = Sign(";" if language == "vi" else ",", "separator")
-        return Applied(name, exponent, Fence("(", Row(tuple(_joined(map(of, arguments), mark))), ")"))
+        return Applied(name, exponent, Fence("(", Row(tuple(_joined(map(of, arguments), repeat(mark)))), ")"))
 
     return of(node)
 
 
-def _joined(parts: Iterable[Part], sign: Sign) -> Iterator[Part]:
-    for index, part in enumerate(parts):
-        yield from (sign, part) if index else (part,)
+def _joined(parts: Iterable[Part], signs: Iterable[Sign]) -> Iterator[Part]:
+    first, *others = parts
+    yield first
+    for sign, part in zip(signs, others, strict=False):
+        yield from (sign, part)
 
 
 def _noted(part: Part, node: Expression) -> Part:
@@ -331,11 +329,10 @@ def terms(equation: VectorEquation) -> Iterator[tuple[tuple[Sign, ...], Term]]:
     """Each term with the signs before it: "=" at the head of a later side, then its own."""
     for side, members in enumerate(equation.sides):
         for index, term in enumerate(members):
-            equals = (BOUND,) if side and not index else ()
             if index:
                 yield (Sign("−" if term.sign < 0 else "+", "bound"),), term
             else:
-                yield (*equals, *((NEGATIVE,) if term.sign < 0 else ())), term
+                yield (BOUND,) * bool(side) + (NEGATIVE,) * (term.sign < 0), term
 
 
 def columns(equation: VectorEquation) -> list[Column]:
@@ -396,3 +393,75 @@ class Setter(ABC, Generic[Look]):
 
     @abstractmethod
     def part(self, part: Part) -> Look: ...
+
+
+class Source(Setter[str]):
+    """A look in letters, operands in the places of "%s"."""
+
+    BELOW: ClassVar[str] = "%s%s"
+    RAISED: ClassVar[str] = "%s^%s"
+    POWER: ClassVar[str] = "%s^%s"
+    """Of a function."""
+    QUOTIENT: ClassVar[str] = "(%s)/(%s)"
+    RADICAL: ClassVar[str] = "√%s"
+    FENCES: ClassVar[Mapping[str, str]] = {"": "%s", "(": "(%s)", "|": "|%s|", "[": "[%s]"}
+    ENTRY: ClassVar[str] = "; "
+    LINE: ClassVar[str] = " | "
+    """Between the entries and the rows of a matrix."""
+    APPLIED: ClassVar[str] = "%s%s"
+    """A function and what it is applied to without a fence."""
+    CALL: ClassVar[str] = "%s%s"
+    NOTE: ClassVar[str] = " %s"
+
+    def part(self, part: Part) -> str:
+        of = self.part
+        match part:
+            case Symbol():
+                return self.symbol(part)
+            case Written():
+                return self.number(part)
+            case Sign():
+                return self.sign(part)
+            case Row(parts):
+                return "".join(map(of, parts))
+            case Raised(base, exponent):
+                return self.RAISED % (of(base), of(exponent))
+            case Quotient(top, bottom):
+                return self.QUOTIENT % (of(top), of(bottom))
+            case Radical(inner):
+                return self.RADICAL % of(inner)
+            case Fence():
+                return self.fence(part)
+            case Applied(name, exponent, to):
+                function = self.function(name)
+                function = self.POWER % (function, of(exponent)) if exponent else function
+                return (self.CALL if isinstance(to, Fence) else self.APPLIED) % (function, of(to))
+            case Grid(rows):
+                return self.LINE.join(self.ENTRY.join(map(of, row)) for row in rows)
+            case Note(text):
+                return self.NOTE % self.text(f"({text})")
+
+    def lowered(self, pieces: Iterable[tuple[str, str]], shown: Callable[[str], str]) -> str:
+        """A symbol's letters with the digits of points below them, no smaller than an index."""
+        return "".join(
+            self.BELOW % (shown(letters), self.upright(digits)) if digits else shown(letters)
+            for letters, digits in pieces
+        )
+
+    def upright(self, letters: str) -> str:
+        return self.text(letters)
+
+    def fence(self, fence: Fence) -> str:
+        return self.FENCES[fence.left] % self.part(fence.of)
+
+    @abstractmethod
+    def symbol(self, node: Symbol) -> str: ...
+
+    @abstractmethod
+    def number(self, number: Written) -> str: ...
+
+    @abstractmethod
+    def sign(self, sign: Sign) -> str: ...
+
+    @abstractmethod
+    def function(self, name: str) -> str: ...

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 
 from reportgen.figures.scene import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline, Scene, Stroke
-from reportgen.notation.setting import Setter
+from reportgen.notation.setting import Source
 
 Segment = tuple[complex, complex]
 Bezier = tuple[complex, complex, complex, complex]
@@ -124,7 +124,7 @@ def decimal(value: float) -> str:
 # --- Typst ----------------------------------------------------------------------------------------
 
 
-def paint_typst(scene: Scene, formulas: Setter[str]) -> str:
+def paint_typst(scene: Scene, formulas: Source) -> str:
     """A Typst code expression that draws the scene in a box of `scene.width` × `scene.height` mm."""
     strokes = dict.fromkeys(
         item.stroke for item in scene.items if not isinstance(item, Label) and item.stroke is not None
@@ -136,7 +136,7 @@ def paint_typst(scene: Scene, formulas: Setter[str]) -> str:
     return f"S({decimal(scene.width)},{decimal(scene.height)},{{" + "\n".join(lines) + "})"
 
 
-def _calls(item: Item, scene: Scene, pens: Mapping[Stroke | None, str], formulas: Setter[str]) -> list[str]:
+def _calls(item: Item, scene: Scene, pens: Mapping[Stroke | None, str], formulas: Source) -> list[str]:
     """The calls that draw an item; y is turned over here, once for all."""
 
     def at(*points: complex) -> str:
@@ -169,7 +169,7 @@ def _calls(item: Item, scene: Scene, pens: Mapping[Stroke | None, str], formulas
             return [_call_of_label(item, scene, formulas)]
 
 
-def _call_of_label(label: Label, scene: Scene, formulas: Setter[str]) -> str:
+def _call_of_label(label: Label, scene: Scene, formulas: Source) -> str:
     options = (",turn:true" if label.turn else "") + (",paper:true" if label.background else "")
     anchor, across, down = ANCHORS[label.anchor]
     x = decimal(label.at.real - across * scene.width)
@@ -189,7 +189,7 @@ def _rgb(colour: str | None) -> str:
 # --- LaTeX ----------------------------------------------------------------------------------------
 
 
-def paint_latex(scene: Scene, formulas: Setter[str]) -> str:
+def paint_latex(scene: Scene, formulas: Source) -> str:
     """The TeX source of one box, `scene.width` × `scene.height` mm, its reference point at the lower left.
 
     Raises `TypesetterError` for a label with a character the fonts do not have.
@@ -204,7 +204,7 @@ def paint_latex(scene: Scene, formulas: Setter[str]) -> str:
     return f"\\scene{{{decimal(scene.width)}}}{{{decimal(scene.height)}}}{{%\n{body}\n}}"
 
 
-def _box_of_label(label: Label, formulas: Setter[str]) -> str:
+def _box_of_label(label: Label, formulas: Source) -> str:
     content = formulas.content(label.content)
     if label.size != LABEL_SIZE:
         content = rf"\fontsize{{{decimal(label.size)}}}{{{decimal(1.2 * label.size)}}}\selectfont {content}"

@@ -207,7 +207,9 @@ def _pen(layer: str, stroke: Stroke) -> dict[str, Any]:
 class MText(Plain):
     """Formulas as MTEXT: Unicode, with indices stacked and set smaller."""
 
-    gap = "  "
+    BELOW = f"%s{{\\H{STACK}x;\\S^ %s;}}"
+    RAISED = f"%s{{\\H{STACK}x;\\S%s^ ;}}"
+    NOTE = "  %s"
 
     def text(self, text: str) -> str:
         """A text with what MTEXT takes for orders made plain."""
@@ -217,11 +219,7 @@ class MText(Plain):
     def symbol(self, node: Symbol) -> str:
         # Without the arrow of a vector: overlining is an order that not every program knows and some print.
         # Digits within an index stand in its line: stacks do not nest.
-        letters = (self.text(piece) + _stacked(self.text(digits), "") for piece, digits in runs(node.base))
-        return "".join(letters) + _stacked(self.text(node.sub), self.text(node.sup))
-
-    def above(self, exponent: str) -> str:
-        return _stacked("", exponent)
+        return self.lowered(runs(node.base), self.text) + _stacked(self.text(node.sub), self.text(node.sup))
 
 
 def _stacked(below: str, above: str) -> str:

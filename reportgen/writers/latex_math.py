@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import re
 import unicodedata
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import ClassVar, Literal
 
@@ -18,19 +18,11 @@ from reportgen.notation.expressions import Expression, Symbol, VectorEquation
 from reportgen.notation.numbers import MINUS
 from reportgen.notation.setting import (
     NAMED,
-    Applied,
     Column,
     Fence,
-    Grid,
-    Note,
-    Part,
-    Quotient,
-    Radical,
-    Raised,
     Role,
-    Row,
-    Setter,
     Sign,
+    Source,
     Written,
     columns,
     is_tall,
@@ -103,9 +95,16 @@ def hexadecimal(text: str) -> str:
 # --- formulas -------------------------------------------------------------------------------------
 
 
-class LatexFormulas(Setter[str]):
+class LatexFormulas(Source):
     r"""Formulas with the places where a line may break: \relbreak, \binbreak, \dotbreak."""
 
+    BELOW = r"%s_{\scriptstyle{%s}}"
+    RAISED = POWER = "%s^{%s}"
+    QUOTIENT, RADICAL = r"\frac{%s}{%s}", r"\sqrt{%s}"
+    FENCES: ClassVar = {"": "%s", "(": "(%s)", "|": r"\lvert %s\rvert "}
+    ENTRY, LINE = " & ", r" \\ "
+    APPLIED = "%s %s"
+    NOTE = r" \relbreak\quad\text{%s}"
     SIGNS: ClassVar = {"·": r"\cdot", "×": r"\times", "−": "-"}
     BREAKS: ClassVar[Mapping[Role, str]] = {"sum": r"\binbreak", "product": r"\dotbreak", "relation": r"\relbreak"}
     AHEAD: ClassVar[Mapping[Role, str]] = {"prefix": "", "slash": "", "separator": ""}
@@ -115,43 +114,25 @@ class LatexFormulas(Setter[str]):
     def text(self, text: str) -> str:
         return escape(text)
 
+    def upright(self, letters: str) -> str:
+        return _word(letters)
+
     def inline(self, mathematics: str) -> str:
         return f"${mathematics}$"
 
-    def part(self, part: Part) -> str:
-        of = self.part
-        match part:
-            case Symbol():
-                return self.symbol(part)
-            case Written():
-                return self.number(part)
-            case Sign(sign, role):
-                shown = self.BREAKS.get(role, "") + self.SIGNS.get(sign, sign)
-                return self.AHEAD.get(role, " ") + shown + self.BEHIND.get(role, " ")
-            case Row(parts):
-                return "".join(map(of, parts))
-            case Raised(base, exponent):
-                return f"{of(base)}^{{{of(exponent)}}}"
-            case Quotient(top, bottom):
-                return rf"\frac{{{of(top)}}}{{{of(bottom)}}}"
-            case Radical(inner):
-                return rf"\sqrt{{{of(inner)}}}"
-            case Fence("|", inner):
-                return rf"\lvert {of(inner)}\rvert "
-            case Fence("[", inner):
-                return _bracketed(rf"\begin{{matrix}}{of(inner)}\end{{matrix}}")
-            case Fence("(", inner) if is_tall(inner):
-                return rf"\mathopen{{}}\left({of(inner)}\right)"
-            case Fence(left, inner, right):
-                return f"{left}{of(inner)}{right}"
-            case Applied(name, exponent, to):
-                function = rf"\{name}" if name in NAMED else rf"\operatorname{{{escape(name)}}}"
-                power = f"^{{{of(exponent)}}}" if exponent else ""
-                return function + power + ("" if isinstance(to, Fence) else " ") + of(to)
-            case Grid(rows):
-                return r" \\ ".join(" & ".join(map(of, row)) for row in rows)
-            case Note(text):
-                return rf" \relbreak\quad\text{{({escape(text)})}}"
+    def sign(self, sign: Sign) -> str:
+        shown = self.BREAKS.get(sign.role, "") + self.SIGNS.get(sign.of, sign.of)
+        return self.AHEAD.get(sign.role, " ") + shown + self.BEHIND.get(sign.role, " ")
+
+    def fence(self, fence: Fence) -> str:
+        if fence.left == "[":
+            return _bracketed(rf"\begin{{matrix}}{self.part(fence.of)}\end{{matrix}}")
+        if fence.left == "(" and is_tall(fence.of):
+            return rf"\mathopen{{}}\left({self.part(fence.of)}\right)"
+        return super().fence(fence)
+
+    def function(self, name: str) -> str:
+        return rf"\{name}" if name in NAMED else rf"\operatorname{{{escape(name)}}}"
 
     def number(self, number: Written) -> str:
         """Digits without a gap after the decimal comma and with a true minus sign, and the unit."""
@@ -165,10 +146,10 @@ class LatexFormulas(Setter[str]):
     def symbol(self, node: Symbol) -> str:
         letters, above = parted(node)
         single = len(letters) == 1 and _is_mathematical(letters)
-        base = letters if single else _lowered(runs(letters), lambda part: _word(part, "it"))
+        base = letters if single else self.lowered(runs(letters), lambda part: _word(part, "it"))
         if node.over == "vector":
             base = rf"\vec{{{base}}}" if len(letters) == 1 else rf"\overrightarrow{{{base}}}"
-        below = f"_{{{_lowered(numbered(node.sub), _word)}}}" if node.sub else ""
+        below = f"_{{{self.lowered(numbered(node.sub), self.upright)}}}" if node.sub else ""
         marked = base + below + (f"^{{{_word(above)}}}" if above else "")
         return rf"\overline{{{marked}}}" if node.over == "segment" else marked
 
@@ -215,13 +196,6 @@ def _bracketed(inner: str) -> str:
     opening = rf"\mathopen{{\reportactual{{005B}}{{\left[{strut}\right.\kern-\nulldelimiterspace}}}}"
     closing = rf"\mathclose{{\reportactual{{005D}}{{\kern-\nulldelimiterspace\left.{strut}\right]}}}}"
     return opening + inner + closing
-
-
-def _lowered(pieces: Iterable[tuple[str, str]], shown: Callable[[str], str]) -> str:
-    """Letters, the digits of points below them, no smaller than an index."""
-    return "".join(
-        shown(part) + (rf"_{{\scriptstyle{{{_word(number)}}}}}" if number else "") for part, number in pieces
-    )
 
 
 def _is_mathematical(text: str) -> bool:

@@ -5,7 +5,7 @@ Attributes hold no style, since the page's security policy lets none in; what it
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from html import escape as escaped
 
 from reportgen.notation.expressions import Expression, Sum, Symbol, VectorEquation
@@ -14,18 +14,11 @@ from reportgen.notation.setting import (
     NARROW,
     NEGATIVE,
     PRIMES,
-    Applied,
     Fence,
-    Grid,
-    Note,
-    Part,
-    Quotient,
-    Radical,
-    Raised,
     Role,
     Row,
-    Setter,
     Sign,
+    Source,
     Written,
     columns,
     displayed,
@@ -51,11 +44,23 @@ def row(*parts: str) -> str:
     return f"<mrow>{''.join(parts)}</mrow>"
 
 
-class MathmlFormulas(Setter[str]):
+class MathmlFormulas(Source):
     """Expressions as MathML, in one language."""
+
+    BELOW = "<msub><mrow>%s</mrow>%s</msub>"
+    RAISED = "<msup><mrow>%s</mrow><mrow>%s</mrow></msup>"
+    POWER = "<msup>%s<mrow>%s</mrow></msup>"
+    QUOTIENT, RADICAL = "<mfrac><mrow>%s</mrow><mrow>%s</mrow></mfrac>", "<msqrt>%s</msqrt>"
+    ENTRY, LINE = "</mtd><mtd>", "</mtd></mtr><mtr><mtd>"
+    CALL = "%s<mo>&#x2061;</mo>%s"
+    APPLIED = '%s<mo>&#x2061;</mo><mrow><mspace width="0.17em"/>%s</mrow>'
+    NOTE = '<mspace width="1em"/><mtext>%s</mtext>'
 
     def text(self, text: str) -> str:
         return escape(text)
+
+    def upright(self, letters: str) -> str:
+        return f"<mtext>{escape(letters)}</mtext>"
 
     def inline(self, mathematics: str) -> str:
         return f"<math>{mathematics}</math>"
@@ -64,69 +69,54 @@ class MathmlFormulas(Setter[str]):
         """A piece of a displayed formula, its fractions in full size."""
         return f'<math displaystyle="true">{mathematics}</math>'
 
-    def part(self, part: Part) -> str:
-        of = self.part
-        match part:
-            case Symbol():
-                return self.symbol(part)
-            case Written(digits, unit):
-                gap = NARROW if part.spaced else ""
-                number = f"<mn>{escape(digits)}</mn>"
-                return row(number, f"<mtext>{gap}{escape(unit)}</mtext>") if unit else number
-            case Sign(sign, "slash"):
-                return f"<mo>{sign}</mo>"
-            case Sign(sign, "separator"):
-                return f'<mo separator="true">{sign}</mo>'
-            case Sign(sign, "prefix"):
-                return f'<mo form="prefix">{sign}</mo>'
-            case Sign(sign, role):
-                before, behind = WHITE.get(role, ("", ""))
-                return f'{before}<mo form="infix">{sign}</mo>{behind}'
-            case Row(parts):
-                return "".join(map(of, parts))
-            case Raised(base, exponent):
-                return f"<msup>{row(of(base))}{row(of(exponent))}</msup>"
-            case Quotient(top, bottom):
-                return f"<mfrac>{row(of(top))}{row(of(bottom))}</mfrac>"
-            case Radical(inner):
-                return f"<msqrt>{of(inner)}</msqrt>"
-            case Fence("", inner):
-                return row(of(inner))
-            case Fence("|", inner):
-                return row('<mo form="prefix">|</mo>', of(inner), '<mo form="postfix">|</mo>')
-            case Fence("(", inner):
-                return row(self.enclosed(part))
-            case Fence():
-                return self.enclosed(part)
-            case Applied(name, exponent, to):
-                function = f'<mi mathvariant="normal">{escape(name)}</mi>'
-                if exponent:
-                    function = f"<msup>{function}{row(of(exponent))}</msup>"
-                argument = of(to) if isinstance(to, Fence) else row('<mspace width="0.17em"/>', of(to))
-                return f"{function}<mo>&#x2061;</mo>{argument}"
-            case Grid(rows):
-                entries = ("".join(f"<mtd>{of(entry)}</mtd>" for entry in entries) for entries in rows)
-                return f"<mtable>{''.join(f'<mtr>{row}</mtr>' for row in entries)}</mtable>"
-            case Note(text):
-                return f'<mspace width="1em"/><mtext>({escape(text)})</mtext>'
+    def number(self, number: Written) -> str:
+        digits = f"<mn>{escape(number.digits)}</mn>"
+        gap = NARROW if number.spaced else ""
+        return row(digits, f"<mtext>{gap}{escape(number.unit)}</mtext>") if number.unit else digits
 
-    def enclosed(self, fence: Fence) -> str:
+    def sign(self, sign: Sign) -> str:
+        match sign.role:
+            case "slash":
+                return f"<mo>{sign.of}</mo>"
+            case "separator":
+                return f'<mo separator="true">{sign.of}</mo>'
+            case "prefix":
+                return f'<mo form="prefix">{sign.of}</mo>'
+        before, behind = WHITE.get(sign.role, ("", ""))
+        return f'{before}<mo form="infix">{sign.of}</mo>{behind}'
+
+    def function(self, name: str) -> str:
+        return f'<mi mathvariant="normal">{escape(name)}</mi>'
+
+    def fence(self, fence: Fence) -> str:
         """What stands in parentheses, which are as high as it is."""
+        inner = self.part(fence.of)
+        match fence.left:
+            case "":
+                return row(inner)
+            case "[":
+                inner = f"<mtable><mtr><mtd>{inner}</mtd></mtr></mtable>"
         # Browsers set white beside parentheses that may be stretched, even where they need not be.
-        still = "" if is_tall(fence.of) else ' stretchy="false"'
+        still = ' stretchy="false"' if fence.left == "(" and not is_tall(fence.of) else ""
         opening, closing = (
             f'<mo form="prefix"{still}>{fence.left}</mo>',
             f'<mo form="postfix"{still}>{fence.right}</mo>',
         )
-        return row(opening, self.part(fence.of), closing)
+        enclosed = row(opening, inner, closing)
+        return row(enclosed) if fence.left == "(" else enclosed
 
     def symbol(self, node: Symbol) -> str:
         letters, above = parted(node)
-        base = _lowered(runs(letters), _italic)
+        base = self.lowered(runs(letters), _italic)
         if node.over == "vector":
             base = f'<mover accent="true">{row(base)}<mo stretchy="true">→</mo></mover>'
-        marked = _scripted(base, _lowered(numbered(node.sub), _upright), _above(above))
+        marked = _scripted(base, self.lowered(numbered(node.sub), self.upright), self.above(above))
         return f'<mrow class="bar">{marked}</mrow>' if node.over == "segment" else marked
+
+    def above(self, text: str) -> str:
+        letters = text.lstrip(PRIMES)
+        primes = text[: len(text) - len(letters)]
+        return (f"<mo>{primes}</mo>" if primes else "") + (self.upright(letters) if letters else "")
 
     # --- lines
 
@@ -168,23 +158,5 @@ def _scripted(base: str, below: str, above: str) -> str:
     return f"<msup>{row(base)}{row(above)}</msup>" if above else base
 
 
-def _lowered(pieces: Iterable[tuple[str, str]], shown: Callable[[str], str]) -> str:
-    """Letters with the digits that stand below the last of them."""
-    return "".join(
-        f"<msub>{row(shown(letters))}{_upright(number)}</msub>" if number else shown(letters)
-        for letters, number in pieces
-    )
-
-
-def _above(text: str) -> str:
-    letters = text.lstrip(PRIMES)
-    primes = text[: len(text) - len(letters)]
-    return (f"<mo>{primes}</mo>" if primes else "") + (_upright(letters) if letters else "")
-
-
 def _italic(text: str) -> str:
     return "".join(f"<mi>{escape(char)}</mi>" if char.isalpha() else f"<mtext>{escape(char)}</mtext>" for char in text)
-
-
-def _upright(text: str) -> str:
-    return f"<mtext>{escape(text)}</mtext>"

@@ -14,23 +14,9 @@ from reportgen.figures import style
 from reportgen.figures.geometry import frame
 from reportgen.figures.metrics import POINT, SCRIPT, box
 from reportgen.figures.scene import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene, Stroke
+from reportgen.notation import setting
 from reportgen.notation.expressions import Symbol
 from reportgen.notation.numbers import Language
-from reportgen.notation.setting import (
-    NARROW,
-    Applied,
-    Fence,
-    Grid,
-    Note,
-    Part,
-    Quotient,
-    Radical,
-    Raised,
-    Row,
-    Setter,
-    Sign,
-    Written,
-)
 from reportgen.notation.vocabulary import numbered, runs
 from reportgen.writers.drawing import Bezier, Triangle, arc_with_head, arrow_head, clip_hatch, decimal
 from reportgen.writers.mathml import escape
@@ -226,7 +212,7 @@ class Painter:
         return "".join(shown)
 
 
-class Runs(Setter[tuple[Run, ...]]):
+class Runs(setting.Setter[tuple[Run, ...]]):
     """Formulas as labels have them: in one line, indices beside their letters."""
 
     linear = True
@@ -234,31 +220,31 @@ class Runs(Setter[tuple[Run, ...]]):
     def text(self, text: str) -> tuple[Run, ...]:
         return (Run(text),) if text else ()
 
-    def part(self, part: Part) -> tuple[Run, ...]:
+    def part(self, part: setting.Part) -> tuple[Run, ...]:
         of, text = self.part, self.text
         match part:
             case Symbol():
                 return tuple(_symbol(part))
-            case Written():
-                return text(part.text(NARROW))
-            case Sign():
+            case setting.Written():
+                return text(part.text(setting.NARROW))
+            case setting.Sign():
                 return text(part.text)
-            case Row(parts):
+            case setting.Row(parts):
                 return tuple(run for one in parts for run in of(one))
-            case Raised(base, exponent):
+            case setting.Raised(base, exponent):
                 return (*of(base), *_raised(of(exponent)))
-            case Quotient(top, bottom):
+            case setting.Quotient(top, bottom):
                 return (*text("("), *of(top), *text(")/("), *of(bottom), *text(")"))
-            case Radical(inner):
+            case setting.Radical(inner):
                 return (*text("√"), *of(inner))
-            case Fence(left, inner, right):
+            case setting.Fence(left, inner, right):
                 return (*text(left), *of(inner), *text(right))
-            case Applied(name, exponent, to):
+            case setting.Applied(name, exponent, to):
                 return (*text(name), *(_raised(of(exponent)) if exponent else ()), *of(to))
-            case Grid(rows):
+            case setting.Grid(rows):
                 lines = (_parted([of(entry) for entry in row], "; ") for row in rows)
                 return _parted(list(lines), " | ")
-            case Note(note):
+            case setting.Note(note):
                 return text(f"  ({note})")
 
 

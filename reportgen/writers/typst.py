@@ -8,7 +8,7 @@ between spaces, because identifiers of Typst may hold a hyphen.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import ClassVar
@@ -24,17 +24,8 @@ from reportgen.notation.setting import (
     NAMED,
     NARROW,
     PRIMES,
-    Applied,
-    Fence,
-    Grid,
-    Note,
-    Part,
-    Quotient,
-    Radical,
-    Raised,
-    Row,
-    Setter,
     Sign,
+    Source,
     Written,
     columns,
     displayed,
@@ -55,7 +46,14 @@ def literal(text: str) -> str:
     return '"' + escaped.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t") + '"'
 
 
-class TypstFormulas(Setter[str]):
+class TypstFormulas(Source):
+    BELOW = "%s_(script(%s))"
+    RAISED = POWER = "%s^(%s)"
+    QUOTIENT, RADICAL = "frac(%s, %s)", "sqrt(%s)"
+    FENCES: ClassVar = {"": "%s", "(": "(%s)", "|": "abs(%s)", "[": 'mat(delim: "[", %s)'}
+    ENTRY, LINE = ", ", "; "
+    APPLIED = CALL = "%s %s"
+    NOTE = " quad %s"
     SIGNS: ClassVar = {"·": "dot.c", "×": "times"}
 
     def text(self, text: str) -> str:
@@ -64,58 +62,33 @@ class TypstFormulas(Setter[str]):
     def inline(self, mathematics: str) -> str:
         return f"${mathematics}$"
 
-    def part(self, part: Part) -> str:
-        of = self.part
-        match part:
-            case Symbol():
-                return self.symbol(part)
-            case Written(digits, unit):
-                return f"{literal(digits)} thin {literal(unit)}" if part.spaced else literal(digits + unit)
-            case Sign(sign, "prefix"):
-                return sign
-            case Sign(sign, "slash"):
-                return literal(sign)
-            case Sign(sign, "separator"):
-                return f' class("punctuation", "{sign}") '
-            case Sign(sign):
-                return f" {self.SIGNS.get(sign, sign)} "
-            case Row(parts):
-                return "".join(map(of, parts))
-            case Raised(base, exponent):
-                return f"{of(base)}^({of(exponent)})"
-            case Quotient(top, bottom):
-                return f"frac({of(top)}, {of(bottom)})"
-            case Radical(inner):
-                return f"sqrt({of(inner)})"
-            case Fence("|", inner):
-                return f"abs({of(inner)})"
-            case Fence("[", inner):
-                return f'mat(delim: "[", {of(inner)})'
-            case Fence(left, inner, right):
-                return f"{left}{of(inner)}{right}"
-            case Applied(name, exponent, to):
-                function = name if name in NAMED else f"op({literal(name)})"
-                return f"{function}{f'^({of(exponent)})' if exponent else ''} {of(to)}"
-            case Grid(rows):
-                return "; ".join(", ".join(map(of, row)) for row in rows)
-            case Note(text):
-                return f" quad {literal(f'({text})')}"
+    def number(self, number: Written) -> str:
+        return f"{literal(number.digits)} thin {literal(number.unit)}" if number.spaced else literal(number.text(""))
+
+    def sign(self, sign: Sign) -> str:
+        match sign.role:
+            case "prefix":
+                return sign.of
+            case "slash":
+                return literal(sign.of)
+            case "separator":
+                return f' class("punctuation", "{sign.of}") '
+            case _:
+                return f" {self.SIGNS.get(sign.of, sign.of)} "
+
+    def function(self, name: str) -> str:
+        return name if name in NAMED else f"op({literal(name)})"
 
     def symbol(self, node: Symbol) -> str:
         """A symbol with its marks: base in italics, sub- and superscript upright, a bar over the whole of it."""
         letters, above = parted(node)
         single = len(letters) == 1 and letters.isalpha()
-        base = letters if single else _lowered(runs(letters), lambda part: f"italic({literal(part)})")
+        base = letters if single else self.lowered(runs(letters), lambda part: f"italic({literal(part)})")
         if node.over == "vector":
             base = f"arrow({base})"
-        below = f"_({_lowered(numbered(node.sub), literal)})" if node.sub else ""
+        below = f"_({self.lowered(numbered(node.sub), literal)})" if node.sub else ""
         marked = base + below + (f"^({_superscript(above)})" if above else "")
         return f"overline({marked})" if node.over == "segment" else marked
-
-
-def _lowered(pieces: Iterable[tuple[str, str]], shown: Callable[[str], str]) -> str:
-    """Letters, the digits of points below them, no smaller than an index."""
-    return "".join(shown(part) + (f"_(script({literal(number)}))" if number else "") for part, number in pieces)
 
 
 def _superscript(text: str) -> str:
