@@ -34,11 +34,12 @@ from reportgen.document.tree import (
 from reportgen.kinds import kinds
 from reportgen.mechanism.structure import DyadKind
 from reportgen.words import load_words, search_path
+from tests.lanes import matrix
 from tests.reports import built
 from tests.reports.built import Written
 
 TEMPLATES = built.ROOT / "templates"
-KINDS = pytest.mark.parametrize("path", built.TYPESET, ids=lambda path: path.stem)
+KINDS = pytest.mark.parametrize("path", matrix(built.TYPESET, built.TELLING), ids=lambda path: path.stem)
 
 
 # --- the tree -------------------------------------------------------------------------------------
