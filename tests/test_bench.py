@@ -22,6 +22,7 @@ from reportgen.analysis import analyse
 from reportgen.document.tree import Equation, Figure, List, Paragraph, Table, Text
 from reportgen.figures.scene import Circle, Label, Line, Scene
 from reportgen.notation.expressions import Number
+from tests.lanes import proof
 
 SAMPLE = Path(__file__).parents[1] / "assignments" / "engine-twin-05.yaml"
 TINY = Size(pages=3, figures=1, labels=2, strokes=6, formulas=4, tables=1, rows=3, words=30)
@@ -126,6 +127,7 @@ def test_shares_are_even_and_whole() -> None:
     assert {len(part) for part in shares} == {2, 3}
 
 
+@proof
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex is not installed")
 def test_the_plain_script_makes_a_document_of_that_size(tmp_path: Path) -> None:
     from dataclasses import asdict
@@ -231,6 +233,7 @@ def test_growth_tells_a_line_from_a_curve() -> None:
     assert bent.bend == pytest.approx((360 + 90) / (360 + 8))
 
 
+@proof
 def test_growth_measures_the_main_process_and_draws_it(tmp_path: Path) -> None:
     cost = growth.Trial(tmp_path).variants(2)
     assert cost.seconds > 0

@@ -15,6 +15,7 @@ from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.document import solution
 from reportgen.notation.evaluation import evaluate
 from reportgen.notation.numbers import Language, write
+from tests.lanes import proof
 
 FOUR_BAR = """\
 kind: plane-motion
@@ -56,6 +57,7 @@ def worked_out(folder: Path, a: int, b: int) -> ExerciseCase:
     return case
 
 
+@proof
 @settings(max_examples=5, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(SIMPLE, SIMPLE)
 @example(0, 90)

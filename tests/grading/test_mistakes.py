@@ -15,6 +15,7 @@ from reportgen.grading.marks import Marking, Submission
 from reportgen.grading.mistakes import WRONG_DATUM, Mistake, general_mistakes, mistakes_in
 from tests.grading import students
 from tests.grading.students import NAMES, World
+from tests.lanes import proof
 
 MACHINES = (
     "engine-twin-05",
@@ -96,6 +97,7 @@ class Rates:
         return "\n".join([*lines, f"{'all':20} {self.found.total():5} of {self.made.total():5}: {self.rate:.1%}"])
 
 
+@proof
 def test_named_mistakes_are_found() -> None:
     """With drawn tolerances: the first error and its name in 95 of 100, as the specification aims."""
     rng = np.random.default_rng(20261121)

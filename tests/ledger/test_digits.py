@@ -92,7 +92,7 @@ def assert_a_person_would_write_it(ledger: Ledger) -> None:
     assert_one_quantity_has_one_number_of_decimals(ledger)
 
 
-@pytest.mark.parametrize("path", matrix(built.FILES, built.TYPESET), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)
 def test_files(path: Path) -> None:
     """A line that is listed for some position holds at those at which it is written out."""
     case = built.case(path, built.own_language(path))

@@ -37,11 +37,12 @@ from reportgen.notation.numbers import Language
 from reportgen.notation.plain import formula
 from reportgen.sections import Passage, sections
 from reportgen.words import SECTION, kind_file, load_words, search_path
+from tests.lanes import matrix
 from tests.reports import built
 from tests.reports.built import Written
 
 TEMPLATES = built.ROOT / "templates"
-KINDS = pytest.mark.parametrize("path", built.TYPESET, ids=lambda path: path.stem)
+KINDS = pytest.mark.parametrize("path", matrix(built.TYPESET, built.TELLING), ids=lambda path: path.stem)
 
 
 # --- the tree -------------------------------------------------------------------------------------
