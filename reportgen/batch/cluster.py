@@ -13,7 +13,7 @@ from reportgen.errors import ReportgenError
 from reportgen.notation.numbers import Language
 from reportgen.words import unexpected, word
 
-AHEAD = 2
+AHEAD_OF_EACH = 2
 """Jobs that are handed out for each of the cluster's threads, so that none waits for the next one."""
 ANSWER = 10
 """Seconds in which a scheduler answers."""
@@ -60,7 +60,7 @@ def cluster(address: str, language: Language | None) -> Pool:
                 for job in suspects:
                     retried(job)
                     (future,) = _first_done(client, [client.submit(_run, job, pure=False)])
-                    outcome = _outcome(job, future)
+                    outcome = _told(job, future)
                     yield job, outcome or failed(word("worker_died", job.making.language))
             except WorkersLostError as error:
                 raise ClusterError(word("workers_lost", language, address=address)) from error
@@ -75,14 +75,14 @@ def _results(client: Any, jobs: Iterator[Job], suspect: Callable[[Job], None]) -
     handed_out: dict[Any, Job] = {}
 
     def hand_out() -> None:
-        room = AHEAD * max(_threads(client), 1) - len(handed_out)
+        room = AHEAD_OF_EACH * max(_threads(client), 1) - len(handed_out)
         handed_out.update({client.submit(_run, job, pure=False): job for job in islice(jobs, max(room, 0))})
 
     hand_out()
     while handed_out:
         for future in _first_done(client, list(handed_out)):
             job = handed_out.pop(future)
-            outcome = _outcome(job, future)
+            outcome = _told(job, future)
             hand_out()
             if outcome is None:
                 suspect(job)
@@ -108,7 +108,7 @@ def _first_done(client: Any, futures: Sequence[Any]) -> set[Any]:
             raise WorkersLostError
 
 
-def _outcome(job: Job, future: Any) -> Outcome | None:
+def _told(job: Job, future: Any) -> Outcome | None:
     """The outcome of a job, which the cluster may then forget; None if its workers died.
 
     Raises `OSError` or `FutureCancelledError` if the scheduler has gone.
