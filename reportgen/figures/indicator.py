@@ -99,7 +99,7 @@ def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Readi
     """The diagram with its branches named, its readings numbered and projected from the slider."""
     pressures = [p for branch in branches for p in branch.pressure]
     lowest, highest = min([0.0, *pressures]), max([0.0, *pressures])
-    items = [*_axes(frame, lowest, highest), *_projections(frame, readings)]
+    items = [*_diagram_axes(frame, lowest, highest), *_projections(frame, readings)]
     requests = []
     for n, branch in enumerate(branches):
         points = tuple(frame.at(x, p) for x, p in zip(branch.fraction, branch.pressure, strict=True))
@@ -120,7 +120,7 @@ def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Readi
     return Draft(tuple(items), tuple(requests))
 
 
-def _axes(frame: Frame, lowest: float, highest: float) -> list[Item]:
+def _diagram_axes(frame: Frame, lowest: float, highest: float) -> list[Item]:
     """The stroke axis at p = 0, the pressure axis at the top dead centre with ticks, limits dashed."""
     u = unit(frame.side)
     across = unit(frame.top - frame.bottom)
