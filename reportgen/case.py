@@ -8,9 +8,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, get_args
 
-from reportgen import catalogue, kinds
+from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.errors import NotOfferedError
+from reportgen.kinds import title as kind_title
 from reportgen.notation.numbers import Language
 from reportgen.words import load_words, search_path, word
 
@@ -52,7 +53,7 @@ class Opened:
     @property
     def title(self) -> str:
         """The machine's name in the assignment's language."""
-        return kinds.title(self.assignment.kind, self.assignment.language)
+        return kind_title(self.assignment.kind, self.assignment.language)
 
     @property
     def variant_line(self) -> str:

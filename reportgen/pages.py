@@ -13,9 +13,9 @@ def panel(case: Case) -> Panel | None:
     film = case.film()
     if film is None:
         return None
-    from reportgen.writers import html_moving
+    from reportgen.writers.html_moving import panel as panel_of
 
-    return html_moving.panel(film, case.assignment.language, case.words["page"])
+    return panel_of(film, case.assignment.language, case.words["page"])
 
 
 def page(case: Case, document: Document | None = None, live: Live | None = None) -> str:

@@ -10,8 +10,9 @@ from typing import Any
 from reportgen.answers.key import words_of
 from reportgen.answers.sheet import asked_positions, info_rows, open_cells
 from reportgen.case import Calculation, Opened
-from reportgen.document import namespace, tree
+from reportgen.document import tree
 from reportgen.document.key import Key, Role, Row
+from reportgen.document.namespace import names as names_of
 from reportgen.document.numbering import number
 from reportgen.document.report import PLATES_UP_TO, Report
 from reportgen.document.tree import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
@@ -130,7 +131,7 @@ def machine_task(case: Calculation, key: Key, by_section: bool = False) -> Docum
     `by_section` puts each section of the sheet on pages of its own, headed by whose it is.  Raises `TemplateError`.
     """
     report = Report(case)
-    prose, names, machine = report.prose, namespace.names(report), case.analysis.machine
+    prose, names, machine = report.prose, names_of(report), case.analysis.machine
     every = range(1, machine.positions + 1)
     asked = asked_positions(key)
     (title, *given) = prose.render("given", names)

@@ -12,8 +12,8 @@ from pathlib import Path
 
 from reportgen import api
 from reportgen.api import Engine
-from reportgen.batch import gradebooks
 from reportgen.batch.downloads import Owner, handed_in, zipped
+from reportgen.batch.gradebooks import StudentResult, fill
 from reportgen.batch.roster import Student, assignment_files, comparable, folder_name, read_roster
 from reportgen.batch.sheets import read_sheets
 from reportgen.cases import open_case
@@ -83,10 +83,10 @@ class Graded:
     owners: Mapping[str, Owner] = field(default_factory=dict)
     emails: Mapping[str, str] = field(default_factory=dict)
 
-    def results(self) -> list[gradebooks.Graded]:
+    def results(self) -> list[StudentResult]:
         """The share of each student, with what a platform may know him or her by."""
         return [
-            gradebooks.Graded(
+            StudentResult(
                 person(marking.key),
                 frozenset(
                     one.casefold()
@@ -227,7 +227,7 @@ def put_gradebook(
 
     Raises `AssignmentError` if the table is at fault, `OutputError`.
     """
-    content, faults = gradebooks.fill(path, graded.results(), policy.scale, column, language)
+    content, faults = fill(path, graded.results(), policy.scale, column, language)
     # The file that was downloaded stays as it is.
     taken = path.name == "grades.csv" or (out / path.name).resolve() == path.resolve()
     (written,) = put_files(out, {f"filled-{path.name}" if taken else path.name: content})

@@ -30,7 +30,7 @@ _TITLE = re.compile(r"(.+?)\s*\((\d+)\)")
 
 
 @dataclass(frozen=True, slots=True)
-class Graded:
+class StudentResult:
     """The result of one student: ids by which a row may name them, the platform's number ("" if unknown), the share."""
 
     who: str
@@ -59,7 +59,7 @@ class _Table:
 
 
 def fill(
-    path: Path, results: Sequence[Graded], scale: Scale, column: str = "", language: Language | None = None
+    path: Path, results: Sequence[StudentResult], scale: Scale, column: str = "", language: Language | None = None
 ) -> tuple[bytes, list[Fault]]:
     """The file with the grades, and faults for students that it has no row for.
 
@@ -88,7 +88,7 @@ def fill(
     return _changed(text, changes, separator).encode(), faults
 
 
-def _of(one: Graded, rows: Sequence[tuple[_Cell, str, frozenset[str]]]) -> list[_Cell]:
+def _of(one: StudentResult, rows: Sequence[tuple[_Cell, str, frozenset[str]]]) -> list[_Cell]:
     """The cells of the rows that are the student's: by the platform's number if it is known, else by id or e-mail."""
     if one.number and (cells := [cell for cell, number, _ in rows if number == one.number]):
         return cells

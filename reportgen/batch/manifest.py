@@ -30,7 +30,7 @@ ASK = "ask"
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class ManifestEntry:
     """One product of one student: what it was made of, and its files with their SHA-256, or what failed."""
 
     student: str
@@ -57,14 +57,14 @@ class Entry:
                 yield path
 
 
-_ENTRY = TypeAdapter(Entry)
+_ENTRY = TypeAdapter(ManifestEntry)
 
 
-def entry(job: Job, outcome: Outcome) -> Entry:
+def entry_of(job: Job, outcome: Outcome) -> ManifestEntry:
     """What the manifest keeps of an outcome: hashes and words, no times and no paths."""
     hashes = {name: sha256(content).hexdigest() for name, content in outcome.files.items()}
     problems = tuple(map(str, outcome.problems))
-    return Entry(job.student, job.folder, job.product, made_of(job), hashes, problems)
+    return ManifestEntry(job.student, job.folder, job.product, made_of(job), hashes, problems)
 
 
 def made_of(job: Job) -> dict[str, str | None]:
@@ -74,22 +74,22 @@ def made_of(job: Job) -> dict[str, str | None]:
     return {**made, **({ASK: how.ask} if how.ask else {})}
 
 
-def read(out: Path) -> dict[tuple[str, str], Entry]:
+def read_manifest(out: Path) -> dict[tuple[str, str], ManifestEntry]:
     """The entries of a folder by student and product, with what a killed run left in its journal.
 
     A file that cannot be understood counts as missing: its products are made again.
     """
     lines = map(_parsed, _text(out / JOURNAL).split("\n"))
     entries = (_entry(line) for line in (*_lines(_parsed(_text(out / NAME))), *lines))
-    return {(entry.student, entry.product): entry for entry in entries if entry is not None}
+    return {(entry_of.student, entry_of.product): entry_of for entry_of in entries if entry_of is not None}
 
 
-def write(out: Path, entries: Iterable[Entry]) -> Path:
+def write_manifest(out: Path, entries: Iterable[ManifestEntry]) -> Path:
     """Replaces the manifest, sorted by student and product; then the journal has nothing to add."""
     students: dict[str, Any] = {}
-    for entry in entries:
-        of_student = students.setdefault(entry.student, {"folder": entry.folder, "products": {}})
-        of_student["products"][entry.product] = _plain(entry)
+    for entry_of in entries:
+        of_student = students.setdefault(entry_of.student, {"folder": entry_of.folder, "products": {}})
+        of_student["products"][entry_of.product] = _plain(entry_of)
     content = {"format": FORMAT, "students": students}
     target = out / NAME
     text = json.dumps(content, ensure_ascii=False, indent=1, sort_keys=True) + "\n"
@@ -99,21 +99,21 @@ def write(out: Path, entries: Iterable[Entry]) -> Path:
 
 
 @contextmanager
-def journal(out: Path) -> Iterator[Callable[[Entry], None]]:
-    """Records each entry as soon as its files stand; the next `write` removes the journal."""
+def journal(out: Path) -> Iterator[Callable[[ManifestEntry], None]]:
+    """Records each entry as soon as its files stand; the next `write_manifest` removes the journal."""
     with (out / JOURNAL).open("a", encoding="utf-8", newline="\n") as stream:
 
-        def record(entry: Entry) -> None:
-            head = {"student": entry.student, "folder": entry.folder, "product": entry.product}
-            stream.write(json.dumps(head | _plain(entry), ensure_ascii=False) + "\n")
+        def record(entry_of: ManifestEntry) -> None:
+            head = {"student": entry_of.student, "folder": entry_of.folder, "product": entry_of.product}
+            stream.write(json.dumps(head | _plain(entry_of), ensure_ascii=False) + "\n")
             stream.flush()
 
         yield record
 
 
-def _plain(entry: Entry) -> dict[str, Any]:
-    common = {**entry.made_of, "state": "failed" if entry.problems else "done"}
-    return common | ({"problems": list(entry.problems)} if entry.problems else {"files": dict(entry.files)})
+def _plain(entry_of: ManifestEntry) -> dict[str, Any]:
+    common = {**entry_of.made_of, "state": "failed" if entry_of.problems else "done"}
+    return common | ({"problems": list(entry_of.problems)} if entry_of.problems else {"files": dict(entry_of.files)})
 
 
 def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
@@ -128,14 +128,14 @@ def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
                     yield plain | {"student": student, "folder": of_student.get("folder"), "product": product}
 
 
-def _entry(line: dict[str, Any]) -> Entry | None:
+def _entry(line: dict[str, Any]) -> ManifestEntry | None:
     """The entry of a line, unless the line is not of the form that `journal` gives."""
     made = {key: line.get(key) for key in (*MADE_OF, *((ASK,) if ASK in line else ()))}
     try:
-        entry = _ENTRY.validate_python({**line, "made_of": made})
+        entry_of = _ENTRY.validate_python({**line, "made_of": made})
     except ValidationError:
         return None
-    return entry if all(Path(name).name == name for name in entry.files) else None
+    return entry_of if all(Path(name).name == name for name in entry_of.files) else None
 
 
 def _parsed(text: str) -> dict[str, Any]:

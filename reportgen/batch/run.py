@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Literal, TextIO
 from reportgen import api
 from reportgen.answers.asking import Ask
 from reportgen.api import ASKING, MAKERS, USUAL, Engine, Maker
-from reportgen.batch import manifest
-from reportgen.batch.manifest import Entry
+from reportgen.batch.manifest import ManifestEntry, entry_of, journal, read_manifest, write_manifest
 from reportgen.batch.pool import Job, Outcome, Pool, failed, local, making
 from reportgen.batch.roster import Assigned, Roster, Student, match_files, read_roster
 from reportgen.batch.variants import make_variants
@@ -131,11 +130,11 @@ def _run(
     out = order.out
     for folder in (out, *(out / student.folder for student, _ in assigned)):
         _remove_temporary(folder)
-    before = manifest.read(out)
+    before = read_manifest(out)
     number = {student.id: number for number, (student, _) in enumerate(assigned)}
     entries = {key: entry for key, entry in before.items() if entry.student in number}
     with reported(out):
-        result = Result(manifest.write(out, entries.values()), notes)
+        result = Result(write_manifest(out, entries.values()), notes)
     how = {name: making(order.engine, order.language, _asked(order, name)) for name in makers}
     kept: list[Job] = []
     jobs: list[Job] = []
@@ -162,10 +161,10 @@ def _run(
     result.kept = len(kept)
     with (
         watching(len(assigned) * len(makers), stream, order.language or DEFAULT_LANGUAGE) as watch,
-        manifest.journal(out) as record,
+        journal(out) as record,
     ):
 
-        def add(entry: Entry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
+        def add(entry: ManifestEntry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
             """Each entry stands in the journal before its event is shown."""
             entries[entry.student, entry.product] = entry
             with reported(out):
@@ -183,16 +182,16 @@ def _run(
             # The manifest names no folders.
             text = str(problem.in_file(Path(problem.mark.file).name))
             for product in makers:
-                add(Entry(student.id, student.folder, product, problems=(text,)), (problem,), exit_code=1)
+                add(ManifestEntry(student.id, student.folder, product, problems=(text,)), (problem,), exit_code=1)
         files = {student.id: str(file) for student, file in assigned}
         with closing(pool(jobs, lambda job: watch(job.folder, job.product, "retried"))) as outcomes:
             for job, made in outcomes:
                 outcome = _put(job, made, out, entries.get((job.student, job.product)))
                 file_name = files[job.student]
                 problems = tuple(one if isinstance(one, str) else one.in_file(file_name) for one in outcome.problems)
-                add(manifest.entry(job, outcome), problems, outcome.exit_code)
+                add(entry_of(job, outcome), problems, outcome.exit_code)
     with reported(out):
-        manifest.write(out, entries.values())
+        write_manifest(out, entries.values())
     result.failures.sort(key=lambda failure: number[failure.student])
     if gone := {entry.student for entry in before.values()} - number.keys():
         result.notes.append(counted("batch_gone", order.language, len(gone)))
@@ -325,7 +324,7 @@ def _remove_temporary(folder: Path) -> None:
                 path.unlink(missing_ok=True)
 
 
-def _put(job: Job, outcome: Outcome, out: Path, earlier: Entry | None) -> Outcome:
+def _put(job: Job, outcome: Outcome, out: Path, earlier: ManifestEntry | None) -> Outcome:
     """The outcome once its files stand; if they cannot, and it is this student's matter alone, a failure.
 
     Files that an earlier run made of the product and this one did not, a third sheet of two, go.  Raises `OutputError`

@@ -13,10 +13,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters, one_of
-from reportgen.catalogue import linkage_checks, linkage_words
+from reportgen.catalogue import linkage_checks
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.driven import GivenSheet, needs_loads, outline
 from reportgen.catalogue.linkage_file import Parameters
+from reportgen.catalogue.linkage_words import arms, facts
 from reportgen.catalogue.loads import (
     FULL_TURN,
     AngleLaw,
@@ -118,7 +119,7 @@ def machine(assignment: Assignment) -> Machine:
     loads = tuple(load for load in declared if load.law.acts)
     drawn = assignment.drawing.crank
     q = _sheet(given, linkage, built, drawn.si if drawn else None)
-    q.set_out("lengths", *(ids.length(arm) for arm in linkage_words.arms(given)))
+    q.set_out("lengths", *(ids.length(arm) for arm in arms(given)))
     q.set_out("loads", *(load.name for load in loads))
     return replace(
         built,
@@ -128,7 +129,7 @@ def machine(assignment: Assignment) -> Machine:
         outline=outline(bool(linkage.inertias), bool(loads), given.flywheel, driver="crank" if crank else "slide"),
         unevenness=None if given.flywheel is None else given.flywheel.delta.si,
         idle=tuple(load.name for load in declared if load not in loads),
-        facts=linkage_words.facts(given, tuple(load.name for load in declared), {load.name for load in loads}),
+        facts=facts(given, tuple(load.name for load in declared), {load.name for load in loads}),
     )
 
 

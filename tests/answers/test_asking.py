@@ -169,7 +169,7 @@ def test_the_batch_makes_tasks_anew_when_another_choice_is_ordered() -> None:
     job = Job("7", "7", "task", little, "7.yaml", b"", making("typst", None))
     other = replace(job, making=making("typst", None, str(Ask(("velocity",)))))
     assert manifest.made_of(job) != manifest.made_of(other)
-    assert manifest.entry(other, Outcome({"a": b""})).made_of == manifest.made_of(other)
+    assert manifest.entry_of(other, Outcome({"a": b""})).made_of == manifest.made_of(other)
 
 
 @pytest.mark.parametrize(("language", "enter"), [("en", "enter them"), ("vi", "hãy ghi vào phiếu")])

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.batch import manifest
-from reportgen.batch.manifest import Entry, journal
+from reportgen.batch.manifest import ManifestEntry, journal
 from reportgen.batch.pool import Job, Outcome, making
 from reportgen.errors import Mark, Problem
 from reportgen.words import templates, templates_hash
@@ -19,12 +19,12 @@ from tests.batch.little import little
 
 JOB = Job("Số 7", "So_7-1", "little", little, "7.yaml", b"seconds: 0", making("typst", None))
 FAULT = Problem("wrong", "không đúng", Mark("7.yaml", 1, 8))
-DONE = manifest.entry(JOB, Outcome({"a.pdf": b"A", "b.xlsx": b"B"}))
-FAILED = manifest.entry(replace(JOB, student="8", folder="8"), Outcome(problems=(FAULT,), exit_code=1))
+DONE = manifest.entry_of(JOB, Outcome({"a.pdf": b"A", "b.xlsx": b"B"}))
+FAILED = manifest.entry_of(replace(JOB, student="8", folder="8"), Outcome(problems=(FAULT,), exit_code=1))
 
 
 def test_a_result_is_told_by_hashes(tmp_path: Path) -> None:
-    text = manifest.write(tmp_path, [FAILED, DONE]).read_text(encoding="utf-8")
+    text = manifest.write_manifest(tmp_path, [FAILED, DONE]).read_text(encoding="utf-8")
     assert json.loads(text) == {
         "format": "reportgen-batch/1",
         "students": {
@@ -61,23 +61,23 @@ def test_a_result_is_told_by_hashes(tmp_path: Path) -> None:
 
 
 def test_the_order_of_results_leaves_no_trace(tmp_path: Path) -> None:
-    texts = [manifest.write(tmp_path, order).read_bytes() for order in ((DONE, FAILED), (FAILED, DONE))]
+    texts = [manifest.write_manifest(tmp_path, order).read_bytes() for order in ((DONE, FAILED), (FAILED, DONE))]
     assert texts[0] == texts[1]
 
 
 def test_it_is_read_as_it_was_written(tmp_path: Path) -> None:
-    manifest.write(tmp_path, [DONE, FAILED])
-    assert list(manifest.read(tmp_path).values()) == [FAILED, DONE]
+    manifest.write_manifest(tmp_path, [DONE, FAILED])
+    assert list(manifest.read_manifest(tmp_path).values()) == [FAILED, DONE]
 
 
 def test_the_journal_comes_after_the_manifest_and_goes_with_the_next(tmp_path: Path) -> None:
     older = replace(DONE, files={"a.pdf": "0"})
-    manifest.write(tmp_path, [older])
+    manifest.write_manifest(tmp_path, [older])
     with journal(tmp_path) as record:
         record(DONE)
         record(FAILED)
-    assert manifest.read(tmp_path) == {("Số 7", "little"): DONE, ("8", "little"): FAILED}
-    manifest.write(tmp_path, manifest.read(tmp_path).values())
+    assert manifest.read_manifest(tmp_path) == {("Số 7", "little"): DONE, ("8", "little"): FAILED}
+    manifest.write_manifest(tmp_path, manifest.read_manifest(tmp_path).values())
     assert [path.name for path in tmp_path.iterdir()] == ["manifest.json"]
 
 
@@ -92,7 +92,7 @@ def test_a_torn_line_costs_no_other(tmp_path: Path) -> None:
     for end in range(len(whole)):
         path.write_bytes(whole[:end])
         wanted = [DONE, FAILED][: (end >= first) + (end >= len(whole) - 1)]
-        assert list(manifest.read(tmp_path).values()) == wanted
+        assert list(manifest.read_manifest(tmp_path).values()) == wanted
 
 
 @pytest.mark.parametrize(
@@ -150,7 +150,7 @@ def test_neither_times_nor_places_are_told(tmp_path: Path) -> None:
 
 def test_an_entry_without_files_holds_nothing(tmp_path: Path) -> None:
     assert not replace(DONE, files={}).holds(JOB, tmp_path)
-    assert not Entry("Số 7", "So_7-1", "little", manifest.made_of(JOB)).holds(JOB, tmp_path)
+    assert not ManifestEntry("Số 7", "So_7-1", "little", manifest.made_of(JOB)).holds(JOB, tmp_path)
 
 
 @pytest.mark.parametrize("change", ["added", "altered", "renamed"])
