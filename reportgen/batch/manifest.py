@@ -81,15 +81,15 @@ def read_manifest(out: Path) -> dict[tuple[str, str], ManifestEntry]:
     """
     lines = map(_parsed, _text(out / JOURNAL).split("\n"))
     entries = (_entry(line) for line in (*_lines(_parsed(_text(out / NAME))), *lines))
-    return {(entry_of.student, entry_of.product): entry_of for entry_of in entries if entry_of is not None}
+    return {(entry.student, entry.product): entry for entry in entries if entry is not None}
 
 
 def write_manifest(out: Path, entries: Iterable[ManifestEntry]) -> Path:
     """Replaces the manifest, sorted by student and product; then the journal has nothing to add."""
     students: dict[str, Any] = {}
-    for entry_of in entries:
-        of_student = students.setdefault(entry_of.student, {"folder": entry_of.folder, "products": {}})
-        of_student["products"][entry_of.product] = _plain(entry_of)
+    for entry in entries:
+        of_student = students.setdefault(entry.student, {"folder": entry.folder, "products": {}})
+        of_student["products"][entry.product] = _plain(entry)
     content = {"format": FORMAT, "students": students}
     target = out / NAME
     text = json.dumps(content, ensure_ascii=False, indent=1, sort_keys=True) + "\n"
@@ -103,17 +103,17 @@ def journal(out: Path) -> Iterator[Callable[[ManifestEntry], None]]:
     """Records each entry as soon as its files stand; the next `write_manifest` removes the journal."""
     with (out / JOURNAL).open("a", encoding="utf-8", newline="\n") as stream:
 
-        def record(entry_of: ManifestEntry) -> None:
-            head = {"student": entry_of.student, "folder": entry_of.folder, "product": entry_of.product}
-            stream.write(json.dumps(head | _plain(entry_of), ensure_ascii=False) + "\n")
+        def record(entry: ManifestEntry) -> None:
+            head = {"student": entry.student, "folder": entry.folder, "product": entry.product}
+            stream.write(json.dumps(head | _plain(entry), ensure_ascii=False) + "\n")
             stream.flush()
 
         yield record
 
 
-def _plain(entry_of: ManifestEntry) -> dict[str, Any]:
-    common = {**entry_of.made_of, "state": "failed" if entry_of.problems else "done"}
-    return common | ({"problems": list(entry_of.problems)} if entry_of.problems else {"files": dict(entry_of.files)})
+def _plain(entry: ManifestEntry) -> dict[str, Any]:
+    common = {**entry.made_of, "state": "failed" if entry.problems else "done"}
+    return common | ({"problems": list(entry.problems)} if entry.problems else {"files": dict(entry.files)})
 
 
 def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
@@ -132,10 +132,10 @@ def _entry(line: dict[str, Any]) -> ManifestEntry | None:
     """The entry of a line, unless the line is not of the form that `journal` gives."""
     made = {key: line.get(key) for key in (*MADE_OF, *((ASK,) if ASK in line else ()))}
     try:
-        entry_of = _ENTRY.validate_python({**line, "made_of": made})
+        entry = _ENTRY.validate_python({**line, "made_of": made})
     except ValidationError:
         return None
-    return entry_of if all(Path(name).name == name for name in entry_of.files) else None
+    return entry if all(Path(name).name == name for name in entry.files) else None
 
 
 def _parsed(text: str) -> dict[str, Any]:
