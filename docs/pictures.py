@@ -17,8 +17,8 @@ import pymupdf
 from PIL import Image
 
 from reportgen import api
-from reportgen.document.tree import Document, Figure
-from reportgen.kinds import kinds
+from reportgen.base.words import kinds
+from reportgen.report import Document, Figure
 
 ROOT = Path(__file__).resolve().parent.parent
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from reportgen.errors import AssignmentError, ReportgenError
+from reportgen.base.errors import AssignmentError, ReportgenError
 
 if TYPE_CHECKING:
     from reportgen.api import analyse, build, check, load, solve
@@ -16,6 +16,7 @@ def __getattr__(name: str) -> object:
     """The functions of `reportgen.api`, which is loaded when the first of them is asked for."""
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
     from reportgen import api
 
     return getattr(api, name)

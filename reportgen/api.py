@@ -13,21 +13,19 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.case import Calculation
+from reportgen.base.errors import NotOfferedError, ReportgenError
+from reportgen.base.files import put_files, reported, scratch
+from reportgen.base.units import Language
+from reportgen.base.words import word
 from reportgen.cases import open_case, opened
-from reportgen.errors import NotOfferedError, ReportgenError
-from reportgen.files import put_files, reported
-from reportgen.notation.numbers import Language
-from reportgen.scratch import scratch
-from reportgen.words import word
+from reportgen.report.case import Calculation
 
 if TYPE_CHECKING:
-    from reportgen.analysis import Analysis
-    from reportgen.answers.asking import Ask
-    from reportgen.document.case import Case
-    from reportgen.document.key import Key
-    from reportgen.document.tree import Document
-    from reportgen.figures.sheet import Sheet
+    from reportgen.drawing.sheet import Sheet
+    from reportgen.machine.analysis import Analysis
+    from reportgen.marking.key import Ask
+    from reportgen.report import Document
+    from reportgen.report.case import Case, Key
 
 Engine = Literal["typst", "latex"]
 SUFFIX = {"typst": ".typ", "latex": ".tex"}
@@ -63,7 +61,7 @@ def result_files(
     path: Path | str, formats: Sequence[str], positions: int | None = None, language: Language | None = None
 ) -> Mapping[str, bytes]:
     """The results of a full turn, by degrees unless `positions` says otherwise, in some of `RESULT_FORMATS`."""
-    from reportgen.answers.result_files import result_file
+    from reportgen.marking.results import result_file
 
     assignment = load(path, language)
     wanted = positions or (FULL_TURN if catalogue.kind(assignment.kind).has_positions else None)
@@ -116,7 +114,7 @@ def build_each(
 
 
 def _page(case: Case, tree: Document) -> bytes:
-    from reportgen.pages import page
+    from reportgen.page import page
 
     return page(case, tree).encode()
 
@@ -158,8 +156,8 @@ def page_files(path: Path, engine: Engine, language: Language | None) -> Mapping
 
 def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
     """The student's handout, and the answer sheet to fill in, of what is to be asked; no answer is in them."""
-    from reportgen.answers.asking import Ask
-    from reportgen.answers.sheet import answer_book
+    from reportgen.marking.key import Ask
+    from reportgen.marking.sheet import answer_book
     from reportgen.workbook import write_xlsx
 
     case = open_case(path, language)
@@ -177,8 +175,8 @@ def key_files(
     ask: Ask | None = None,
 ) -> Mapping[str, bytes]:
     """The answer key in some of `KEY_FORMATS`; it says what the answer sheet asks for, and holds everything."""
-    from reportgen.answers import key_files as files
-    from reportgen.answers.asking import Ask
+    from reportgen.marking import key_files as files
+    from reportgen.marking.key import Ask
     from reportgen.workbook import write_csv, write_xlsx
 
     case = open_case(path, language)
@@ -210,7 +208,8 @@ def sheet_files(
     of the language unless a file of one is given.  Raises `SheetError` where there is nothing
     to draw or a plate has no place on the size.
     """
-    from reportgen.writers import dxf, typst, typst_run
+    from reportgen.sheets import dxf
+    from reportgen.writers import typst, typst_run
 
     case = open_case(path, language)
     sheets = case.sheets(size, sets, block)

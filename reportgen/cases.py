@@ -15,18 +15,15 @@ from typing import Any
 import numpy as np
 
 from reportgen import catalogue
-from reportgen.analysis import Analysis, motion_at
 from reportgen.assignment import Assignment
-from reportgen.case import Calculation
-from reportgen.catalogue.machine import Machine
-from reportgen.document.case import Case, Pitfalls
-from reportgen.document.key import Key
-from reportgen.document.tree import Document
-from reportgen.figures.moving import Film
-from reportgen.figures.sheet import Sheet
-from reportgen.notation import ids
-from reportgen.notation.numbers import Language
-from reportgen.notation.sheet import Family
+from reportgen.base.units import Language
+from reportgen.drawing.film import Film
+from reportgen.drawing.sheet import Sheet
+from reportgen.formula import ids
+from reportgen.formula.sheet import Family
+from reportgen.machine.analysis import Analysis, Machine, motion_at
+from reportgen.report import Document
+from reportgen.report.case import Calculation, Case, Key, Pitfalls
 
 STEPS = 720
 """Places in a turn, half a degree apart, that a machine must reach."""
@@ -52,7 +49,7 @@ class MachineCase(Calculation):
 
     @cached_property
     def families(self) -> Mapping[str, Family]:
-        from reportgen.ledger.report import enter_plans
+        from reportgen.plans import enter_plans
 
         return enter_plans(self.analysis, (), self.analysis.machine.formulas)[0].families
 
@@ -87,32 +84,32 @@ class MachineCase(Calculation):
             return "not-finite-results"
 
     def document(self) -> Document:
-        from reportgen.document.outline import compose
+        from reportgen.report.outline import compose
 
         return compose(self)
 
     def key(self) -> Key:
-        from reportgen.answers.key import machine_key
+        from reportgen.marking.key import machine_key
 
         return machine_key(self)
 
     def task(self, key: Key, by_section: bool = False) -> Document:
-        from reportgen.answers.paper import machine_task
+        from reportgen.marking.paper import machine_task
 
         return machine_task(self, key, by_section)
 
     def results(self) -> dict[str, Any]:
-        from reportgen.answers.results import machine_results
+        from reportgen.marking.results import machine_results
 
         return machine_results(self)
 
     def film(self) -> Film:
-        from reportgen.document.moving import film
+        from reportgen.page.sampling import film
 
         return film(self)
 
     def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[Sheet]:
-        from reportgen.document.drawing_sheets import drawing_sheets
+        from reportgen.sheets import drawing_sheets
 
         return drawing_sheets(self, size, sets, block)
 

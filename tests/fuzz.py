@@ -21,15 +21,14 @@ from pathlib import Path
 import numpy as np
 
 from reportgen import api
-from reportgen.answers.sheet import answer_book
-from reportgen.batch.draw import Draw, judge_of
-from reportgen.batch.roster import read_roster
-from reportgen.batch.spec import read_spec
+from reportgen.base.errors import ReportgenError
 from reportgen.cases import MachineCase, open_case
-from reportgen.document.key import Key
-from reportgen.errors import ReportgenError
-from reportgen.grading.marks import read_policy
-from reportgen.grading.submission import read_submission
+from reportgen.classes.draw import Draw, judge_of
+from reportgen.classes.roster import read_roster
+from reportgen.classes.spec import read_spec
+from reportgen.marking.marks import read_policy
+from reportgen.marking.sheet import answer_book, read_submission
+from reportgen.report.case import Key
 from reportgen.workbook import write_csv, write_xlsx
 
 ASSIGNMENTS = sorted(Path("assignments").glob("*.yaml"))

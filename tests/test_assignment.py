@@ -20,9 +20,9 @@ from hypothesis import strategies as st
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
+from reportgen.base.units import PLAIN, QuantityFault, read_quantity, read_ratio, scale_by_pint
+from reportgen.base.words import sample
 from reportgen.catalogue import check, engine_twin, load
-from reportgen.kinds import sample
-from reportgen.units import PLAIN, QuantityFault, read_quantity, read_ratio, scale_by_pint
 
 ROOT = Path(__file__).parent.parent
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"

@@ -18,10 +18,10 @@ from bench.growth import Growth
 from bench.size import Size, size_of
 from bench.solving import compare, machine
 
-from reportgen.analysis import analyse
-from reportgen.document.tree import Equation, Figure, List, Paragraph, Table, Text
-from reportgen.figures.scene import Circle, Label, Line, Scene
-from reportgen.notation.expressions import Number
+from reportgen.drawing import Circle, Label, Line, Scene
+from reportgen.formula import Number
+from reportgen.machine.analysis import analyse
+from reportgen.report import Equation, Figure, List, Paragraph, Table, Text
 from tests.lanes import proof
 
 SAMPLE = Path(__file__).parents[1] / "assignments" / "engine-twin-05.yaml"
@@ -212,8 +212,8 @@ def test_bytecode_is_kept_whatever_the_surroundings_say(tmp_path: Path, monkeypa
     """Else every build would compile the checkout anew, which an installed package never does."""
     monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
     bench = Bench(SAMPLE, tmp_path, ("typst",))
-    measure.run((sys.executable, "-c", "import reportgen.errors"), tmp_path, bench.installed())
-    assert list((tmp_path / "bytecode").rglob("reportgen/errors.*.pyc"))
+    measure.run((sys.executable, "-c", "import reportgen.base.errors"), tmp_path, bench.installed())
+    assert list((tmp_path / "bytecode").rglob("reportgen/base/errors.*.pyc"))
 
 
 def test_pages_are_told_as_the_documents_have_them() -> None:

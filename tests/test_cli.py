@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from reportgen.kinds import kinds
+from reportgen.base.words import kinds
 
 ROOT = Path(__file__).parent.parent
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"

@@ -10,8 +10,8 @@ import pytest
 
 from reportgen.exercise import algebra
 from reportgen.exercise.algebra import Plane
-from reportgen.notation import constructions
-from reportgen.notation.constructions import circle_circle, circle_line, foot, leg, meet
+from reportgen.formula import constructions
+from reportgen.formula.constructions import circle_circle, circle_line, foot, leg, meet
 
 AT = {"r": 0.5, "s": 0.35, "d": 0.6}
 ALONG = complex(np.cos(np.pi / 6), np.sin(np.pi / 6))

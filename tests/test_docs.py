@@ -17,10 +17,9 @@ import pytest
 import typer
 
 from reportgen import api, catalogue
+from reportgen.base.words import kinds, search_path
 from reportgen.cli import app
-from reportgen.document.prose import Prose
-from reportgen.kinds import kinds
-from reportgen.words import search_path
+from reportgen.report.prose import Prose
 from reportgen.writers import pdflatex
 from tests.lanes import matrix
 

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from reportgen import kept
-from reportgen.document import prose
-from reportgen.document.tree import Block
+from reportgen.base import files as kept
+from reportgen.report import Block, prose
 from reportgen.writers import latex, pdflatex
 from tests.lanes import matrix
 from tests.writers import sample

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reportgen.notation.numbers import SERIES, nice_up
+from reportgen.base.units import SERIES, nice_up
 
 positive = st.floats(1e-12, 1e12)
 

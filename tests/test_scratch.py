@@ -14,16 +14,15 @@ import pytest
 from typer.testing import CliRunner
 
 from reportgen import api
+from reportgen.base.errors import OutputError
+from reportgen.base.files import PREFIX, put_files, scratch, sweep
 from reportgen.cli import app
-from reportgen.errors import OutputError
-from reportgen.files import put_files
-from reportgen.scratch import PREFIX, scratch, sweep
 
 SAMPLE = "assignments/slotted-lever-01.yaml"
 HOLD = """
 import sys, tempfile, time
 from pathlib import Path
-from reportgen.scratch import scratch
+from reportgen.base.files import scratch
 with scratch(Path(sys.argv[1])) as folder:
     Path(tempfile.mkdtemp(), "assignment.yaml").write_text("a student's")
     print(folder, flush=True)

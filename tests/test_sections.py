@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.document.prose import Prose
-from reportgen.document.tree import Paragraph, Text
-from reportgen.errors import TemplateError
-from reportgen.sections import find, sections
+from reportgen.base.errors import TemplateError
+from reportgen.base.words import find, sections
+from reportgen.report import Paragraph, Text
+from reportgen.report.prose import Prose
 
 
 def file_of(folder: Path, text: str) -> Path:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.answers.results import print_tables, tables
+from reportgen.marking.results import print_tables, tables
 
 ASSIGNMENTS = Path(__file__).parents[1] / "assignments"
 

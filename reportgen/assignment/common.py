@@ -15,10 +15,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, create_model, model_validator
 
-from reportgen.assignment.fields import Angle, Date, Line, SchoolFolder, Whole, WorkedPositions, quantity
-from reportgen.errors import Finding
-from reportgen.notation.numbers import Language
-from reportgen.units import Given, QuantityFault, read_number, read_quantity
+from reportgen.assignment.fields import Angle, Date, OneLine, SchoolFolder, Whole, WorkedPositions, quantity
+from reportgen.base.errors import Finding
+from reportgen.base.units import Given, Language, QuantityFault, read_number, read_quantity
 
 FEWEST_POSITIONS, MOST_POSITIONS = 4, 360
 Count = Annotated[int, Whole(FEWEST_POSITIONS, MOST_POSITIONS)]
@@ -42,11 +41,11 @@ class Part(BaseModel):
 class Student(Part):
     """Who hands the report in; what is missing is a blank line to fill in."""
 
-    name: Line | None = None
-    id: Line | None = None
-    class_: Line | None = Field(default=None, alias="class")
-    section: Line | None = None
-    email: Line | None = None
+    name: OneLine | None = None
+    id: OneLine | None = None
+    class_: OneLine | None = Field(default=None, alias="class")
+    section: OneLine | None = None
+    email: OneLine | None = None
 
 
 class Report(Part):
@@ -58,13 +57,13 @@ class Report(Part):
 
     language: Language = "vi"
     school: Annotated[str, SchoolFolder()] | None = None
-    university: Line | None = None
-    faculty: Line | None = None
-    department: Line | None = None
-    course: Line | None = None
+    university: OneLine | None = None
+    faculty: OneLine | None = None
+    department: OneLine | None = None
+    course: OneLine | None = None
     student: Student = Student()
-    supervisor: Line | None = None
-    place: Line | None = None
+    supervisor: OneLine | None = None
+    place: OneLine | None = None
     date: Date | None = None
     worked_positions: Annotated[tuple[int, ...] | None, WorkedPositions()] = (2,)
     sheets: Literal["A0", "A1", "A2", "A3"] | None = None
@@ -196,7 +195,7 @@ class Assignment:
 def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
     """Keys of the file beside `kind`: type and default (`...`: required); None gives the common ones."""
     common: dict[str, tuple[Any, Any]] = {
-        "variant": (Line, ""),
+        "variant": (OneLine, ""),
         "report": (Report, Report()),
         "positions": (Positions, Positions()),
         "drawing": (Drawing, Drawing()),

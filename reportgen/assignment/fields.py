@@ -17,8 +17,8 @@ from typing import Annotated, Any
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
-from reportgen.units import NUMBER, Given, QuantityFault, read_quantity, read_ratio, read_unit
-from reportgen.words import schools
+from reportgen.base.units import NUMBER, Given, QuantityFault, read_quantity, read_ratio, read_unit
+from reportgen.base.words import schools
 
 LONGEST_TEXT = 300
 MOST_WORKED = 720
@@ -272,7 +272,7 @@ def quantity(unit: str, **ends: float) -> Quantity:
     return Quantity(unit, Interval(**ends))
 
 
-Line = Annotated[str, Text()]
+OneLine = Annotated[str, Text()]
 Date = Annotated[datetime.date, Day()]
 Length = Annotated[Given, quantity("mm", least=0.1, below=1e5)]
 Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5, tiny=1e-4)]

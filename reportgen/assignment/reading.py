@@ -24,10 +24,10 @@ from reportgen.assignment.common import (
     worked_positions,
 )
 from reportgen.assignment.fields import RESERVED
-from reportgen.errors import Fault, Finding, Mark, Where
-from reportgen.notation.numbers import Language
-from reportgen.source import List, Node, Scalar, Source, Table, plain, read_source
-from reportgen.words import DEFAULT_LANGUAGE, as_error, close_or_known
+from reportgen.base.errors import Fault, Finding, Mark, Where
+from reportgen.base.source import List, Node, Scalar, Source, Table, plain, read_source
+from reportgen.base.units import Language
+from reportgen.base.words import DEFAULT_LANGUAGE, as_error, close_or_known
 
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"

@@ -19,13 +19,12 @@ from typing import Any
 
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, none_added
+from reportgen.base.errors import AssignmentError, Fault, Finding, Problem
+from reportgen.base.source import Source, read_source
+from reportgen.base.units import Language
+from reportgen.base.words import as_error, kinds
 from reportgen.catalogue import reach
-from reportgen.catalogue.machine import Machine
-from reportgen.errors import AssignmentError, Fault, Finding, Problem
-from reportgen.kinds import kinds
-from reportgen.notation.numbers import Language
-from reportgen.source import Source, read_source
-from reportgen.words import as_error
+from reportgen.machine.analysis import Machine
 
 
 def module(kind: str) -> ModuleType:

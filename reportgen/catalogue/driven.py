@@ -24,15 +24,14 @@ from reportgen.assignment.fields import (
     Share,
     Weight,
 )
-from reportgen.catalogue.loads import Applied, Torque
-from reportgen.catalogue.machine import Machine
-from reportgen.errors import Finding
-from reportgen.mechanism.structure import Inertia, Linkage, LinkPoint
-from reportgen.notation import ids, vocabulary
-from reportgen.notation.expressions import PI, Number, Operand, Ref, Symbol, turned
-from reportgen.notation.sheet import Sheet
-from reportgen.notation.vocabulary import drawn_length
-from reportgen.units import Given
+from reportgen.base.errors import Finding
+from reportgen.base.units import Given
+from reportgen.formula import PI, Number, Operand, Ref, Symbol, ids, turned, vocabulary
+from reportgen.formula.sheet import Sheet
+from reportgen.formula.vocabulary import drawn_length
+from reportgen.machine import Inertia, Linkage, LinkPoint
+from reportgen.machine.analysis import Machine
+from reportgen.machine.loads import Applied, Torque
 
 OPENING = ("contents", "given", "scheme", "overview", "foreword", "symbols", "structure", "motion")
 CLOSING = ("conclusion", "references", "checks")

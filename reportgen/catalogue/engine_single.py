@@ -15,10 +15,10 @@ import numpy as np
 
 from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters, one_of
 from reportgen.assignment.fields import Acceleration, Interval, Length, Offset, Ratio, Share
+from reportgen.base.errors import Finding
+from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.driven import CRANK_DRAWN, Driven, GivenSheet, driven
-from reportgen.catalogue.loads import Piston, gas_forces
-from reportgen.catalogue.machine import Machine, lettered
 from reportgen.catalogue.sliders import (
     CENTRE_PLANS,
     OFFSET_PLANS,
@@ -27,9 +27,9 @@ from reportgen.catalogue.sliders import (
     loop_equations,
     offset_slider,
 )
-from reportgen.errors import Finding
-from reportgen.notation.expressions import PI, Number, Ref, Symbol, sqrt, tan
-from reportgen.units import Given
+from reportgen.formula import PI, Number, Ref, Symbol, sqrt, tan
+from reportgen.machine.analysis import Machine, lettered
+from reportgen.machine.loads import Piston, gas_forces
 
 TURNS = 2
 UP = math.pi / 2

@@ -14,18 +14,17 @@ from pydantic import Field
 
 from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.fields import Angle, Length, RodRatio, Share
+from reportgen.base.errors import Finding
+from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
-from reportgen.catalogue.loads import Piston, gas_forces
-from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.sliders import centred_slider, compared
-from reportgen.cycle import STROKES, Stroke, stroke_at
-from reportgen.errors import Finding
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
-from reportgen.notation import ids
-from reportgen.notation.expressions import PI
-from reportgen.notation.sheet import Sheet
-from reportgen.units import Given
+from reportgen.formula import PI, ids
+from reportgen.formula.sheet import Sheet
+from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
+from reportgen.machine.analysis import Machine
+from reportgen.machine.gas import STROKES, Stroke, stroke_at
+from reportgen.machine.loads import Piston, gas_forces
 
 TURNS = 2
 

@@ -14,18 +14,17 @@ import numpy as np
 
 from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters
 from reportgen.assignment.fields import Angle, Length, Offset, Whole, quantity
+from reportgen.base.errors import Finding
+from reportgen.base.units import Given
 from reportgen.catalogue import given_loads, reach
 from reportgen.catalogue.driven import Driven, GivenSheet, driven
-from reportgen.catalogue.loads import Applied, Constant, Piston, course, crank_motion, gas_forces
-from reportgen.catalogue.machine import Machine, lettered
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.sliders import centred_slider, compared, second_cylinder
-from reportgen.errors import Finding
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
-from reportgen.notation import ids
-from reportgen.notation.expressions import PI, Symbol, cis
-from reportgen.notation.sheet import Sheet
-from reportgen.units import Given
+from reportgen.formula import PI, Symbol, cis, ids
+from reportgen.formula.sheet import Sheet
+from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
+from reportgen.machine.analysis import Machine, lettered
+from reportgen.machine.loads import Applied, Constant, Piston, course, crank_motion, gas_forces
 
 TURNS = 1
 """Four strokes take two: the second turn's positions then count among those added to the first."""

@@ -17,16 +17,13 @@ from typing import Literal
 
 from reportgen.assignment.common import Assignment, Part, of_parameters
 from reportgen.assignment.fields import Angle, Coordinate, ForceSize, Length
+from reportgen.base.errors import Finding
+from reportgen.base.units import Given
 from reportgen.catalogue import reach
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
-from reportgen.catalogue.loads import Applied, Constant, Floats
-from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.sliders import compared, components
-from reportgen.errors import Finding
-from reportgen.mechanism.structure import Crank, Dyad, Linkage, LinkPoint
-from reportgen.notation import ids
-from reportgen.notation.expressions import (
+from reportgen.formula import (
     Chain,
     Expression,
     Matrix,
@@ -39,12 +36,15 @@ from reportgen.notation.expressions import (
     cis,
     column,
     cos,
+    ids,
     signed,
     sin,
     sqrt,
 )
-from reportgen.notation.sheet import Sheet
-from reportgen.units import Given
+from reportgen.formula.sheet import Sheet
+from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
+from reportgen.machine.analysis import Machine
+from reportgen.machine.loads import Applied, Constant, Floats
 
 FLAT = 0.01
 """A coupler point this share of its distance beside the rod makes a triangle too flat to be drawn from its sides."""

@@ -18,11 +18,11 @@ from reportgen.assignment.fields import (
     Values,
     quantity,
 )
-from reportgen.catalogue.loads import Constant, Law, Torque, by_angle, by_stroke, crank_motion, opposing
-from reportgen.cycle import STROKES, AngleIndicator, Indicator, StrokeIndicator
-from reportgen.mechanism.structure import Linkage
-from reportgen.notation import ids
-from reportgen.units import Given
+from reportgen.base.units import Given
+from reportgen.formula import ids
+from reportgen.machine import Linkage
+from reportgen.machine.gas import STROKES, AngleIndicator, Indicator, StrokeIndicator
+from reportgen.machine.loads import Constant, Law, Torque, by_angle, by_stroke, crank_motion, opposing
 
 # --- the indicator diagram of a four-stroke engine --------------------------------------------------
 

@@ -10,16 +10,15 @@ from typing import Literal
 
 from reportgen.assignment.common import Assignment, Part, Positions, of_parameters
 from reportgen.assignment.fields import Coordinate, ForceSize, Length
+from reportgen.base.errors import Finding
+from reportgen.base.units import Given
 from reportgen.catalogue import reach
 from reportgen.catalogue.driven import CRANK_DRAWN, Driven, FixedPoint, GivenSheet, driven
-from reportgen.catalogue.loads import Applied, Constant, Law, crank_motion, opposing
-from reportgen.catalogue.machine import Machine
-from reportgen.errors import Finding
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage, LinkPoint
-from reportgen.notation import ids
-from reportgen.notation.expressions import Symbol, turned
-from reportgen.notation.vocabulary import drawn_length
-from reportgen.units import Given
+from reportgen.formula import Symbol, ids, turned
+from reportgen.formula.vocabulary import drawn_length
+from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
+from reportgen.machine.analysis import Machine
+from reportgen.machine.loads import Applied, Constant, Law, crank_motion, opposing
 
 TURNS = 1
 BARS = {1: ("B", "A"), 2: ("A", "C"), 3: ("D", "C"), 4: ("E", "F")}

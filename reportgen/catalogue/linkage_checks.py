@@ -11,14 +11,14 @@ from itertools import pairwise
 import numpy as np
 
 from reportgen.assignment.common import Draft, Positions
+from reportgen.base.errors import Finding, Where
+from reportgen.base.units import Given
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue import reach
-from reportgen.catalogue.loads import crank_motion
 from reportgen.catalogue.reach import Member
-from reportgen.errors import Finding, Where
-from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import DRIVER, GROUND, Crank, Linkage, mobility
-from reportgen.units import Given
+from reportgen.machine import DRIVER, GROUND, Crank, Linkage, mobility
+from reportgen.machine.loads import crank_motion
+from reportgen.machine.motion import Motion, solve_motion
 
 TOP: Where = ("parameters",)
 STEPS = 720

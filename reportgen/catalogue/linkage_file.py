@@ -33,11 +33,11 @@ from reportgen.assignment.fields import (
     fault,
     quantity,
 )
+from reportgen.base.errors import Where
+from reportgen.base.units import Given
 from reportgen.catalogue.driven import Flywheel
 from reportgen.catalogue.given_loads import Diagram
-from reportgen.errors import Where
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
-from reportgen.units import Given
+from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 
 MOST_GROUPS = 12
 MOST_NAMES = 60

@@ -11,13 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.catalogue.loads import FULL_TURN, Flags, MotionAt, NotToAndFro, course, halved
-from reportgen.errors import Finding, Where
-from reportgen.mechanism.dyads import SINGULAR, Complexes, Floats, unit
-from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import GROUND, Crank, Dyad, Guide, Linkage
-from reportgen.notation.constructions import cross
-from reportgen.notation.numbers import nice_down
+from reportgen.base.errors import Finding, Where
+from reportgen.base.units import nice_down
+from reportgen.formula.constructions import cross
+from reportgen.machine import GROUND, Crank, Dyad, Guide, Linkage
+from reportgen.machine.loads import FULL_TURN, Flags, MotionAt, NotToAndFro, course, halved
+from reportgen.machine.motion import SINGULAR, Complexes, Floats, Motion, solve_motion, unit
 
 MM = 1e3
 STEPS = 720

@@ -11,14 +11,14 @@ import math
 
 from reportgen.assignment.common import Assignment
 from reportgen.assignment.fields import Angle, Length
+from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles, natural_lines
-from reportgen.catalogue.loads import FULL_TURN, Applied, Course, TableLaw
-from reportgen.catalogue.machine import Machine
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage
-from reportgen.notation.expressions import Chain, Symbol, cos, sin
-from reportgen.notation.sheet import Sheet
-from reportgen.units import Given
+from reportgen.formula import Chain, Symbol, cos, sin
+from reportgen.formula.sheet import Sheet
+from reportgen.machine import Crank, Dyad, Guide, Linkage
+from reportgen.machine.analysis import Machine
+from reportgen.machine.loads import FULL_TURN, Applied, Course, TableLaw
 
 TURNS = 1
 CHECKS = given_loads.FORCE_CHECKS

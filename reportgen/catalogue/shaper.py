@@ -11,19 +11,17 @@ from typing import Annotated
 
 from reportgen.assignment.common import Assignment, Part, of_parameters
 from reportgen.assignment.fields import Interval, Length, Ratio, Share, quantity
+from reportgen.base.errors import Finding
+from reportgen.base.units import Given, nice_up
 from reportgen.catalogue import reach, slotted
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
-from reportgen.catalogue.loads import Applied, CuttingLaw
-from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.reach import Member
 from reportgen.catalogue.slotted import HIGHEST, Ram, SlottedCrank
-from reportgen.errors import Finding
-from reportgen.notation import ids
-from reportgen.notation.expressions import Symbol
-from reportgen.notation.numbers import nice_up
-from reportgen.notation.sheet import Sheet
-from reportgen.notation.vocabulary import drawn_length
-from reportgen.units import Given
+from reportgen.formula import Symbol, ids
+from reportgen.formula.sheet import Sheet
+from reportgen.formula.vocabulary import drawn_length
+from reportgen.machine.analysis import Machine
+from reportgen.machine.loads import Applied, CuttingLaw
 
 TURNS = 1
 CENTRES = {2: "B", 3: "S3", 4: "S4", 5: "E"}

@@ -10,10 +10,10 @@ from collections.abc import Iterator
 
 from reportgen.assignment.common import Assignment, of_parameters
 from reportgen.assignment.fields import Angle, Coordinate, Length, Share
+from reportgen.base.errors import Finding
+from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.driven import MIDDLE, Driven, GivenSheet, driven, even_angles
-from reportgen.catalogue.loads import Applied, TableLaw
-from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.sliders import (
     CENTRE_PLANS,
     OFFSET_PLANS,
@@ -22,8 +22,8 @@ from reportgen.catalogue.sliders import (
     loop_equations,
     offset_slider,
 )
-from reportgen.errors import Finding
-from reportgen.units import Given
+from reportgen.machine.analysis import Machine
+from reportgen.machine.loads import Applied, TableLaw
 
 TURNS = 1
 

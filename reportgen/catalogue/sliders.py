@@ -22,11 +22,10 @@ from functools import partial
 
 import numpy as np
 
-from reportgen.catalogue.loads import FULL_TURN, Course, Floats, halved
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.notation import ids
-from reportgen.notation.expressions import Chain, Expression, Number, Ref, Symbol, asin, cos, signed, sin, sqrt, tan
-from reportgen.notation.sheet import Sheet
+from reportgen.formula import Chain, Expression, Number, Ref, Symbol, asin, cos, ids, signed, sin, sqrt, tan
+from reportgen.formula.sheet import Sheet
+from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+from reportgen.machine.loads import FULL_TURN, Course, Floats, halved
 
 HALVINGS = 60
 """π halved so often is below the spacing of floats there."""

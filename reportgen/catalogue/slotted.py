@@ -14,25 +14,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from reportgen.catalogue.driven import natural_lines
-from reportgen.catalogue.loads import FULL_TURN, Course, Floats
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.notation import ids
-from reportgen.notation.expressions import (
-    PI,
-    Chain,
-    Expression,
-    Number,
-    Ref,
-    Symbol,
-    acos,
-    asin,
-    cos,
-    signed,
-    sin,
-    sqrt,
-    tan,
-)
-from reportgen.notation.sheet import Sheet
+from reportgen.formula import PI, Chain, Expression, Number, Ref, Symbol, acos, asin, cos, ids, signed, sin, sqrt, tan
+from reportgen.formula.sheet import Sheet
+from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+from reportgen.machine.loads import FULL_TURN, Course, Floats
 
 ROUND = 1e-12
 DRAWN_CRANKS = (0.05, 0.04, 0.03, 0.025, 0.02, 0.015)

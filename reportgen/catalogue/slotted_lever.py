@@ -10,17 +10,17 @@ from collections.abc import Iterator
 
 from reportgen.assignment.common import Assignment, of_parameters
 from reportgen.assignment.fields import Angle, Length
+from reportgen.base.errors import Finding
+from reportgen.base.units import Given
 from reportgen.catalogue import slotted
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
-from reportgen.catalogue.machine import Machine
 from reportgen.catalogue.slotted import SlottedCrank
-from reportgen.errors import Finding
-from reportgen.mechanism.structure import Linkage, LinkPoint
-from reportgen.notation.expressions import Symbol
-from reportgen.notation.sheet import Sheet
-from reportgen.notation.vocabulary import drawn_length
-from reportgen.units import Given
+from reportgen.formula import Symbol
+from reportgen.formula.sheet import Sheet
+from reportgen.formula.vocabulary import drawn_length
+from reportgen.machine import Linkage, LinkPoint
+from reportgen.machine.analysis import Machine
 
 TURNS = 1
 

@@ -13,16 +13,15 @@ from typing import Literal
 
 from reportgen.assignment.common import Assignment, Positions, of_parameters
 from reportgen.assignment.fields import Length
+from reportgen.base.errors import Finding
+from reportgen.base.units import Given
 from reportgen.catalogue import given_loads, reach
 from reportgen.catalogue.driven import Driven, FixedPoint, GivenSheet, driven, even_angles, natural_lines
-from reportgen.catalogue.loads import Applied, TableLaw, course, crank_motion
-from reportgen.catalogue.machine import Machine
-from reportgen.errors import Finding
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Linkage
-from reportgen.notation import ids
-from reportgen.notation.expressions import Symbol, acos, atan2, cos, signed, sin, sqrt
-from reportgen.notation.sheet import Sheet
-from reportgen.units import Given
+from reportgen.formula import Symbol, acos, atan2, cos, ids, signed, sin, sqrt
+from reportgen.formula.sheet import Sheet
+from reportgen.machine import Crank, Dyad, Guide, Linkage
+from reportgen.machine.analysis import Machine
+from reportgen.machine.loads import Applied, TableLaw, course, crank_motion
 
 TURNS = 1
 BARS = {2: ("A", "B"), 3: ("D", "B"), 4: ("B", "C")}

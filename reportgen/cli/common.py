@@ -10,9 +10,9 @@ from typing import Annotated, Literal
 
 import typer
 
-from reportgen.errors import AssignmentError, ReportgenError
-from reportgen.files import put_file
-from reportgen.notation.numbers import Language
+from reportgen.base.errors import AssignmentError, ReportgenError
+from reportgen.base.files import put_file
+from reportgen.base.units import Language
 
 AT_FAULT, SYSTEM, INTERRUPTED = 1, 3, 130
 
@@ -73,14 +73,14 @@ def complain(text: str) -> None:
 
 def complain_of_program(error: BaseException, lang: Language | None = None) -> None:
     """Says that an exception nobody expected is a fault of the program."""
-    from reportgen.words import unexpected
+    from reportgen.base.words import unexpected
 
     complain(unexpected(error, lang))
 
 
 def say(key: str, lang: Language | None, /, **arguments: object) -> str:
     """A text of the message table in the language of the command line."""
-    from reportgen.words import word
+    from reportgen.base.words import word
 
     return word(key, lang, **arguments)
 

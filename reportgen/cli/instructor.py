@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+from reportgen.base.files import put_files, reported
 from reportgen.cli.common import (
     AT_FAULT,
     INTERRUPTED,
@@ -21,7 +22,6 @@ from reportgen.cli.common import (
     listed,
     say,
 )
-from reportgen.files import put_files, reported
 
 PolicyOption = Annotated[
     Path | None,
@@ -40,7 +40,7 @@ def variants(
     lang: LangOption = None,
 ) -> None:
     """Draw a variant for each student of ROSTER and freeze it into DIR/<id>.yaml."""
-    from reportgen.batch.variants import make_variants
+    from reportgen.classes.variants import make_variants
 
     with ending(lang):
         made = make_variants(spec, roster, out, force, lang, _bar)
@@ -80,8 +80,8 @@ def batch(
 ) -> None:
     """Make task, report, key or drawing sheets of everybody on ROSTER; go on where an earlier run was stopped."""
     from reportgen.api import MAKERS
-    from reportgen.batch.run import Order, run_batch
-    from reportgen.grading.marks import read_policy
+    from reportgen.classes.run import Order, run_batch
+    from reportgen.marking.marks import read_policy
 
     if (spec is None) == (assignments is None):
         raise typer.BadParameter(say("one_of_spec", lang))
@@ -122,8 +122,8 @@ def key(
 ) -> None:
     """Write the answer key of each FILE to DIR/<id>/: every value with the bands within which it is right."""
     from reportgen import api
-    from reportgen.grading.marks import read_policy
-    from reportgen.scratch import scratch
+    from reportgen.base.files import scratch
+    from reportgen.marking.marks import read_policy
 
     formats = listed(format, api.KEY_FORMATS, "--format", "no_format", lang)
 
@@ -163,8 +163,8 @@ def grade(
     ] = "",
 ) -> None:
     """Mark filled answer sheets from each student's own values; write feedback, grades.csv and the class page."""
-    from reportgen.batch import assess
-    from reportgen.grading.marks import Policy, read_policy
+    from reportgen.classes import assess
+    from reportgen.marking.marks import Policy, read_policy
 
     with ending(lang):
         rules = Policy() if policy is None else read_policy(policy, lang)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from reportgen.base.files import put_files, put_sheets, reported
 from reportgen.cli.common import (
     AT_FAULT,
     EngineOption,
@@ -23,11 +24,10 @@ from reportgen.cli.common import (
     say,
     write,
 )
-from reportgen.files import put_files, put_sheets, reported
 
 if TYPE_CHECKING:
-    from reportgen.document.case import Case
-    from reportgen.document.tree import Document
+    from reportgen.report import Document
+    from reportgen.report.case import Case
 
 
 def build(
@@ -73,12 +73,12 @@ def sheet(
 ) -> None:
     """Lay the plans of each FILE out on drawing sheets, true to scale: DIR/<id>/sheet-1.pdf, sheet-1.dxf, …."""
     from reportgen import api
-    from reportgen.scratch import scratch
+    from reportgen.base.files import scratch
 
     formats = listed(format, api.SHEET_FORMATS, "--format", "no_format", lang)
 
     def work(file: Path) -> None:
-        from reportgen.document.title_block import blocks
+        from reportgen.sheets.frame import blocks
 
         assignment = api.load(file, lang)
         known = blocks(assignment.report.school or "")
@@ -109,8 +109,8 @@ def watch(
 ) -> None:
     """Show the report of FILE in a browser, renewed whenever FILE changes; Ctrl-C ends it."""
     from reportgen.cases import open_case
-    from reportgen.watch.session import nobody
-    from reportgen.watch.session import watch as serve
+    from reportgen.page.watch import nobody
+    from reportgen.page.watch import watch as serve
 
     with ending(lang):
         serve(file, open_case, lang, _pdf_writer(file, out) if pdf else nobody, browser=not no_open)
@@ -119,7 +119,7 @@ def watch(
 def _pdf_writer(path: Path, out: Path) -> Callable[[Case, Document], None]:
     """Writes each finished report as PDF, whole or not at all; says in a line what keeps it from that."""
     from reportgen.api import typeset
-    from reportgen.errors import ReportgenError
+    from reportgen.base.errors import ReportgenError
 
     def write(case: Case, document: Document) -> None:
         try:
@@ -150,7 +150,7 @@ def solve(
 ) -> None:
     """Compute motion, forces and torque; print readable tables, or write them in SI units."""
     from reportgen import api
-    from reportgen.answers.results import print_tables
+    from reportgen.marking.results import print_tables
 
     formats = listed(format, api.RESULT_FORMATS, "--format", "no_format", lang) if format is not None else ()
 
@@ -187,7 +187,7 @@ def new(
     lang: LangOption = None,
 ) -> None:
     """Print a commented assignment file to fill in."""
-    from reportgen.kinds import kinds, sample
+    from reportgen.base.words import kinds, sample
 
     if kind not in kinds():
         raise typer.BadParameter(say("no_kind", lang, kind=kind, known=", ".join(kinds())))
@@ -197,7 +197,7 @@ def new(
 
 def kinds(lang: LangOption = None) -> None:
     """List the machines that are known, a line each."""
-    from reportgen.kinds import titles
+    from reportgen.base.words import titles
 
     known = titles(lang or "vi")
     width = max(map(len, known))
@@ -222,7 +222,7 @@ def compare(
 ) -> None:
     """Check your own SHEET before handing it in: where it first leaves the assignment, without answers."""
     from reportgen.cases import open_case
-    from reportgen.grading.marking import compare as compared
+    from reportgen.marking.marking import compare as compared
 
     with ending(lang):
         lines, agrees = compared(open_case(file, lang), sheet, hint)

@@ -13,7 +13,7 @@ from reportgen.exercise import file
 from reportgen.exercise.board import Board, Equation, Projected, Step, Vector, components
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.places import direction_of, parallel, perpendicular, unit
-from reportgen.notation.expressions import sqrt
+from reportgen.formula import sqrt
 
 
 @dataclass

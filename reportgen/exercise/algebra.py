@@ -12,20 +12,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import (
-    Call,
-    Expression,
-    Fraction,
-    Negative,
-    Number,
-    Power,
-    Product,
-    Ref,
-    Root,
-    Sum,
-    total,
-)
+from reportgen.formula import Call, Expression, Fraction, Negative, Number, Power, Product, Ref, Root, Sum, total
+from reportgen.formula.evaluation import evaluate
 
 Algebraic = Any
 """An expression of sympy."""

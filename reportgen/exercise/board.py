@@ -10,8 +10,8 @@ from typing import Literal
 from reportgen.exercise.centres import Layout
 from reportgen.exercise.places import SAME, direction_of, parallel
 from reportgen.exercise.solving import Motion
-from reportgen.notation.expressions import Chain, Expression, Negative, Number, Product, Ref, Symbol, cos, sqrt, total
-from reportgen.notation.sheet import Family, Sheet, is_short
+from reportgen.formula import Chain, Expression, Negative, Number, Product, Ref, Symbol, cos, sqrt, total
+from reportgen.formula.sheet import Family, Sheet, is_short
 
 # --- steps, as data for whoever writes them out ---------------------------------------------------
 

@@ -2,22 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+import cmath
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Never
 
-from reportgen.document.case import Pitfalls
-from reportgen.document.key import Key
-from reportgen.document.tree import Document
-from reportgen.errors import NotOfferedError
+from reportgen.base.errors import NotOfferedError
+from reportgen.base.units import Given
+from reportgen.base.words import word
+from reportgen.exercise import file
+from reportgen.exercise.figures import FIGURES
 from reportgen.exercise.solved import SolvedExercise
-from reportgen.notation.sheet import Family
-from reportgen.words import word
+from reportgen.exercise.symbols import Literal, symbol
+from reportgen.exercise.views import AT, FurtherView, Solution, lettered
+from reportgen.formula import Chain, Negative, Number, Symbol, vocabulary
+from reportgen.formula.sheet import Family
+from reportgen.report import (
+    Block,
+    Cell,
+    Column,
+    Document,
+    Equation,
+    Figure,
+    InlineMath,
+    Inlines,
+    Table,
+    Text,
+    Value,
+    Words,
+    listed,
+)
+from reportgen.report.case import Key, Pitfalls
+from reportgen.report.numbering import number
+from reportgen.report.prose import PointName, Prose
 
 if TYPE_CHECKING:
-    from reportgen.figures.sheet import Sheet
-    from reportgen.ledger.core import Ledger
+    from reportgen.drawing.sheet import Sheet
+    from reportgen.formula.ledger import Ledger
 
 
 @dataclass(frozen=True)
@@ -53,26 +76,24 @@ class ExerciseCase(SolvedExercise):
         return ""
 
     def document(self) -> Document:
-        from reportgen.exercise.document import solution
 
         return solution(self)
 
     def key(self) -> Key:
-        from reportgen.answers.key import make_key
+        from reportgen.marking.key import make_key
 
         return make_key(self, self.ledger)
 
     def task(self, key: Key, by_section: bool = False) -> Document:
-        from reportgen.answers.paper import empty_sheet, task_paper
-        from reportgen.document.prose import Prose
-        from reportgen.exercise.document import task_names
+        from reportgen.marking.paper import empty_sheet, task_paper
+        from reportgen.report.prose import Prose
 
         names = {**task_names(self), "answer_tables": empty_sheet(key, by_section)}
         return task_paper(self, key, (), Prose(self.places).render("exercise-task", names))
 
     def results(self) -> dict[str, Any]:
         """Its one position has its number alone; null is what is not determined."""
-        from reportgen.answers.results import pair, results
+        from reportgen.marking.results import pair, results
 
         motion = self.exercise.motion
         points = {
@@ -103,3 +124,277 @@ class ExerciseCase(SolvedExercise):
 
     def _no_machine(self) -> Never:
         raise NotOfferedError(word("no_machine", self.assignment.language, kind=self.assignment.kind))
+
+
+# --- solvedExercise → Document --------------------------------------------------------------------
+# What is given and asked, the figures, every step with its equation, the answer.
+
+TYPED = 6
+"""Significant figures of given data; more of them are those of a root or of π."""
+PLACES = (25.0, 35.0, 35.0)
+"""Widths (mm) of the columns of the coordinates."""
+COMPARED = (25.0, 135.0)
+"""Of the comparison of methods: its first column, and all others together."""
+AGREED = 1e-9
+"""Values that differ by less than this share are one."""
+ANSWER = (25.0, 65.0, 70.0)
+"""Widths (mm) of the columns of the answers."""
+
+
+def solution(case: SolvedExercise) -> Document:
+    """The finished, numbered document; raises `TemplateError`, and `NotOfferedError` where no steps are known."""
+    words, assignment = case.words, case.assignment
+    blocks = Prose(case.places).render("exercise", names(case))
+    return number(
+        Document(
+            language=assignment.language,
+            title=case.title,
+            author=assignment.report.student.name or "",
+            header=(words["header"].format(course=case.course), case.variant_line),
+            footer=("", words["document"]["page"]),
+            words=Words(**words["document"]),
+            blocks=blocks,
+        )
+    )
+
+
+def task_names(case: SolvedExercise) -> Mapping[str, Any]:
+    """What the templates of an exercise name that say what is given and asked."""
+    page = Page(case, case.worked)
+    return {
+        "title": case.title,
+        "variant": case.assignment.variant,
+        "who": page.who,
+        "whence": page.whence,
+        "words": case.words,
+        "symbols": page.symbols,
+        "put_in": page.put_in,
+        "places": page.places,
+        "given": page.given,
+        "asked": page.asked,
+        "system_figure": page.figure("system"),
+    }
+
+
+def names(case: SolvedExercise) -> Mapping[str, Any]:
+    """What the templates of its solution name."""
+    page = Page(case, case.worked)
+    further = [Page(case, worked) for worked in case.further]
+    return {
+        **task_names(case),
+        "method": page.method,
+        "further": [FurtherView(one.method, one.steps_beside(case.worked)) for one in further],
+        "comparison": page.comparison(further) if further else (),
+        "lengths": page.lengths,
+        "steps": page.steps,
+        "velocity_figure": page.figure("velocity"),
+        "acceleration_figure": page.figure("acceleration"),
+        "expressions": page.expressions,
+        "unwritten": page.unwritten,
+        "answers": page.answers,
+    }
+
+
+@dataclass(frozen=True)
+class GivenItem:
+    """A given quantity: the key of its words, and what they name."""
+
+    form: str
+    point: PointName
+    body: int
+    value: Chain | Symbol
+    way: Inlines = ()
+
+
+@dataclass(frozen=True)
+class Page(Solution):
+    """An exercise as its page shows it."""
+
+    @property
+    def who(self) -> str:
+        """The student's name, and what is known of the class."""
+        student = self.case.assignment.report.student
+        return ", ".join(filter(None, (student.name, student.id, student.class_, student.section)))
+
+    @property
+    def whence(self) -> str:
+        """The school and its parts, the one who set the exercise, and when, as far as the file names them."""
+        report, labels = self.case.assignment.report, self.case.words["cover"]
+        lecturer = f"{labels['supervisor']}: {report.supervisor}" if report.supervisor else None
+        day = report.date.strftime("%d.%m.%Y") if report.date else None
+        return ", ".join(filter(None, (report.university, report.faculty, report.department, lecturer, day)))
+
+    # --- given and asked
+
+    @property
+    def given(self) -> tuple[GivenItem, ...]:
+        return tuple(self._given_items())
+
+    def _given_items(self) -> Iterator[GivenItem]:
+        none = PointName("")
+        for rate in self.case.exercise.given.given:
+            match rate:
+                case file.OmegaOf(body=body, value=value) | file.EpsilonOf(body=body, value=value):
+                    id = f"omega.{body}" if isinstance(rate, file.OmegaOf) else f"eps.{body}"
+                    sense = Text(self._sense(value.si))
+                    form = ("omega" if isinstance(rate, file.OmegaOf) else "epsilon") + ("" if value.si else "-zero")
+                    yield GivenItem(form, none, body, self._typed(id, value), (sense,))
+                case file.VelocityOf(point=point, size=size) | file.AccelerationOf(point=point, size=size):
+                    form = "velocity" if isinstance(rate, file.VelocityOf) else "acceleration"
+                    id = f"{form[0]}.{point}"
+                    if size is None:
+                        yield GivenItem(
+                            f"{form}-way", PointName(point), 0, vocabulary.symbol(id), self._angle(rate.direction.si)
+                        )
+                    else:
+                        turned = rate.direction.si + (math.pi if size.si < 0 else 0.0)
+                        shown = self._typed(id, size)
+                        yield GivenItem(form, PointName(point), 0, shown, self._angle(turned))
+                case file.FromRest(point=point, acceleration=acceleration, time=time):
+                    shown = self._typed(f"a.{point}", acceleration)
+                    after = (InlineMath(Chain((Symbol("t"), Number(time.value, None, time.unit)))),)
+                    yield GivenItem("from-rest", PointName(point), 0, shown, after)
+
+    def _typed(self, id: str, given: Given) -> Chain:
+        """What is given, by its size: the formula of one that is stated by symbols."""
+        unit = self.case.words["units"].get(given.unit, pretty(given.unit))
+        size = Number(float(f"{abs(given.value):.{TYPED}g}"), None, unit)
+        if not isinstance(given, Literal):
+            # The lines count in rad/s.
+            in_si = (self.worked.ledger.number(id, AT),) if given.unit == "rpm" and id in self.worked.ledger else ()
+            return Chain((vocabulary.symbol(id), size, *in_si))
+        formula = lettered(given.formula)
+        shown = (formula.of if isinstance(formula, Negative) else formula,)
+        return Chain((vocabulary.symbol(id), *shown))
+
+    @property
+    def symbols(self) -> Inlines:
+        """The symbols of the file with their values."""
+        shown: list[Any] = []
+        for name, one in self.case.exercise.given.symbols.items():
+            value = Number(one.given.value, None, pretty(one.given.unit))
+            shown += [*([Text(", ")] if shown else []), InlineMath(Chain((symbol(name), value)))]
+        return tuple(shown)
+
+    @property
+    def expressions(self) -> tuple[Equation, ...]:
+        """What was asked, by the symbols of the file."""
+        symbol = self.worked.ledger.symbol
+        rows = tuple(Chain((symbol(id), shown)) for id, shown in self._by_symbols() if shown is not None)
+        return (Equation(rows),) if rows else ()
+
+    @property
+    def unwritten(self) -> Inlines:
+        """The symbols of what was asked whose expressions are too long."""
+        return listed(InlineMath(self.worked.ledger.symbol(id)) for id, shown in self._by_symbols() if shown is None)
+
+    @property
+    def asked(self) -> Inlines:
+        """The symbols of what is asked."""
+        shown: list[Any] = []
+        for one in self.case.exercise.asked:
+            centre = one.what == "centre"
+            symbol = self._centre_symbol(one.body) if centre else vocabulary.symbol(one.id)
+            shown += [*([Text(", ")] if shown else []), InlineMath(symbol)]
+        return tuple(shown)
+
+    def _centre_symbol(self, body: int) -> Symbol:
+        return vocabulary.point(self.worked.layout.centres[body].name or "∞")
+
+    @property
+    def lengths(self) -> tuple[Equation, ...]:
+        """The distances that the solution uses."""
+        ledger = self.worked.ledger
+        ids = [id for id in ledger.families if id.startswith("l.") and self._declared(id)]
+        return (Equation(tuple(map(self._chain, ids))),) if ids else ()
+
+    @property
+    def places(self) -> Table:
+        """The coordinates of the points."""
+        words = self.case.words["instant"]
+        head = tuple(
+            Cell((Text(str(text)),)) for text in words["literal_heads" if self.case.literal else "place_heads"]
+        )
+        body = tuple(
+            (Cell((InlineMath(vocabulary.point(name)),)), *map(Cell, self._place(name)))
+            for name in self.case.exercise.motion.system.points
+        )
+        return Table(tuple(map(Column, PLACES)), (head,), body, (Text(str(words["places"])),), "tab.places")
+
+    def _place(self, name: str) -> tuple[Inlines, Inlines]:
+        """The coordinates of a point in mm, or by symbols."""
+        literal = self.case.literal
+        found = None if literal is None else literal.place(name)
+        if found is not None:
+            x, y = map(lettered, found)
+            return (InlineMath(x, slashed=True),), (InlineMath(y, slashed=True),)
+        at, unit = self.case.exercise.motion.system.points[name], "" if literal is None else "mm"
+        across, up = (replace(self._coordinate(part), unit=unit) for part in (at.real, at.imag))
+        return (Value(across),), (Value(up),)
+
+    def comparison(self, further: Sequence[Page]) -> Table:
+        """What is asked of velocities, by each method that leads to it.  Raises `ValueError` if two disagree."""
+        words, pages = self.case.words["instant"], (self, *further)
+        rows: list[tuple[Cell, ...]] = []
+        for one in self.case.exercise.asked:
+            ledgers = [page.worked.ledger for page in pages]
+            found = [float(ledger[one.id].values[0]) for ledger in ledgers if one.id in ledger]
+            if one.what not in ("v", "omega"):
+                continue
+            if max(found) - min(found) > AGREED * max(found):
+                raise ValueError(f"methods disagree on {one.id}: {found}")
+            shown = [(Value(ledger.number(one.id, AT)),) if one.id in ledger else (Text("–"),) for ledger in ledgers]
+            rows.append((Cell((InlineMath(ledgers[0].symbol(one.id)),)), *map(Cell, shown)))
+        head = (words["quantity"], *(page.method for page in pages))
+        columns = (Column(COMPARED[0]), *(Column(COMPARED[1] / len(pages)) for _ in pages))
+        heads = tuple(Cell((Text(str(text)),)) for text in head)
+        return Table(columns, (heads,), tuple(rows), (Text(str(words["compared"])),), "tab.compared")
+
+    # --- figures and answers
+
+    def figure(self, what: str) -> tuple[Block, ...]:
+        """The system with its velocities or its accelerations; none where none are asked."""
+        drawn = FIGURES[what](self.case)
+        if drawn is None:
+            return ()
+        scene, scale = drawn
+        caption = (Text(self.case.words["instant"][what]), *((Text("; "), InlineMath(scale)) if scale else ()))
+        return (Figure((scene,), caption, f"fig.{what}"),)
+
+    @property
+    def answers(self) -> Table:
+        """What was asked: symbol, number with its unit, sense or direction."""
+        words = self.case.words["instant"]
+        rows = tuple(tuple(map(Cell, row)) for row in self._answer_rows())
+        columns = tuple(map(Column, ANSWER))
+        head = (tuple(Cell((Text(str(text)),)) for text in words["answer_heads"]),)
+        return Table(columns, head, rows, (Text(str(words["answers"])),), "tab.answers", framed=True)
+
+    def _answer_rows(self) -> Iterator[tuple[Inlines, Inlines, Inlines]]:
+        ledger, motion = self.worked.ledger, self.case.exercise.motion
+        for one in self.case.exercise.asked:
+            if one.what == "centre":
+                yield self._centre_row(one.body)
+                continue
+            symbol = (InlineMath(ledger.symbol(one.id)),)
+            number, shown = ledger.number(one.id, AT), self._literal(one.id)
+            size: Inlines = (Value(number),) if self.put_in or shown is None else (InlineMath(shown, slashed=True),)
+            if one.of_body:
+                rate = motion.omega(one.body) if one.what == "omega" else motion.epsilon(one.body)
+                yield symbol, size, (Text(self._sense(rate)),)
+            else:
+                vector = motion.v(one.of) if one.what == "v" else motion.a(one.of)
+                degrees = round(math.degrees(cmath.phase(vector)) % 360.0, 2) % 360.0 if vector else 0.0
+                angle = (Text(f"{self._towards(vector)} ("), Value(Number(degrees, None, "°")), Text(")"))
+                yield symbol, size, angle if vector else (Text("–"),)
+
+    def _centre_row(self, body: int) -> tuple[Inlines, Inlines, Inlines]:
+        centre = self.worked.layout.centres[body]
+        if centre.rule == "translation":
+            return (Text(str(body)),), (Text(str(self.case.words["instant"]["far"])),), ()
+        return (InlineMath(vocabulary.point(centre.name)),), self._coordinates(body), ()
+
+
+def pretty(typed: str) -> str:
+    """A unit as typed, with its powers raised: mm/s2 → mm/s²."""
+    return typed.replace("s2", "s²").replace("^", "")

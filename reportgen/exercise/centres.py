@@ -15,7 +15,7 @@ from reportgen.exercise import file
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.places import Geometry, parallel, perpendicular, unit
 from reportgen.exercise.solving import Motion
-from reportgen.notation.constructions import meet
+from reportgen.formula.constructions import meet
 
 Rule = Literal["pivot", "contact", "normals", "rate", "translation"]
 NEAR = 1e-9

@@ -9,18 +9,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from reportgen.base.units import nice_up
+from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Scene, Stroke, style
+from reportgen.drawing.geometry import bounds, clusters
+from reportgen.drawing.labels import Draft, Request, finish, joined, label, settle
 from reportgen.exercise import file
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.views import Axes, DrawnAxis
-from reportgen.figures import style
-from reportgen.figures.draft import Draft, finish, settle
-from reportgen.figures.geometry import bounds, clusters
-from reportgen.figures.labels import Request, joined, label
-from reportgen.figures.scene import Arc, Arrow, Circle, Content, Item, Line, Scene, Stroke
-from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Chain, Number, Symbol
-from reportgen.notation.numbers import nice_up
+from reportgen.formula import Chain, Number, Symbol, vocabulary
 
 BOX = (105.0, 85.0)
 """What the system may fill at most (mm)."""

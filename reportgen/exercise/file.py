@@ -10,9 +10,9 @@ from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Angle, Flag, Reader, Whole, fault, quantity
+from reportgen.base.units import Given
 from reportgen.catalogue.linkage_file import MOST_NAMES, Name
 from reportgen.exercise.symbols import MOST_SYMBOLS, SymbolName, SymbolValue, Told, Value, stated
-from reportgen.units import Given
 
 LAST_BODY = 40
 _ASKED = re.compile(r"(?P<what>v|a|omega|eps|centre)\.(?P<of>[A-Z][0-9]{0,2}|[0-9]{1,2})")

@@ -21,20 +21,8 @@ from reportgen.exercise.accelerations import Parts
 from reportgen.exercise.board import Board, Step
 from reportgen.exercise.places import direction_of
 from reportgen.exercise.speeds import derive, is_across
-from reportgen.notation.expressions import (
-    Chain,
-    Expression,
-    Fraction,
-    Negative,
-    Number,
-    Product,
-    Ref,
-    Symbol,
-    call,
-    signed,
-    total,
-)
-from reportgen.notation.sheet import Sheet
+from reportgen.formula import Chain, Expression, Fraction, Negative, Number, Product, Ref, Symbol, call, signed, total
+from reportgen.formula.sheet import Sheet
 
 FIGURES = 4
 """Significant figures of the numbers in a system."""

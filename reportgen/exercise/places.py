@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from reportgen.assignment import Assignment
-from reportgen.errors import Finding, Where
+from reportgen.base.errors import Finding, Where
+from reportgen.base.units import Given
 from reportgen.exercise import conditions as on
 from reportgen.exercise import file
 from reportgen.exercise.conditions import Condition
 from reportgen.exercise.solving import Motion, System
-from reportgen.notation.constructions import circle_circle, circle_line, cross, foot, meet, real_root
-from reportgen.units import Given
+from reportgen.formula.constructions import circle_circle, circle_line, cross, foot, meet, real_root
 
 TOP: Where = ("parameters",)
 TOUCHING = 1e-6

@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from reportgen.assignment.common import Draft
-from reportgen.errors import Finding, Where
+from reportgen.base.errors import Finding, Where
 from reportgen.exercise import file, symbols
 from reportgen.exercise.centres import NEAR, Layout, lay_out
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.places import TOP, MisplacedError, direction_of, named, perpendicular, system
 from reportgen.exercise.solving import Motion
-from reportgen.notation.expressions import Negative, Ref
+from reportgen.formula import Negative, Ref
 
 if TYPE_CHECKING:
     from reportgen.assignment import Assignment

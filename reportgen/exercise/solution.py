@@ -28,10 +28,10 @@ from reportgen.exercise.speeds import (
     from_base_point,
 )
 from reportgen.exercise.trains import by_rack, by_rims, by_train
-from reportgen.ledger.core import Ledger
-from reportgen.ledger.decimals import choose_decimals
-from reportgen.notation.expressions import Symbol, refs
-from reportgen.notation.sheet import Sheet
+from reportgen.formula import Symbol, refs
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.sheet import Sheet
+from reportgen.plans.decimals import choose_decimals
 
 ROUND = 1e-9
 """An angle this little below a whole turn (degrees) is none."""

@@ -1,16 +1,213 @@
-"""An exercise with all that is computed of it; each part when it is first asked for."""
+"""The literal solution: every quantity of the board as an expression of the symbols that the file has.
+
+The same conditions as those of the numbers are solved with symbols; sizes, senses and which of two places a point has
+are those at the symbols' values.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, cast
 
-from reportgen.case import Opened
-from reportgen.errors import NotOfferedError
-from reportgen.exercise.literal import LiteralBoard
-from reportgen.exercise.places import Exercise, exercise_of
+from reportgen.base.errors import NotOfferedError
+from reportgen.base.units import Given
+from reportgen.base.words import word
+from reportgen.exercise import algebra, file
+from reportgen.exercise.algebra import Algebraic, Plane
+from reportgen.exercise.conditions import GROUND, Condition, Rates, Velocities
+from reportgen.exercise.places import Exercise, Geometry, carried, conditions, exercise_of
 from reportgen.exercise.solution import Worked, work_out
-from reportgen.words import word
+from reportgen.exercise.solving import System
+from reportgen.exercise.symbols import Literal
+from reportgen.formula import Expression
+from reportgen.formula.constructions import dot
+from reportgen.report.case import Opened
+
+ZERO = Plane(0, 0)
+LONGEST = 40
+"""An expression of more operations is not written: it would fill a line and more, and say little."""
+WITHIN_WORDS = 20
+"""Nor is a coordinate of more, which stands within a sentence or a table."""
+MOST = 100
+"""One of more operations is not even simplified, which may take minutes; published examples have 73 at most."""
+
+
+def told(given: Given) -> Algebraic:
+    """A quantity of the file, by its formula or as the number that was typed."""
+    if isinstance(given, Literal):
+        return algebra.algebraic(given.formula, algebra.symbol)
+    return algebra.exact(float(f"{given.si:.15g}"))
+
+
+class LiteralGeometry(Geometry):
+    """The points and lines of a file by symbols."""
+
+    def __init__(self, exercise: Exercise) -> None:
+        points: dict[str, Plane] = {}
+        super().__init__(exercise.given, points)
+        self.numbers = Geometry(exercise.given, exercise.motion.system.points)
+        for name, point in exercise.given.points.items():
+            points[name] = self.place(point)
+
+    def size(self, told_of: Given) -> Algebraic:
+        return told(told_of)
+
+    def unit(self, angle: Given) -> Plane:
+        return algebra.exact_unit(math.degrees(angle.si))
+
+    def point(self, x: Algebraic, y: Algebraic) -> Plane:
+        return Plane(x, y)
+
+    def root(self, of: Algebraic) -> Algebraic:
+        return algebra.root(of)
+
+    def is_inner(self, joint: file.RollingOnCircle | file.Gears) -> bool:
+        return self.numbers.is_inner(joint)
+
+
+class LiteralMotion:
+    """The velocities and accelerations of an exercise by symbols."""
+
+    def __init__(self, exercise: Exercise) -> None:
+        self.geometry = LiteralGeometry(exercise)
+        self.bare = System(self.geometry.points, carried(exercise.given), ())
+        self.bodies = tuple(self.bare.bodies)
+        self.conditions = tuple(conditions(self.geometry, self.bare))
+
+    @cached_property
+    def velocities(self) -> Velocities:
+        return Velocities(self._solve([(one, one.velocity) for one in self.conditions if one.velocity is not None]))
+
+    @cached_property
+    def accelerations(self) -> Mapping[int, Rates]:
+        motion, equations = self.velocities, []
+        for one in self.conditions:
+            if one.drift is not None:
+                inward = (
+                    motion.omega(part.body) ** 2 * dot(Plane.of(part.direction), part.point) for part in one.components
+                )
+                equations.append((one, one.drift(motion) + sum(inward)))
+        return self._solve(equations)
+
+    def v(self, point: str) -> Plane:
+        return self.at(point, self.bare.body_of(point))
+
+    def at(self, point: str, body: int) -> Plane:
+        return Plane.of(self.velocities.at(body, self.geometry.points[point]))
+
+    def a(self, point: str) -> Plane:
+        body, place = self.bare.body_of(point), self.geometry.points[point]
+        rates, omega = self.accelerations[body], self.velocities.omega(body)
+        return Plane.of(rates.origin + rates.turn * (1j * place) - omega**2 * place)
+
+    def _solve(self, equations: list[tuple[Condition, Any]]) -> dict[int, Rates]:
+        unknowns = algebra.solve([self._row(one) for one, _ in equations], [value for _, value in equations])
+        found = {}
+        for index, body in enumerate(self.bodies):
+            turn, x, y = unknowns[3 * index : 3 * index + 3]
+            # A `Plane` is added and multiplied as the complex number whose place it takes.
+            found[body] = Rates(cast("float", turn), cast("complex", Plane(x, y)))
+        return found
+
+    def _row(self, condition: Condition) -> list[Algebraic]:
+        row: list[Algebraic] = [0] * (3 * len(self.bodies))
+        for part in condition.components:
+            if part.body != GROUND:
+                at, direction = 3 * self.bodies.index(part.body), Plane.of(part.direction)
+                row[at] += dot(direction, 1j * part.point)
+                row[at + 1] += direction.real
+                row[at + 2] += direction.imag
+        for body, factor in condition.turns:
+            if body != GROUND:
+                row[3 * self.bodies.index(body)] += algebra.exact(factor)
+        return row
+
+
+def _short(of: Any, simplify: Callable[[Any], Algebraic], most: int = LONGEST) -> Algebraic | None:
+    """What it is simplified to; None for what is too long."""
+    if algebra.operations(of) > MOST:
+        return None
+    found = simplify(of)
+    return None if algebra.operations(found) > most else found
+
+
+class LiteralBoard:
+    """What the quantities of a board are by symbols, each worked out when it is asked for."""
+
+    def __init__(self, exercise: Exercise, worked: Worked) -> None:
+        self.exercise, self.worked = exercise, worked
+        self.motion = LiteralMotion(exercise)
+        self.at = {name: one.given.si for name, one in exercise.given.symbols.items()}
+        self._found: dict[str, Algebraic | None] = {}
+
+    def __getitem__(self, id: str) -> Expression | None:
+        """The expression of a quantity over the names of symbols; None where there is none."""
+        found = self.algebraic(id)
+        return None if found is None else algebra.expression(found, self.at)
+
+    def place(self, point: str) -> tuple[Expression, Expression] | None:
+        """The coordinates of a point, instant centres among them; lengths in numbers are metres.
+
+        None where they would be too long.
+        """
+        at = {**self._centres, **self.motion.geometry.points}[point]
+        x, y = (_short(part, algebra.simplified, WITHIN_WORDS) for part in (at.real, at.imag))
+        return None if x is None or y is None else (algebra.expression(x, self.at), algebra.expression(y, self.at))
+
+    def algebraic(self, id: str) -> Algebraic | None:
+        if id not in self._found:
+            whole = self._of(id)
+            self._found[id] = None if whole is None else _short(whole, lambda of: algebra.size(of, self.at))
+        return self._found[id]
+
+    def _of(self, id: str) -> Any:
+        """A number or a vector whose size the quantity is: from the motion, else by the formula of its line."""
+        what, _, of = id.partition(".")
+        points = self.motion.geometry.points
+        match what:
+            case "omega":
+                return self.motion.velocities.omega(int(of))
+            case "eps":
+                return self.motion.accelerations[int(of)].turn
+            case "v" if of in points:
+                return self.motion.v(of)
+            case "a" if of in points:
+                return self.motion.a(of)
+            case "l":
+                return self._length(of)
+        definition = self.worked.ledger[id].definition
+        return None if definition is None else algebra.algebraic(definition, self.algebraic)
+
+    def _length(self, of: str) -> Any:
+        names = {**self.motion.geometry.points, **self._centres}
+        for cut in range(1, len(of)):
+            one, other = of[:cut], of[cut:]
+            if one in names and other in names:
+                return names[one] - names[other]
+        return None
+
+    @cached_property
+    def _centres(self) -> dict[str, Plane]:
+        """Instant centres, where a body's velocity is zero, and the points in which discs touch."""
+        found, geometry, layout = {}, self.motion.geometry, self.worked.layout
+        for index, joint in enumerate(self.exercise.given.joints):
+            match joint:
+                case file.RollingOnLine():
+                    found[layout.contacts[index]] = geometry.contact_on_line(joint)
+                case file.RollingOnCircle() | file.Gears():
+                    found[layout.contacts[index]] = geometry.contact_of_discs(joint)
+        for body, centre in self.worked.layout.centres.items():
+            if centre.rule in ("normals", "rate", "contact") and self.motion.velocities.omega(body) != 0:
+                rates = self.motion.velocities.of(body)
+                found[centre.name] = Plane.of((1j * rates.origin) / rates.turn)
+        return found
+
+
+# --- an exercise with all that is computed of it --------------------------------------------------
+# Each part when it is first asked for.
 
 
 @dataclass(frozen=True)

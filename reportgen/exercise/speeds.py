@@ -12,7 +12,7 @@ from reportgen.exercise import file
 from reportgen.exercise.board import Board, Projected, Step, Vector, towards
 from reportgen.exercise.centres import NEAR, Centre
 from reportgen.exercise.places import direction_of, parallel, perpendicular
-from reportgen.notation.expressions import Symbol
+from reportgen.formula import Symbol
 
 
 def enter_given(board: Board) -> None:

@@ -17,20 +17,9 @@ from typing import Any
 import numpy as np
 
 from reportgen.assignment.fields import Quantity, Reader, fault
-from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import (
-    Expression,
-    Fraction,
-    Negative,
-    Number,
-    Power,
-    Product,
-    Ref,
-    Root,
-    Sum,
-    Symbol,
-)
-from reportgen.units import Given, QuantityFault, read_quantity
+from reportgen.base.units import Given, QuantityFault, read_quantity
+from reportgen.formula import Expression, Fraction, Negative, Number, Power, Product, Ref, Root, Sum, Symbol
+from reportgen.formula.evaluation import evaluate
 
 MOST_SYMBOLS = 20
 LONGEST = 80

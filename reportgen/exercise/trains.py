@@ -21,8 +21,7 @@ from reportgen.exercise.board import Board, Step, Vector
 from reportgen.exercise.centres import Layout
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.places import parallel
-from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Chain, Expression, Negative, Product, Ref, Sum, Symbol, signed, total
+from reportgen.formula import Chain, Expression, Negative, Product, Ref, Sum, Symbol, signed, total, vocabulary
 
 
 @dataclass(frozen=True, slots=True)

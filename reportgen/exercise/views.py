@@ -12,16 +12,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from reportgen.document.prose import PointName
-from reportgen.document.tree import Equation, InlineMath, Inlines, Text, Value
 from reportgen.exercise.board import Axis, Step, Vector
 from reportgen.exercise.centres import NEAR
 from reportgen.exercise.places import parallel
 from reportgen.exercise.solution import Worked
 from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import symbol
-from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Chain, Expression, Number, Symbol, Term, VectorEquation, refs, substitute
+from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, refs, substitute, vocabulary
+from reportgen.report import Equation, InlineMath, Inlines, Text, Value
+from reportgen.report.prose import PointName
 
 AT = 1
 """The one position of an exercise."""

@@ -3,7 +3,7 @@
 `read` takes either; `write_csv` and `write_xlsx` give bytes that depend on their content alone.
 """
 
-from reportgen.workbook.cells import Cell, Page
+from reportgen.workbook.package import Cell, Page
 from reportgen.workbook.reading import read
 from reportgen.workbook.writing import Book, Entry, Sheet, write_csv, write_xlsx
 

@@ -20,22 +20,25 @@ from itertools import tee
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from reportgen.errors import CellMark, Mark
-from reportgen.notation.numbers import Language
-from reportgen.source import mark_in
-from reportgen.words import as_error
-from reportgen.workbook.cells import (
+from reportgen.base.errors import CellMark, Mark
+from reportgen.base.source import mark_in
+from reportgen.base.units import Language
+from reportgen.base.words import as_error
+from reportgen.workbook.package import (
+    CONTENT_TYPES,
     LONGEST_CELL,
+    MOST_GROUPS,
     Cell,
     CellKind,
+    Package,
     Page,
     RefusedError,
     exceeds,
+    measure,
     too_large,
     too_long,
     unguarded,
 )
-from reportgen.workbook.package import CONTENT_TYPES, MOST_GROUPS, Package, measure
 
 if TYPE_CHECKING:
     from openpyxl import Workbook

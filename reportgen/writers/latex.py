@@ -14,11 +14,10 @@ from functools import cache
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from reportgen.document import tree
-from reportgen.figures.scene import Scene
-from reportgen.notation.expressions import Expression, Symbol, VectorEquation
-from reportgen.words import templates
-from reportgen.writers import layout
+from reportgen import report as tree
+from reportgen.base.words import templates
+from reportgen.drawing import Scene
+from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.writers.drawing import paint_latex
 from reportgen.writers.latex_math import LatexFormulas, declarations, escape, hexadecimal
 
@@ -53,7 +52,7 @@ def write(document: tree.Document) -> str:
         header=[escape(text) for text in document.header],
         footer=[escape(text) for text in document.footer],
         characters=declarations(),
-        gap=f"{layout.ABREAST:g}",
+        gap=f"{tree.ABREAST:g}",
         body=body,
     )
 
@@ -106,7 +105,7 @@ class _Writer:
         if isinstance(block, tree.Section):
             room = self.room_to_table(blocks)
             return (_command("needed", f"{room:g}mm") if room else "") + self.block(block)
-        if not layout.leads(block, following, self.language):
+        if not tree.leads(block, following, self.language):
             return self.block(block)
         if isinstance(block, tree.List):
             return self.list(block, r"\keeplist")
@@ -128,10 +127,10 @@ class _Writer:
         for block, following in pairwise(blocks):
             if isinstance(block, tree.Section):
                 room += HEADING
-            elif not layout.leads(block, following, self.language):
+            elif not tree.leads(block, following, self.language):
                 return 0.0
             elif isinstance(block, tree.Equation):
-                room += LINE * layout.lines(block.rows, layout.TEXT_WIDTH)
+                room += LINE * tree.lines(block.rows, tree.TEXT_WIDTH)
             else:
                 room += WORDS if isinstance(following, tree.Equation) else OPENING
             if isinstance(following, tree.Table):
@@ -256,7 +255,7 @@ class _Writer:
     def equation(self, equation: tree.Equation) -> str:
         place = rf"\place{{{self.places[equation.key]}}}" if equation.key else ""
         number = place + (f"({escape(equation.number)})" if equation.number else "")
-        *before, last = layout.in_groups(equation.rows, layout.TEXT_WIDTH)
+        *before, last = tree.in_groups(equation.rows, tree.TEXT_WIDTH)
         return "\n".join([*(self.aligned(group, "") for group in before), self.aligned(last, number)])
 
     def aligned(self, group: Sequence[Expression], number: str) -> str:
@@ -283,14 +282,14 @@ class _Writer:
 
     def figure(self, figure: tree.Figure) -> str:
         """Its rows with the caption below; a figure that breaks between its rows has the caption first."""
-        scenes = layout.in_rows(figure.scenes)
-        breaks = layout.breaks(scenes)
+        scenes = tree.in_rows(figure.scenes)
+        breaks = tree.breaks(scenes)
         rows = ("\n\\scenebreak\n" if breaks else "\n\\scenegap\n").join(
-            _command("scenerow", rf"\hskip{layout.SCENE_GAP:g}mm ".join(map(self.scene, row))) for row in scenes
+            _command("scenerow", rf"\hskip{tree.SCENE_GAP:g}mm ".join(map(self.scene, row))) for row in scenes
         )
         caption = self.caption(self.document.words.figure, figure)
         if breaks:
-            first = rf"{{{layout.height(scenes[:1]) + CAPTION:g}mm}}"
+            first = rf"{{{tree.height(scenes[:1]) + CAPTION:g}mm}}"
             return "\n".join(
                 [r"\begin{longscenes}" + first, _command("captionabove", caption), rows, r"\end{longscenes}"]
             )
@@ -319,13 +318,13 @@ class _Writer:
             head = f"{title}\n{head}"
         environment.append(NoEscape(head + r"\endhead"))
         environment.append(NoEscape(r"\bottomrule\endfoot"))
-        unbroken = len(block.rows) <= layout.WHOLE_TABLE
+        unbroken = len(block.rows) <= tree.WHOLE_TABLE
         for index, row in enumerate(block.rows):
             end = r"\\*[0pt]"
             # A rule between rows would leave gaps in the sides of a frame.
             if index < len(block.rows) - 1 and not block.framed:
                 # The first and the last rows never stand alone on a page.
-                together = unbroken or not layout.TOGETHER - 1 <= index < len(block.rows) - layout.TOGETHER
+                together = unbroken or not tree.TOGETHER - 1 <= index < len(block.rows) - tree.TOGETHER
                 end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if together else 0}}}"
             environment.append(NoEscape(self.row(row, block.columns) + end))
         framed = r"\framedtable" if block.framed else ""
@@ -361,7 +360,7 @@ class _Writer:
 
 def _height(block: tree.Table) -> float:
     """About how much paper (mm) a table needs with its caption, up to its first possible break."""
-    rows = len(block.rows) if len(block.rows) <= layout.WHOLE_TABLE else layout.TOGETHER
+    rows = len(block.rows) if len(block.rows) <= tree.WHOLE_TABLE else tree.TOGETHER
     return TITLE + ROW * (len(block.head) + rows)
 
 

@@ -13,10 +13,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import ClassVar, Literal
 
-from reportgen.errors import TypesetterError
-from reportgen.notation.expressions import Expression, Symbol, VectorEquation
-from reportgen.notation.numbers import MINUS
-from reportgen.notation.setting import (
+from reportgen.base.errors import TypesetterError
+from reportgen.base.units import MINUS
+from reportgen.formula import Expression, Symbol, VectorEquation
+from reportgen.formula.setting import (
     NAMED,
     Column,
     Fence,
@@ -30,7 +30,7 @@ from reportgen.notation.setting import (
     short_end,
     sides,
 )
-from reportgen.notation.vocabulary import numbered, runs
+from reportgen.formula.vocabulary import numbered, runs
 
 NARROW_TERMS = 5
 """A vector equation of at most so many terms fits any line."""

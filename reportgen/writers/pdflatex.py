@@ -17,8 +17,8 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from reportgen.errors import TypesetterError
-from reportgen.kept import keep, kept
+from reportgen.base.errors import TypesetterError
+from reportgen.base.files import keep, kept
 
 INSTALL = (
     "apt-get install --no-install-recommends texlive-latex-base texlive-latex-recommended texlive-lang-other lmodern"

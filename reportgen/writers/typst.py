@@ -13,14 +13,15 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import ClassVar
 
-from reportgen.document import tree
-from reportgen.errors import TypesetterError
-from reportgen.figures.geometry import moved
-from reportgen.figures.scene import Scene
-from reportgen.figures.sheet import Sheet
-from reportgen.notation.expressions import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
-from reportgen.notation.numbers import Language
-from reportgen.notation.setting import (
+from reportgen import report as tree
+from reportgen.base.errors import TypesetterError
+from reportgen.base.units import Language
+from reportgen.base.words import templates
+from reportgen.drawing import Scene
+from reportgen.drawing.geometry import moved
+from reportgen.drawing.sheet import Sheet
+from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
+from reportgen.formula.setting import (
     NAMED,
     NARROW,
     PRIMES,
@@ -33,9 +34,7 @@ from reportgen.notation.setting import (
     sides,
     written,
 )
-from reportgen.notation.vocabulary import numbered, runs
-from reportgen.words import templates
-from reportgen.writers import layout
+from reportgen.formula.vocabulary import numbered, runs
 from reportgen.writers.drawing import paint_typst
 from reportgen.writers.typst_run import settle
 
@@ -155,7 +154,7 @@ def _array(items: Iterable[str]) -> str:
 class _Blocks:
     """Writes blocks in one language; `room` is the width that lists leave for equations, in mm."""
 
-    def __init__(self, language: Language, words: tree.Words, room: float = layout.TEXT_WIDTH) -> None:
+    def __init__(self, language: Language, words: tree.Words, room: float = tree.TEXT_WIDTH) -> None:
         self.language = language
         self.formulas = TypstFormulas(language)
         self.words = words
@@ -184,16 +183,16 @@ class _Blocks:
                     lines.append(f"#K[{run_in}]")
                     run_in = ""
                 continue
-            if not layout.leads(block, following, self.language):
+            if not tree.leads(block, following, self.language):
                 lines.append(run_in + self.block(block))
             elif isinstance(block, tree.List):
-                *others, last = layout.parted(block)
+                *others, last = tree.parted(block)
                 lines += [self.block(part) for part in others]
                 lines.append(f"#K(above:{'0.72em' if others else 'auto'})[{self.block(last)}]")
             else:
                 lines.append(f"#K[{run_in}{self.block(block)}]")
             run_in = ""
-            if held and not isinstance(block, tree.Section) and not layout.leads(block, following, self.language):
+            if held and not isinstance(block, tree.Section) and not tree.leads(block, following, self.language):
                 held.places.append(len(lines))
                 lines.append("")
         return "\n\n".join(lines)
@@ -212,13 +211,13 @@ class _Blocks:
             case tree.Table():
                 return self.table(block)
             case tree.Figure(scenes, _, key):
-                rows = layout.in_rows(scenes)
+                rows = tree.in_rows(scenes)
                 drawings = ",".join(_array(map(self.scene, row)) for row in rows)
                 label = self.caption(self.words.figure, block)
-                if layout.breaks(rows) or self.room < layout.TEXT_WIDTH:
+                if tree.breaks(rows) or self.room < tree.TEXT_WIDTH:
                     return f"#place.flush()#F({literal(key)},{label},\n{drawings})"
                 before, self.figure = self.figure, key
-                height = layout.height(rows)
+                height = tree.height(rows)
                 name = literal(self.name("figure"))
                 return f"#W({name},{literal(key)},{literal(before)},{height:.1f},{label},\n{drawings})"
             case tree.Plate(scene, (width, height), _, key, continues=continues):
@@ -295,7 +294,7 @@ class _Blocks:
 
     def equation(self, equation: tree.Equation) -> str:
         """Rows that are set alike in one block each; the number on the last."""
-        groups = layout.in_groups(equation.rows, self.room)
+        groups = tree.in_groups(equation.rows, self.room)
         lines = []
         for index, group in enumerate(groups):
             number = literal(equation.number if index == len(groups) - 1 else "")
@@ -304,7 +303,7 @@ class _Blocks:
                 lines.append(f"#V({number},{self.room:g},{self.vector_equation(first)})")
             else:
                 rows = ",".join(_array(self.row(row)) for row in group)
-                lines.append(f"#E({number},{self.room:g},{layout.ABREAST:g},{rows})")
+                lines.append(f"#E({number},{self.room:g},{tree.ABREAST:g},{rows})")
         return "\n".join(lines) + _label(equation.key)
 
     def row(self, row: Expression) -> list[str]:
@@ -326,7 +325,7 @@ class _Blocks:
         aligns = _array(column.align for column in table.columns)
         head = _array(_array(self.cell(cell, "U") for cell in row) for row in table.head)
         rows = ",\n".join(_array(self.cell(cell, "X") for cell in row) for row in table.rows)
-        whole = "0" if len(table.rows) <= layout.WHOLE_TABLE else str(layout.TOGETHER)
+        whole = "0" if len(table.rows) <= tree.WHOLE_TABLE else str(tree.TOGETHER)
         again = self.again(self.words.table, table) if table.number else "none"
         framed = "framed:true," if table.framed else ""
         return f"#R({framed}{label},{again},{columns},{aligns},{head},{whole},\n{rows})" + _label(table.key)
@@ -375,7 +374,7 @@ class _Held:
 
 def _text(text: str) -> str:
     """A text as a string, but its units in boxes: lines would break behind a slash."""
-    parts = layout.UNIT.split(text)
+    parts = tree.UNIT.split(text)
     return "".join(
         f"#box({literal(part)})" if index % 2 else f"#{literal(part)}"
         for index, part in enumerate(parts)

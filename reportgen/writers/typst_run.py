@@ -8,14 +8,16 @@ beside the source, so that it lays out anew only what they have changed.
 from __future__ import annotations
 
 import json
+import re
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import unicodedata
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from reportgen.errors import TypesetterError
-from reportgen.writers.scripts import needs_system_fonts, question
+from reportgen.base.errors import TypesetterError
 
 UNSETTLED = "#let settled = (:)"
 """The line of a source that has room for choices."""
@@ -127,3 +129,58 @@ def lacking(letters: str, system: bool) -> str:
     asked = question(letters).encode()
     answer = typst.query(asked, "<lacking>", field="value", one=True, ignore_system_fonts=not system)
     return "".join(json.loads(answer))
+
+
+# --- letters that Typst's own fonts do not have ---------------------------------------------------
+# Names in Chinese, Thai, Lao and other scripts, emoji.
+# Typst leaves out in silence what no font has. So its fonts are asked first, then those of the system; what neither
+# has is told as a warning.
+
+COMMON = re.compile("[\u0000-\u024f\u0300-\u052f\u1e00-\u2bff\u3000-\u3003\ufb00-\ufb06\ufe00-\ufe0f]+")
+"""Latin (Vietnamese included), Greek, Cyrillic, punctuation, arrows and the signs of mathematics: never asked for."""
+FONT = "New Computer Modern"
+NOWHERE = r"\u{10fffe}"
+"""No character, and therefore in no font: the typesetter sets the same in its place as for a letter it lacks."""
+BATCH = 400
+"""So many different letters are asked for at most; a text of more is not worth a warning."""
+
+Lacking = Callable[[str, bool], str]
+"""Those of some letters that none of the typesetter's own fonts has, or, if asked, the system's either."""
+
+QUESTION = """\
+#set text(font: "{font}", size: 10pt, top-edge: "bounds", bottom-edge: "bounds")
+#context [
+  #let size(letter) = {{ let box = measure(letter); (box.width, box.height) }}
+  #metadata(({letters},).filter(letter => size(letter) == size("{nowhere}"))) <lacking>
+]
+"""
+
+
+class MissingLettersWarning(UserWarning):
+    """Letters of a text have no place on the page, since no font has them."""
+
+    def __init__(self, letters: str) -> None:
+        self.letters = letters
+        super().__init__(f"no font has {' '.join(letters)}: left out on the page")
+
+
+def uncommon(text: str) -> str:
+    """The letters, digits and signs of a text, each once, that the typesetter's own fonts may lack."""
+    left = dict.fromkeys(COMMON.sub("", text))
+    return "".join(letter for letter in left if unicodedata.category(letter)[0] in "LNPS")[:BATCH]
+
+
+def question(letters: str) -> str:
+    """What the typesetter is asked: which of the letters, one at least, it sets as it sets what no font has."""
+    listed = ", ".join(f'"\\u{{{ord(letter):x}}}"' for letter in letters)
+    return QUESTION.format(font=FONT, letters=listed, nowhere=NOWHERE)
+
+
+def needs_system_fonts(text: str, lacking: Lacking) -> bool:
+    """Whether a text has letters that only the system's fonts may have; warns of those that no font has."""
+    wanted = lacking(uncommon(text), False)
+    if not wanted:
+        return False
+    if missing := lacking(wanted, True):
+        warnings.warn(MissingLettersWarning(missing), stacklevel=2)
+    return missing != wanted

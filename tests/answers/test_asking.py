@@ -9,18 +9,16 @@ import pytest
 from openpyxl import load_workbook
 
 from reportgen import api
-from reportgen.answers.asking import EVERYTHING, Ask
-from reportgen.answers.paper import answer_tables
-from reportgen.answers.sheet import answer_book
+from reportgen.base.errors import AssignmentError
+from reportgen.base.units import Language
 from reportgen.cases import open_case, opened
-from reportgen.document.key import Key
-from reportgen.document.tree import PageBreak, text_of
-from reportgen.errors import AssignmentError
-from reportgen.grading.guide import open_guide
-from reportgen.grading.marks import Policy, Scale, Verdict, read_policy
-from reportgen.grading.submission import read_submission
-from reportgen.notation.numbers import Language
-from reportgen.notation.vocabulary import Chapter
+from reportgen.formula.vocabulary import Chapter
+from reportgen.marking.key import EVERYTHING, Ask
+from reportgen.marking.marks import Policy, Scale, Verdict, open_guide, read_policy
+from reportgen.marking.paper import answer_tables
+from reportgen.marking.sheet import answer_book, read_submission
+from reportgen.report import PageBreak, text_of
+from reportgen.report.case import Key
 from reportgen.workbook import write_csv, write_xlsx
 from tests.answers.test_wording import FILES, TELLING, key
 from tests.grading import students
@@ -119,7 +117,7 @@ def test_half_a_step_is_rounded_up(share: float, scale: Scale, mark: float) -> N
 
 
 def test_what_is_not_asked_for_but_filled_in_is_judged_and_earns_nothing(tmp_path: Path) -> None:
-    from reportgen.batch import assess
+    from reportgen.classes import assess
 
     assignment = tmp_path / "a" / "slider-crank-01.yaml"
     assignment.parent.mkdir()
@@ -162,8 +160,8 @@ def test_a_sheet_made_before_rows_had_words_is_read(tmp_path: Path) -> None:
 
 
 def test_the_batch_makes_tasks_anew_when_another_choice_is_ordered() -> None:
-    from reportgen.batch import manifest
-    from reportgen.batch.pool import Job, Outcome, making
+    from reportgen.classes import run as manifest
+    from reportgen.classes.pool import Job, Outcome, making
     from tests.batch.little import little
 
     job = Job("7", "7", "task", little, "7.yaml", b"", making("typst", None))

@@ -10,11 +10,11 @@ import pytest
 from openpyxl import load_workbook
 
 from reportgen import catalogue
-from reportgen.answers.key_files import band, key_book, key_data, key_document, key_rows
+from reportgen.base.units import Language
 from reportgen.cases import MachineCase, open_case
-from reportgen.document.tree import Table, Text, text_of
-from reportgen.grading.submission import read_submission
-from reportgen.notation.numbers import Language
+from reportgen.marking.key_files import band, key_book, key_data, key_document, key_rows
+from reportgen.marking.sheet import read_submission
+from reportgen.report import Table, Text, text_of
 from reportgen.workbook import write_xlsx
 from tests.grading.keys import small_key
 from tests.reports import built

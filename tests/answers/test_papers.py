@@ -7,11 +7,11 @@ from collections.abc import Callable
 import pytest
 
 from reportgen import api
-from reportgen.answers.key_files import key_document
-from reportgen.document.tree import Document, text_of
-from reportgen.grading.feedback import feedback_document
-from reportgen.grading.grades import class_document
-from reportgen.notation.numbers import Language
+from reportgen.base.units import Language
+from reportgen.marking.feedback import feedback_document
+from reportgen.marking.grades import class_document
+from reportgen.marking.key_files import key_document
+from reportgen.report import Document, text_of
 from tests.answers.test_sheet import handout
 from tests.grading.test_feedback import marking
 from tests.lanes import matrix

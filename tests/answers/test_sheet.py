@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from openpyxl import load_workbook
 
-from reportgen.answers.paper import answer_tables
-from reportgen.answers.sheet import answer_book, number_format
-from reportgen.document.key import Key, Role
-from reportgen.document.tree import Document, Table, plain, text_of
-from reportgen.notation.numbers import Language, write
+from reportgen.base.units import Language, write
+from reportgen.marking.paper import answer_tables
+from reportgen.marking.sheet import answer_book, number_format
+from reportgen.report import Document, Table, plain, text_of
+from reportgen.report.case import Key, Role
 from reportgen.workbook import write_xlsx
 from tests.grading.keys import small_key
 from tests.reports import built

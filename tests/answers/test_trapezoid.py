@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen.notation.vocabulary import Chapter
+from reportgen.formula.vocabulary import Chapter
 from tests.grading import students
 
 FILES = sorted(path.stem for path in Path("assignments").glob("*.yaml"))

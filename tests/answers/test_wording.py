@@ -9,12 +9,12 @@ from typing import get_args
 
 import pytest
 
-from reportgen.answers.paper import answer_tables
-from reportgen.document.key import Key
-from reportgen.document.tree import plain
-from reportgen.notation import vocabulary
-from reportgen.notation.numbers import Language
-from reportgen.words import load_words, search_path
+from reportgen.base.units import Language
+from reportgen.base.words import load_words, search_path
+from reportgen.formula import vocabulary
+from reportgen.marking.paper import answer_tables
+from reportgen.report import plain
+from reportgen.report.case import Key
 from tests.lanes import matrix
 from tests.reports import built
 

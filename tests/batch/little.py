@@ -14,9 +14,9 @@ from hashlib import sha256
 from pathlib import Path
 
 from reportgen.api import Engine
-from reportgen.batch.run import Order, run_batch
-from reportgen.errors import AssignmentError, Mark, Problem
-from reportgen.notation.numbers import Language
+from reportgen.base.errors import AssignmentError, Mark, Problem
+from reportgen.base.units import Language
+from reportgen.classes.run import Order, run_batch
 
 
 def little(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from reportgen.batch.draw import Draw, Drawn, Judge
-from reportgen.batch.roster import Roster, Student
-from reportgen.batch.spec import Spec
-from reportgen.errors import AssignmentError, Fault, Mark
+from reportgen.base.errors import AssignmentError, Fault, Mark
+from reportgen.classes.draw import Draw, Drawn, Judge
+from reportgen.classes.roster import Roster, Student
+from reportgen.classes.spec import Spec
 
 ROOT = Path(__file__).parents[2]
 DEMO = ROOT / "assignments" / "class-demo"

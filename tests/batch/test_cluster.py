@@ -13,9 +13,8 @@ from typing import Any
 
 import pytest
 
-from reportgen.batch.cluster import ClusterError, cluster
-from reportgen.batch.pool import Results
-from reportgen.batch.run import Order, run_batch
+from reportgen.classes.pool import ClusterError, Results, cluster
+from reportgen.classes.run import Order, run_batch
 from tests.batch.classes import Batch, tree, write_class
 from tests.lanes import proof
 
@@ -92,7 +91,7 @@ def test_a_scheduler_that_goes_keeps_what_is_done(tmp_path: Path) -> None:
 
 def test_nobody_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
-    monkeypatch.setattr("reportgen.batch.cluster.ANSWER", 0.2)
+    monkeypatch.setattr("reportgen.classes.pool.ANSWER", 0.2)
     batch = Batch(tmp_path, {"K1": "seconds: 0"})
     for address in ("tcp://127.0.0.1:9", "nonsense://here"):
         with pytest.raises(ClusterError, match=address):
@@ -117,7 +116,7 @@ def test_without_dask_the_remedy_is_told(tmp_path: Path) -> None:
 
 def test_a_cluster_without_workers_is_not_waited_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     distributed = pytest.importorskip("distributed")
-    monkeypatch.setattr("reportgen.batch.cluster.WORKERLESS", 1)
+    monkeypatch.setattr("reportgen.classes.pool.WORKERLESS", 1)
     batch = Batch(tmp_path, {"K1": "seconds: 0"})
     with (
         distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=":0") as running,

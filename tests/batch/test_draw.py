@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.batch.draw import Judge, judge_of, pick
-from reportgen.batch.spec import Settings, Spec, read_spec
-from reportgen.batch.variants import Effort, compare, make_variants
-from reportgen.errors import AssignmentError, Fault
-from reportgen.source import plain, read_text
+from reportgen.base.errors import AssignmentError, Fault
+from reportgen.base.source import plain, read_text
+from reportgen.classes.draw import Judge, judge_of, pick
+from reportgen.classes.spec import Settings, Spec, read_spec
+from reportgen.classes.variants import Effort, compare, make_variants
 from reportgen.workbook import Book, Sheet, write_xlsx
 from tests.batch.specs import BARS, ROOT, Put, classes, draw, ids, located
 

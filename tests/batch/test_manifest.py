@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.batch import manifest
-from reportgen.batch.manifest import ManifestEntry, journal
-from reportgen.batch.pool import Job, Outcome, making
-from reportgen.errors import Mark, Problem
-from reportgen.words import templates, templates_hash
+from reportgen.base.errors import Mark, Problem
+from reportgen.base.words import templates, templates_hash
+from reportgen.classes import run as manifest
+from reportgen.classes.pool import Job, Outcome, making
+from reportgen.classes.run import ManifestEntry, journal
 from tests.batch.classes import Batch
 from tests.batch.little import little
 
@@ -160,7 +160,7 @@ def test_the_hash_of_templates_is_of_names_and_words(
     (tmp_path / "school" / "vi").mkdir(parents=True)
     file = tmp_path / "school" / "vi" / "given.md"
     file.write_text("# Đề bài", encoding="utf-8")
-    monkeypatch.setattr("reportgen.words.templates", lambda: tmp_path)
+    monkeypatch.setattr("reportgen.base.words.templates", lambda: tmp_path)
     before = templates_hash()
     assert templates_hash() == before
     if change == "added":

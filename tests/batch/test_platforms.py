@@ -15,13 +15,13 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.batch import assess, gradebooks
-from reportgen.batch.downloads import MOST_MEMBERS, Owner, handed_in, owner_of
-from reportgen.batch.gradebooks import Graded, fill
-from reportgen.batch.roster import read_roster
-from reportgen.batch.variants import make_variants
-from reportgen.errors import AssignmentError, Fault
-from reportgen.grading.marks import Policy, Scale
+from reportgen.base.errors import AssignmentError, Fault
+from reportgen.classes import assess
+from reportgen.classes import platforms as gradebooks
+from reportgen.classes.platforms import MOST_MEMBERS, Owner, StudentResult, fill, handed_in, owner_of
+from reportgen.classes.roster import read_roster
+from reportgen.classes.variants import make_variants
+from reportgen.marking.marks import Policy, Scale
 from reportgen.workbook.reading import LARGEST
 from tests.grading import demo
 
@@ -195,8 +195,8 @@ EN = "Identifier,Full name,ID number,Email address,Status,Grade,Maximum Grade,Gr
 EN += "Last modified (submission),Last modified (grade),Feedback comments"
 VI = "Mã nhận dạng;Họ và tên;Email;Trạng thái;Điểm;Điểm tối đa;Có thể sửa điểm;Sửa lần cuối;Nhận xét"
 RESULTS = [
-    Graded("Bảo", frozenset({BAO.casefold()}), "4713", 0.85),
-    Graded("Ánh", frozenset({ANH.casefold()}), "", 0.5),
+    StudentResult("Bảo", frozenset({BAO.casefold()}), "4713", 0.85),
+    StudentResult("Ánh", frozenset({ANH.casefold()}), "", 0.5),
 ]
 
 
@@ -337,4 +337,6 @@ def test_a_roster_gives_names_and_addresses(assignments: Path, tmp_path: Path) -
     result = assess.grade([SHEETS[BAO]], tmp_path, Policy(), roster=roster)
     assert result.markings[0].key.student["name"] == "Lê Văn Bảo"
     (found,) = result.results()
-    assert found == gradebooks.Graded(f"{BAO} Lê Văn Bảo", frozenset({BAO.casefold(), "b@x.vn"}), "", found.share)
+    assert found == gradebooks.StudentResult(
+        f"{BAO} Lê Văn Bảo", frozenset({BAO.casefold(), "b@x.vn"}), "", found.share
+    )

@@ -19,11 +19,11 @@ from typing import Any
 import pytest
 
 from reportgen.api import Engine, Maker
-from reportgen.batch import pool as pools
-from reportgen.batch.pool import Job, local, making, run_job
-from reportgen.batch.run import Order, run_batch
-from reportgen.files import put_file
-from reportgen.notation.numbers import Language
+from reportgen.base.files import put_file
+from reportgen.base.units import Language
+from reportgen.classes import pool as pools
+from reportgen.classes.pool import Job, local, making, run_job
+from reportgen.classes.run import Order, run_batch
 from tests.batch.classes import Batch, tree, write_class
 from tests.batch.little import little
 from tests.lanes import proof
@@ -160,8 +160,8 @@ class Process:
 
 def putting(monkeypatch: pytest.MonkeyPatch, put: Callable[[Path, bytes], None]) -> None:
     """Let a batch put its files and its manifest in place so."""
-    monkeypatch.setattr("reportgen.batch.run.put_file", put)
-    monkeypatch.setattr("reportgen.batch.manifest.put_file", put)
+    monkeypatch.setattr("reportgen.classes.run.put_file", put)
+    monkeypatch.setattr("reportgen.classes.run.put_file", put)
 
 
 class Killed(BaseException):

@@ -13,9 +13,9 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from reportgen.batch.roster import NAME_PARTS, PERSONAL, folded, folder_name, read_roster
-from reportgen.errors import AssignmentError
-from reportgen.words import messages
+from reportgen.base.errors import AssignmentError
+from reportgen.base.words import messages
+from reportgen.classes.roster import NAME_PARTS, PERSONAL, folded, folder_name, read_roster
 from reportgen.workbook import Book, Sheet, write_xlsx
 
 Put = Callable[..., Path]

@@ -10,10 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reportgen.batch.editing import quoted, text_of
-from reportgen.batch.spec import Spec, read_spec
-from reportgen.errors import AssignmentError, Mark
-from reportgen.source import List, Scalar, Table, plain, read_text
+from reportgen.base.errors import AssignmentError, Mark
+from reportgen.base.source import List, Scalar, Table, plain, quoted, read_text, text_of
+from reportgen.classes.spec import Spec, read_spec
 from reportgen.workbook import Book, Sheet, write_xlsx
 from tests.batch.specs import BARS, ROOT, Put, located
 

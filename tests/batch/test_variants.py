@@ -8,14 +8,13 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.batch.draw import judge_of
-from reportgen.batch.editing import put
-from reportgen.batch.roster import read_roster
-from reportgen.batch.spec import read_spec
-from reportgen.batch.variants import Variants, make_variants
+from reportgen.base.errors import AssignmentError, Mark
+from reportgen.base.source import Scalar, plain, put, read_text
+from reportgen.classes.draw import judge_of
+from reportgen.classes.roster import read_roster
+from reportgen.classes.spec import read_spec
+from reportgen.classes.variants import Variants, make_variants
 from reportgen.cli import app
-from reportgen.errors import AssignmentError, Mark
-from reportgen.source import Scalar, plain, read_text
 from reportgen.workbook import read, write_csv
 from tests.batch.specs import BARS, DEMO, ROOT, Put, draw, ids, located
 

@@ -24,8 +24,8 @@ from statistics import median
 from time import perf_counter
 
 from reportgen import api
-from reportgen.batch.run import Order, run_batch
-from reportgen.batch.variants import make_variants
+from reportgen.classes.run import Order, run_batch
+from reportgen.classes.variants import make_variants
 
 from .measure import Cost, in_turns, middle, run
 

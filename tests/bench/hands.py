@@ -15,7 +15,7 @@ from statistics import median
 
 import numpy as np
 
-from reportgen.grading.marking import mark
+from reportgen.marking.marking import mark
 from tests.grading import hands, students
 from tests.grading.machines import ASSIGNMENTS
 from tests.grading.rates import WORKED, Tally, injected, lost, misread, share

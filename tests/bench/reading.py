@@ -11,10 +11,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from timeit import Timer
 
+from reportgen.base.source import LARGEST
 from reportgen.catalogue import check
-from reportgen.source import LARGEST
 from reportgen.workbook import read
-from reportgen.workbook.cells import guarded
+from reportgen.workbook.package import guarded
 from tests.bench.__main__ import Row, of_this_machine, table
 from tests.broken.endless import ENDLESS, endless
 from tests.workbook.tables import bordered

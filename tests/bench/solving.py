@@ -16,9 +16,8 @@ from typing import Any
 import numpy as np
 
 from reportgen import api, catalogue
-from reportgen.analysis import analyse, motion_at
-from reportgen.catalogue.machine import Machine
-from reportgen.cycle import StrokeIndicator
+from reportgen.machine.analysis import Machine, analyse, motion_at
+from reportgen.machine.gas import StrokeIndicator
 
 from .closed_form import Cylinder, Engine, solve
 

@@ -19,12 +19,11 @@ from typing import Any
 import numpy as np
 
 from reportgen import api
-from reportgen.answers.asking import Ask
-from reportgen.answers.sheet import answer_book
 from reportgen.cases import open_case, opened
-from reportgen.grading.guide import open_guide
-from reportgen.grading.marking import mark
-from reportgen.grading.marks import Policy
+from reportgen.marking.key import Ask
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import Policy, open_guide
+from reportgen.marking.sheet import answer_book
 from reportgen.workbook import write_xlsx
 from tests.grading import students
 

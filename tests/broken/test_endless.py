@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from reportgen.base.source import LARGEST, MOST_FAULTS
 from reportgen.catalogue import check
-from reportgen.source import LARGEST, MOST_FAULTS
 from tests.broken.endless import ENDLESS, endless
 from tests.broken.rows import base
 

@@ -10,8 +10,7 @@ import pytest
 from reportgen import api
 from reportgen.cases import MachineCase
 from reportgen.catalogue import check
-from reportgen.document import outline
-from reportgen.document.tree import Plate
+from reportgen.report import Plate, outline
 from tests.lanes import matrix
 
 FOUR_BAR = """\

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
+from reportgen.base.errors import NotOfferedError, Problem
+from reportgen.base.units import Language
 from reportgen.catalogue import check, load
-from reportgen.errors import NotOfferedError, Problem
-from reportgen.notation.numbers import Language
 from tests.broken.rows import FILES, Row, base, rows
 
 LANGUAGES: tuple[Language, ...] = ("vi", "en")

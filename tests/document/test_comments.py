@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen.document import comments, overview
-from reportgen.document.report import Report
-from reportgen.document.tree import Block, Paragraph, Table, plain
-from reportgen.notation import vocabulary
+from reportgen.formula import vocabulary
+from reportgen.report import Block, Paragraph, Table, comments, plain
+from reportgen.report import chapters as overview
+from reportgen.report.report import Report
 from tests.lanes import matrix
 from tests.reports import built
 

@@ -8,13 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.document import tree
-from reportgen.figures.forces import LEAST_ARM
-from reportgen.figures.scene import Content, Label
-from reportgen.ledger.core import Ledger
-from reportgen.ledger.kinematics.linkage import POLES
-from reportgen.notation import vocabulary
-from reportgen.notation.expressions import Symbol, refs
+from reportgen import report as tree
+from reportgen.drawing import Content, Label
+from reportgen.drawing.forces import LEAST_ARM
+from reportgen.formula import Symbol, refs, vocabulary
+from reportgen.formula.ledger import Ledger
+from reportgen.plans.motion import POLES
 from tests.lanes import matrix
 from tests.reports import built
 from tests.reports.built import Written

@@ -7,11 +7,10 @@ from pathlib import Path
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.document.mirrors import mirrored
-from reportgen.document.plans import motion_plan
-from reportgen.document.report import Report
-from reportgen.figures.plan import Plan, PlanVector
-from reportgen.ledger.kinematics.linkage import What
+from reportgen.drawing.plan import Plan, PlanVector
+from reportgen.plans.motion import What
+from reportgen.report.plans import mirrored, motion_plan
+from reportgen.report.report import Report
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 

@@ -12,13 +12,11 @@ import pytest
 from jinja2 import Environment, meta, nodes
 
 from reportgen import api
+from reportgen.base.words import SAMPLE, SECTION, load_words, search_path, sections, templates
 from reportgen.cases import opened
-from reportgen.document import namespace
-from reportgen.document.prose import Prose, _environment
-from reportgen.document.tree import Block
-from reportgen.kinds import SAMPLE
-from reportgen.sections import sections
-from reportgen.words import SECTION, load_words, search_path, templates
+from reportgen.report import Block
+from reportgen.report import outline as namespace
+from reportgen.report.prose import Prose, _environment
 
 ROOT = templates()
 REPOSITORY = Path(__file__).parents[2]

@@ -10,8 +10,8 @@ import pytest
 
 from reportgen import api
 from reportgen.cases import MachineCase
-from reportgen.document.outline import compose
-from reportgen.document.tree import text_of
+from reportgen.report import text_of
+from reportgen.report.outline import compose
 from tests.lanes import matrix
 
 SAMPLES = Path("assignments")

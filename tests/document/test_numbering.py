@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from reportgen.document.numbering import DocumentError, number, unreferenced
-from reportgen.document.tree import (
+from reportgen.drawing import Scene
+from reportgen.formula import Symbol
+from reportgen.report import (
     Block,
     Cell,
     Column,
@@ -24,8 +25,7 @@ from reportgen.document.tree import (
     Words,
     text_of,
 )
-from reportgen.figures.scene import Scene
-from reportgen.notation.expressions import Symbol
+from reportgen.report.numbering import DocumentError, number, unreferenced
 
 X = Symbol("x")
 SCENE = Scene(10, 10)

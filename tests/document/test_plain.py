@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from reportgen.document.tree import (
+from reportgen.formula import PI, Chain, Expression, Negative, Number, Symbol, Term, VectorEquation, call, sqrt
+from reportgen.formula.plain import formula
+from reportgen.report import (
     BlankLine,
     Contents,
     Cover,
@@ -18,19 +20,6 @@ from reportgen.document.tree import (
     plain,
     text_of,
 )
-from reportgen.notation.expressions import (
-    PI,
-    Chain,
-    Expression,
-    Negative,
-    Number,
-    Symbol,
-    Term,
-    VectorEquation,
-    call,
-    sqrt,
-)
-from reportgen.notation.plain import formula
 
 A, B, C = Symbol("a"), Symbol("b", "2"), Symbol("c", "BA", "n")
 

@@ -10,8 +10,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from reportgen.document.prose import Prose
-from reportgen.document.tree import (
+from reportgen.base.errors import TemplateError
+from reportgen.base.words import home, search_path, templates
+from reportgen.formula import Number, Symbol
+from reportgen.report import (
     BlankLine,
     Block,
     Emph,
@@ -29,10 +31,7 @@ from reportgen.document.tree import (
     Text,
     Value,
 )
-from reportgen.errors import TemplateError
-from reportgen.notation.expressions import Number, Symbol
-from reportgen.sections import home
-from reportgen.words import search_path, templates
+from reportgen.report.prose import Prose
 
 V_B = Symbol("v", "B")
 SPEED = Number(15.708, 2, "m/s")

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.document.tree import text_of
-from reportgen.notation.numbers import Language
+from reportgen.base.units import Language
+from reportgen.report import text_of
 
 SLOTTED = """
 kind: linkage

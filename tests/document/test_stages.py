@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.document.groups import GroupView
-from reportgen.document.plans import force_stages, motion_plan
-from reportgen.document.report import Report
-from reportgen.figures.plan import Plan, merged, stages
-from reportgen.figures.scene import Arrow, Line
-from reportgen.figures.style import NEW
+from reportgen.drawing import Arrow, Line
+from reportgen.drawing.plan import Plan, merged, stages
+from reportgen.drawing.style import NEW
+from reportgen.report.groups import GroupView
+from reportgen.report.plans import force_stages, motion_plan
+from reportgen.report.report import Report
 from tests.lanes import matrix
 from tests.reports import built
 

@@ -8,10 +8,8 @@ from typing import Any, get_args
 import pytest
 from jinja2 import Environment, nodes
 
-from reportgen.kinds import SAMPLE
-from reportgen.notation.numbers import Language
-from reportgen.sections import sections
-from reportgen.words import SECTION, templates
+from reportgen.base.units import Language
+from reportgen.base.words import SAMPLE, SECTION, sections, templates
 
 ROOT = templates()
 FILES = sorted(str(path.relative_to(ROOT)) for path in ROOT.rglob("*.md"))

@@ -8,14 +8,14 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
+from reportgen.drawing import Arrow
 from reportgen.exercise.board import Axis, Step, Vector
 from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.figures import FIGURES
 from reportgen.exercise.solution import Worked
 from reportgen.exercise.views import COORDINATES, Axes, Solution
-from reportgen.figures.scene import Arrow
-from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import refs
+from reportgen.formula import refs
+from reportgen.formula.evaluation import evaluate
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 FILES = sorted(FOLDER.glob("*.yaml"))

@@ -13,7 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from reportgen.assignment.fields import quantity
 from reportgen.exercise.symbols import MOST_NESTED, Stated, SymbolValue, Told, parsed
-from reportgen.notation.evaluation import evaluate
+from reportgen.formula.evaluation import evaluate
 
 LENGTH = Told(quantity("mm", least=0.1, below=1e5))
 SYMBOLS = {name: SymbolValue().read(text) for name, text in {"r": "0.2 m", "l1": "1 m", "lambda": "2 m"}.items()}

@@ -18,8 +18,8 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.exercise.case import ExerciseCase
-from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import Expression
+from reportgen.formula import Expression
+from reportgen.formula.evaluation import evaluate
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 NAMES = ["02", "05", "06", "09", "10", "12", "13", "14", "15", "16"]

@@ -8,15 +8,14 @@ import pymupdf
 import pytest
 
 from reportgen import api
-from reportgen.batch import assess
-from reportgen.batch.assess import Graded
-from reportgen.batch.variants import make_variants
+from reportgen.base.units import write
 from reportgen.cases import open_case
-from reportgen.grading.guide import open_guide
-from reportgen.grading.marking import compare
-from reportgen.grading.marks import Policy
-from reportgen.grading.mistakes import Mistake
-from reportgen.notation.numbers import write
+from reportgen.classes import assess
+from reportgen.classes.assess import Graded
+from reportgen.classes.variants import make_variants
+from reportgen.marking.marking import compare
+from reportgen.marking.marks import Policy, open_guide
+from reportgen.marking.mistakes import Mistake
 from tests.grading import demo, students
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from reportgen import catalogue
-from reportgen.errors import AssignmentError
+from reportgen.base.errors import AssignmentError
 from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.centres import lay_out
 from reportgen.exercise.file import Method

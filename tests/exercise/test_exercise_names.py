@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from reportgen import api
-from reportgen.answers.wording import phrase
 from reportgen.exercise.case import ExerciseCase
-from reportgen.notation import vocabulary
-from reportgen.notation.vocabulary import Chapter
+from reportgen.formula import vocabulary
+from reportgen.formula.vocabulary import Chapter
+from reportgen.marking.key import phrase
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 OF_MACHINES = ("centre of percussion", "tâm va đập", "khâu", "link ")

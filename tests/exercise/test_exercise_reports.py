@@ -11,13 +11,12 @@ import pymupdf
 import pytest
 
 from reportgen import api
-from reportgen.answers.results import print_tables
-from reportgen.document.tree import Document, Equation, text_of
-from reportgen.exercise.case import ExerciseCase
-from reportgen.exercise.document import solution
+from reportgen.base.units import write
+from reportgen.exercise.case import ExerciseCase, solution
 from reportgen.exercise.views import lettered
-from reportgen.notation.expressions import Chain
-from reportgen.notation.numbers import write
+from reportgen.formula import Chain
+from reportgen.marking.results import print_tables
+from reportgen.report import Document, Equation, text_of
 from tests.lanes import matrix
 from tests.reports import built
 

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from reportgen import catalogue
-from reportgen.errors import AssignmentError
+from reportgen.base.errors import AssignmentError
 from reportgen.exercise.case import ExerciseCase
 
 TWO_CRANKS = """\

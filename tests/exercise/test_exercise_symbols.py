@@ -9,12 +9,11 @@ from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 
 from reportgen import catalogue
-from reportgen.document.tree import text_of
-from reportgen.errors import AssignmentError
-from reportgen.exercise.case import ExerciseCase
-from reportgen.exercise.document import solution
-from reportgen.notation.evaluation import evaluate
-from reportgen.notation.numbers import Language, write
+from reportgen.base.errors import AssignmentError
+from reportgen.base.units import Language, write
+from reportgen.exercise.case import ExerciseCase, solution
+from reportgen.formula.evaluation import evaluate
+from reportgen.report import text_of
 from tests.lanes import proof
 
 FOUR_BAR = """\

@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from reportgen.figures.plan import Plan, PlanLine, PlanPoint, PlanVector
-from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.notation.expressions import Chain, Expression, Number, Symbol
-from reportgen.notation.vocabulary import on_plan
+from reportgen.drawing.plan import Plan, PlanLine, PlanPoint, PlanVector
+from reportgen.formula import Chain, Expression, Number, Symbol
+from reportgen.formula.vocabulary import on_plan
+from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+from reportgen.machine.motion import Motion, solve_motion
 
 R, L = 0.0475, 0.171
 OMEGA = 2200 * math.pi / 30

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from reportgen.figures.geometry import corners, frame, overlap, segments
-from reportgen.figures.scene import Label, Scene
+from reportgen.drawing import Label, Scene
+from reportgen.drawing.geometry import corners, frame, overlap, segments
 
 CLEARANCE = 0.1
 """White between a label and a stroke, mm."""

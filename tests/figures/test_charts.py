@@ -8,9 +8,9 @@ import sys
 import numpy as np
 import pytest
 
-from reportgen.figures.charts import HEIGHT, WIDTH, Area, Series, bars, chart, histogram, polar
-from reportgen.figures.scene import Circle, Label, Polyline, Scene
-from reportgen.notation.expressions import Chain, Number, Symbol
+from reportgen.drawing import Circle, Label, Polyline, Scene
+from reportgen.drawing.charts import HEIGHT, WIDTH, Area, Series, bars, chart, histogram, polar
+from reportgen.formula import Chain, Number, Symbol
 from tests.figures.overlaps import overlaps
 
 ANGLE = np.linspace(0, 720, 721)
@@ -111,7 +111,7 @@ def test_figures_without_room_side_by_side_are_left_out() -> None:
 
 
 def test_matplotlib_waits_for_the_first_chart() -> None:
-    code = "import sys, reportgen.figures.charts; sys.exit('matplotlib' in sys.modules)"
+    code = "import sys, reportgen.drawing.charts; sys.exit('matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 

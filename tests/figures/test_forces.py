@@ -7,10 +7,10 @@ import math
 
 import pytest
 
-from reportgen.figures.forces import ArmOf, Couple, Force, Sliding, bodies, coriolis, foot, lever
-from reportgen.figures.scene import Arc, Arrow, Scene
-from reportgen.figures.scheme import Looks
-from reportgen.notation.expressions import Symbol
+from reportgen.drawing import Arc, Arrow, Scene
+from reportgen.drawing.forces import ArmOf, Couple, Force, Sliding, bodies, coriolis, foot, lever
+from reportgen.drawing.scheme import Looks
+from reportgen.formula import Symbol
 from tests.figures.machines import OMEGA, R, at_positions, twin_engine, velocity_plan
 from tests.figures.overlaps import overlaps
 

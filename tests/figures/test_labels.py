@@ -7,10 +7,9 @@ from itertools import pairwise
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reportgen.figures.draft import Draft, finish
-from reportgen.figures.labels import label
-from reportgen.figures.scene import Arrow, Circle, Item, Label, Line, Scene
-from reportgen.notation.expressions import Symbol
+from reportgen.drawing import Arrow, Circle, Item, Label, Line, Scene
+from reportgen.drawing.labels import Draft, finish, label
+from reportgen.formula import Symbol
 from tests.figures.overlaps import overlaps
 
 points = st.builds(complex, st.floats(0, 120), st.floats(0, 120))

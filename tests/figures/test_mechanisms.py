@@ -10,14 +10,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from reportgen.figures.draft import finish
-from reportgen.figures.geometry import Complexes
-from reportgen.figures.indicator import Branch, Frame, Reading, beside, indicator
-from reportgen.figures.positions import PositionPlan, position_plan
-from reportgen.figures.scene import Circle, Hatch, Label, Line, Polyline
-from reportgen.figures.scheme import Looks, groups, scheme, skeleton
-from reportgen.mechanism.structure import Linkage
-from reportgen.notation.expressions import Symbol
+from reportgen.drawing import Circle, Hatch, Label, Line, Polyline
+from reportgen.drawing.geometry import Complexes
+from reportgen.drawing.labels import finish
+from reportgen.drawing.positions import Branch, Frame, PositionPlan, Reading, beside, indicator, position_plan
+from reportgen.drawing.scheme import Looks, groups, scheme, skeleton
+from reportgen.formula import Symbol
+from reportgen.machine import Linkage
 from tests.figures.machines import (
     L,
     R,

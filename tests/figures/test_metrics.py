@@ -8,9 +8,9 @@ import pymupdf
 import pytest
 import typst
 
-from reportgen.figures.labels import CLEAR
-from reportgen.figures.metrics import box
-from reportgen.notation.expressions import Call, Chain, Expression, Fraction, Number, Symbol, cos, sin
+from reportgen.drawing.geometry import box
+from reportgen.drawing.labels import CLEAR
+from reportgen.formula import Call, Chain, Expression, Fraction, Number, Symbol, cos, sin
 from reportgen.writers.typst import TypstFormulas
 
 LABELS: tuple[Expression | str, ...] = (

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reportgen.figures.plan import TARGET, TINY, Plan, PlanPoint, PlanVector, enlargement, plan, stages
-from reportgen.figures.scene import Arrow, Circle, Label, Line, Scene
-from reportgen.mechanism.motion import Motion
-from reportgen.notation.expressions import Symbol
+from reportgen.drawing import Arrow, Circle, Label, Line, Scene
+from reportgen.drawing.plan import TARGET, TINY, Plan, PlanPoint, PlanVector, enlargement, plan, stages
+from reportgen.formula import Symbol
+from reportgen.machine.motion import Motion
 from tests.figures.machines import acceleration_plan, at_positions, twin_engine, velocity_plan
 from tests.figures.overlaps import overlaps
 

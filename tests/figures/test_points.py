@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from reportgen.figures.positions import PositionPlan, position_plan
-from reportgen.figures.scene import Circle, Label, Line, Polyline, Scene
-from reportgen.figures.scheme import Looks, groups, scheme
-from reportgen.figures.style import HEAVY, POINT, body
-from reportgen.mechanism.structure import Crank, Dyad, Linkage, LinkPoint
-from reportgen.notation.vocabulary import point
+from reportgen.drawing import Circle, Label, Line, Polyline, Scene
+from reportgen.drawing.positions import PositionPlan, position_plan
+from reportgen.drawing.scheme import Looks, groups, scheme
+from reportgen.drawing.style import HEAVY, POINT, body
+from reportgen.formula.vocabulary import point
+from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from tests.figures.machines import at_positions, dense
 from tests.figures.overlaps import overlaps
 

@@ -12,16 +12,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen.document.figures import Drawn
-from reportgen.document.namespace import FIGURES
-from reportgen.document.report import Report
-from reportgen.figures import style
-from reportgen.figures.geometry import on_one_line
-from reportgen.figures.plan import Plan, PlanVector, plan, set_apart
-from reportgen.figures.scene import Arc, Arrow, Circle, Hatch, Label, Line, Polyline, Scene, Stroke
-from reportgen.figures.scheme import ARROWS, LINES, line_styles
-from reportgen.notation.expressions import Symbol
-from reportgen.writers.drawing import clip_hatch
+from reportgen.drawing import Arc, Arrow, Circle, Hatch, Label, Line, Polyline, Scene, Stroke, style
+from reportgen.drawing.geometry import on_one_line
+from reportgen.drawing.plan import Plan, PlanVector, plan, set_apart
+from reportgen.drawing.scheme import ARROWS, LINES, line_styles
+from reportgen.drawing.style import clip_hatch
+from reportgen.formula import Symbol
+from reportgen.report.figures import Drawn
+from reportgen.report.outline import FIGURES
+from reportgen.report.report import Report
 from tests.reports import built
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -211,8 +210,8 @@ def test_lines_are_told_apart_without_colour() -> None:
 
 
 def test_curves_of_one_chart_are_told_apart_without_colour() -> None:
-    from reportgen.figures.charts import PENS
-    from reportgen.figures.indicator import STROKES
+    from reportgen.drawing.charts import PENS
+    from reportgen.drawing.positions import STROKES
 
     for pens in (PENS, STROKES):
         assert len({look(pen) for pen in pens}) == len(pens)

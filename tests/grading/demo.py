@@ -14,14 +14,13 @@ from pathlib import Path
 
 import numpy as np
 
-from reportgen.answers.sheet import NAMES, asked_positions
-from reportgen.batch.variants import make_variants
 from reportgen.cases import open_case
-from reportgen.document.key import Key
-from reportgen.grading.guide import Guide, open_guide
-from reportgen.grading.marks import Answer, Place, Submission
-from reportgen.grading.mistakes import mistakes_in
-from reportgen.notation.vocabulary import Chapter
+from reportgen.classes.variants import make_variants
+from reportgen.formula.vocabulary import Chapter
+from reportgen.marking.marks import Answer, Guide, Place, Submission, open_guide
+from reportgen.marking.mistakes import mistakes_in
+from reportgen.marking.sheet import NAMES, asked_positions
+from reportgen.report.case import Key
 from reportgen.workbook import write_csv, write_xlsx
 from tests.grading import students
 from tests.grading.keys import csv_rows

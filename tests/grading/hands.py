@@ -11,12 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.answers.asking import Ask
+from reportgen.base.errors import Mark
 from reportgen.cases import opened
-from reportgen.document.key import Role
-from reportgen.errors import Mark
-from reportgen.grading.guide import Guide
-from reportgen.grading.marks import Answer, Submission
+from reportgen.marking.key import Ask
+from reportgen.marking.marks import Answer, Guide, Submission
+from reportgen.report.case import Role
 from tests.grading import students
 from tests.grading.hand import Hand, Rod, Task
 from tests.grading.machines import WAYS

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.answers.sheet import HEAD, answer_book
-from reportgen.document.key import Key, Role, Row
-from reportgen.notation.expressions import Symbol
-from reportgen.notation.numbers import Language
-from reportgen.notation.vocabulary import Chapter
+from reportgen.base.units import Language
+from reportgen.formula import Symbol
+from reportgen.formula.vocabulary import Chapter
+from reportgen.marking.sheet import HEAD, answer_book
+from reportgen.report.case import Key, Role, Row
 
 LABELS = ("1", "2", "3", "4")
 

@@ -11,9 +11,9 @@ from statistics import median
 
 import numpy as np
 
-from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking
-from reportgen.grading.mistakes import WRONG_DATUM
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import Marking
+from reportgen.marking.mistakes import WRONG_DATUM
 from tests.grading import hands, students
 
 WORKED = (hands.WRONG_AT,)

@@ -15,17 +15,16 @@ import numpy as np
 import yaml
 
 from reportgen import api
-from reportgen.answers.bands import PAPER_ERROR, measuring_errors
-from reportgen.answers.key import words_of
-from reportgen.answers.sheet import asked_positions, grid, info_page, page, rows_shown
 from reportgen.assignment import Assignment
+from reportgen.base.errors import AssignmentError, Mark
 from reportgen.cases import opened
-from reportgen.document.key import Key, Row
-from reportgen.errors import AssignmentError, Mark
-from reportgen.grading.guide import Guide, open_guide
-from reportgen.grading.marks import Answer, Submission
-from reportgen.grading.mistakes import Mistake
-from reportgen.ledger.core import follow
+from reportgen.formula.ledger import follow
+from reportgen.marking.bands import PAPER_ERROR, measuring_errors
+from reportgen.marking.key import words_of
+from reportgen.marking.marks import Answer, Guide, Submission, open_guide
+from reportgen.marking.mistakes import Mistake
+from reportgen.marking.sheet import asked_positions, grid, info_page, page, rows_shown
+from reportgen.report.case import Key, Row
 from reportgen.workbook import Book, Entry
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

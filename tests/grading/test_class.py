@@ -9,14 +9,14 @@ from pathlib import Path
 import pymupdf
 import pytest
 
-from reportgen.answers.asking import EVERYTHING, Ask
-from reportgen.batch import assess
-from reportgen.batch.assess import Graded
-from reportgen.batch.variants import make_variants
 from reportgen.cases import open_case
-from reportgen.grading.marking import compare
-from reportgen.grading.marks import Policy, read_policy
-from reportgen.grading.mistakes import WRONG_DATUM
+from reportgen.classes import assess
+from reportgen.classes.assess import Graded
+from reportgen.classes.variants import make_variants
+from reportgen.marking.key import EVERYTHING, Ask
+from reportgen.marking.marking import compare
+from reportgen.marking.marks import Policy, read_policy
+from reportgen.marking.mistakes import WRONG_DATUM
 from reportgen.workbook import read, write_csv
 from tests.grading import demo
 from tests.grading.keys import csv_rows

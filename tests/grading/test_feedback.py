@@ -10,16 +10,15 @@ from typing import Any, get_args
 import pytest
 from openpyxl import load_workbook
 
-from reportgen.document.tree import Figure, Table, plain, text_of
-from reportgen.errors import CellMark, Problem
-from reportgen.figures.scene import Label
-from reportgen.grading.feedback import FIRST, STYLES, feedback_book, feedback_document, mistake_inlines, points_text
-from reportgen.grading.grades import class_document, grade_rows
-from reportgen.grading.marks import Answer, Flag, Marked, Marking, Submission, Verdict
-from reportgen.grading.mistakes import WRONG_DATUM
-from reportgen.grading.naming import CONVENTIONS
-from reportgen.notation.numbers import Language
-from reportgen.words import load_words, search_path
+from reportgen.base.errors import CellMark, Problem
+from reportgen.base.units import Language
+from reportgen.base.words import load_words, search_path
+from reportgen.drawing import Label
+from reportgen.marking.feedback import FIRST, STYLES, feedback_book, feedback_document, mistake_inlines, points_text
+from reportgen.marking.grades import class_document, grade_rows
+from reportgen.marking.marks import Answer, Flag, Marked, Marking, Submission, Verdict
+from reportgen.marking.mistakes import CONVENTIONS, WRONG_DATUM
+from reportgen.report import Figure, Table, plain, text_of
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.writing import FILLS
 from tests.grading.keys import small_key

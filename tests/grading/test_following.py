@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reportgen.answers.bands import is_direction
-from reportgen.grading.guide import Guide
-from reportgen.ledger.core import follow
-from reportgen.notation.expressions import Ref, refs
+from reportgen.formula import Ref, refs
+from reportgen.formula.ledger import follow
+from reportgen.marking.bands import is_direction
+from reportgen.marking.marks import Guide
 from tests.grading import hands, students
 from tests.grading.hand import Hand
 from tests.grading.written import unit_of

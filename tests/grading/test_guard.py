@@ -8,15 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from reportgen.base.units import Language
+from reportgen.base.words import load_words, search_path
 from reportgen.cases import opened
-from reportgen.grading.guard import Classmate
-from reportgen.grading.guide import Guide
-from reportgen.grading.marking import mark
-from reportgen.grading.marks import FLAGS_ONLY, TAKES, Policy, Submission, Verdict
-from reportgen.grading.mistakes import Mistake
-from reportgen.notation.numbers import Language
-from reportgen.notation.vocabulary import Chapter
-from reportgen.words import load_words, search_path
+from reportgen.formula.vocabulary import Chapter
+from reportgen.marking.guard import Classmate
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import FLAGS_ONLY, TAKES, Guide, Policy, Submission, Verdict
+from reportgen.marking.mistakes import Mistake
 from tests.grading import hands, students
 from tests.lanes import matrix
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reportgen.grading.marking import mark
-from reportgen.ledger.core import follow
+from reportgen.formula.ledger import follow
+from reportgen.marking.marking import mark
 from tests.grading import hands, students
 from tests.grading.machines import ASSIGNMENTS
 from tests.grading.rates import injected, lost, misread

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking
-from reportgen.grading.mistakes import Mistake
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import Marking
+from reportgen.marking.mistakes import Mistake
 from tests.grading import hands, students
 from tests.grading.published import FIGURES, POSITION
 from tests.grading.rates import lost

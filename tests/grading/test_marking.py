@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 from reportgen.cases import opened
-from reportgen.document.key import Row
-from reportgen.grading.guide import open_guide
-from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking, Policy, Verdict
-from reportgen.grading.mistakes import Mistake
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import Marking, Policy, Verdict, open_guide
+from reportgen.marking.mistakes import Mistake
+from reportgen.report.case import Row
 from tests.grading import students
 from tests.lanes import matrix
 

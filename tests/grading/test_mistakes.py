@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 from reportgen.cases import opened
-from reportgen.grading.guide import Guide
-from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking, Submission
-from reportgen.grading.mistakes import WRONG_DATUM, Mistake, general_mistakes, mistakes_in
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import Guide, Marking, Submission
+from reportgen.marking.mistakes import WRONG_DATUM, Mistake, general_mistakes, mistakes_in
 from tests.grading import students
 from tests.grading.students import NAMES, World
 from tests.lanes import proof

@@ -13,10 +13,9 @@ import numpy as np
 import pytest
 
 from reportgen.cases import MachineCase
-from reportgen.document.key import Row
-from reportgen.grading.guide import Guide, open_guide
-from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking, Verdict
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import Guide, Marking, Verdict, open_guide
+from reportgen.report.case import Row
 from tests.grading import students
 from tests.lanes import matrix
 

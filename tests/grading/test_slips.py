@@ -7,11 +7,9 @@ from collections.abc import Callable
 import pytest
 
 from reportgen.cases import opened
-from reportgen.grading.guide import Guide
-from reportgen.grading.marking import mark
-from reportgen.grading.marks import Marking, Policy
-from reportgen.grading.mistakes import Mistake
-from reportgen.grading.naming import AGREED
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import Guide, Marking, Policy
+from reportgen.marking.mistakes import AGREED, Mistake
 from tests.grading import students
 
 WORKED = (4, 12)

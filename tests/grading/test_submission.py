@@ -14,13 +14,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
-from reportgen.answers.sheet import answer_book
-from reportgen.document.key import Key
-from reportgen.errors import AssignmentError
-from reportgen.grading.marks import Submission
-from reportgen.grading.submission import decimal_mark, is_blank, read_number, read_submission
-from reportgen.notation.vocabulary import KINDS
-from reportgen.units import QuantityFault
+from reportgen.base.errors import AssignmentError
+from reportgen.base.units import QuantityFault
+from reportgen.formula.vocabulary import KINDS
+from reportgen.marking.marks import Submission
+from reportgen.marking.sheet import answer_book, decimal_mark, is_blank, read_number, read_submission
+from reportgen.report.case import Key
 from reportgen.workbook import write_csv, write_xlsx
 from tests.grading.keys import csv_rows, small_key
 

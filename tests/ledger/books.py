@@ -6,15 +6,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.ledger.core import Ledger
-from reportgen.ledger.decimals import choose_decimals
-from reportgen.ledger.forces import enter_forces
-from reportgen.ledger.forces.polygon import Polygon
-from reportgen.ledger.kinematics import enter_kinematics
-from reportgen.mechanism.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
-from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.notation.sheet import Sheet
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.sheet import Sheet
+from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+from reportgen.machine.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
+from reportgen.machine.motion import Motion, solve_motion
+from reportgen.plans.decimals import choose_decimals
+from reportgen.plans.forces import enter_forces
+from reportgen.plans.groups import enter_kinematics
+from reportgen.plans.loads import Polygon
 
 RATE = 7.0
 """The driver's speed, rad/s or m/s."""

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from reportgen import api
+from reportgen.base.errors import ReportgenError
 from reportgen.cases import MachineCase
-from reportgen.errors import ReportgenError
 
 MEASURE = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?(?:e-?\d+)?)(?= ?(?:mm|cm|m|kg|g|N|rpm|rad/s|N/cm2|MPa)\b)")
 SPREAD = 0.08

@@ -13,10 +13,10 @@ from decimal import Decimal
 
 import numpy as np
 
-from reportgen.ledger.core import Ledger
-from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import Chain, Expression, Number, Symbol, children, rebuild, walk
-from reportgen.notation.vocabulary import KINDS
+from reportgen.formula import Chain, Expression, Number, Symbol, children, rebuild, walk
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.vocabulary import KINDS
 
 EXACT = 1e-9
 """Share of a line's own value that a computer's arithmetic, and π to as many digits, may be off."""

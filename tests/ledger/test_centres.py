@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from books import MACHINES, keep
 
-from reportgen.ledger.kinematics.centres import links_in_plane_motion
-from reportgen.ledger.kinematics.sides import scheme
-from reportgen.mechanism.structure import Crank, Dyad, Linkage, LinkPoint
+from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
+from reportgen.plans.motion import links_in_plane_motion
+from reportgen.plans.sides import scheme
 
 SWINGING_BLOCK = Linkage(
     {"A": 0j, "H": 0.5 + 0.1j},

@@ -11,11 +11,11 @@ import pytest
 from random_variants import cases
 from recompute import worst_lines
 
-from reportgen.ledger.core import Ledger
-from reportgen.ledger.report import SAME
-from reportgen.notation import ids
-from reportgen.notation.sheet import ZERO, Family
-from reportgen.notation.vocabulary import MAX_DIGITS, Chapter
+from reportgen.formula import ids
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.sheet import ZERO, Family
+from reportgen.formula.vocabulary import MAX_DIGITS, Chapter
+from reportgen.plans import SAME
 from tests.lanes import matrix
 from tests.reports import built
 

@@ -16,7 +16,7 @@ from books import MACHINES, RATE, Book, keep
 from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 
-from reportgen.mechanism.structure import DyadKind
+from reportgen.machine import DyadKind
 from tests.lanes import matrix
 
 STEPS = np.array([0.0, 0.01, 0.02])

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.notation import ids, vocabulary
-from reportgen.notation.names import Name
+from reportgen.formula import ids, vocabulary
+from reportgen.formula.ids import Name
 
 FILES = sorted(path for folder in ("", "plane-motion") for path in (Path("assignments") / folder).glob("*.yaml"))
 FAMILIES = {text: name for text, name in vars(ids).items() if isinstance(name, Name)}

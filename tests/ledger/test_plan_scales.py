@@ -7,15 +7,15 @@ import math
 import numpy as np
 import pytest
 
+from reportgen.base.units import SERIES, nice_down, nice_up
 from reportgen.cases import MachineCase
-from reportgen.document.key import Row
-from reportgen.document.plans import force_plan, motion_plan
-from reportgen.document.report import Report
-from reportgen.figures.plan import Plan
-from reportgen.grading.marking import mark
-from reportgen.ledger.kinematics.linkage import What
-from reportgen.ledger.scales import SHEET_BOXES, TEXT_BOX
-from reportgen.notation.numbers import SERIES, nice_down, nice_up
+from reportgen.drawing.plan import Plan
+from reportgen.marking.marking import mark
+from reportgen.plans.motion import What
+from reportgen.plans.scales import SHEET_BOXES, TEXT_BOX
+from reportgen.report.case import Row
+from reportgen.report.plans import force_plan, motion_plan
+from reportgen.report.report import Report
 from tests.grading import students
 from tests.reports import built
 

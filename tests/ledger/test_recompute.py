@@ -11,9 +11,9 @@ from books import MACHINES, RATE, keep
 from recompute import excess, worst_lines
 
 from reportgen import api
-from reportgen.ledger.core import Ledger
-from reportgen.ledger.report import write_ledger
-from reportgen.notation.expressions import Chain, Number
+from reportgen.formula import Chain, Number
+from reportgen.formula.ledger import Ledger
+from reportgen.plans import write_ledger
 
 ROUND = np.radians(17.0 + 30.0 * np.arange(12))
 """Positions of a turn at which no length or force happens to vanish."""

@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reportgen.analysis import Analysis, analyse
+from reportgen.base.units import Language
 from reportgen.cases import MachineCase
-from reportgen.document.moving import film
-from reportgen.document.report import Report
-from reportgen.figures.moving import Film, Stage, Track
-from reportgen.notation.numbers import Language
-from reportgen.pages import page
+from reportgen.drawing.film import Film, Stage, Track
+from reportgen.machine.analysis import Analysis, analyse
+from reportgen.page import page
+from reportgen.page.sampling import film
+from reportgen.report.report import Report
 from tests.lanes import matrix
 from tests.reports import built
 

@@ -14,7 +14,7 @@ import pytest
 
 from reportgen import api
 from reportgen.cases import MachineCase, opened
-from reportgen.pages import page, panel
+from reportgen.page import page, panel
 from reportgen.workbook import read
 from tests.page.made import made
 from tests.page.text import elements

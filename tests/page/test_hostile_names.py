@@ -8,7 +8,7 @@ import pytest
 
 from reportgen import api
 from reportgen.cases import opened
-from reportgen.pages import page
+from reportgen.page import page
 from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.reports import built

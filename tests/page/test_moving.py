@@ -9,8 +9,8 @@ import time
 import numpy as np
 import pytest
 
-from reportgen.document.plans import force_plan, motion_plan
-from reportgen.figures.plan import INVISIBLE
+from reportgen.drawing.plan import INVISIBLE
+from reportgen.report.plans import force_plan, motion_plan
 from tests.page.browser import Browser
 from tests.page.made import MM, Made
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.document.tree import Plate
-from reportgen.figures.scene import Arrow, Scene
-from reportgen.notation.numbers import Language
-from reportgen.writers.drawing import arrow_head
+from reportgen.base.units import Language
+from reportgen.drawing import Arrow, Scene
+from reportgen.drawing.style import arrow_head
+from reportgen.report import Plate
 from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.page.made import made

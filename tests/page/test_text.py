@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.notation.numbers import Language
-from reportgen.writers import html
+from reportgen.base.units import Language
+from reportgen.page import html
 from tests.lanes import matrix
 from tests.page.text import Text
 from tests.reports import built, pages

@@ -20,8 +20,7 @@ from typer.testing import CliRunner
 
 from reportgen.cases import open_case
 from reportgen.cli import app
-from reportgen.watch.edition import Desk
-from reportgen.watch.server import Server
+from reportgen.page.watch import Desk, Server
 from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.reports import built

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import newton_euler as ne
 
-from reportgen.analysis import Analysis
-from reportgen.mechanism.forces import Forces
-from reportgen.mechanism.motion import Motion
+from reportgen.machine.analysis import Analysis
+from reportgen.machine.forces import Forces
+from reportgen.machine.motion import Motion
 
 AGREEMENT = 1e-9
 """Of each quantity's greatest size over the positions."""

@@ -14,10 +14,10 @@ import newton_euler as ne
 import numpy as np
 from hypothesis import strategies as st
 
-from reportgen.mechanism.forces import Load
-from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
-from reportgen.notation.constructions import cross, dot
+from reportgen.formula.constructions import cross, dot
+from reportgen.machine import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
+from reportgen.machine.forces import Load
+from reportgen.machine.motion import Motion, solve_motion
 
 KINDS: tuple[DyadKind, ...] = ("RRR", "RRP", "RPR", "PRP", "RPP")
 REFERENCE = 0.7

@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from reportgen import api
-from reportgen.analysis import Analysis
+from reportgen.machine.analysis import Analysis
 
 EIGHT = Path(__file__).parents[2] / "assignments" / "linkage-8.yaml"
 quick = settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))

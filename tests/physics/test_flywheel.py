@@ -11,12 +11,11 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.analysis import FULL_TURN, analyse, motion_at
-from reportgen.catalogue.machine import Machine
-from reportgen.flywheel import Flywheel, accumulated, flywheel, reduced_inertia, regulate
-from reportgen.kinds import kinds
-from reportgen.ledger.report import write_ledger
-from reportgen.notation.sheet import Sheet
+from reportgen.base.words import kinds
+from reportgen.formula.sheet import Sheet
+from reportgen.machine.analysis import FULL_TURN, Machine, analyse, motion_at
+from reportgen.machine.flywheel import Flywheel, accumulated, flywheel, reduced_inertia, regulate
+from reportgen.plans import write_ledger
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 
@@ -161,7 +160,7 @@ def test_links_that_are_even_enough_need_no_flywheel() -> None:
 
 
 def api_mean(machine: Machine) -> float:
-    from reportgen.analysis import summarise
+    from reportgen.machine.analysis import summarise
 
     return summarise(machine).mean_torque
 

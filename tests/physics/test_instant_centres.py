@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.analysis import Analysis
-from reportgen.ledger.core import Ledger
-from reportgen.ledger.kinematics.centres import links_in_plane_motion
-from reportgen.ledger.kinematics.sides import Side, scheme
-from reportgen.ledger.report import write_ledger
+from reportgen.formula.ledger import Ledger
+from reportgen.machine.analysis import Analysis
+from reportgen.plans import write_ledger
+from reportgen.plans.motion import links_in_plane_motion
+from reportgen.plans.sides import Side, scheme
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 EXACT = 1e-9

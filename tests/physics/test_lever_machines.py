@@ -17,7 +17,7 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from reportgen import api
-from reportgen.analysis import Analysis
+from reportgen.machine.analysis import Analysis
 
 GRAVITY = -9.81j
 quick = settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))

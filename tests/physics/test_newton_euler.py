@@ -14,10 +14,10 @@ from agreement import AGREEMENT, Acting, Pairs, collect, off, weights
 from hypothesis import HealthCheck, given, reject, settings
 from hypothesis import strategies as st
 
-from reportgen.mechanism.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque
-from reportgen.mechanism.forces import weights as forces_of_weight
-from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+from reportgen.machine.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque
+from reportgen.machine.forces import weights as forces_of_weight
+from reportgen.machine.motion import Motion, solve_motion
 from tests.lanes import matrix
 
 CONDITION = 1e3

@@ -10,7 +10,7 @@ import pytest
 
 from reportgen import api
 from reportgen.cases import MachineCase
-from reportgen.document.report import Report
+from reportgen.report.report import Report
 
 ROOT = Path(__file__).parents[2]
 KINDS = (

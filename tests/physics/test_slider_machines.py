@@ -16,7 +16,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from reportgen import api
-from reportgen.analysis import Analysis
+from reportgen.machine.analysis import Analysis
 
 quick = settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
 

@@ -8,7 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reportgen.mechanism.forces import (
+from reportgen.formula.constructions import cross
+from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints, mobility
+from reportgen.machine.forces import (
     Load,
     as_single_force,
     inertia_loads,
@@ -18,9 +20,7 @@ from reportgen.mechanism.forces import (
     virtual_work_torque,
     weights,
 )
-from reportgen.mechanism.motion import Motion, solve_motion
-from reportgen.mechanism.structure import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints, mobility
-from reportgen.notation.constructions import cross
+from reportgen.machine.motion import Motion, solve_motion
 
 COUNT = 256
 """Positions of a turn: the machines' spectra fall below rounding long before the 128th harmonic."""

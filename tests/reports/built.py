@@ -14,13 +14,12 @@ import pytest
 
 from reportgen import api
 from reportgen.assignment import Assignment
+from reportgen.base.units import Language
 from reportgen.cases import MachineCase
-from reportgen.document import outline
-from reportgen.document.tree import Block, Document, Figure, List, Plate
-from reportgen.figures.scene import Scene
-from reportgen.ledger.core import Ledger
-from reportgen.notation.expressions import Chain
-from reportgen.notation.numbers import Language
+from reportgen.drawing import Scene
+from reportgen.formula import Chain
+from reportgen.formula.ledger import Ledger
+from reportgen.report import Block, Document, Figure, List, Plate, outline
 from tests.lanes import matrix
 from tests.reports.pages import Glyph, Page
 

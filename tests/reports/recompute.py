@@ -12,7 +12,12 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from reportgen.document.tree import (
+from reportgen.base.units import write
+from reportgen.drawing import Label
+from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, rebuild, walk
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.plain import formula
+from reportgen.report import (
     Block,
     Cell,
     Document,
@@ -28,11 +33,6 @@ from reportgen.document.tree import (
     Table,
     Value,
 )
-from reportgen.figures.scene import Label
-from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import Chain, Expression, Number, Symbol, Term, VectorEquation, rebuild, walk
-from reportgen.notation.numbers import write
-from reportgen.notation.plain import formula
 from tests.reports import built
 from tests.reports.built import Written
 

@@ -9,7 +9,7 @@ from itertools import groupby
 
 import pytest
 
-from reportgen.document.tree import Document, Emph, Inlines, LineBreak, Paragraph, Reference, Strong, Text
+from reportgen.report import Document, Emph, Inlines, LineBreak, Paragraph, Reference, Strong, Text
 from tests.reports import built, pages
 from tests.reports.built import Report
 from tests.reports.pages import Glyph

@@ -8,10 +8,10 @@ from collections.abc import Iterator
 
 import pytest
 
-from reportgen.document.tree import Figure, InlineMath, Plate, text_of
-from reportgen.figures.scene import Arrow, Label
-from reportgen.mechanism.structure import DRIVER
-from reportgen.notation.expressions import Chain, Number, Symbol
+from reportgen.drawing import Arrow, Label
+from reportgen.formula import Chain, Number, Symbol
+from reportgen.machine import DRIVER
+from reportgen.report import Figure, InlineMath, Plate, text_of
 from tests.reports import built, pages
 from tests.reports.built import Report, Written
 

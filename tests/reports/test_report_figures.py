@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from itertools import pairwise
 
-from reportgen.document.tree import Figure
-from reportgen.writers.layout import in_rows
+from reportgen.report import Figure, in_rows
 from tests.reports import built
 from tests.reports.built import Report
 from tests.reports.pages import MM, Page

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from reportgen import api
-from reportgen.document.tree import Contents, Section, plain
+from reportgen.report import Contents, Section, plain
 from tests.lanes import matrix, proof
 from tests.reports import built, pages
 from tests.reports.built import Report

@@ -11,8 +11,8 @@ import pytest
 import yaml
 
 from reportgen import api
-from reportgen.figures.metrics import box
-from reportgen.figures.scene import Arrow, Label, Scene
+from reportgen.drawing import Arrow, Label, Scene
+from reportgen.drawing.geometry import box
 from tests.figures.overlaps import overlaps
 from tests.lanes import matrix
 from tests.reports import built

@@ -11,8 +11,12 @@ from typing import Any, get_args
 import pytest
 from jinja2 import Environment, nodes
 
-from reportgen.document.numbering import unreferenced
-from reportgen.document.tree import (
+from reportgen.base.units import Language
+from reportgen.base.words import SAMPLE, SECTION, Passage, kind_file, kinds, load_words, search_path, sections
+from reportgen.formula import vocabulary
+from reportgen.formula.plain import formula
+from reportgen.machine import DyadKind
+from reportgen.report import (
     Block,
     Cover,
     Emph,
@@ -30,13 +34,7 @@ from reportgen.document.tree import (
     Words,
     plain,
 )
-from reportgen.kinds import SAMPLE, kinds
-from reportgen.mechanism.structure import DyadKind
-from reportgen.notation import vocabulary
-from reportgen.notation.numbers import Language
-from reportgen.notation.plain import formula
-from reportgen.sections import Passage, sections
-from reportgen.words import SECTION, kind_file, load_words, search_path
+from reportgen.report.numbering import unreferenced
 from tests.lanes import matrix
 from tests.reports import built
 from tests.reports.built import Written

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.document.tree import text_of
-from reportgen.notation.numbers import write
+from reportgen.base.units import write
+from reportgen.report import text_of
 from tests.lanes import matrix
 from tests.reports import built, recompute
 from tests.reports.built import Report, Written

@@ -12,7 +12,7 @@ import pytest
 
 from reportgen import api
 from reportgen.assignment.common import Report, Student
-from reportgen.document.tree import Section
+from reportgen.report import Section
 from tests.reports import built, pages
 from tests.reports.built import Written
 

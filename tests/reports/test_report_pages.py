@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from reportgen.document.tree import Block, Emph, Figure, List, Paragraph, Plate, Reference, Strong, Table
+from reportgen.report import Block, Emph, Figure, List, Paragraph, Plate, Reference, Strong, Table
 from tests.reports import pages
 from tests.reports.built import Report, Written
 from tests.reports.test_report_figures import captions

@@ -9,16 +9,15 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.document import force_figures, result_tables
-from reportgen.document.report import Report
-from reportgen.document.tree import Block, Equation, InlineMath, Paragraph, plain
-from reportgen.figures.forces import COUPLE_RADIUS
-from reportgen.figures.scene import Arc, Arrow, Scene
-from reportgen.mechanism.structure import SlidingDriver
-from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import Chain, Expression, Number, Symbol, VectorEquation, walk
-from reportgen.notation.setting import BOUND, Row, columns
-from reportgen.notation.vocabulary import vector
+from reportgen.drawing import Arc, Arrow, Scene
+from reportgen.drawing.forces import COUPLE_RADIUS
+from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, walk
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.setting import BOUND, Row, columns
+from reportgen.formula.vocabulary import vector
+from reportgen.machine import SlidingDriver
+from reportgen.report import Block, Equation, InlineMath, Paragraph, force_figures, plain, result_tables
+from reportgen.report.report import Report
 from tests.document.test_rare_groups import SLOTTED, TRANSLATED
 from tests.reports import built
 from tests.reports.built import Written

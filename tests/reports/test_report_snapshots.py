@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.document.tree import Block, Document, Section, text_of
-from reportgen.notation.numbers import Language
+from reportgen.base.units import Language
+from reportgen.report import Block, Document, Section, text_of
 from tests.reports import built
 
 FOLDER = built.ROOT / "tests" / "snapshots"

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.notation.expressions import Symbol
-from reportgen.notation.plain import formula
-from reportgen.notation.vocabulary import in_language, numbered, runs
+from reportgen.formula import Symbol
+from reportgen.formula.plain import formula
+from reportgen.formula.vocabulary import in_language, numbered, runs
 from tests.reports import built
 from tests.reports.built import Report
 from tests.reports.pages import Glyph

@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.document.numbering import unreferenced
-from reportgen.document.tree import text_of
-from reportgen.notation.numbers import write
+from reportgen.base.units import write
+from reportgen.report import text_of
+from reportgen.report.numbering import unreferenced
 from tests.lanes import matrix
 from tests.reports import built, pages, recompute, variants
 from tests.reports.built import Written

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import argparse
 
-from reportgen.document.plates import SETS
-from reportgen.figures.frame import SIZES
+from reportgen.sheets.frame import SIZES
+from reportgen.sheets.plates import SETS
 from tests.sheets.handed_in import FULL, check_but_filling
 from tests.sheets.laid import EVERY, drawn
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from itertools import combinations
 
-from reportgen.figures.frame import SIZES as PAPER
-from reportgen.figures.geometry import bounds
-from reportgen.figures.lettering import CAPITAL
-from reportgen.figures.metrics import POINT, SCRIPT
-from reportgen.figures.scene import Label
-from reportgen.figures.sheet import GAP, Part, Sheet
+from reportgen.drawing import Label
+from reportgen.drawing.geometry import POINT, SCRIPT, bounds
+from reportgen.drawing.sheet import CAPITAL, GAP, Part, Sheet
+from reportgen.sheets.frame import SIZES as PAPER
 from tests.sheets.laid import block_of, laid, plates
 
 EDGE = 1e-6

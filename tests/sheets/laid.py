@@ -7,12 +7,11 @@ from functools import cache
 from pathlib import Path
 
 from reportgen.cases import MachineCase, open_case
-from reportgen.document.drawing_sheets import sheets_of
-from reportgen.document.drawn_plates import Plates
-from reportgen.document.report import Report
-from reportgen.document.title_block import DEFAULT, TitleBlock, blocks, read_block
-from reportgen.figures.frame import room
-from reportgen.figures.sheet import Part, Room, Sheet
+from reportgen.drawing.sheet import Part, Room, Sheet
+from reportgen.report.report import Report
+from reportgen.sheets import sheets_of
+from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, read_block, room
+from reportgen.sheets.plates import Plates
 
 ROOT = Path(__file__).parents[2]
 EVERY = sorted(path.stem for path in (ROOT / "assignments").glob("*.yaml"))

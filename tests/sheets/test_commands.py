@@ -10,11 +10,11 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from reportgen import api
+from reportgen.base.errors import AssignmentError, SheetError
+from reportgen.base.units import Language
 from reportgen.cli import app
-from reportgen.document.title_block import DEFAULT, FIELDS, blocks, read_block
-from reportgen.errors import AssignmentError, SheetError
-from reportgen.figures.scene import Label
-from reportgen.notation.numbers import Language
+from reportgen.drawing import Label
+from reportgen.sheets.frame import DEFAULT, FIELDS, blocks, read_block
 from tests.batch.classes import here, write_class
 from tests.sheets.laid import ROOT
 
@@ -150,7 +150,7 @@ def test_a_wrong_block_is_located(tmp_path: Path, wrong: str, right: str, fault:
 def test_a_batch_makes_sheets_of_a_class(tmp_path: Path) -> None:
     from io import StringIO
 
-    from reportgen.batch.run import Order, run_batch
+    from reportgen.classes.run import Order, run_batch
 
     text = SMALL.read_text(encoding="utf-8")
     roster, given = write_class(tmp_path, {"K1": text, "K2": text.replace("40 mm", "42 mm", 1)})

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import pytest
 
-from reportgen.document.drawing_sheets import sheets_of
-from reportgen.document.drawn_plates import Plates
-from reportgen.figures.frame import SIZES as PAPER
-from reportgen.figures.scene import Label, Line, Scene
-from reportgen.figures.sheet import GAP, TooLargeError
-from reportgen.notation.expressions import Chain, Number, Symbol
+from reportgen.drawing import Label, Line, Scene
+from reportgen.drawing.sheet import GAP, TooLargeError
+from reportgen.formula import Chain, Number, Symbol
+from reportgen.sheets import sheets_of
+from reportgen.sheets.frame import SIZES as PAPER
+from reportgen.sheets.plates import Plates
 from tests.lanes import matrix
 from tests.sheets.handed_in import check
 from tests.sheets.laid import EVERY, block_of, drawn, laid, plates, space

@@ -10,9 +10,10 @@ from typing import Any
 
 import pytest
 
-from reportgen.figures.scene import Arrow
-from reportgen.figures.sheet import Sheet
-from reportgen.writers import dxf, typst, typst_run
+from reportgen.drawing import Arrow
+from reportgen.drawing.sheet import Sheet
+from reportgen.sheets import dxf
+from reportgen.writers import typst, typst_run
 from tests.lanes import matrix
 from tests.sheets.laid import MACHINES, Laid, laid, plates
 

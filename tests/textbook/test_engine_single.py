@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.analysis import Analysis
-from reportgen.catalogue.machine import lettered
-from reportgen.ledger.report import write_ledger
-from reportgen.mechanism.structure import Crank
+from reportgen.machine import Crank
+from reportgen.machine.analysis import Analysis, lettered
+from reportgen.plans import write_ledger
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 VARIANTS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.analysis import Analysis, analyse
 from reportgen.catalogue import module
+from reportgen.machine.analysis import Analysis, analyse
 
 FILE = Path(__file__).parents[2] / "assignments" / "engine-v-01.yaml"
 ALPHA, BETA = math.radians(50), math.radians(70)
@@ -62,7 +62,7 @@ def test_the_torque_balances_the_power_of_both_forces(published: Analysis) -> No
 
 
 def test_closed_formulas_give_the_plans(published: Analysis) -> None:
-    from reportgen.ledger.report import write_ledger
+    from reportgen.plans import write_ledger
 
     ledger = write_ledger(published).ledger
     for plan, formula in published.machine.compared:

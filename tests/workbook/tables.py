@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.errors import AssignmentError
+from reportgen.base.errors import AssignmentError
 from reportgen.workbook import Book, Entry, Page, Sheet, read
 
 CYNICAL = ("=cmd|' /C calc'!A0", "+1+1", "-2+3", "@SUM(A1)", "\t=1", '=HYPERLINK("http://x")', "'=1", "＝1")

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reportgen.errors import AssignmentError
+from reportgen.base.errors import AssignmentError
 from reportgen.workbook import Page, read, write_xlsx
 from tests.workbook.tables import (
     BOOK,

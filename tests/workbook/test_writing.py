@@ -9,7 +9,7 @@ from pathlib import Path
 
 import openpyxl
 
-from reportgen.errors import CellMark, Mark, column_letters
+from reportgen.base.errors import CellMark, Mark, column_letters
 from reportgen.workbook import Book, Cell, Sheet, read, write_xlsx
 from tests.workbook.tables import BOOK, CYNICAL
 

@@ -10,7 +10,7 @@ from typing import Any
 import pymupdf
 import pytest
 
-from reportgen.document.tree import Block, Document
+from reportgen.report import Block, Document
 from reportgen.writers import latex, pdflatex, typst, typst_run
 from tests.writers import sample
 

@@ -6,7 +6,26 @@ import cmath
 import math
 from dataclasses import replace
 
-from reportgen.document.tree import (
+from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline, Scene, Stroke
+from reportgen.formula import (
+    PI,
+    Call,
+    Chain,
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Sum,
+    Symbol,
+    Term,
+    VectorEquation,
+    cos,
+    sin,
+    sqrt,
+)
+from reportgen.report import (
     BlankLine,
     Block,
     Cell,
@@ -31,25 +50,6 @@ from reportgen.document.tree import (
     Text,
     Value,
     Words,
-)
-from reportgen.figures.scene import Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline, Scene, Stroke
-from reportgen.notation.expressions import (
-    PI,
-    Call,
-    Chain,
-    Expression,
-    Fraction,
-    Negative,
-    Number,
-    Power,
-    Product,
-    Sum,
-    Symbol,
-    Term,
-    VectorEquation,
-    cos,
-    sin,
-    sqrt,
 )
 
 HOSTILE = (

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from reportgen.document.tree import Contents, Section, Text
+from reportgen.report import Contents, Section, Text
 from tests.writers.pages import body_of, by_latex, by_typst, needs_tex
 
 WRITERS = [pytest.param(by_typst, id="typst"), pytest.param(by_latex, id="latex", marks=needs_tex)]

@@ -10,10 +10,10 @@ from xml.etree import ElementTree
 
 import pytest
 
-from reportgen.document.tree import Equation, InlineMath, Paragraph, Section, Text
-from reportgen.figures.metrics import POINT, SCRIPT, SMALL_CUT, box
-from reportgen.figures.scene import Arrow, Circle, Label, Line, Scene
-from reportgen.notation.expressions import (
+from reportgen.base.units import Language
+from reportgen.drawing import Arrow, Circle, Label, Line, Scene
+from reportgen.drawing.geometry import POINT, SCRIPT, SMALL_CUT, box
+from reportgen.formula import (
     Chain,
     Expression,
     Fraction,
@@ -26,11 +26,10 @@ from reportgen.notation.expressions import (
     cos,
     walk,
 )
-from reportgen.notation.numbers import Language
-from reportgen.notation.plain import formula
-from reportgen.writers import html
-from reportgen.writers.mathml import MathmlFormulas
-from reportgen.writers.svg import Painter, Pens
+from reportgen.formula.plain import formula
+from reportgen.page import html
+from reportgen.page.elements import MathmlFormulas, Painter, Pens
+from reportgen.report import Equation, InlineMath, Paragraph, Section, Text
 from tests.writers import sample
 
 SCRIPTED = {"msub": 2, "msup": 2, "msubsup": 3, "mover": 2, "mfrac": 2}

@@ -9,7 +9,9 @@ from dataclasses import replace
 import pymupdf
 import pytest
 
-from reportgen.document.tree import (
+from reportgen.base.errors import TypesetterError
+from reportgen.formula import Chain, Expression, Number, Product, Sum, Symbol, Term, VectorEquation
+from reportgen.report import (
     Block,
     Column,
     Equation,
@@ -22,8 +24,6 @@ from reportgen.document.tree import (
     Table,
     Text,
 )
-from reportgen.errors import TypesetterError
-from reportgen.notation.expressions import Chain, Expression, Number, Product, Sum, Symbol, Term, VectorEquation
 from reportgen.writers import latex, pdflatex
 from reportgen.writers.latex_math import MATHEMATICAL, TEXTUAL, escape
 from tests.writers import sample

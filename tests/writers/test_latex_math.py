@@ -6,8 +6,8 @@ import re
 
 import pytest
 
-from reportgen.errors import TypesetterError
-from reportgen.notation.expressions import Chain, Expression, Negative, Number, Product, Ref, Sum, Symbol
+from reportgen.base.errors import TypesetterError
+from reportgen.formula import Chain, Expression, Negative, Number, Product, Ref, Sum, Symbol
 from reportgen.writers.latex_math import LatexFormulas
 
 A, B, C = Symbol("a"), Symbol("b"), Symbol("c")

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.document.tree import Section, Text
-from reportgen.errors import TypesetterError
+from reportgen.base.errors import TypesetterError
+from reportgen.report import Section, Text
 from reportgen.writers import latex, pdflatex
 from tests.writers.pages import document, needs_tex
 

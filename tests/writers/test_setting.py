@@ -8,15 +8,14 @@ from pathlib import Path
 
 import pytest
 
+from reportgen.base.units import Language
 from reportgen.cases import open_case
-from reportgen.notation.expressions import Chain, Expression, Number, Symbol, cos, rebuild, sin, sqrt
-from reportgen.notation.numbers import Language
-from reportgen.notation.plain import Plain
-from reportgen.notation.setting import Part, laid
-from reportgen.writers.dxf import MText
+from reportgen.formula import Chain, Expression, Number, Symbol, cos, rebuild, sin, sqrt
+from reportgen.formula.plain import Plain
+from reportgen.formula.setting import Part, laid
+from reportgen.page.elements import MathmlFormulas, Runs
+from reportgen.sheets.dxf import MText
 from reportgen.writers.latex_math import LatexFormulas
-from reportgen.writers.mathml import MathmlFormulas
-from reportgen.writers.svg import Runs
 from reportgen.writers.typst import TypstFormulas
 from tests.writers import sample
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reportgen.writers.drawing import arc_to_beziers, arrow_head, clip_hatch
+from reportgen.drawing.style import arc_to_beziers, arrow_head, clip_hatch
 
 ANGLES = st.floats(-7, 7)
 

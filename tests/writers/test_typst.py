@@ -11,7 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reportgen.document.tree import (
+from reportgen.base.errors import TypesetterError
+from reportgen.drawing import Arc, Arrow, Label, Polyline, Scene
+from reportgen.formula import Chain, Number, Product, Sum, Symbol, Term, VectorEquation
+from reportgen.report import (
     Column,
     Cover,
     Equation,
@@ -24,12 +27,9 @@ from reportgen.document.tree import (
     Table,
     Text,
     Value,
+    in_rows,
 )
-from reportgen.errors import TypesetterError
-from reportgen.figures.scene import Arc, Arrow, Label, Polyline, Scene
-from reportgen.notation.expressions import Chain, Number, Product, Sum, Symbol, Term, VectorEquation
 from reportgen.writers import typst, typst_run
-from reportgen.writers.layout import in_rows
 from reportgen.writers.typst import literal
 from tests.writers import sample
 from tests.writers.pages import MM, body_of, by_typst, opened, plain, sides, text_of

@@ -10,10 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reportgen.document.tree import Equation, InlineMath, Paragraph
-from reportgen.errors import TypesetterError
-from reportgen.notation.evaluation import evaluate
-from reportgen.notation.expressions import (
+from reportgen.base.errors import TypesetterError
+from reportgen.formula import (
     Call,
     Chain,
     Expression,
@@ -29,6 +27,8 @@ from reportgen.notation.expressions import (
     Term,
     VectorEquation,
 )
+from reportgen.formula.evaluation import evaluate
+from reportgen.report import Equation, InlineMath, Paragraph
 from reportgen.writers.latex_math import LatexFormulas
 from reportgen.writers.typst import TypstFormulas
 from tests.writers import sample

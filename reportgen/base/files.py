@@ -1,0 +1,187 @@
+"""Files put in place whole or not at all: a reader sees the old one or the new one, never a half."""
+
+from __future__ import annotations
+
+import errno
+import os
+import re
+import shutil
+import stat
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
+from functools import cache
+from pathlib import Path
+
+from reportgen.base.errors import OutputError
+
+_SHEET = re.compile(r"sheet-\d+\.(pdf|dxf)")
+
+
+def put_files(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
+    """Write files by name into a folder, each in one step; raises `OutputError`."""
+    with reported():
+        folder.mkdir(parents=True, exist_ok=True)
+        try:
+            for name, content in files.items():
+                put_file(folder / name, content)
+        except OSError:
+            # A folder without a file tells nobody anything.
+            with suppress(OSError):
+                folder.rmdir()
+            raise
+    return [folder / name for name in files]
+
+
+def put_file(target: Path, content: bytes) -> None:
+    """Put `content` in place of a file in one step: a reader sees the old or the new, never a half."""
+    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    temporary = Path(name)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(content)
+        umask = os.umask(0)
+        os.umask(umask)
+        temporary.chmod(0o666 & ~umask)
+        temporary.replace(target)
+    except BaseException as error:
+        temporary.unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            # A full disk does not say itself what had no room on it.
+            error.filename = error.filename or str(target)
+        raise
+
+
+@contextmanager
+def reported(about: Path | None = None) -> Iterator[None]:
+    """A full disk or a forbidden folder is a fault in one line, which names its path, or else `about`."""
+    try:
+        yield
+    except OSError as error:
+        place = error.filename or about
+        raise OutputError(f"{place}: {error.strerror or error}" if place else str(error)) from error
+
+
+def put_sheets(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
+    """Write drawing sheets into a folder; those of an earlier set that had more sheets go."""
+    written = put_files(folder, files)
+    for path in folder.glob("sheet-*.*"):
+        if _SHEET.fullmatch(path.name) and path not in written:
+            path.unlink(missing_ok=True)
+    return written
+
+
+# --- temporary files beside the results -----------------------------------------------------------
+# Only their owner can read them, and what a killed run left is swept.
+# A run holds a lock on its folder for as long as it lives, so that another one does not take it for left behind.
+
+PREFIX = ".reportgen-"
+_NO_LOCKS = frozenset({errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS})
+"""What network folders that know no locks answer."""
+
+
+@contextmanager
+def scratch(out: Path) -> Iterator[Path]:
+    """A folder below `out` (mode 0700) for all temporary files made meanwhile; it goes with all in it.
+
+    Folders made for it go too, if nothing else was put there.  Raises `OSError` where there can be none.
+    """
+    made = [folder for folder in (out, *out.parents) if not folder.exists()]
+    out.mkdir(parents=True, exist_ok=True)
+    sweep(out)
+    before = tempfile.tempdir
+    try:
+        with tempfile.TemporaryDirectory(prefix=PREFIX, dir=out) as name, ExitStack() as locks:
+            with suppress(OSError):
+                locks.enter_context(held(Path(name)))
+            tempfile.tempdir = name
+            yield Path(name)
+    finally:
+        tempfile.tempdir = before
+        with suppress(OSError):
+            for folder in made:
+                folder.rmdir()
+
+
+def sweep(out: Path) -> None:
+    """Remove the folders of runs that are no more; where there are no locks, nobody knows, and they stay."""
+    for folder in out.glob(f"{PREFIX}*"):
+        with suppress(OSError), held(folder) as alone:
+            if alone:
+                shutil.rmtree(folder, ignore_errors=True)
+
+
+@contextmanager
+def held(folder: Path) -> Iterator[bool]:
+    """Holds the lock of a folder, without leaving a trace; False where the system or the file system knows no locks.
+
+    Raises `BlockingIOError` if another process holds it, `OSError` if the folder cannot be opened.
+    """
+    try:
+        import fcntl
+    except ImportError:  # no such locks on this system
+        yield False
+        return
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        locked = True
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            if error.errno not in _NO_LOCKS:
+                raise
+            locked = False
+        yield locked
+    finally:
+        os.close(handle)
+
+
+# --- what is worth keeping from one run to the next, in the user's cache folder -------------------
+# It saves time and nothing else: all of it may be deleted at any moment, several processes may write it at once, and
+# where nothing can be kept (a read-only home, a full disk, somebody else's folder) everything is worked out anew.
+
+
+def kept(name: str) -> bytes | None:
+    """What was kept under a name; None if there is nothing to be had."""
+    with suppress(OSError):
+        if (found := folder()) is not None:
+            return (found / name).read_bytes()
+    return None
+
+
+def keep(name: str, data: bytes) -> Path | None:
+    """Keep something under a name, whole or not at all; the file it stands in, None where it could not be kept."""
+    found = folder()
+    if found is None:
+        return None
+    with suppress(OSError):
+        with tempfile.NamedTemporaryFile(dir=found, prefix=f"{name}-", delete=False) as stream:
+            stream.write(data)
+        try:
+            os.replace(stream.name, found / name)
+        except OSError:
+            os.unlink(stream.name)
+            raise
+        return found / name
+    return None
+
+
+@cache
+def folder() -> Path | None:
+    """The folder that things are kept in; None where there can be none of this user's own."""
+    from platformdirs import user_cache_path
+
+    found = user_cache_path("reportgen", appauthor=False)
+    with suppress(OSError):
+        found.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if _is_private(found):
+            return found
+    return None
+
+
+def _is_private(found: Path) -> bool:
+    """Whether nobody else can have written there: what is kept is run."""
+    if not hasattr(os, "getuid"):
+        return True
+    about = found.stat()
+    return about.st_uid == os.getuid() and not about.st_mode & (stat.S_IWGRP | stat.S_IWOTH)

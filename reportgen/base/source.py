@@ -1,0 +1,424 @@
+"""The text of a YAML file as nodes that know where they stand.
+
+Nothing is constructed: a scalar stays the text that was typed, so `2011-03-24`, `1/3.6` and `no` reach
+their readers unharmed.  What the language offers beyond mappings, lists and scalars (tags, anchors,
+aliases) is a fault here.  No text, however hostile, takes more than its size in memory or a second or two: tokens,
+keys and faults are counted as they come.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
+from pathlib import Path
+from typing import Any, NoReturn
+
+import yaml
+
+from reportgen.base.errors import Fault, Mark, Where
+
+LARGEST = 400_000
+"""Bytes of a file."""
+MOST_TOKENS = 30_000
+"""Values, keys and signs of a file; a table of 5 rows of 2000 values has two thirds of them."""
+DEEPEST = 12
+MOST_KEYS = 200
+MOST_FAULTS = 100
+"""After so many faults of its syntax a file is read no further."""
+_NULL = {"", "~", "null", "Null", "NULL"}
+_SYNTAX = (
+    ("mapping values are not allowed", "syntax-colon"),
+    ("expected ',' or", "syntax-bracket"),
+    ("expected the node content", "syntax-bracket"),
+    ("unexpected end of stream", "syntax-quote"),
+    ("could not find expected ':'", "syntax-key"),
+    ("expected <block end>", "syntax-indent"),
+    ("single document", "syntax-document"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """A piece of text; `null` when nothing was written."""
+
+    text: str
+    mark: Mark
+    null: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class List:
+    items: tuple[Node, ...]
+    mark: Mark
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A mapping: its entries in the order of the file, each key once."""
+
+    entries: tuple[tuple[Scalar, Node], ...]
+    mark: Mark
+
+    def find(self, key: object) -> tuple[Scalar, Node] | None:
+        return next((entry for entry in self.entries if entry[0].text == key), None)
+
+
+Node = Scalar | List | Table
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A file as read: its top node (None if it could not be read) and the faults met on the way."""
+
+    file: str
+    text: str = ""
+    top: Node | None = None
+    faults: tuple[Fault, ...] = ()
+
+
+def read_source(path: Path) -> Source:
+    """The nodes of a file; every fault of its bytes and syntax is in `faults`, none is raised."""
+    file = str(path)
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(LARGEST + 1)
+        if len(data) > LARGEST:
+            fault = Fault("too-large", Mark(file), {"largest": str(LARGEST // 1000)})
+        elif b"\0" in data:
+            fault = Fault("binary", mark_in(data, data.index(b"\0"), file))
+        else:
+            return read_text(data.decode("utf-8-sig"), file)
+    except OSError as error:
+        fault = Fault("unreadable", Mark(file), {"reason": type(error).__name__})
+    except UnicodeDecodeError as error:
+        fault = Fault("encoding", mark_in(data, error.start, file))
+    return Source(file, faults=(fault,))
+
+
+def read_text(text: str, file: str = "") -> Source:
+    """As `read_source`, for text already at hand."""
+    tabs = tuple(islice(_tabs(text, file), MOST_FAULTS))
+    if tabs:
+        return Source(file, text, faults=tabs)
+    try:
+        loader = _Loader(text, file)
+    except yaml.reader.ReaderError as fault:
+        before = text[: fault.position].encode()
+        return Source(file, text, faults=(Fault("control-character", mark_in(before, len(before), file)),))
+    try:
+        root = loader.get_single_node()
+    except _StoppedError:
+        return Source(file, text, faults=tuple(loader.faults))
+    except yaml.MarkedYAMLError as fault:
+        return Source(file, text, faults=(*loader.faults, _syntax(fault, file)))
+    except ValueError:
+        # A number in an escape or a directive that Python refuses to read.
+        here = Mark(file, loader.line + 1, loader.column + 1)
+        return Source(file, text, faults=(*loader.faults, Fault("syntax", here)))
+    finally:
+        loader.dispose()
+    if root is None:
+        return Source(file, text, faults=(*loader.faults, Fault("empty", Mark(file))))
+    faults = [*loader.faults]
+    top = _node(root, file, faults)
+    if isinstance(top, Scalar) and top.null:
+        faults.append(Fault("empty", Mark(file)))
+    return Source(file, text, top, tuple(faults))
+
+
+def read_words(path: Path) -> Source:
+    """As `read_source`, for a file of the templates, which is trusted and long: libyaml reads it ten times faster.
+
+    What libyaml refuses, and what is more than plain nodes, is read again with care, to say where the fault is.
+    """
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError):
+        return read_source(path)
+    return read_own(text, str(path))
+
+
+def read_own(text: str, file: str = "") -> Source:
+    """As `read_text`, for text of the program's own."""
+    faults: list[Fault] = []
+    try:
+        events = yaml.parse(text, Loader=yaml.CSafeLoader)
+        if any(isinstance(event, yaml.NodeEvent) and (event.anchor or getattr(event, "tag", None)) for event in events):
+            return read_text(text, file)
+        root = yaml.compose(text, Loader=yaml.CSafeLoader)
+    except (AttributeError, yaml.YAMLError):  # a PyYAML without libyaml has no such loader
+        return read_text(text, file)
+    top = root and _node(root, file, faults)
+    return Source(file, text, top) if top and not faults else read_text(text, file)
+
+
+def plain(node: Node) -> Any:
+    """Nodes as dict, list and str; what was left empty is None."""
+    match node:
+        case Scalar(text, null=null):
+            return None if null else text
+        case List(items):
+            return [plain(item) for item in items]
+        case Table(entries):
+            return {key.text: plain(value) for key, value in entries}
+
+
+class _StoppedError(Exception):
+    """A file that is read no further; why is among the loader's faults."""
+
+
+class _Loader(yaml.SafeLoader):
+    """The safe loader, composing only, with tags, anchors, aliases, endless nesting and endless length refused."""
+
+    def __init__(self, text: str, file: str) -> None:
+        super().__init__(text)
+        self.file = file
+        self.faults: list[Fault] = []
+        self.depth = 0
+
+    def fetch_more_tokens(self) -> None:
+        if self.tokens_taken > MOST_TOKENS:
+            here = Mark(self.file, self.line + 1, self.column + 1)
+            self.stop(Fault("too-long", here, {"most": str(MOST_TOKENS)}))
+        scanner: Any = super()  # whose methods the stubs leave without types
+        scanner.fetch_more_tokens()
+
+    def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
+        parser: Any = self
+        event = parser.peek_event()
+        ends = event.start_mark, event.end_mark
+        mark = _mark(event.start_mark, self.file)
+        if isinstance(parent, yaml.MappingNode) and index is None and len(parent.value) == MOST_KEYS:
+            self.stop(Fault("too-many", mark, {"most": str(MOST_KEYS)}))
+        if isinstance(event, yaml.AliasEvent):
+            parser.get_event()
+            self.add(Fault("alias", mark))
+            return yaml.ScalarNode("tag:yaml.org,2002:null", "", *ends)
+        if getattr(event, "anchor", None):
+            self.add(Fault("alias", mark))
+            self.anchors.pop(event.anchor, None)
+        if getattr(event, "tag", None):
+            self.add(Fault("tag", mark, {"tag": str(event.tag)}))
+        self.depth += 1
+        if self.depth > DEEPEST:
+            self.stop(Fault("too-deep", mark, {"deepest": str(DEEPEST)}))
+        node = super().compose_node(parent, index)
+        self.depth -= 1
+        return node
+
+    def add(self, fault: Fault) -> None:
+        self.faults.append(fault)
+        if len(self.faults) >= MOST_FAULTS:
+            raise _StoppedError
+
+    def stop(self, fault: Fault) -> NoReturn:
+        self.faults.append(fault)
+        raise _StoppedError
+
+
+def _mark(place: yaml.Mark, file: str) -> Mark:
+    return Mark(file, place.line + 1, place.column + 1)
+
+
+def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
+    mark = _mark(node.start_mark, file)
+    if isinstance(node, yaml.SequenceNode):
+        return List(tuple(_node(item, file, faults) for item in node.value), mark)
+    if isinstance(node, yaml.MappingNode):
+        return Table(tuple(_entries(node, file, faults)), mark)
+    style = getattr(node, "style", None) or None  # libyaml calls that of a plain scalar ""
+    if style is None and "\t" in node.value:
+        faults.append(Fault("tab", mark))
+    return Scalar(node.value, mark, null=style is None and node.value in _NULL)
+
+
+def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator[tuple[Scalar, Node]]:
+    """The entries of a mapping; a key met again is a fault and is left out."""
+    seen: dict[str, Mark] = {}
+    for key_node, value_node in node.value:
+        key, value = _node(key_node, file, faults), _node(value_node, file, faults)
+        if not isinstance(key, Scalar):
+            faults.append(Fault("wrong-type", key.mark, {"expected": "text"}))
+            continue
+        name = unicodedata.normalize("NFC", key.text)
+        if name in seen:
+            faults.append(Fault("duplicate-key", key.mark, {"key": key.text, "line": str(seen[name].line)}))
+            continue
+        seen[name] = key.mark
+        yield Scalar(name, key.mark), value
+
+
+def _tabs(text: str, file: str) -> Iterator[Fault]:
+    """Tabs that stand where YAML wants blanks: in front of a line or right after a key."""
+    for number, line in enumerate(re.split(r"\r\n|\r|\n", text), start=1):
+        if match := re.match(r" *(?:[\w.-]+:)?(\t)", line):
+            yield Fault("tab", Mark(file, number, match.start(1) + 1))
+
+
+def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:
+    place = fault.problem_mark or fault.context_mark
+    mark = _mark(place, file) if place else Mark(file)
+    problem = f"{fault.context or ''} {fault.problem or ''}"
+    if "'\\t'" in problem:
+        return Fault("tab", mark)
+    hint = next((key for words, key in _SYNTAX if words in problem), "syntax")
+    return Fault("syntax", mark, {"hint": hint})
+
+
+def mark_in(data: bytes, offset: int, file: str) -> Mark:
+    """The place of a byte; columns count characters."""
+    before = data[:offset]
+    start = before.rfind(b"\n") + 1
+    return Mark(file, before.count(b"\n") + 1, len(before[start:].decode("utf-8", "replace")) + 1)
+
+
+# --- assignment files with values put into them ---------------------------------------------------
+# First as nodes, then as text.
+# What was not changed stays as it stands in the source, comments included, wherever a key has lines of its own; the
+# rest is written anew. `text_of` reads its own text again: a form it could not keep is written anew as a whole.
+
+WIDTH = 100
+_PLAIN = re.compile(r"[^\W\d_][\w/^²³⁴·.@-]*( [\w/^²³⁴·.@-]+)*|[+-]?[0-9.][\w./^²³⁴·+-]*( [\w./^²³⁴·*+-]+)*")
+_RESERVED = re.compile(r"(~|null|true|false|yes|no|on|off|)", re.IGNORECASE)
+_ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r"}
+
+
+def at(node: Node | None, where: Where) -> Node | None:
+    """The node at a place; None if there is none."""
+    for step in where:
+        if isinstance(node, Table):
+            entry = node.find(step)
+            node = entry[1] if entry else None
+        elif isinstance(node, List) and isinstance(step, int) and step < len(node.items):
+            node = node.items[step]
+        else:
+            return None
+    return node
+
+
+def put(node: Node, where: Where, value: Node) -> Node:
+    """The node with `value` at a place; missing tables on the way are made, lists are not made longer."""
+    if not where:
+        return value
+    step, rest = where[0], where[1:]
+    if isinstance(node, List):
+        items = tuple(put(item, rest, value) if k == step else item for k, item in enumerate(node.items))
+        return replace(node, items=items)
+    entries = node.entries if isinstance(node, Table) else ()
+    if step not in [key.text for key, _ in entries]:
+        entries = (*entries, (Scalar(str(step), value.mark), Table((), value.mark)))
+    changed = tuple((key, put(old, rest, value) if key.text == step else old) for key, old in entries)
+    return Table(changed, node.mark)
+
+
+def without(table: Table, keys: Collection[str]) -> Table:
+    """The table without some of its keys."""
+    return replace(table, entries=tuple(entry for entry in table.entries if entry[0].text not in keys))
+
+
+def path_text(where: Where) -> str:
+    """A place as users write it: parameters.H, parameters.groups.0.length."""
+    return ".".join(map(str, where))
+
+
+def text_of(table: Table, source: str, original: Table) -> str:
+    """The file of a table whose unchanged parts are those of `original`, which was read from `source`."""
+    kept = _block(table, original, source.splitlines(), 0)
+    read = read_own(kept)
+    agrees = not read.faults and read.top is not None and plain(read.top) == plain(table)
+    return kept if agrees else _lines(table, 0)
+
+
+def quoted(text: str) -> str:
+    """A scalar of YAML that is read as exactly this text."""
+    if _PLAIN.fullmatch(text) and not _RESERVED.fullmatch(text):
+        return text
+    return f'"{"".join(map(_escaped, text))}"'
+
+
+def _escaped(letter: str) -> str:
+    if letter in _ESCAPES:
+        return _ESCAPES[letter]
+    if letter.isprintable():
+        return letter
+    return f"\\u{ord(letter):04x}" if ord(letter) < 0x10000 else f"\\U{ord(letter):08x}"
+
+
+def _block(table: Table, original: Table, lines: Sequence[str], depth: int) -> str:
+    """A table in block form: entries that are the very ones of the source by their lines, others anew."""
+    spans = _spans(original, lines)
+    text = ""
+    for key, value in table.entries:
+        entry = original.find(key.text)
+        span = spans.get(key.text)
+        if entry is None or span is None:
+            # Before the blank lines that separate this table from what follows it.
+            full = text.rstrip("\n") + "\n" if text.strip() else text
+            text = full + _entry(key, value, depth) + text[len(full) :]
+        elif value is entry[1]:
+            text += _joined(span)
+        elif isinstance(value, Table) and isinstance(entry[1], Table) and _is_block(entry[0], entry[1]):
+            start = entry[0].mark.line - 1
+            text += _joined(lines[start : entry[1].mark.line - 1])
+            text += _block(value, entry[1], lines[: start + len(span)], entry[1].mark.column - 1)
+        else:
+            text += _with_comment(_entry(key, value, depth), span, value)
+    return text
+
+
+def _joined(lines: Sequence[str]) -> str:
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _is_block(key: Scalar, table: Table) -> bool:
+    return bool(table.entries) and table.mark.line > key.mark.line and table.mark == table.entries[0][0].mark
+
+
+def _spans(table: Table, lines: Sequence[str]) -> dict[str, Sequence[str]]:
+    """The lines of each entry, up to the next; none for entries that share lines."""
+    keys = [key for key, _ in table.entries]
+    starts = [key.mark.line for key in keys]
+    shared = any(lines[key.mark.line - 1][: key.mark.column - 1].strip() for key in keys)
+    if not keys or shared or len(set(starts)) < len(starts):
+        return {}
+    ends = [*(line - 1 for line in starts[1:]), len(lines)]
+    return {key.text: lines[start - 1 : end] for key, start, end in zip(keys, starts, ends, strict=True)}
+
+
+def _with_comment(entry: str, span: Sequence[str], value: Node) -> str:
+    """An entry written anew, with the comment of its old line and the lines of comment after it."""
+    after = []
+    for line in reversed(span[1:]):
+        if line.strip() and not line.lstrip().startswith("#"):
+            break
+        after.append(line)
+    comment = re.search(r"\s+#[^'\"]*$", span[0]) if isinstance(value, Scalar) else None
+    return _joined([entry.rstrip("\n") + (comment[0] if comment else ""), *reversed(after)])
+
+
+def _entry(key: Scalar, value: Node, depth: int) -> str:
+    """A key and its value, in one line if that is short."""
+    name, space = quoted(key.text), " " * depth
+    flow = _flow(value)
+    if isinstance(value, Scalar) or len(space) + len(name) + len(flow) + 2 <= WIDTH:
+        return f"{space}{name}: {flow}".rstrip() + "\n"
+    if isinstance(value, Table):
+        return f"{space}{name}:\n{_lines(value, depth + 2)}"
+    return _joined([f"{space}{name}:", *(f"{space}  - {_flow(item)}" for item in value.items)])
+
+
+def _lines(table: Table, depth: int) -> str:
+    return "".join(_entry(key, value, depth) for key, value in table.entries)
+
+
+def _flow(node: Node) -> str:
+    match node:
+        case Scalar(text, null=null):
+            return "" if null else quoted(text)
+        case List(items):
+            return f"[{', '.join(_flow(item) for item in items)}]"
+        case Table(entries):
+            return "{" + ", ".join(f"{quoted(key.text)}: {_flow(value)}".rstrip() for key, value in entries) + "}"

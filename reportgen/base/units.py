@@ -1,0 +1,247 @@
+"""Quantities at the edge: text with a unit becomes a number in SI, and keeps what was typed.
+
+pint knows the units; since it takes 0.3 s to import, the few spellings nearly every file uses are also
+kept in `PLAIN`, which a test holds equal to pint.  Angles are a dimension of their own here, so that a
+bare `60` is no angle and `Hz` is no rotational speed.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from decimal import ROUND_HALF_UP, Decimal
+from functools import cache
+from typing import Any, Literal
+
+Dimension = tuple[tuple[str, float], ...]
+"""Powers of the SI base units by name, sorted: ((“kilogram”, 1), (“meter”, 1), (“second”, −2))."""
+
+_LENGTH: Dimension = (("meter", 1),)
+_ANGLE: Dimension = (("radian", 1),)
+_SPEED: Dimension = (("radian", 1), ("second", -1))
+_MASS: Dimension = (("kilogram", 1),)
+_FORCE: Dimension = (("kilogram", 1), ("meter", 1), ("second", -2))
+_PRESSURE: Dimension = (("kilogram", 1), ("meter", -1), ("second", -2))
+_INERTIA: Dimension = (("kilogram", 1), ("meter", 2))
+_MOMENT: Dimension = (("kilogram", 1), ("meter", 2), ("second", -2))
+_TIME: Dimension = (("second", 1),)
+_VELOCITY: Dimension = (("meter", 1), ("second", -1))
+_ACCELERATION: Dimension = (("meter", 1), ("second", -2))
+_ANGULAR_ACCELERATION: Dimension = (("radian", 1), ("second", -2))
+
+PLAIN: Mapping[str, tuple[float, Dimension]] = {
+    "m": (1.0, _LENGTH),
+    "cm": (1e-2, _LENGTH),
+    "mm": (1e-3, _LENGTH),
+    "deg": (math.pi / 180, _ANGLE),
+    "rad": (1.0, _ANGLE),
+    "rpm": (math.pi / 30, _SPEED),
+    "rad/s": (1.0, _SPEED),
+    "kg": (1.0, _MASS),
+    "N": (1.0, _FORCE),
+    "kN": (1e3, _FORCE),
+    "Pa": (1.0, _PRESSURE),
+    "MPa": (1e6, _PRESSURE),
+    "bar": (1e5, _PRESSURE),
+    "N/cm2": (1e4, _PRESSURE),
+    "kg m2": (1.0, _INERTIA),
+    "N m": (1.0, _MOMENT),
+    "s": (1.0, _TIME),
+    "m/s": (1.0, _VELOCITY),
+    "cm/s": (1e-2, _VELOCITY),
+    "mm/s": (1e-3, _VELOCITY),
+    "m/s2": (1.0, _ACCELERATION),
+    "cm/s2": (1e-2, _ACCELERATION),
+    "mm/s2": (1e-3, _ACCELERATION),
+    "rad/s2": (1.0, _ANGULAR_ACCELERATION),
+}
+"""SI factor and dimension of the commonest spellings: those of all units that files are asked for among them."""
+
+NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+UNIT = r"[A-Za-zµμ°Ω][A-Za-z0-9µμ°Ω²³⁴⁻¹ */^()·⋅.+-]*"
+
+_QUANTITY = re.compile(rf"({NUMBER})\s*({UNIT})?")
+_RATIO = re.compile(rf"({NUMBER})\s*(?:/\s*({NUMBER}))?")
+_COMMA = re.compile(r"([+-]?[0-9]+),([0-9].*)", re.DOTALL)
+_NOT_FINITE = re.compile(r"[+-]?\.?(?:inf|infinity|nan)\b.*", re.IGNORECASE | re.DOTALL)
+_LONGEST = 60
+_TOWER = re.compile(r"[0-9]{2}|[0-9²³⁴¹][\s)]*(?:\^|\*\s*\*|[²³⁴⁻¹])")
+"""Powers no unit has: of two digits, or of a power, which take for ever to work out (m^9^9^9)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A quantity as it was given: `si` for computing; `value`, `unit` and `text` as typed."""
+
+    si: float
+    value: float
+    unit: str = ""
+    text: str = ""
+
+
+class QuantityFault(ValueError):
+    """Text that is no quantity of the kind asked for; `code` and `arguments` name a message."""
+
+    def __init__(self, code: str, **arguments: str) -> None:
+        super().__init__(code)
+        self.code = code
+        self.arguments = arguments
+
+
+def read_number(text: str) -> float:
+    """A finite number; raises `QuantityFault` (decimal-comma, not-finite, unexpected-unit, not-a-number)."""
+    return read_ratio(text, fractions=False).si
+
+
+def read_ratio(text: str, *, fractions: bool = True) -> Given:
+    """A number without unit, `0.35` or (with `fractions`) `1/3.6`; raises `QuantityFault`."""
+    cleaned = _cleaned(text)
+    match = _RATIO.fullmatch(cleaned)
+    if match is None or (match[2] and not fractions):
+        if _QUANTITY.fullmatch(cleaned):
+            raise QuantityFault("unexpected-unit", text=text)
+        raise QuantityFault("not-a-number", text=text)
+    bottom = float(match[2]) if match[2] else 1.0
+    value = float(match[1]) / bottom if bottom else math.inf
+    if not math.isfinite(value):
+        raise QuantityFault("not-finite", text=text)
+    return Given(value, value, "", text)
+
+
+def read_quantity(text: str, unit: str) -> Given:
+    """A quantity of the dimension of `unit`; raises `QuantityFault` (also missing-, wrong-, unknown-unit)."""
+    cleaned = _cleaned(text)
+    match = _QUANTITY.fullmatch(cleaned)
+    if match is None:
+        raise QuantityFault("not-a-number", text=text)
+    if not match[2]:
+        raise QuantityFault("missing-unit", text=text, unit=unit)
+    value, factor = float(match[1]), read_unit(match[2], unit)
+    if not math.isfinite(value * factor):
+        raise QuantityFault("not-finite", text=text)
+    return Given(value * factor, value, match[2], text)
+
+
+def read_unit(text: str, unit: str) -> float:
+    """The SI factor of a unit of the same dimension as `unit`; raises `QuantityFault`."""
+    try:
+        factor, dimension = scale(text.strip())
+    except ValueError:
+        raise QuantityFault("unknown-unit", given=text, unit=unit) from None
+    if dimension != scale(unit)[1]:
+        raise QuantityFault("wrong-unit", given=text, unit=unit)
+    return factor
+
+
+def scale(unit: str) -> tuple[float, Dimension]:
+    """SI factor and dimension of a unit's text; raises `ValueError` for one that nobody knows."""
+    return PLAIN[unit] if unit in PLAIN else scale_by_pint(unit)
+
+
+@cache
+def scale_by_pint(unit: str) -> tuple[float, Dimension]:
+    """As `scale`, always by pint; `m2`, `m²`, `kg·m2` and `kg.m2` are understood."""
+    if not re.fullmatch(UNIT, unit) or len(unit) > _LONGEST or _TOWER.search(unit):
+        raise ValueError(unit)
+    spelled = re.sub(r"(?<=[A-Za-z)])\s*[.·⋅]\s*(?=[A-Za-z(])", " ", unit)
+    spelled = re.sub(r"(?<=[A-Za-zµμΩ])(?=[+-]?[0-9])", "**", spelled)
+    registry = _registry()
+    try:
+        factor, base = registry.get_base_units(registry.parse_units(spelled))
+    # pint's parser answers nonsense with whatever breaks first: syntax, assertion, type, undefined unit.
+    except Exception:
+        raise ValueError(unit) from None
+    return float(factor), tuple(sorted((str(name), float(power)) for name, power in base._units.items()))
+
+
+@cache
+def _registry() -> Any:
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def _cleaned(text: str) -> str:
+    """The text without outer blanks, its minus sign plain; raises for what can be no number at all."""
+    cleaned = text.strip().replace("\N{MINUS SIGN}", "-")
+    if len(cleaned) > _LONGEST:
+        raise QuantityFault("not-a-number", text=text)
+    if match := _COMMA.fullmatch(cleaned):
+        raise QuantityFault("decimal-comma", text=text, fixed=f"{match[1]}.{match[2]}")
+    if _NOT_FINITE.fullmatch(cleaned):
+        raise QuantityFault("not-finite", text=text)
+    return cleaned
+
+
+# --- rounding and writing of numbers --------------------------------------------------------------
+# Decimal comma or point, no negative zero, no rounding dust.
+
+Language = Literal["vi", "en"]
+
+MINUS = "\N{MINUS SIGN}"
+
+
+def rounded(value: float, decimals: int) -> Decimal:
+    """`value` rounded half up (as by hand) to `decimals`; never a negative zero.
+
+    Rounding starts from the shortest decimal form of the float, so 2.675 becomes 2.68.
+    """
+    quantum = Decimal(1).scaleb(-decimals)
+    result = Decimal(repr(float(value))).quantize(quantum, rounding=ROUND_HALF_UP)
+    return abs(result) if result == 0 else result
+
+
+def printed(value: float, decimals: int) -> float:
+    """The number a reader sees: `value` rounded to `decimals`."""
+    return float(rounded(value, decimals))
+
+
+def write(value: float, decimals: int | None, language: Language) -> str:
+    """The text of a number: fixed `decimals`, or the shortest exact form when None.
+
+    The Vietnamese text has a decimal comma; both use a true minus sign and no thousands mark.
+    """
+    if not math.isfinite(value):
+        return "–"
+    if decimals is None:
+        number = Decimal(repr(float(value))).normalize()
+        number = abs(number) if number == 0 else number
+    else:
+        number = rounded(value, decimals)
+    text = f"{number:f}".replace("-", MINUS)
+    return text.replace(".", ",") if language == "vi" else text
+
+
+def significant_decimals(value: float, digits: int) -> int:
+    """Decimals that show `value` with `digits` significant figures; 0 for a value of zero."""
+    if value == 0 or not math.isfinite(value):
+        return 0
+    return digits - 1 - math.floor(math.log10(abs(value)))
+
+
+SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
+"""Scales one measures with are these times a power of ten."""
+
+
+def nice_up(value: float, series: Sequence[float] = SERIES) -> float:
+    """The smallest s·10ⁿ, s of the series, that is not below `value`.
+
+    Raises `ValueError` unless `value` is positive and finite.
+    """
+    if not (value > 0 and math.isfinite(value)):
+        raise ValueError("a scale is a positive number")
+    decade = math.floor(math.log10(value))
+    choices = (float(f"{step}e{power}") for power in (decade, decade + 1, decade + 2) for step in sorted(series))
+    # A value that is a member but for its last binary digits is that member.
+    return next(choice for choice in choices if choice >= value * (1 - 1e-12))
+
+
+def nice_down(value: float, series: Sequence[float] = SERIES) -> float:
+    """The largest s·10ⁿ, s of the series, that is not above `value`; raises `ValueError` as `nice_up` does."""
+    if not (value > 0 and math.isfinite(value)):
+        raise ValueError("a scale is a positive number")
+    decade = math.floor(math.log10(value))
+    choices = (float(f"{step}e{power}") for power in (decade + 1, decade, decade - 1) for step in sorted(series)[::-1])
+    return next(choice for choice in choices if choice <= value * (1 + 1e-12))

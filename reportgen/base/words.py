@@ -1,0 +1,334 @@
+"""Every word that is not in a template: texts of faults and of the command line, short words of the reports.
+
+They are YAML in `templates/`: `<language>/messages.yaml` has what the program itself says, `<language>/words.yaml`
+what its documents say; those of a school and of one kind of machine, sections `words` of their files, go before the
+common ones.
+"""
+
+from __future__ import annotations
+
+import difflib
+import unicodedata
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, lru_cache, reduce
+from hashlib import sha256
+from importlib import metadata
+from itertools import pairwise
+from pathlib import Path
+from string import Formatter
+from typing import Any
+
+from reportgen.base.errors import AssignmentError, Fault, Mark, Problem, TemplateError
+from reportgen.base.source import Source, Table, plain, read_own, read_words
+from reportgen.base.units import Language
+
+DEFAULT_LANGUAGE: Language = "vi"
+LONGEST_SHOWN = 40
+"""How much of the file a message repeats, in characters."""
+
+FILE = "words.yaml"
+SECTION = "words"
+FILES = 32
+"""How many tables of words are kept."""
+
+
+@cache
+def version() -> str:
+    """The version as installed; "0" in a checkout that is not installed."""
+    try:
+        return metadata.version("reportgen")
+    except metadata.PackageNotFoundError:
+        return "0"
+
+
+def templates() -> Path:
+    """The folder of words and frames: packed into the package, or beside it in a checkout."""
+    package = Path(__file__).resolve().parents[1]
+    packed = package / "templates"
+    return packed if packed.is_dir() else package.parent / "templates"
+
+
+def templates_hash() -> str:
+    """SHA-256 of the names and contents of all templates, those of schools included, in sorted order."""
+    root = templates()
+    digest = sha256()
+    for path in sorted(path for path in root.rglob("*") if path.is_file()):
+        for part in (path.relative_to(root).as_posix().encode(), path.read_bytes()):
+            digest.update(len(part).to_bytes(8, "big") + part)
+    return digest.hexdigest()
+
+
+def schools() -> list[str]:
+    """The folders of templates that belong to a school, such as `tnut` with its `vi.md` and `en.md`."""
+    return sorted(
+        folder.name
+        for folder in templates().iterdir()
+        if folder.name not in {"vi", "en", "frames"} and any((folder / f"{name}.md").is_file() for name in ("vi", "en"))
+    )
+
+
+def search_path(language: Language, kind: str = "", school: str = "", root: Path | None = None) -> tuple[Path, ...]:
+    """The places in which sections and words are looked for; the first that has a name wins.
+
+    The file of a school, then that of one kind of machine, then the folder of the language.
+    """
+    root = root or templates()
+    return (
+        *((root / school / f"{language}.md",) if school else ()),
+        *((kind_file(language, kind, root),) if kind else ()),
+        root / language,
+    )
+
+
+def kind_file(language: Language, kind: str, root: Path | None = None) -> Path:
+    """The file with all words of one kind of machine."""
+    return (root or templates()) / language / MACHINES / f"{kind}.md"
+
+
+def load_words(places: Sequence[Path]) -> Mapping[str, Any]:
+    """All words found in `places` (see `search_path`): tables of tables, lists and words.
+
+    A place nearer on the search path need only hold the words it changes.  Raises `TemplateError` with
+    file and line for what cannot be read, and where no place has any.
+    """
+    tables = [table for place in reversed(places) if (table := _words_in(place)) is not None]
+    if not tables:
+        raise TemplateError(f"{places[-1]}: there are no words here")
+    return reduce(_over, tables)
+
+
+def _words_in(place: Path) -> Mapping[str, Any] | None:
+    """The words of a file of sections or of a folder."""
+    if place.suffix == ".md":
+        section = sections(place).get(SECTION)
+        return None if section is None else _as_written(section)
+    return _read(place / FILE) if (place / FILE).is_file() else None
+
+
+def _read(path: Path) -> Mapping[str, Any]:
+    about = path.stat()
+    return _as_of(path, about.st_mtime_ns, about.st_size)
+
+
+@lru_cache(maxsize=FILES)
+def _as_of(path: Path, changed: int, size: int) -> Mapping[str, Any]:
+    """A file's words, read once for as long as it stays the same; nobody changes them."""
+    return _table(read_words(path))
+
+
+@lru_cache(maxsize=FILES)
+def _as_written(section: Passage) -> Mapping[str, Any]:
+    """The words that a section holds."""
+    return _table(read_own(section.text, str(section.file)), section.line)
+
+
+def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
+    """The table that a file is, or the part of one below its first lines."""
+    if source.faults:
+        raise TemplateError("\n".join(f"{_below(fault.mark, above)}: {fault.code}" for fault in source.faults))
+    if not isinstance(source.top, Table):
+        raise TemplateError(f"{_below(Mark(source.file), above)}: a table of words is wanted here")
+    content: Mapping[str, Any] = plain(source.top)
+    return content
+
+
+def _below(mark: Mark, above: int) -> Mark:
+    return replace(mark, line=mark.line + above)
+
+
+def _over(below: Mapping[str, Any], above: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Both tables in one; where both have a word, the one `above`, whose words also come first."""
+    result: dict[str, Any] = {}
+    for key, value in above.items():
+        both_tables = isinstance(value, Mapping) and isinstance(below.get(key), Mapping)
+        result[key] = _over(below[key], value) if both_tables else value
+    return result | {key: value for key, value in below.items() if key not in result}
+
+
+@cache
+def messages(language: Language) -> Mapping[str, Any]:
+    """The message table: `faults`, `hints`, `words` (kinds of value, reasons), `columns` and `cli`."""
+    return _read(templates() / language / "messages.yaml")
+
+
+def word(key: str, language: Language | None, /, **arguments: object) -> str:
+    """A text of the command line with its arguments filled in."""
+    return str(messages(language or DEFAULT_LANGUAGE)["cli"][key]).format(**arguments)
+
+
+def counted(key: str, language: Language | None, count: int, /, **arguments: object) -> str:
+    """A text of the command line that counts something; for one it has words of its own, under `key`_one."""
+    return word(f"{key}_one" if count == 1 else key, language, count=count, **arguments)
+
+
+def unexpected(error: BaseException, language: Language | None) -> str:
+    """A fault of the program itself, in one line."""
+    return word("unexpected", language, name=type(error).__name__, text=" ".join(str(error).split()))
+
+
+def as_problem(fault: Fault, language: Language | None) -> Problem:
+    """The fault in words; its hint is given when the arguments it speaks of are known."""
+    table = messages(language or DEFAULT_LANGUAGE)
+    # What is known is the program's own, and told in full.
+    arguments = {name: text if name == "known" else _shown(text) for name, text in fault.arguments.items()}
+    for name in arguments.keys() & {"expected", "reason"}:
+        arguments[name] = str(table["words"].get(fault.arguments[name], arguments[name]))
+    message = str(table["faults"][fault.code]).format_map(arguments)
+    # The hint that was asked for, then the code's own and its second form.
+    keys = (fault.arguments.get("hint"), fault.code, f"{fault.code}-otherwise")
+    hints = (str(table["hints"][key]) for key in keys if table["hints"].get(key))
+    hint = next((hint for hint in hints if _fields(hint) <= arguments.keys()), None)
+    return Problem(fault.code, message, fault.mark, hint.format_map(arguments) if hint else None)
+
+
+def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentError:
+    """The error that carries these faults in words, each once."""
+    return AssignmentError(list(dict.fromkeys(as_problem(fault, language) for fault in faults)))
+
+
+def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
+    """What to say of an unknown key: the known one it was probably meant to be, or all that are known."""
+    same = [name for name in known if name.casefold() == key.casefold()]
+    close = difflib.get_close_matches(key, known, n=1, cutoff=0.6) or same
+    return {"close": close[0]} if close else {"known": ", ".join(known)}
+
+
+def _fields(template: str) -> set[str]:
+    return {name for _, name, _, _ in Formatter().parse(template) if name}
+
+
+def _shown(text: str) -> str:
+    """A piece of the file as it can stand in a message: one line, no control characters, not endless."""
+    clean = "".join("\N{REPLACEMENT CHARACTER}" if unicodedata.category(c) in {"Cc", "Cs"} else c for c in text)
+    return clean if len(clean) <= LONGEST_SHOWN else f"{clean[:LONGEST_SHOWN]}…"
+
+
+# --- words by sections ----------------------------------------------------------------------------
+# A file has many, each behind a line `%% name`, in the order in which they are read.
+# A machine's words and a school's are one file a language; those that all machines share are a folder, in which
+# `report.md` has the section `foreword`, and `dyads.md` the section `RRR-forces` of the name `dyads/RRR-forces`.
+
+HEADING = "%%"
+MACHINES = "catalogue"
+"""The folder beside `report.md` with a file for each kind of machine or exercise."""
+
+KEPT_FILES = 128
+"""How many files are kept."""
+
+
+@dataclass(frozen=True, slots=True)
+class Passage:
+    """The words of a section, which begin on the line below its heading in line `line` of the file."""
+
+    file: Path
+    line: int
+    text: str
+
+
+def sections(file: Path) -> Mapping[str, Passage]:
+    """The sections of a file by their names, in its order; none if there is no such file.
+
+    What stands before the first is a note about the file, and blank lines between two belong to neither.  Raises
+    `TemplateError` with file and line for a name that is empty or met again and for what cannot be read.
+    """
+    try:
+        about = file.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        return {}
+    return _sections_of(file, about.st_mtime_ns, about.st_size)
+
+
+def find(name: str, places: Sequence[Path]) -> Passage | None:
+    """The section of this name in the first of some places (files, folders) that has it."""
+    found = (sections(file).get(section) for file, section in (home(name, place) for place in places))
+    return next(filter(None, found), None)
+
+
+def home(name: str, place: Path) -> tuple[Path, str]:
+    """The file in which the section `name` would stand in a place, and what it would be called there."""
+    if place.suffix == ".md":
+        return place, name
+    file, _, section = name.rpartition("/")
+    return place / f"{file or 'report'}.md", section
+
+
+def refuse_strangers(places: Sequence[Path]) -> None:
+    """Raise `TemplateError` for a section of a school that no report in the language (the last place) has.
+
+    It would never be read: its name is misspelt, or is that of an older version.
+    """
+    language = places[-1]
+    for file in places:
+        if file.is_relative_to(language):
+            continue
+        known = set(_names(language))
+        for name, section in sections(file).items():
+            if name not in known:
+                raise TemplateError(f"{file}:{section.line}: no report has a section {name}")
+
+
+def _names(language: Path) -> Iterator[str]:
+    """The names of all sections of a language, those of the machines included."""
+    for file in language.glob("*.md"):
+        yield from (name if file.stem == "report" else f"{file.stem}/{name}" for name in sections(file))
+    for file in (language / MACHINES).glob("*.md"):
+        yield from sections(file)
+
+
+@lru_cache(maxsize=KEPT_FILES)
+def _sections_of(file: Path, changed: int, size: int) -> Mapping[str, Passage]:
+    """The sections of a file, read once for as long as it stays the same."""
+    try:
+        lines = file.read_text(encoding="utf-8-sig").split("\n")
+    except (OSError, UnicodeDecodeError) as error:
+        raise TemplateError(f"{file}:1: {error}") from error
+    headings = [number for number, line in enumerate(lines, start=1) if line.startswith(HEADING)]
+    found: dict[str, Passage] = {}
+    for number, end in pairwise([*headings, len(lines) + 1]):
+        name = lines[number - 1].removeprefix(HEADING).strip()
+        if not name:
+            raise TemplateError(f"{file}:{number}: a section has a name, as in {HEADING} given")
+        if name in found:
+            raise TemplateError(f"{file}:{number}: the section {name} is there already, in line {found[name].line}")
+        found[name] = Passage(file, number, "\n".join(lines[number : end - 1]).rstrip("\n") + "\n")
+    return found
+
+
+# --- which kinds of assignments there are ---------------------------------------------------------
+# What each is called, and a file to begin with: all without any mathematics.
+
+SAMPLE = "new"
+"""The section of a kind's words with the file to begin with."""
+
+
+@cache
+def kinds() -> Mapping[str, str]:
+    """The module of every kind, dotted, by the name that stands in a file, in alphabetical order.
+
+    A kind is a module in a room of the package that is called as its words are; in the catalogue before any other room.
+    """
+    package = Path(__file__).parents[1]
+    modules = sorted(package.glob("*/*.py"), key=lambda path: path.parent.name == "catalogue")
+    named = {path.stem.replace("_", "-"): f"{package.name}.{path.parent.name}.{path.stem}" for path in modules}
+    return {kind: named[kind] for kind in sorted(named) if kind_file("vi", kind).is_file()}
+
+
+def title(name: str, language: Language) -> str:
+    """The line of description of a kind, from its words."""
+    return str(load_words((kind_file(language, name),))["title"])
+
+
+def titles(language: Language) -> dict[str, str]:
+    """Each kind with its line of description."""
+    return {name: title(name, language) for name in kinds()}
+
+
+def sample(name: str, language: Language) -> str:
+    """The commented assignment file to fill in of a kind; raises `KeyError`, `TemplateError` where it has none."""
+    if name not in kinds():
+        raise KeyError(name)
+    file = kind_file(language, name)
+    if (section := sections(file).get(SAMPLE)) is None:
+        raise TemplateError(f"{file}:1: there is no section {SAMPLE}")
+    return section.text

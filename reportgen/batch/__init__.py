@@ -1,1 +1,0 @@
-"""A class at once: roster and spec in, one assignment file a student out."""

@@ -1,0 +1,183 @@
+"""Which variant each student gets: from SHA-256 alone, the same on any machine and in any version.
+
+The value of one parameter is choice number d mod n of its n choices in the order of the spec, where d is the
+SHA-256, read as one big-endian number, of the UTF-8 text
+
+    reportgen-draw/1 ␀ ASSIGNMENT ␀ SALT ␀ STUDENT ␀ PARAMETER ␀ ATTEMPT
+
+in which ␀ is one NUL character and nothing stands around it; ASSIGNMENT is the stem of the spec's file, SALT its
+`salt` (without one its `variant`), STUDENT the id (NFC), PARAMETER the path ("parameters.H"; "variants" for the
+row of a table; "scan" see below) and ATTEMPT a decimal number from 0.
+
+A combination that fails, or that another student has, is drawn again with the next attempt.  Students draw in the
+order of the roster, so a clash moves only the later of two, and whoever is added at the end moves nobody.  After
+`ATTEMPTS` the combinations are tried in order from number d mod (their number) on, PARAMETER "scan" and ATTEMPT 0:
+the first that nobody has is taken, else the first of those that fewest have.  So nobody shares before all usable
+combinations are taken (of more than `MOST_TRIED`, before that many have been tried), and then all are shared evenly.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import unicodedata
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+
+from reportgen import catalogue
+from reportgen.base.errors import Fault
+from reportgen.base.source import path_text
+from reportgen.cases import opened
+from reportgen.classes.roster import Roster, Student
+from reportgen.classes.spec import DRAWN_SECTIONS, Settings, Spec, place
+
+ATTEMPTS = 64
+MOST_TRIED = 4096
+MOST_REASONS = 3
+FORMAT = "reportgen-draw/1"
+
+Judge = Callable[[Settings], tuple[Fault, ...]]
+"""Finds what is wrong with the assignment of some values; nothing if it is usable."""
+Combination = tuple[int, ...]
+Key = frozenset[tuple[str, str]]
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A student's values: of the combination drawn, and over them those of the roster."""
+
+    student: Student
+    combination: Combination
+    settings: Settings
+
+
+def pick(assignment: str, salt: str, student: str, parameter: str, attempt: int, count: int) -> int:
+    """The index, 0…`count` − 1, that a student draws."""
+    text = "\0".join((FORMAT, assignment, salt, unicodedata.normalize("NFC", student), parameter, str(attempt)))
+    return int.from_bytes(hashlib.sha256(text.encode()).digest(), "big") % count
+
+
+@dataclass(slots=True)
+class Draw:
+    """A draw under way: how often each variant is taken, how each was judged, and what makes the draw impossible."""
+
+    spec: Spec
+    judge: Judge
+    taken: Counter[Key] = field(default_factory=Counter)
+    judged: dict[Key, tuple[Fault, ...]] = field(default_factory=dict)
+    keys: dict[Combination, Key] = field(default_factory=dict)
+    faults: list[Fault] = field(default_factory=list)
+
+    def each(self, roster: Roster) -> Iterator[Drawn]:
+        """The students' variants in the order of the roster; nobody's counts if there are `faults` in the end."""
+        for student in roster.students:
+            one = self._draw_for(student)
+            if one is not None:
+                self.taken[self._key(student, one.combination)] += 1
+                yield one
+            elif student.overrides:
+                self.faults += self._faults_of_roster(student)
+            else:
+                # No combination is usable: no other student could get one either.
+                tried = {"count": str(min(self.spec.size, MOST_TRIED)), "size": str(self.spec.size)}
+                self.faults = [Fault("no-variant", self.spec.mark, tried), *self._reasons(student)]
+                return
+
+    @property
+    def usable(self) -> int | None:
+        """The number of usable variants where all of them are taken and some are shared, else None."""
+        return len(self.taken) if any(count > 1 for count in self.taken.values()) else None
+
+    def _draw_for(self, student: Student) -> Drawn | None:
+        for combination in self._attempts(student):
+            if not self.taken[self._key(student, combination)] and not self._faults(student, combination):
+                return self._drawn(student, combination)
+        found: Combination | None = None
+        fewest = 0
+        for combination in self._in_order(student):
+            if self._faults(student, combination):
+                continue
+            count = self.taken[self._key(student, combination)]
+            if found is None or count < fewest:
+                found, fewest = combination, count
+            if not count:
+                break
+        return None if found is None else self._drawn(student, found)
+
+    def _drawn(self, student: Student, combination: Combination) -> Drawn:
+        return Drawn(student, combination, self._settings(student, combination))
+
+    def _attempts(self, student: Student) -> Iterator[Combination]:
+        spec = self.spec
+        for attempt in range(ATTEMPTS):
+            yield tuple(
+                pick(spec.name, spec.salt, student.id, axis.name, attempt, len(axis.choices)) for axis in spec.axes
+            )
+
+    def _in_order(self, student: Student) -> Iterator[Combination]:
+        spec, size = self.spec, self.spec.size
+        start = pick(spec.name, spec.salt, student.id, "scan", 0, size)
+        for step in range(min(size, MOST_TRIED)):
+            yield spec.combination((start + step) % size)
+
+    def _settings(self, student: Student, combination: Combination) -> Settings:
+        overridden = {place(self.spec.kind, name): value for name, value in student.overrides.items()}
+        return {**self.spec.settings(combination), **overridden}
+
+    def _key(self, student: Student, combination: Combination) -> Key:
+        """That of a student without values of his or her own is found once a combination."""
+        if student.overrides:
+            return _key(self._settings(student, combination))
+        if combination not in self.keys:
+            self.keys[combination] = _key(self._settings(student, combination))
+        return self.keys[combination]
+
+    def _faults(self, student: Student, combination: Combination) -> tuple[Fault, ...]:
+        key = self._key(student, combination)
+        if key not in self.judged:
+            self.judged[key] = self.judge(self._settings(student, combination))
+        return self.judged[key]
+
+    def _reasons(self, student: Student) -> list[Fault]:
+        """Why the first combinations fail."""
+        found: dict[tuple[str, str], Fault] = {}
+        for combination in self._attempts(student):
+            for fault in self._faults(student, combination):
+                found.setdefault((fault.code, str(fault.mark)), fault)
+            if len(found) >= MOST_REASONS:
+                break
+        return list(found.values())[:MOST_REASONS]
+
+    def _faults_of_roster(self, student: Student) -> list[Fault]:
+        """The reasons at the cells of the student's own values, or else the first reason at the first cell."""
+        cells = [value.mark for value in student.overrides.values()]
+        reasons = self._reasons(student)
+        own = [fault for fault in reasons if fault.mark in cells]
+        return own or [Fault(fault.code, cells[0], fault.arguments) for fault in reasons[:1]]
+
+
+def _key(settings: Settings) -> Key:
+    """What makes two variants the same: equal texts at equal places, but for what the cover says."""
+    drawn = ((where, value) for where, value in settings.items() if where[0] in DRAWN_SECTIONS)
+    return frozenset((path_text(where), value.text.strip()) for where, value in drawn)
+
+
+def shared(drawn: Iterable[Drawn]) -> list[tuple[Drawn, ...]]:
+    """Students with the same variant, together."""
+    groups: dict[Key, list[Drawn]] = {}
+    for one in drawn:
+        groups.setdefault(_key(one.settings), []).append(one)
+    return [tuple(group) for group in groups.values() if len(group) > 1]
+
+
+def judge_of(spec: Spec) -> Judge:
+    """Judges variants of a spec: each must pass `check`, turn fully and have finite results."""
+
+    def judge(settings: Settings) -> tuple[Fault, ...]:
+        assignment, faults = catalogue.assess(spec.source(settings), spec.path)
+        if assignment is None:
+            return tuple(faults)
+        code = opened(assignment).fault()
+        return (Fault(code, spec.mark),) if code else ()
+
+    return judge

@@ -1,0 +1,458 @@
+"""Jobs, and the processes of this machine that do them; they may die without harm to any job but their own.
+
+A job is one product of one student.  It holds all that decides its result, the bytes of the assignment
+file included, so that it can run in this process, in another, or on another machine, and so that its
+result need not be made twice.  Each has a process of its own, started by pebble: its outcome arrives on a
+pipe that it shares with nobody, and all its memory ends with it.
+
+What others hand in is read in processes too, each call within limits of time and memory.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import sys
+import tempfile
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from hashlib import sha256
+from itertools import islice
+from multiprocessing.process import BaseProcess, parent_process
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from pebble import ProcessExpired, ProcessPool, concurrent
+
+from reportgen.api import Engine, Maker
+from reportgen.base.errors import AssignmentError, Problem, ReportgenError
+from reportgen.base.units import Language
+from reportgen.base.words import templates, templates_hash, unexpected, version, word
+
+if TYPE_CHECKING:
+    from multiprocessing.context import ForkServerContext, SpawnContext
+
+
+SYSTEM = 3
+"""Exit code of a failure that no change of the assignment can mend."""
+
+
+@dataclass(frozen=True, slots=True)
+class Making:
+    """What a result depends on besides the assignment.
+
+    `version` is that of this package, `templates` a SHA-256 of all words and frames; `language` is
+    empty where each file's own is meant.  `ask` says what the answer sheet asks for, if a policy says so.
+    """
+
+    version: str
+    templates: str
+    engine: Engine
+    language: Language | None
+    ask: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One product of one student: `content` is the assignment file, `file` its name, `folder` the results'."""
+
+    student: str
+    folder: str
+    product: str
+    maker: Maker
+    file: str
+    content: bytes
+    making: Making
+    scratch: Path | None = None
+    """Where its temporary files go; None: where the system has them, on other machines."""
+
+    @property
+    def assignment(self) -> str:
+        """SHA-256 of the assignment file."""
+        return sha256(self.content).hexdigest()
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """The files of a product by name; or, with an exit code other than 0, why there are none.
+
+    Marks of `problems` name the assignment file without its folder.
+    """
+
+    files: Mapping[str, bytes] = field(default_factory=dict)
+    problems: tuple[Problem | str, ...] = ()
+    exit_code: int = 0
+
+
+def making(engine: Engine, language: Language | None, ask: str = "") -> Making:
+    """How this installation would make a product now."""
+    return Making(version(), templates_hash(), engine, language, ask)
+
+
+def failed(problem: str) -> Outcome:
+    """The outcome of a job that failed for a reason outside the assignment."""
+    return Outcome(problems=(problem,), exit_code=SYSTEM)
+
+
+def run_job(job: Job) -> Outcome:
+    """The outcome of a job; whatever goes wrong in it is an outcome, too.
+
+    It is made in a folder of its own whose name is left out of what is said of failures.
+    """
+    engine, language = job.making.engine, job.making.language
+    scratch, before = "", tempfile.tempdir
+
+    def without_paths(text: str) -> str:
+        return text.replace(f"{scratch}{os.sep}", "").replace(str(templates()), "templates")
+
+    try:
+        if making(engine, language, job.making.ask) != job.making:
+            return failed(word("other_templates", language))
+        with tempfile.TemporaryDirectory(prefix="reportgen-", dir=job.scratch) as scratch:
+            tempfile.tempdir = scratch
+            file = Path(scratch, job.file)
+            file.write_bytes(job.content)
+            return Outcome(files=dict(job.maker(file, engine, language)))
+    except AssignmentError as error:
+        problems = tuple(problem.in_file(job.file) for problem in error.problems)
+        return Outcome(problems=problems, exit_code=error.exit_code)
+    except ReportgenError as error:
+        return Outcome(problems=(without_paths(str(error)),), exit_code=error.exit_code)
+    except OSError as error:
+        return failed(word("system", language, text=error.strerror or error))
+    except Exception as error:
+        # A fault of the program itself must not cost the others their results.
+        return failed(without_paths(unexpected(error, language)))
+    finally:
+        tempfile.tempdir = before
+
+
+Retried = Callable[[Job], None]
+Results = Generator[tuple[Job, Outcome], None, None]
+Pool = Callable[[Iterable[Job], Retried], Results]
+"""Yields jobs with their outcomes as they end; calls the function for each job that has to begin anew."""
+
+TRIES = 2
+"""A job whose process died is given to another one; after that it has failed."""
+LIMIT = 900.0
+"""Seconds after which a job counts as hung and its process is ended."""
+PATIENCE = 10.0
+"""Seconds in which a process that was told to end may tidy up."""
+NAME = "reportgen-job"
+"""The name of the processes, which distinguishes them from others."""
+
+
+def local(workers: int) -> Pool:
+    """A pool of so many processes at a time; the server that starts them begins to load at once."""
+    # It understands `context` but is annotated with another name.
+    process: Any = concurrent.process
+    start: Callable[[Job], Future[Outcome]] = process(name=NAME, timeout=LIMIT, context=_context())(_work)
+
+    def pool(jobs: Iterable[Job], retried: Retried) -> Results:
+        waiting = deque((job, 1) for job in jobs)
+        running: dict[Future[Outcome], tuple[Job, int]] = {}
+
+        def fill() -> None:
+            while waiting and len(running) < workers:
+                job, tries = waiting.popleft()
+                with _uninterrupted():
+                    running[start(job)] = job, tries
+
+        try:
+            fill()
+            while running:
+                results: list[tuple[Job, Outcome]] = []
+                for future in wait(running, return_when=FIRST_COMPLETED).done:
+                    job, tries = running.pop(future)
+                    if future.exception() is None:
+                        results.append((job, future.result()))
+                    elif tries < TRIES:
+                        waiting.appendleft((job, tries + 1))
+                        retried(job)
+                    else:
+                        results.append((job, failed(word("worker_died", job.making.language))))
+                # The next ones go on while results are written.
+                fill()
+                yield from results
+        finally:
+            _dismiss(running)
+
+    return pool
+
+
+def _dismiss(running: Iterable[Future[Outcome]]) -> None:
+    """Ends all processes; returns when there are none."""
+    # A future that is cancelled as its result arrives would make its thread print a traceback.
+    for end, seconds in ((BaseProcess.terminate, PATIENCE), (BaseProcess.kill, None)):
+        for process in multiprocessing.active_children():
+            if process.name == NAME:
+                end(process)
+        wait(running, seconds)
+
+
+LOADED = (
+    "reportgen.classes.pool",
+    "reportgen.machine.analysis",
+    "reportgen.plans",
+    "reportgen.report.outline",
+    "reportgen.drawing.charts",
+    "reportgen.writers.typst",
+    "jinja2",
+    "markdown_it",
+    "matplotlib.figure",
+    "pint",
+    "typst",
+)
+"""What the process that workers are forked from has loaded, so that each finds it loaded."""
+ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+"""A library's threads would not survive the fork, and every core has its worker."""
+
+
+def _context(loaded: Sequence[str] = LOADED) -> ForkServerContext | SpawnContext:
+    """New processes come from a server that has imported everything already, where the system allows it."""
+    if "forkserver" not in multiprocessing.get_all_start_methods():
+        return multiprocessing.get_context("spawn")
+    from multiprocessing import forkserver, resource_tracker
+
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(list(loaded))
+    # It lets Ctrl-C through again once it has started, which the server would do first.
+    resource_tracker.ensure_running()
+    before = {name: os.environ.get(name) for name in ONE_THREAD}
+    os.environ |= ONE_THREAD
+    try:
+        with _uninterrupted():
+            forkserver.ensure_running()
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+    return context
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Processes started inside never see Ctrl-C, which reaches all processes of a terminal: we end them."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _work(job: Job) -> Outcome:
+    """The outcome, in a process that ends with it."""
+    # Ends by way of every `finally`, so that no scratch folder and no typesetter is left behind.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit())
+    # There is a process for each core already.
+    os.environ["RAYON_NUM_THREADS"] = "1"
+    outcome = run_job(job)
+    # Nothing is left to be tidied up.
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    parent = parent_process()
+    if parent is not None and not parent.is_alive():
+        # Nobody listens: the result could not be sent.
+        os._exit(0)
+    return outcome
+
+
+# --- calls within limits --------------------------------------------------------------------------
+
+AHEAD = 4
+"""So many calls a process wait or run, so that none is idle while arguments are slow to come."""
+Argument = TypeVar("Argument")
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What one call may take: seconds, and megabytes beyond those of the process that it begins in."""
+
+    seconds: float
+    megabytes: int
+
+
+def each_within(
+    limits: Limits, function: Callable[[Argument], Result], arguments: Iterable[Argument], preload: str
+) -> Iterator[tuple[Argument, Result | None]]:
+    """Each argument with what `function` makes of it, in their order; None where the call passed its limits or died.
+
+    A few calls run at a time, so that arguments are taken as they are needed.  `preload` is the module of `function`.
+    """
+    workers = os.cpu_count() or 1
+    running: deque[tuple[Argument, Future[Any]]] = deque()
+    with _uninterrupted():
+        # Some of its methods are annotated with other names, or not at all.
+        make: Any = ProcessPool
+        pool = make(workers, initializer=_limit_memory, initargs=(limits.megabytes,), context=_context((preload,)))
+    try:
+        for argument in arguments:
+            with _uninterrupted():
+                running.append((argument, pool.schedule(function, (argument,), timeout=limits.seconds)))
+            if len(running) > AHEAD * workers:
+                yield _outcome(running.popleft())
+        while running:
+            yield _outcome(running.popleft())
+    finally:
+        pool.stop()
+        pool.join()
+
+
+def _outcome(call: tuple[Argument, Future[Any]]) -> tuple[Argument, Any]:
+    argument, future = call
+    fault = future.exception()
+    if fault is not None and not isinstance(fault, (TimeoutError, MemoryError, ProcessExpired)):
+        raise fault
+    return argument, None if fault is not None else future.result()
+
+
+def _limit_memory(megabytes: int) -> None:
+    """Let this process take so much more memory than it has; where the system cannot say that, time is the limit."""
+    with suppress(ImportError, OSError, ValueError):
+        import resource
+
+        taken = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+        _, most = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (taken + megabytes * 1_000_000, most))
+
+
+# --- the same jobs on an existing Dask scheduler --------------------------------------------------
+# The only module that knows Dask.
+
+AHEAD_OF_EACH = 2
+"""Jobs that are handed out for each of the cluster's threads, so that none waits for the next one."""
+ANSWER = 10
+"""Seconds in which a scheduler answers."""
+BEAT = 0.05
+"""Seconds between two looks at what is done."""
+WORKERLESS = 60
+"""Seconds without any worker after which nobody waits for one."""
+
+_one_at_a_time = threading.Lock()
+
+
+class ClusterError(ReportgenError):
+    """The scheduler cannot be used: Dask is not installed, nobody answers, or it has gone; exit code 3."""
+
+    exit_code = SYSTEM
+
+
+class WorkersLostError(Exception):
+    """No worker has been left for a while."""
+
+
+def cluster(address: str, language: Language | None) -> Pool:
+    """A pool of the workers that a Dask scheduler has; raises `ClusterError` without Dask.
+
+    Jobs go out as bytes and files come back as bytes: workers need this package in the same version, but
+    no file of ours.  A worker may die; the scheduler gives its jobs to another one, at most
+    `distributed.scheduler.allowed-failures` times.  What had been given to all of those that died is tried
+    again by itself at the end, for it may only have stood in line behind the one that killed them.
+    """
+    try:
+        import distributed
+    except ImportError as error:
+        raise ClusterError(word("no_dask", language)) from error
+
+    def pool(jobs: Iterable[Job], retried: Retried) -> Results:
+        try:
+            client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise ClusterError(word("no_scheduler", language, address=address)) from error
+        with client:
+            try:
+                suspects: list[Job] = []
+                yield from _results(client, iter(jobs), suspects.append)
+                for job in suspects:
+                    retried(job)
+                    (future,) = _first_done(client, [client.submit(_run, job, pure=False)])
+                    outcome = _told(job, future)
+                    yield job, outcome or failed(word("worker_died", job.making.language))
+            except WorkersLostError as error:
+                raise ClusterError(word("workers_lost", language, address=address)) from error
+            except (distributed.client.FutureCancelledError, OSError) as error:
+                raise ClusterError(word("scheduler_lost", language, address=address)) from error
+
+    return pool
+
+
+def _results(client: Any, jobs: Iterator[Job], suspect: Callable[[Job], None]) -> Results:
+    """Results as they come; only so many jobs are handed out that results never pile up on the workers."""
+    handed_out: dict[Any, Job] = {}
+
+    def hand_out() -> None:
+        room = AHEAD_OF_EACH * max(_threads(client), 1) - len(handed_out)
+        handed_out.update({client.submit(_run, job, pure=False): job for job in islice(jobs, max(room, 0))})
+
+    hand_out()
+    while handed_out:
+        for future in _first_done(client, list(handed_out)):
+            job = handed_out.pop(future)
+            outcome = _told(job, future)
+            hand_out()
+            if outcome is None:
+                suspect(job)
+            else:
+                yield job, outcome
+
+
+def _first_done(client: Any, futures: Sequence[Any]) -> set[Any]:
+    """Those of the futures that are done, one at least.
+
+    Raises `WorkersLostError` when there has been no worker for `WORKERLESS` seconds: dead ones may come back, but
+    nobody waits for ever.
+    """
+    seen = time.monotonic()
+    while True:
+        done = {future for future in futures if future.done()}
+        if done:
+            return done
+        time.sleep(BEAT)
+        if _threads(client):
+            seen = time.monotonic()
+        elif time.monotonic() - seen > WORKERLESS:
+            raise WorkersLostError
+
+
+def _told(job: Job, future: Any) -> Outcome | None:
+    """The outcome of a job, which the cluster may then forget; None if its workers died.
+
+    Raises `OSError` or `FutureCancelledError` if the scheduler has gone.
+    """
+    from distributed import KilledWorker
+    from distributed.client import FutureCancelledError
+
+    try:
+        outcome: Outcome = future.result()
+    except KilledWorker:
+        return None
+    except (FutureCancelledError, OSError):
+        raise
+    except Exception as error:
+        # A job raises nothing itself: the worker could not even receive it, as where it has another version.
+        return failed(unexpected(error, job.making.language))
+    finally:
+        future.release()
+    return outcome
+
+
+def _threads(client: Any) -> int:
+    """The threads of all workers there are now; workers may come and go."""
+    return sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
+
+
+def _run(job: Job) -> Outcome:
+    """The outcome, on a worker; matplotlib is not made for threads, so a process does one job at a time."""
+    with _one_at_a_time:
+        return run_job(job)

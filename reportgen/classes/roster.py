@@ -1,0 +1,342 @@
+"""The class: a CSV or XLSX table with a row for each student, and the assignment files that belong to them.
+
+Columns are id, name, class, section, email (or their Vietnamese names, see `columns` of `messages.yaml`), and any
+path such as `parameters.H`, `positions.start` or `report.supervisor`, which sets that value for the student.  Other
+columns are left alone, and so is a second one for the same thing (a class and a class of the course).  A name may
+stand in two columns, one for the family name and one for the given name, and is put together in their order.
+Headings may follow a title; empty rows are passed over.  A table of variants is read by the same headings.
+The participants' lists of Moodle and the gradebook of Canvas are rosters as they come.
+"""
+
+from __future__ import annotations
+
+import difflib
+import hashlib
+import re
+import unicodedata
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import get_args
+
+from pydantic_core import PydanticCustomError
+
+from reportgen.assignment.fields import RESERVED, Text
+from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.source import Scalar
+from reportgen.base.units import NUMBER, UNIT, Language
+from reportgen.base.words import as_error, as_problem, messages
+from reportgen.workbook import Cell, Page, read
+
+FIRST_ROWS = 20
+"""How far down the headings are looked for, below a title."""
+_WITH_UNIT = re.compile(rf"(.*?)\s*[(\[]\s*({UNIT})\s*[)\]]")
+_NUMBER = re.compile(NUMBER)
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A heading: `name` is one of the known columns or what was typed, `unit` what stood in brackets after it."""
+
+    index: int
+    name: str
+    unit: str
+    mark: Mark
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """A row: what stands under each heading, empty cells left out; `mark` is its first cell.
+
+    `cells` are the places of all its cells, `refused` the columns where a cell shows no value.
+    """
+
+    values: Mapping[str, Scalar]
+    mark: Mark
+    cells: Mapping[str, Mark]
+    refused: frozenset[str] = frozenset()
+
+
+@cache
+def _known_columns() -> Mapping[str, str]:
+    """The name of a column by any heading it may have, in every language, folded."""
+    return {
+        folded(heading): name
+        for language in get_args(Language)
+        for name, headings in messages(language)["columns"].items()
+        for heading in (name, *headings)
+    }
+
+
+def folded(text: str) -> str:
+    """A heading without what does not tell two headings apart: case, blanks, composition, marks at its end."""
+    return " ".join(unicodedata.normalize("NFC", text).casefold().split()).rstrip(" .:*")
+
+
+def columns(row: Sequence[Cell]) -> list[Column]:
+    """The headings of a row; empty ones are left out."""
+    found = []
+    for index, cell in enumerate(row):
+        title = unicodedata.normalize("NFC", cell.text).strip()
+        known = _known_columns().get(folded(title))
+        match = None if known else _WITH_UNIT.fullmatch(title)
+        name, unit = (match[1], match[2]) if match else (title, "")
+        if title:
+            found.append(Column(index, known or _known_columns().get(folded(name)) or name, unit, cell.mark))
+    return found
+
+
+def heading_row(page: Page, wanted: str) -> int | None:
+    """The index of the first row near the top that has a column `wanted`."""
+    rows = enumerate(page.rows[:FIRST_ROWS])
+    return next((k for k, row in rows if any(column.name == wanted for column in columns(row))), None)
+
+
+def records(page: Page, headings: Sequence[Column], start: int, faults: list[Fault]) -> Iterator[Record]:
+    """The rows from index `start` on that hold something.
+
+    Faults are headings that stand for a column there is already, and cells that show no value.
+    """
+    seen: set[str] = set()
+    for column in headings:
+        if column.name in seen:
+            faults.append(Fault("column-twice", column.mark, {"key": column.name}))
+        seen.add(column.name)
+    for row in page.rows[start:]:
+        values: dict[str, Scalar] = {}
+        refused: set[str] = set()
+        present = [(column, row[column.index]) for column in headings if column.index < len(row)]
+        for column, cell in present:
+            text = cell.text.strip()
+            if not (text or cell.kind == "formula"):
+                continue
+            if cell.kind in ("error", "formula") and (cell.value is None or str(cell.value).startswith("#")):
+                faults.append(Fault("no-cell-value", cell.mark, {"text": cell.formula or cell.text}))
+                refused.add(column.name)
+                continue
+            # A bare number has the unit of its heading.
+            bare = column.unit and _NUMBER.fullmatch(text)
+            values[column.name] = Scalar(f"{text} {column.unit}" if bare else text, cell.mark)
+        first = next((cell for cell in row if not cell.blank), None)
+        if first is not None:
+            cells = {column.name: cell.mark for column, cell in present}
+            yield Record(values, first.mark, cells, frozenset(refused))
+
+
+CANVAS_ID = "SIS User ID"
+"""How the gradebook of Canvas heads the number that the school gave a student."""
+PERSONAL = ("name", "id", "class", "section", "email")
+NAME_PARTS = ("family", "given")
+SECTIONS = ("parameters", "positions", "drawing", "indicator", "report")
+ASSIGNMENT_SUFFIXES = frozenset({".yaml", ".yml"})
+_PATH = re.compile(r"([A-Za-z_]+)((?:\.\w+)+)")
+
+LONGEST_NAME = 64
+KEPT_CHARACTERS = 32
+"""Characters of an id that is changed; the hash after them distinguishes it from all others."""
+HASH_DIGITS = 12
+_ORDINARY = re.compile(rf"[A-Z0-9][A-Z0-9_-]{{0,{LONGEST_NAME - 1}}}")
+_LIKE_HASHED = re.compile(rf".*-[0-9A-F]{{{HASH_DIGITS}}}")
+
+
+@dataclass(frozen=True, slots=True)
+class Student:
+    """A row of the roster.
+
+    `card` is what it says of the student, by the keys of `report.student`; `overrides` are values with their
+    cells by path ("parameters.H").
+    """
+
+    card: Mapping[str, str]
+    overrides: Mapping[str, Scalar]
+    mark: Mark
+
+    @property
+    def id(self) -> str:
+        return self.card["id"]
+
+    @property
+    def folder(self) -> str:
+        """The name of the student's files and folders."""
+        return folder_name(self.id)
+
+
+@dataclass(frozen=True, slots=True)
+class Roster:
+    """The students in the order of the table; `columns` are the headings of values they override."""
+
+    students: tuple[Student, ...]
+    columns: tuple[Column, ...] = ()
+
+
+Assigned = tuple[Student, Path | Problem]
+"""A student with the assignment file, or with the reason why there is none."""
+
+
+def read_roster(path: Path, language: Language | None = None) -> Roster:
+    """The class of a table file; raises `AssignmentError` with all its faults, in `language`."""
+    page, start = _page(read(path, language))
+    faults: list[Fault] = []
+    if start is None:
+        first = next((cell.mark for row in page.rows for cell in row if not cell.blank), Mark(str(path)))
+        raise as_error([Fault("no-id-column", first)], language)
+    found = columns(page.rows[start])
+    of_canvas = any(cell.text.strip() == CANVAS_ID for cell in page.rows[start])
+    if of_canvas:
+        # Its "ID" is the platform's own number.
+        found = [column for column in found if column.name != "id" or page.rows[start][column.index].text != "ID"]
+    headings = [_normal(column, faults) for column in found]
+    used = _used(headings)
+    rows = [row for row in records(page, used, start + 1, faults) if row.values or row.refused]
+    if of_canvas:
+        # Points possible, and a student for trying out, have no student number.
+        rows = [_in_spoken_order(row) for row in rows if "id" in row.values]
+    faults += [fault for row in rows for fault in _unfit(row)]
+    faults += _id_faults(rows)
+    if not rows:
+        faults.append(Fault("empty-roster", headings[0].mark))
+    if faults:
+        raise as_error(faults, language)
+    overriding = tuple(column for column in used if _PATH.fullmatch(column.name))
+    return Roster(tuple(map(_student, rows)), overriding)
+
+
+def _in_spoken_order(row: Record) -> Record:
+    """A row of Canvas, which writes "An, Nguyễn Văn"."""
+    name = row.values.get("name")
+    if name is None or name.text.count(", ") != 1:
+        return row
+    last, _, first = name.text.partition(", ")
+    return replace(row, values={**row.values, "name": Scalar(f"{first} {last}", name.mark)})
+
+
+def _page(pages: Sequence[Page]) -> tuple[Page, int | None]:
+    """The first visible sheet with an id column and the index of its headings; else the first that is not empty."""
+    full = [page for page in pages if any(page.rows) and not page.hidden] or list(pages)
+    for page in full:
+        start = heading_row(page, "id")
+        if start is not None:
+            return page, start
+    return (full[0] if full else Page("", ())), None
+
+
+def _used(headings: Sequence[Column]) -> list[Column]:
+    """The headings that count: all ids and paths, which must not be repeated, and the first of each other."""
+    used: list[Column] = []
+    taken: set[str] = set()
+    for column in headings:
+        optional = column.name in (*PERSONAL, *NAME_PARTS)
+        if column.name == "id" or _PATH.fullmatch(column.name) or (optional and column.name not in taken):
+            used.append(column)
+            taken.add(column.name)
+    return used
+
+
+def _normal(column: Column, faults: list[Fault]) -> Column:
+    """A column whose heading is a path, its section's name in small letters; a misspelt section is a fault."""
+    match = _PATH.fullmatch(column.name)
+    if match is None:
+        return column
+    section = match[1].casefold()
+    if section in SECTIONS:
+        return Column(column.index, f"{section}{match[2]}", column.unit, column.mark)
+    close = difflib.get_close_matches(section, SECTIONS, n=1, cutoff=0.7)
+    if close:
+        faults.append(Fault("unknown-column", column.mark, {"key": column.name, "close": f"{close[0]}{match[2]}"}))
+    return Column(column.index, "", "", column.mark)
+
+
+def _unfit(row: Record) -> Iterable[Fault]:
+    """Personal data that no assignment file could hold."""
+    for name in (*PERSONAL, *NAME_PARTS):
+        if name in row.values:
+            try:
+                Text().read(row.values[name].text)
+            except PydanticCustomError as error:
+                context = {key: str(value) for key, value in (error.context or {}).items()}
+                yield Fault(context.pop("code"), row.values[name].mark, context)
+
+
+def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
+    """Ids that are missing, or that differ from an earlier one in case and composition at most."""
+    seen: dict[str, Mark] = {}
+    for row in rows:
+        id = row.values.get("id")
+        if id is None:
+            if "id" not in row.refused:
+                yield Fault("missing-id", row.cells.get("id", row.mark))
+            continue
+        first = seen.setdefault(comparable(id.text), id.mark)
+        if first is not id.mark:
+            yield Fault("duplicate-id", id.mark, {"text": id.text, "place": str(first).removeprefix(f"{first.file}:")})
+
+
+def _student(row: Record) -> Student:
+    parts = (value.text for name, value in row.values.items() if name in NAME_PARTS)
+    texts = {"name": " ".join(parts), **{name: value.text for name, value in row.values.items()}}
+    overrides = {name: value for name, value in row.values.items() if _PATH.fullmatch(name)}
+    return Student({name: texts[name] for name in PERSONAL if texts.get(name)}, overrides, row.mark)
+
+
+def folder_name(id: str) -> str:
+    """One path component that stands for an id and for no other, harmless on any system.
+
+    An id of capital letters, digits, - and _ stays as it is.  Any other is reduced to letters and digits and
+    gets "-" and the first 12 hexadecimal digits of the SHA-256 of its composed form (NFC, UTF-8); so does one
+    in small letters, since some systems do not distinguish them from capitals.
+    """
+    composed = unicodedata.normalize("NFC", id)
+    if _ORDINARY.fullmatch(composed) and not RESERVED.fullmatch(composed) and not _LIKE_HASHED.fullmatch(composed):
+        return composed
+    digest = hashlib.sha256(composed.encode("utf-8", "surrogatepass")).hexdigest()[:HASH_DIGITS]
+    bare = unicodedata.normalize("NFD", composed.replace("đ", "d").replace("Đ", "D"))
+    letters = "".join(letter for letter in bare if not unicodedata.combining(letter))
+    kept = re.sub(r"[^A-Za-z0-9]+", "_", letters).strip("_")[:KEPT_CHARACTERS]
+    return f"{kept or 'id'}-{digest}"
+
+
+def comparable(name: str) -> str:
+    """An id or the stem of a file in the one spelling by which they are compared."""
+    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", name).casefold())
+
+
+def assignment_files(folder: Path, language: Language | None) -> dict[str, Path]:
+    """The assignment files in a folder and below by their `comparable` stems.
+
+    Raises `AssignmentError` for two files of one stem and for a folder that does not exist.
+    """
+    if not folder.is_dir():
+        raise as_error([Fault("no-folder", Mark(str(folder)))], language)
+    files: dict[str, Path] = {}
+    faults: list[Fault] = []
+    for path in sorted(path for path in folder.rglob("*") if _is_assignment(path, folder)):
+        first = files.setdefault(comparable(path.stem), path)
+        if first is not path:
+            faults.append(Fault("same-stem", Mark(str(path)), {"text": path.stem, "first": str(first)}))
+    if faults:
+        raise as_error(faults, language)
+    return files
+
+
+def match_files(
+    students: Sequence[Student], folder: Path, language: Language | None
+) -> tuple[list[Assigned], list[Path]]:
+    """Each student with the file in `folder` or below whose stem is the id, and the files of no student.
+
+    A stem may spell the id as `folder_name` does or as the roster does, whatever its case.  Raises
+    `AssignmentError` as `assignment_files` does.
+    """
+    files = assignment_files(folder, language)
+    assigned: list[Assigned] = []
+    for student in students:
+        found = next((files[stem] for stem in map(comparable, (student.folder, student.id)) if stem in files), None)
+        missing = Fault("no-assignment", student.mark, {"text": student.id})
+        assigned.append((student, found or as_problem(missing, language)))
+    taken = {file for _, file in assigned}
+    return assigned, [path for path in files.values() if path not in taken]
+
+
+def _is_assignment(path: Path, folder: Path) -> bool:
+    hidden = any(part.startswith(".") for part in path.relative_to(folder).parts)
+    return path.suffix.lower() in ASSIGNMENT_SUFFIXES and not hidden and path.is_file()

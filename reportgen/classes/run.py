@@ -1,0 +1,495 @@
+"""A batch: makes what is missing or changed, writes it as it comes, and can be killed at any moment."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from contextlib import ExitStack, closing, contextmanager
+from dataclasses import dataclass, field
+from functools import partial
+from hashlib import sha256
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING, Any, Literal, TextIO
+
+from pydantic import TypeAdapter, ValidationError
+
+from reportgen import api
+from reportgen.api import ASKING, MAKERS, USUAL, Engine, Maker
+from reportgen.base.errors import Fault, Mark, OutputError, Problem
+from reportgen.base.files import held, put_file, reported, scratch
+from reportgen.base.units import Language, write
+from reportgen.base.words import DEFAULT_LANGUAGE, as_problem, counted, word
+from reportgen.classes.pool import Job, Outcome, Pool, failed, local, making
+from reportgen.classes.roster import Assigned, Roster, Student, match_files, read_roster
+from reportgen.classes.variants import make_variants
+from reportgen.marking.key import Ask
+
+if TYPE_CHECKING:
+    from rich.progress import ProgressColumn
+
+
+DRAWN = "assignments"
+"""The folder, among the results, of the assignment files that are drawn."""
+NO_ROOM = frozenset({errno.ENOSPC, errno.EROFS, errno.EIO, getattr(errno, "EDQUOT", errno.ENOSPC)})
+"""Errors that every other student would meet, too."""
+_TEMPORARY = re.compile(r"\..+\.(?:pdf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
+"""What `files.replace` leaves when it is killed."""
+
+Event = Literal["kept", "retried", "done", "failed"]
+"""`kept`: made by an earlier run; `retried`: its worker died, another one begins anew."""
+Watch = Callable[[str, str, Event], None]
+"""Receives the student's folder, the product and what happened: no names, no content."""
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """What is asked for: assignments drawn from `spec` into `out`, or found in `assignments`; exactly one of both.
+
+    `jobs` processes of this machine (0: one for each core), unless a scheduler's address `cluster` is given.
+    `ask` is what the answer sheets ask for, None for the default.
+    """
+
+    roster: Path
+    spec: Path | None = None
+    assignments: Path | None = None
+    out: Path = Path("out")
+    products: tuple[str, ...] = USUAL
+    engine: Engine = "typst"
+    language: Language | None = None
+    jobs: int = 0
+    cluster: str | None = None
+    ask: Ask | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """A product that could not be made; marks name the file as it can be opened from here."""
+
+    student: str
+    product: str
+    problems: tuple[Problem | str, ...]
+
+
+@dataclass(slots=True)
+class Result:
+    """What a batch came to: counts of products, the failures by student, the exit code they mean.
+
+    `notes` say in words which files and columns were not used, and which students of an earlier run are gone.
+    """
+
+    manifest: Path
+    notes: list[str]
+    made: int = 0
+    kept: int = 0
+    failures: list[Failure] = field(default_factory=list)
+    exit_code: int = 0
+
+    def summary(self, language: Language | None) -> Iterator[str]:
+        """The batch's end in lines: notes, each problem once with all students it met, the counts."""
+        yield from self.notes
+        if self.failures:
+            yield word("batch_failed", language, count=len(self.failures))
+        met: dict[Problem | str, list[str]] = {}
+        for failure in self.failures:
+            for problem in failure.problems:
+                met.setdefault(problem, []).append(f"{failure.student} {failure.product}")
+        for problem, products in met.items():
+            # A problem of a file says by its place whose it is.
+            yield f"{', '.join(products)}: {problem}" if isinstance(problem, str) else str(problem)
+        yield word("batch_ended", language, made=self.made, kept=self.kept, failed=len(self.failures))
+
+
+def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS, pool: Pool | None = None) -> Result:
+    """Makes the ordered products of each student, into `out`/<folder>/, and `manifest.json`.
+
+    What the manifest of an earlier run vouches for is kept; events go to `stream` as they happen; `pool` may
+    replace the order's.  A student's failure is part of the result.  Raises `AssignmentError` for a faulty
+    roster, spec or folder of assignments, `OutputError` where nothing can be written, `ClusterError`
+    where there is no cluster.
+    """
+    roster = read_roster(order.roster, order.language)
+    chosen = {
+        name: partial(makers[name], ask=order.ask) if _asked(order, name) else makers[name] for name in order.products
+    }
+    workers = pool or _pool(order)
+    with locked(order.out, order.language), reported(order.out), scratch(order.out) as temporary:
+        return _run(order, roster, chosen, workers, stream, None if order.cluster else temporary)
+
+
+def _asked(order: Order, product: str) -> str:
+    """What the policy asks for, in a word for the manifest; "" where there is none or it does not matter."""
+    return str(order.ask) if order.ask is not None and product in ASKING else ""
+
+
+def _run(
+    order: Order, roster: Roster, makers: Mapping[str, Maker], pool: Pool, stream: TextIO, temporary: Path | None
+) -> Result:
+    assigned, notes = _assigned(order, roster)
+    if order.ask is not None and ASKING & makers.keys():
+        api.check_ask(order.ask, (file for _, file in assigned if isinstance(file, Path)), order.language)
+    out = order.out
+    for folder in (out, *(out / student.folder for student, _ in assigned)):
+        _remove_temporary(folder)
+    before = read_manifest(out)
+    number = {student.id: number for number, (student, _) in enumerate(assigned)}
+    entries = {key: entry for key, entry in before.items() if entry.student in number}
+    with reported(out):
+        result = Result(write_manifest(out, entries.values()), notes)
+    how = {name: making(order.engine, order.language, _asked(order, name)) for name in makers}
+    kept: list[Job] = []
+    jobs: list[Job] = []
+    refused: list[tuple[Student, Problem]] = []
+    for student, file in assigned:
+        read = _read(file, order.language)
+        if isinstance(read, Problem):
+            refused.append((student, read))
+            continue
+        for product, maker in makers.items():
+            name, content = read
+            job = Job(
+                student.id,
+                student.folder,
+                product,
+                maker,
+                file=name,
+                content=content,
+                making=how[product],
+                scratch=temporary,
+            )
+            entry = entries.get((job.student, product))
+            (kept if entry is not None and entry.holds(job, out) else jobs).append(job)
+    result.kept = len(kept)
+    with (
+        watching(len(assigned) * len(makers), stream, order.language or DEFAULT_LANGUAGE) as watch,
+        journal(out) as record,
+    ):
+
+        def add(entry: ManifestEntry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
+            """Each entry stands in the journal before its event is shown."""
+            entries[entry.student, entry.product] = entry
+            with reported(out):
+                record(entry)
+            result.exit_code = max(result.exit_code, exit_code)
+            if problems:
+                result.failures.append(Failure(entry.student, entry.product, problems))
+            else:
+                result.made += 1
+            watch(entry.folder, entry.product, "failed" if problems else "done")
+
+        for job in kept:
+            watch(job.folder, job.product, "kept")
+        for student, problem in refused:
+            # The manifest names no folders.
+            text = str(problem.in_file(Path(problem.mark.file).name))
+            for product in makers:
+                add(ManifestEntry(student.id, student.folder, product, problems=(text,)), (problem,), exit_code=1)
+        files = {student.id: str(file) for student, file in assigned}
+        with closing(pool(jobs, lambda job: watch(job.folder, job.product, "retried"))) as outcomes:
+            for job, made in outcomes:
+                outcome = _put(job, made, out, entries.get((job.student, job.product)))
+                file_name = files[job.student]
+                problems = tuple(one if isinstance(one, str) else one.in_file(file_name) for one in outcome.problems)
+                add(entry_of(job, outcome), problems, outcome.exit_code)
+    with reported(out):
+        write_manifest(out, entries.values())
+    result.failures.sort(key=lambda failure: number[failure.student])
+    if gone := {entry.student for entry in before.values()} - number.keys():
+        result.notes.append(counted("batch_gone", order.language, len(gone)))
+    return result
+
+
+# --- progress ---------------------------------------------------------------------------------------
+
+
+@contextmanager
+def watching(total: int, stream: TextIO, language: Language) -> Iterator[Watch]:
+    """Shows the events of `total` products on a stream: a bar on a terminal, else a line with tabs for each."""
+    if stream.isatty():
+        with _bar(total, stream, language) as watch:
+            yield watch
+    else:
+        yield lambda *event: print(*event, sep="\t", file=stream, flush=True)
+
+
+@contextmanager
+def _bar(total: int, stream: TextIO, language: Language) -> Iterator[Watch]:
+    """A bar with count, rate, time left and the number of failures; what was kept lowers the total."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (
+        BarColumn(),
+        MofNCompleteColumn(),
+        _rate(language),
+        TimeRemainingColumn(elapsed_when_finished=True),
+        TextColumn("{task.fields[failed]}", style="red"),
+    )
+    with Progress(*columns, console=Console(file=stream)) as progress:
+        task = progress.add_task("", total=total, failed="")
+        failed = 0
+
+        def watch(_folder: str, _product: str, event: Event) -> None:
+            nonlocal total, failed
+            if event == "kept":
+                total -= 1
+                progress.update(task, total=total)
+            elif event != "retried":
+                failed += event == "failed"
+                text = word("bar_failed", language, count=failed) if failed else ""
+                progress.update(task, advance=1, failed=text)
+
+        yield watch
+
+
+def _rate(language: Language) -> ProgressColumn:
+    from rich.progress import ProgressColumn, Task
+    from rich.text import Text
+
+    class Rate(ProgressColumn):
+        """Products a minute."""
+
+        def render(self, task: Task) -> Text:
+            speed = task.finished_speed or task.speed
+            rate = "–" if speed is None else write(60 * speed, 0 if speed > 1 else 1, language)
+            return Text(word("bar_rate", language, rate=rate), style="progress.data.speed")
+
+    return Rate()
+
+
+# --- students and processes -------------------------------------------------------------------------
+
+
+def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
+    """Each student with a file, and notes on files and columns that were not used."""
+    if order.spec is not None:
+        folder = order.out / DRAWN
+        _remove_temporary(folder)
+        variants = make_variants(order.spec, order.roster, folder, language=order.language)
+        paths = [file.path for file in variants.files]
+        return list(zip(roster.students, paths, strict=True)), list(variants.remarks)
+    if order.assignments is None:
+        raise ValueError("assignments are either drawn or given")
+    assigned, unused = match_files(roster.students, order.assignments, order.language)
+    notes = [word("batch_nobodys", order.language, path=path) for path in unused]
+    if roster.columns:
+        names = ", ".join(column.name for column in roster.columns)
+        notes.append(word("batch_columns", order.language, columns=names))
+    return assigned, notes
+
+
+def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes] | Problem:
+    """Name and content of an assignment file; one that cannot be read must not stop the others."""
+    if isinstance(file, Problem):
+        return file
+    try:
+        return file.name, file.read_bytes()
+    except OSError as error:
+        return as_problem(Fault("unreadable", Mark(str(file)), {"reason": type(error).__name__}), language)
+
+
+def _pool(order: Order) -> Pool:
+    if order.cluster is None:
+        # As many as there are cores that this process may use.
+        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        return local(order.jobs or cores)
+    from reportgen.classes.pool import cluster
+
+    return cluster(order.cluster, order.language)
+
+
+# --- files ------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def locked(out: Path, language: Language | None) -> Iterator[None]:
+    """Makes the folder and keeps other batches away from it, without leaving a trace.
+
+    Raises `OutputError` if there is another one, or if there can be no such folder.
+    """
+    with ExitStack() as lock:
+        with reported():
+            out.mkdir(parents=True, exist_ok=True)
+            try:
+                lock.enter_context(held(out))
+            except BlockingIOError as error:
+                raise OutputError(word("out_in_use", language, out=out)) from error
+        yield
+
+
+def _remove_temporary(folder: Path) -> None:
+    """Removes what a killed run was writing just then."""
+    if folder.is_dir():
+        for path in folder.iterdir():
+            if _TEMPORARY.fullmatch(path.name):
+                path.unlink(missing_ok=True)
+
+
+def _put(job: Job, outcome: Outcome, out: Path, earlier: ManifestEntry | None) -> Outcome:
+    """The outcome once its files stand; if they cannot, and it is this student's matter alone, a failure.
+
+    Files that an earlier run made of the product and this one did not, a third sheet of two, go.  Raises `OutputError`
+    where every other student would meet the same.
+    """
+    try:
+        if outcome.files:
+            (out / job.folder).mkdir(exist_ok=True)
+        for name, content in outcome.files.items():
+            put_file(out / job.folder / name, content)
+        if outcome.files and earlier is not None and earlier.folder == job.folder:
+            for path in earlier.outlived(outcome.files, out):
+                path.unlink(missing_ok=True)
+    except OSError as error:
+        if error.errno in NO_ROOM:
+            raise OutputError(f"{error.filename or ''}: {error.strerror or error}") from error
+        text = word("system", job.making.language, text=error.strerror or error)
+        return failed(f"{job.folder}: {text}")
+    return outcome
+
+
+# --- what a batch has made, and of what -----------------------------------------------------------
+# The file that lets a second run do only what is missing or changed.
+# `manifest.json` is replaced as a whole, at the beginning and at the end of a run. In between each result is one line
+# more in a journal beside it, which the next run reads if this one was killed: a line costs the same for the first
+# and the thousandth student, and a torn one costs no other.
+
+NAME = "manifest.json"
+JOURNAL = ".manifest.journal"
+FORMAT = "reportgen-batch/1"
+MADE_OF = ("assignment", "engine", "language", "templates", "version")
+"""All that decides the bytes of a product."""
+ASK = "ask"
+"""What the answer sheet asks for decides them too, where a policy says so."""
+
+
+@dataclass(frozen=True, slots=True)
+class ManifestEntry:
+    """One product of one student: what it was made of, and its files with their SHA-256, or what failed."""
+
+    student: str
+    folder: str
+    product: str
+    made_of: Mapping[str, str | None] = field(default_factory=dict)
+    files: Mapping[str, str] = field(default_factory=dict)
+    problems: tuple[str, ...] = ()
+
+    def holds(self, job: Job, out: Path) -> bool:
+        """Whether the files are there, unaltered, and would be made of the same again."""
+        return (
+            not self.problems
+            and bool(self.files)
+            and (self.folder, self.made_of) == (job.folder, made_of(job))
+            and all(_hash(out / self.folder / name) == known for name, known in self.files.items())
+        )
+
+    def outlived(self, made: Collection[str], out: Path) -> Iterator[Path]:
+        """The files that were made, are unaltered and are `made` no more; a name with a folder is none of them."""
+        for name, known in self.files.items():
+            path = out / self.folder / name
+            if name not in made and PurePath(name).name == name and _hash(path) == known:
+                yield path
+
+
+_ENTRY = TypeAdapter(ManifestEntry)
+
+
+def entry_of(job: Job, outcome: Outcome) -> ManifestEntry:
+    """What the manifest keeps of an outcome: hashes and words, no times and no paths."""
+    hashes = {name: sha256(content).hexdigest() for name, content in outcome.files.items()}
+    problems = tuple(map(str, outcome.problems))
+    return ManifestEntry(job.student, job.folder, job.product, made_of(job), hashes, problems)
+
+
+def made_of(job: Job) -> dict[str, str | None]:
+    """The values of `MADE_OF` for a job, and of `ASK`."""
+    how = job.making
+    made = dict(zip(MADE_OF, (job.assignment, how.engine, how.language, how.templates, how.version), strict=True))
+    return {**made, **({ASK: how.ask} if how.ask else {})}
+
+
+def read_manifest(out: Path) -> dict[tuple[str, str], ManifestEntry]:
+    """The entries of a folder by student and product, with what a killed run left in its journal.
+
+    A file that cannot be understood counts as missing: its products are made again.
+    """
+    lines = map(_parsed, _text(out / JOURNAL).split("\n"))
+    entries = (_entry(line) for line in (*_lines(_parsed(_text(out / NAME))), *lines))
+    return {(entry.student, entry.product): entry for entry in entries if entry is not None}
+
+
+def write_manifest(out: Path, entries: Iterable[ManifestEntry]) -> Path:
+    """Replaces the manifest, sorted by student and product; then the journal has nothing to add."""
+    students: dict[str, Any] = {}
+    for entry in entries:
+        of_student = students.setdefault(entry.student, {"folder": entry.folder, "products": {}})
+        of_student["products"][entry.product] = _plain(entry)
+    content = {"format": FORMAT, "students": students}
+    target = out / NAME
+    text = json.dumps(content, ensure_ascii=False, indent=1, sort_keys=True) + "\n"
+    put_file(target, text.encode())
+    (out / JOURNAL).unlink(missing_ok=True)
+    return target
+
+
+@contextmanager
+def journal(out: Path) -> Iterator[Callable[[ManifestEntry], None]]:
+    """Records each entry as soon as its files stand; the next `write_manifest` removes the journal."""
+    with (out / JOURNAL).open("a", encoding="utf-8", newline="\n") as stream:
+
+        def record(entry: ManifestEntry) -> None:
+            head = {"student": entry.student, "folder": entry.folder, "product": entry.product}
+            stream.write(json.dumps(head | _plain(entry), ensure_ascii=False) + "\n")
+            stream.flush()
+
+        yield record
+
+
+def _plain(entry: ManifestEntry) -> dict[str, Any]:
+    common = {**entry.made_of, "state": "failed" if entry.problems else "done"}
+    return common | ({"problems": list(entry.problems)} if entry.problems else {"files": dict(entry.files)})
+
+
+def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """The entries of a manifest as lines of a journal."""
+    students = content.get("students")
+    if content.get("format") != FORMAT or not isinstance(students, dict):
+        return
+    for student, of_student in students.items():
+        if isinstance(of_student, dict) and isinstance(of_student.get("products"), dict):
+            for product, plain in of_student["products"].items():
+                if isinstance(plain, dict):
+                    yield plain | {"student": student, "folder": of_student.get("folder"), "product": product}
+
+
+def _entry(line: dict[str, Any]) -> ManifestEntry | None:
+    """The entry of a line, unless the line is not of the form that `journal` gives."""
+    made = {key: line.get(key) for key in (*MADE_OF, *((ASK,) if ASK in line else ()))}
+    try:
+        entry = _ENTRY.validate_python({**line, "made_of": made})
+    except ValidationError:
+        return None
+    return entry if all(Path(name).name == name for name in entry.files) else None
+
+
+def _parsed(text: str) -> dict[str, Any]:
+    try:
+        content = json.loads(text)
+    except (ValueError, RecursionError):
+        return {}
+    return content if isinstance(content, dict) else {}
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8", errors="replace")
+    except FileNotFoundError:
+        return ""
+
+
+def _hash(path: Path) -> str:
+    try:
+        return sha256(path.read_bytes()).hexdigest()
+    except (OSError, ValueError):
+        return ""

@@ -1,0 +1,366 @@
+"""A spec: an assignment file with a finite choice of values in place of some of them.
+
+Beside the keys of an assignment file it may have
+
+- lists where one value is wanted: `n: [1800 rpm, 2000 rpm, 2200 rpm]`;
+- stepped ranges: `H: {from: 80 mm, to: 120 mm, step: 5 mm}`, ends included, units as typed in `from`;
+- `variants: table.csv` (or .xlsx, beside the spec): one row a variant, columns named like the parameters (`H`,
+  or `H (mm)` for bare numbers; `positions.start` for other sections), and if wished a column `variant`
+  with its name;
+- `salt: text`, which changes all draws; without it they depend on the key `variant` of the spec.
+
+Choices may stand at any depth of `parameters`, `positions`, `drawing` and `indicator`.  What the kind's own
+model wants as a list stays a list.  Every combination of the choices is a variant.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from pathlib import Path
+
+from reportgen import catalogue
+from reportgen.assignment.common import Kind
+from reportgen.assignment.reading import allowed_forms, known_keys, language_of, misread
+from reportgen.base.errors import Fault, Mark, Where
+from reportgen.base.source import List, Node, Scalar, Source, Table, at, path_text, put, read_source, without
+from reportgen.base.units import NUMBER, Language, QuantityFault, read_number, read_quantity, read_unit
+from reportgen.base.words import as_error, close_or_known, kinds
+from reportgen.classes.roster import Column, columns, records
+from reportgen.workbook import read
+
+OWN_KEYS = ("variants", "salt")
+DRAWN_SECTIONS = ("parameters", "positions", "drawing", "indicator")
+RANGE_KEYS = ("from", "to", "step")
+MOST_CHOICES = 10_000
+_LEADING_NUMBER = re.compile(rf"{NUMBER}\s*")
+_DUST = Decimal("1e-9")
+"""Shares of a step below which an end counts as met: what is left of a change of units."""
+
+Settings = Mapping[Where, Scalar]
+"""Values with the place in the assignment where each stands."""
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """One of the values of an axis, or one row of the table of variants."""
+
+    text: str
+    settings: Settings
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """What is drawn by itself: its path ("parameters.H", or "variants") and its choices."""
+
+    name: str
+    choices: tuple[Choice, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Spec:
+    """A spec in order: every choice can be read as what it stands for; not every combination need turn.
+
+    `digest` is the SHA-256 of its text and its table.
+    """
+
+    path: Path
+    text: str
+    whole: Table
+    """The file as it stands."""
+    top: Table
+    """The same without the keys that only a spec has."""
+    kind: Kind
+    axes: tuple[Axis, ...]
+    salt: str
+    digest: str
+    language: Language
+
+    @property
+    def name(self) -> str:
+        return self.path.stem
+
+    @property
+    def mark(self) -> Mark:
+        """Where faults of whole combinations are shown: at the parameters."""
+        section = self.top.find("parameters")
+        return section[0].mark if section else self.top.mark
+
+    @property
+    def size(self) -> int:
+        """The number of combinations."""
+        return math.prod(len(axis.choices) for axis in self.axes)
+
+    def combination(self, number: int) -> tuple[int, ...]:
+        """The indices of a combination numbered from 0, the last axis counting fastest."""
+        indices = []
+        for axis in reversed(self.axes):
+            number, index = divmod(number, len(axis.choices))
+            indices.append(index)
+        return tuple(reversed(indices))
+
+    def number(self, indices: Sequence[int]) -> int:
+        """The number of a combination, from 0."""
+        number = 0
+        for axis, index in zip(self.axes, indices, strict=True):
+            number = number * len(axis.choices) + index
+        return number
+
+    def label(self, indices: Sequence[int]) -> str:
+        """What a variant is called: by its row if nothing else is drawn, else by its number, from 1.
+
+        Where nothing is drawn at all, it keeps the spec's own name.
+        """
+        own = at(self.top, ("variant",))
+        if not self.axes:
+            return own.text if isinstance(own, Scalar) else ""
+        rows = [axis.choices[k].text for axis, k in zip(self.axes, indices, strict=True) if axis.name == "variants"]
+        number = str(self.number(indices) + 1)
+        return rows[0] if rows and len(self.axes) == 1 else "-".join([*rows, number])
+
+    def settings(self, indices: Sequence[int]) -> Settings:
+        """The values of a combination."""
+        merged: dict[Where, Scalar] = {}
+        for axis, index in zip(self.axes, indices, strict=True):
+            merged.update(axis.choices[index].settings)
+        return merged
+
+    def source(self, settings: Settings) -> Source:
+        """The assignment file with `settings` in place of the choices."""
+        return Source(str(self.path), self.text, assembled(self.top, settings))
+
+    def column_faults(self, overriding: Iterable[Column]) -> list[Fault]:
+        """Faults of a roster's headings that set what this kind of machine does not have."""
+        return [fault for column in overriding for fault in _no_place(self.kind, self.top, column)]
+
+
+def read_spec(path: Path, language: Language | None = None) -> Spec:
+    """The spec of a file; raises `AssignmentError` with all faults that its choices show by themselves."""
+    source = read_source(path)
+    language = language or language_of(source)
+    top = source.top
+    name = at(top, ("kind",))
+    named = isinstance(name, Scalar) and name.text in kinds()
+    if source.faults or not isinstance(top, Table) or not isinstance(name, Scalar) or not named:
+        raise as_error(catalogue.assess(source, path)[1], language)
+    kind = catalogue.kind(name.text)
+    faults: list[Fault] = []
+    base = without(top, OWN_KEYS)
+    axes = list(_axes(base, (), kind, faults))
+    table = _own_text(top, "variants", faults)
+    salt = _own_text(top, "salt", faults) or _own_text(top, "variant", [])
+    digest = hashlib.sha256(source.text.encode())
+    if table is not None:
+        file = path.parent / table.text
+        rows = _rows(file, kind, base, faults, language)
+        faults += _given_twice(base, axes, rows)
+        axes.append(Axis("variants", rows))
+        if not faults:
+            digest.update(file.read_bytes())
+    salted = salt.text if salt else ""
+    spec = Spec(
+        path=path,
+        text=source.text,
+        whole=top,
+        top=base,
+        kind=kind,
+        axes=tuple(axes),
+        salt=salted,
+        digest=digest.hexdigest(),
+        language=language,
+    )
+    faults += _unreadable(spec)
+    if faults:
+        raise as_error(faults, language)
+    return spec
+
+
+def assembled(top: Table, settings: Settings) -> Table:
+    """The file with some values set."""
+    node: Node = top
+    for where, value in settings.items():
+        node = put(node, where, value)
+    assert isinstance(node, Table), "no place is the top of the file"
+    return node
+
+
+def place(kind: Kind, name: str) -> Where:
+    """The place that a heading names; a bare name is one of the parameters."""
+    steps = name.split(".")
+    where: Where = () if steps[0] in DRAWN_SECTIONS or steps[0] == "report" else ("parameters",)
+    for step in steps:
+        where = (*where, int(step) if step.isdecimal() and "list" in allowed_forms(kind, where) else step)
+    return where
+
+
+def _own_text(top: Table, key: str, faults: list[Fault]) -> Scalar | None:
+    entry = top.find(key)
+    if entry is None or (isinstance(entry[1], Scalar) and entry[1].null):
+        return None
+    if isinstance(entry[1], Scalar):
+        return entry[1]
+    faults.append(Fault("wrong-type", entry[1].mark, {"expected": "text"}))
+    return None
+
+
+# --- lists and ranges -------------------------------------------------------------------------------
+
+
+def _axes(node: Node, where: Where, kind: Kind, faults: list[Fault]) -> Iterator[Axis]:
+    """Lists and ranges that stand where the model wants one value."""
+    forms = allowed_forms(kind, where)
+    one_value = "scalar" in forms and bool(where) and where[0] in DRAWN_SECTIONS
+    match node:
+        case List() if one_value and "list" not in forms:
+            yield _axis(where, _listed(node, faults))
+        case List(items):
+            for index, item in enumerate(items):
+                yield from _axes(item, (*where, index), kind, faults)
+        case Table() if one_value and "table" not in forms:
+            yield _axis(where, _stepped(node, faults))
+        case Table(entries):
+            for key, value in entries:
+                yield from _axes(value, (*where, key.text), kind, faults)
+
+
+def _axis(where: Where, values: Sequence[Scalar]) -> Axis:
+    return Axis(path_text(where), tuple(Choice(value.text, {where: value}) for value in values))
+
+
+def _listed(node: List, faults: list[Fault]) -> tuple[Scalar, ...]:
+    """The choices of a list."""
+    if not node.items:
+        faults.append(Fault("too-few", node.mark, {"least": "1"}))
+    if len(node.items) > MOST_CHOICES:
+        faults.append(Fault("too-many", node.mark, {"most": str(MOST_CHOICES)}))
+        return ()
+    values: dict[str, Scalar] = {}
+    for item in node.items:
+        if not isinstance(item, Scalar) or item.null:
+            faults.append(Fault("wrong-type", item.mark, {"expected": "text"}))
+        elif item.text in values:
+            faults.append(Fault("choice-repeated", item.mark, {"text": item.text}))
+        else:
+            values[item.text] = item
+    return tuple(values.values())
+
+
+def _stepped(node: Table, faults: list[Fault]) -> tuple[Scalar, ...]:
+    """The choices of a range: from, from + step, …, up to `to` inclusive, in the unit of `from`.
+
+    Steps are added in decimal numbers, so that 0.1 steps give 0.3.  None if something is at fault.
+    """
+    ends = list(_ends(node, faults))
+    if len(ends) < len(RANGE_KEYS):
+        return ()
+    first, last, _ = ends
+    unit = _LEADING_NUMBER.sub("", first.text.strip().replace("\N{MINUS SIGN}", "-"), count=1)
+    numbers = []
+    for end in ends:
+        try:
+            numbers.append(_number(end.text, unit))
+        except QuantityFault as fault:
+            faults.append(Fault(fault.code, end.mark, fault.arguments))
+            return ()
+    start, stop, step = numbers
+    if step <= 0:
+        faults.append(Fault("range-step", ends[2].mark))
+    elif start > stop:
+        faults.append(Fault("range-order", first.mark, {"last": last.text}))
+    elif (stop - start) / step + _DUST >= MOST_CHOICES:
+        faults.append(Fault("too-many", node.mark, {"most": str(MOST_CHOICES)}))
+    else:
+        count = int((stop - start) / step + _DUST) + 1
+        return tuple(Scalar(f"{_typed(start + k * step)} {unit}".strip(), first.mark) for k in range(count))
+    return ()
+
+
+def _ends(node: Table, faults: list[Fault]) -> Iterator[Scalar]:
+    """The scalars of from, to and step, as far as they are there; the rest are faults."""
+    for key, _ in node.entries:
+        if key.text not in RANGE_KEYS:
+            faults.append(Fault("unknown-key", key.mark, {"key": key.text, "known": ", ".join(RANGE_KEYS)}))
+    for name in RANGE_KEYS:
+        entry = node.find(name)
+        if entry is None:
+            faults.append(Fault("missing-key", node.mark, {"key": name}))
+        elif isinstance(entry[1], Scalar) and not entry[1].null:
+            yield entry[1]
+        else:
+            faults.append(Fault("wrong-type", entry[1].mark, {"expected": "number"}))
+
+
+def _number(text: str, unit: str) -> Decimal:
+    """The number of an end in `unit`; raises `QuantityFault`."""
+    number = read_quantity(text, unit).si / read_unit(unit, unit) if unit else read_number(text)
+    # 12 digits are more than anyone types and fewer than rounding reaches.
+    return Decimal(f"{number:.12g}")
+
+
+def _typed(number: Decimal) -> str:
+    """A decimal number without exponent and trailing zeros."""
+    text = format(number.normalize(), "f")
+    return "0" if text in ("-0", "0") else text
+
+
+# --- the table of variants --------------------------------------------------------------------------
+
+
+def _rows(file: Path, kind: Kind, base: Table, faults: list[Fault], language: Language) -> tuple[Choice, ...]:
+    """The rows of a table of variants; raises `AssignmentError` if it cannot be read at all."""
+    pages = read(file, language)
+    page = next((page for page in pages if any(page.rows)), pages[0])
+    start = next(index for index, row in enumerate(page.rows) if row)
+    headings = columns(page.rows[start])
+    values = [column for column in headings if column.name != "variant"]
+    faults += [fault for column in values for fault in _no_place(kind, base, column)]
+    places = {column.name: place(kind, column.name) for column in values}
+    rows: list[Choice] = []
+    names: set[str] = set()
+    for record in records(page, headings, start + 1, faults):
+        name = record.values["variant"].text if "variant" in record.values else str(len(rows) + 1)
+        if name in names:
+            faults.append(Fault("choice-repeated", record.mark, {"text": name}))
+        names.add(name)
+        rows.append(Choice(name, {places[key]: value for key, value in record.values.items() if key in places}))
+    if not rows:
+        faults.append(Fault("empty-roster", headings[0].mark))
+    return tuple(rows)
+
+
+def _no_place(kind: Kind, base: Table, column: Column) -> Iterator[Fault]:
+    """The fault of a heading that names no place where a single value can stand, or an item no list has."""
+    where = place(kind, column.name)
+    items = [where[: k + 1] for k, step in enumerate(where) if isinstance(step, int)]
+    if "scalar" not in allowed_forms(kind, where) or any(at(base, item) is None for item in items):
+        known = known_keys(kind, where[:-1])
+        hint = close_or_known(str(where[-1]), known) if known else {}
+        yield Fault("unknown-column", column.mark, {"key": column.name, **hint})
+
+
+def _given_twice(base: Table, axes: Iterable[Axis], rows: Iterable[Choice]) -> Iterator[Fault]:
+    """Values of the spec that a column of the table sets too."""
+    drawn = {axis.name for axis in axes}
+    for where in dict.fromkeys(where for row in rows for where in row.settings):
+        node = at(base, where)
+        if node is not None and (path_text(where) in drawn or not (isinstance(node, Scalar) and node.null)):
+            yield Fault("not-in-table", node.mark, {"key": path_text(where)})
+
+
+def _unreadable(spec: Spec) -> list[Fault]:
+    """Faults of single values: of the first combination, and of every other choice put into it."""
+    if not spec.axes:
+        return misread(spec.top, spec.kind)
+    if any(not axis.choices for axis in spec.axes):
+        return []
+    first = assembled(spec.top, spec.settings([0] * len(spec.axes)))
+    found: dict[tuple[str, Mark], Fault] = {}
+    for axis in spec.axes:
+        for choice in axis.choices:
+            for fault in misread(assembled(first, choice.settings), spec.kind):
+                found.setdefault((fault.code, fault.mark), fault)
+    return list(found.values())

@@ -1,0 +1,332 @@
+"""Spec and roster → an assignment file for each student, and a table of how equal the variants are.
+
+A student's file stays as it is once somebody has edited it.  Its head names the version, the spec with its
+SHA-256, the salt and the student; the head's last line is the SHA-256 of all that follows.  A file whose text still
+has that hash has not been edited since it was made.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from statistics import median
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from reportgen import catalogue
+from reportgen.assignment import Assignment
+from reportgen.base.errors import Fault, Mark, Where
+from reportgen.base.files import put_file
+from reportgen.base.source import Node, Scalar, Source, Table, at, path_text, put, quoted, read_source, text_of
+from reportgen.base.units import Language
+from reportgen.base.words import as_error, version, word
+from reportgen.cases import opened
+from reportgen.classes.draw import Draw, Drawn, judge_of, shared
+from reportgen.classes.pool import Limits, each_within
+from reportgen.classes.roster import read_roster
+from reportgen.classes.spec import Spec, assembled, read_spec
+from reportgen.workbook import write_csv
+
+TABLE = "variants.csv"
+HEAD_LINES = 3
+_HASH = re.compile(r"#.*\b([0-9a-f]{64})")
+_HERE = Mark("")
+
+MOST_TIMES = 2.0
+"""A count is an outlier if it differs from the median by more than this factor."""
+MOST_DEVIATIONS = 3.0
+"""A size is an outlier if it is further from the median than so many median absolute deviations …"""
+LEAST_SHARE = 0.1
+"""… and than this share of the median: in a class of near equals there is no outlier."""
+
+ONE_PROCESS = 200
+"""The figures of a smaller class are found before other processes have started."""
+LIMITS = Limits(seconds=60.0, megabytes=1000)
+"""For the figures of one file."""
+
+Shown = Callable[[Iterable[Any], int], Iterable[Any]]
+"""Passes on what it is given, of which there are so many, and shows how far it has come."""
+
+State = Literal["new", "changed", "same", "kept"]
+"""Of a file: made, made anew, left since nothing changed, left since it was edited by hand."""
+
+
+@dataclass(frozen=True)
+class StudentFile:
+    """A student's assignment file: whose it is, where it belongs, what is to be done with it, what it says as drawn."""
+
+    drawn: Drawn
+    path: Path
+    state: State
+    text: str
+    top: Table
+
+    @cached_property
+    def source(self) -> Source:
+        """The file as it stands once it is made."""
+        return read_source(self.path) if self.state == "kept" else Source(str(self.path), self.text, self.top)
+
+
+class Effort(NamedTuple):
+    """What a variant asks for; the order is that of the columns of `variants.csv`.
+
+    `worked` counts the printed values that are derived at the positions, over all of these; `largest` is the greatest
+    balancing torque (N·m) or force (N) of the positions, `speed` that of the driver (rad/s or m/s), `positive` the
+    share of positions where the balance is positive (`largest` and `positive` are None without loads, `speed` without
+    a driver); `zeros` counts the values that are zero beside their scale.
+    """
+
+    worked: int
+    largest: float | None
+    speed: float | None
+    positive: float | None
+    zeros: int
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """One figure over the class; `outliers` are the indices of variants out of proportion."""
+
+    name: str
+    least: float
+    median: float
+    greatest: float
+    outliers: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Variants:
+    """What was made: the files in the order of the roster, remarks, and how equal the variants are, in words."""
+
+    files: tuple[StudentFile, ...]
+    remarks: tuple[str, ...]
+    summary: tuple[str, ...]
+
+
+def make_variants(
+    spec_path: Path,
+    roster_path: Path,
+    out: Path,
+    force: bool = False,
+    language: Language | None = None,
+    shown: Shown = lambda files, _: files,
+) -> Variants:
+    """Draw for the class of a roster and write each student's assignment file into `out`.
+
+    Files appear whole; one that was edited since it was made is kept unless `force`.  Also writes
+    `out`/variants.csv, which is for the instructor alone.  Raises `AssignmentError` with the faults of spec and
+    roster, before anything is written.
+    """
+    spec = read_spec(spec_path, language)
+    roster = read_roster(roster_path, spec.language)
+    _refuse(spec.column_faults(roster.columns), spec)
+    draw, files = Draw(spec, judge_of(spec)), list[StudentFile]()
+
+    def made() -> Iterator[StudentFile]:
+        for drawn in draw.each(roster):
+            files.append(_student_file(spec, drawn, out, force))
+            yield files[-1]
+
+    count = len(roster.students)
+    # While some are drawn, other processes find the figures of those before.
+    efforts = tuple(shown(_efforts(made(), count), count))
+    _refuse(draw.faults, spec)
+    out.mkdir(parents=True, exist_ok=True)
+    for file in files:
+        if file.state in ("new", "changed"):
+            put_file(file.path, file.text.encode())
+    put_file(out / TABLE, _csv(files, efforts))
+    remarks = (*_remarks(files, efforts, spec.language), *_sharing(draw, files, spec))
+    known = {file.drawn.student.id: one for file, one in zip(files, efforts, strict=True) if one is not None}
+    return Variants(tuple(files), remarks, tuple(_summary(known, spec.language)))
+
+
+def _refuse(faults: Sequence[Fault], spec: Spec) -> None:
+    if faults:
+        raise as_error(faults, spec.language)
+
+
+# --- a student's file -------------------------------------------------------------------------------
+
+
+def _student_file(spec: Spec, drawn: Drawn, folder: Path, force: bool) -> StudentFile:
+    """The assignment file of a student in `folder`; one there that was edited is kept unless `force`."""
+    top = _table(spec, drawn)
+    body = text_of(top, spec.text, spec.whole)
+    path = folder / f"{drawn.student.folder}.yaml"
+    return StudentFile(drawn, path, _state(path, body, force), _head(spec, drawn, body) + body, top)
+
+
+def _state(path: Path, body: str, force: bool) -> State:
+    try:
+        old = path.read_bytes().decode("utf-8", "replace").replace("\r\n", "\n")
+    except FileNotFoundError:
+        return "new"
+    *head, present = old.split("\n", HEAD_LINES)
+    stated = _HASH.fullmatch(head[-1]) if len(head) == HEAD_LINES else None
+    untouched = stated is not None and stated[1] == _digest(present)
+    if untouched and present == body:
+        return "same"
+    return "changed" if untouched or force else "kept"
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _head(spec: Spec, drawn: Drawn, body: str) -> str:
+    """Comments; what a user wrote is quoted, so that no line can end in it."""
+    origin = {"version": version(), "spec": quoted(spec.path.name), "digest": spec.digest, "salt": quoted(spec.salt)}
+    lines = (
+        word("variants_for", spec.language, id=quoted(drawn.student.id)),
+        word("variants_made", spec.language, **origin),
+        word("variants_body", spec.language, digest=_digest(body)),
+    )
+    return "".join(f"# {line}\n" for line in lines)
+
+
+def _table(spec: Spec, drawn: Drawn) -> Table:
+    """What the file says: the spec with the student's card and what was drawn."""
+    card = Table(tuple((_scalar(key), _scalar(text)) for key, text in drawn.student.card.items()), _HERE)
+    top: Node = put(assembled(spec.top, drawn.settings), ("report", "student"), card)
+    if at(top, ("report", "language")) is None:
+        top = put(top, ("report", "language"), _scalar(spec.language))
+    if spec.axes:
+        top = put(top, ("variant",), _scalar(spec.label(drawn.combination)))
+    assert isinstance(top, Table), "keys are put into a table"
+    # The kind and the variant stand before all else.
+    first = {"kind": 0, "variant": 1}
+    entries = sorted(top.entries, key=lambda entry: first.get(entry[0].text, 2))
+    return Table(tuple(entries), top.mark)
+
+
+def _scalar(text: str) -> Scalar:
+    return Scalar(text, _HERE)
+
+
+# --- how equal the variants are ---------------------------------------------------------------------
+
+
+def _efforts(files: Iterable[StudentFile], count: int) -> Iterator[Effort | None]:
+    """The figures of each of so many files; None for one edited by hand that is at fault."""
+    if count < ONE_PROCESS:
+        yield from map(_effort_of, files)
+    else:
+        yield from (found for _, found in each_within(LIMITS, _effort_of, files, __name__))
+
+
+def _effort_of(file: StudentFile) -> Effort | None:
+    # What was drawn has been judged, what was edited by hand has not.
+    judge = catalogue.assess if file.state == "kept" else catalogue.understood
+    assignment, _ = judge(file.source, file.path)
+    return None if assignment is None else effort(assignment)
+
+
+def effort(assignment: Assignment) -> Effort:
+    """The figures of an assignment, from what is derived at each of its positions."""
+    case = opened(assignment)
+    balance = case.balance
+    derived = [
+        one for one in case.families.values() if one.definition is not None and not one.hidden and not one.is_plane
+    ]
+    zeros = sum(one.at(position) == 0 for one in derived if one.scale for position in range(1, len(one.values) + 1))
+    return Effort(
+        worked=sum(len(one.values) for one in derived),
+        largest=None if balance is None else float(np.max(np.abs(balance))),
+        speed=case.speed,
+        positive=None if balance is None else float(np.mean(balance > 0)),
+        zeros=int(zeros),
+    )
+
+
+def compare(efforts: Sequence[Effort]) -> list[Spread]:
+    """Each figure's spread over the class; figures that no variant has are left out."""
+    spreads = []
+    for name, values in zip(Effort._fields, zip(*efforts, strict=True), strict=False):
+        known = [value for value in values if value is not None]
+        if known:
+            middle = median(known)
+            outliers = _outliers(name, values, middle)
+            spreads.append(Spread(name, min(known), middle, max(known), outliers))
+    return spreads
+
+
+def _outliers(name: str, values: Sequence[float | None], middle: float) -> tuple[int, ...]:
+    """Indices of what is out of proportion: counts by a factor, sizes by median absolute deviations."""
+    known = {k: value for k, value in enumerate(values) if value is not None}
+    if name == "worked":
+        least, most = middle / MOST_TIMES, middle * MOST_TIMES
+        return tuple(k for k, value in known.items() if value and not least <= value <= most)
+    deviation = median(abs(value - middle) for value in known.values())
+    limit = max(MOST_DEVIATIONS * deviation, LEAST_SHARE * abs(middle))
+    return tuple(k for k, value in known.items() if abs(value - middle) > limit)
+
+
+def _lines(spreads: Sequence[Spread], language: Language) -> list[str]:
+    """The spreads as lines of text: a figure, its least, median and greatest value."""
+    rows = [["", *(word(name, language) for name in ("least", "median", "greatest"))]]
+    rows += [[word(one.name, language), *map(_shown, (one.least, one.median, one.greatest))] for one in spreads]
+    first, *others = (max(map(len, cells)) for cells in zip(*rows, strict=True))
+    return [
+        "  ".join([name.ljust(first), *(cell.rjust(width) for cell, width in zip(cells, others, strict=True))])
+        for name, *cells in rows
+    ]
+
+
+def _shown(value: float) -> str:
+    """A figure with four digits, a count with all."""
+    return f"{value:.0f}" if float(value).is_integer() and abs(value) < 1e9 else f"{value:.4g}"
+
+
+# --- what the instructor sees -----------------------------------------------------------------------
+
+
+def _remarks(files: Sequence[StudentFile], efforts: Sequence[Effort | None], language: Language) -> Iterator[str]:
+    """What to say of the files that were kept."""
+    for file, found in zip(files, efforts, strict=True):
+        if file.state == "kept":
+            yield word("variants_kept", language, path=file.path)
+        if found is None:
+            yield word("variants_unchecked", language, id=file.drawn.student.id)
+
+
+def _sharing(draw: Draw, files: Sequence[StudentFile], spec: Spec) -> Iterator[str]:
+    """Who has the same variant, if anybody has."""
+    groups = shared(file.drawn for file in files)
+    if groups:
+        yield word("variants_shared", spec.language, size=draw.usable, students=len(files))
+    for group in groups:
+        ids = ", ".join(one.student.id for one in group)
+        yield word("variants_same", spec.language, variant=spec.label(group[0].combination), ids=ids)
+
+
+def _summary(efforts: Mapping[str, Effort], language: Language) -> Iterator[str]:
+    """How equal the variants are, by the figures of each student's file."""
+    spreads, students = compare(list(efforts.values())), list(efforts.items())
+    yield word("variants_table", language, count=len(efforts))
+    yield from _lines(spreads, language)
+    for spread in spreads:
+        apart = [f"{id} ({_shown(getattr(one, spread.name))})" for id, one in (students[k] for k in spread.outliers)]
+        if apart:
+            about = {"name": word(spread.name, language), "median": _shown(spread.median)}
+            yield word("variants_apart", language, ids=", ".join(apart), **about)
+
+
+def _csv(files: Sequence[StudentFile], efforts: Sequence[Effort | None]) -> bytes:
+    """One row a student: id, name, file, variant, values drawn or set, as the file now has them, and its figures."""
+    places: list[Where] = list(dict.fromkeys(where for file in files for where in file.drawn.settings))
+    rows: list[list[str | float | None]] = [["id", "name", "file", "variant", *map(path_text, places), *Effort._fields]]
+    for file, one in zip(files, efforts, strict=True):
+        top = file.source.top
+        found = (at(top, where) for where in (("variant",), *places))
+        values = [node.text if isinstance(node, Scalar) else None for node in found]
+        tail = one or (None,) * len(Effort._fields)
+        rounded = [None if value is None else float(f"{value:.6g}") for value in tail]
+        student = file.drawn.student
+        rows.append([student.id, student.card.get("name"), file.path.name, *values, *rounded])
+    return write_csv(rows)

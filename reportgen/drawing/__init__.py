@@ -1,0 +1,119 @@
+"""A drawing as data: a sheet of paper in millimetres and the items on it.
+
+Points are complex numbers in mm, x to the right and y up, with the origin at the sheet's lower left
+corner.  Items are painted in order.  A scene knows no machine; a writer knows no figure.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from reportgen.formula import Expression
+
+Content = Expression | str
+"""What a label prints: an expression, or plain text."""
+Anchor = Literal["center", "left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right"]
+
+
+@dataclass(frozen=True, slots=True)
+class Stroke:
+    """A pen: width in mm, colour as #rrggbb, dashes (on, off, …) in mm; empty dashes draw solid."""
+
+    width: float = 0.25
+    colour: str = "#000000"
+    dash: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    start: complex
+    end: complex
+    stroke: Stroke = Stroke()
+
+
+@dataclass(frozen=True, slots=True)
+class Arrow:
+    """A straight arrow whose tip lies exactly on `end`; `head` is the head's length in mm.
+
+    `name` (e.g. "pb") identifies the arrow to whoever measures the drawing; it is not printed.
+    """
+
+    start: complex
+    end: complex
+    stroke: Stroke = Stroke()
+    head: float = 2.6
+    name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    centre: complex
+    radius: float
+    stroke: Stroke | None = Stroke()
+    fill: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """From `start` to `stop` (radians, anticlockwise when stop > start).
+
+    A `head` > 0 puts an arrow tip at the stop.
+    """
+
+    centre: complex
+    radius: float
+    start: float
+    stop: float
+    stroke: Stroke = Stroke()
+    head: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Polyline:
+    points: tuple[complex, ...]
+    stroke: Stroke | None = Stroke()
+    closed: bool = False
+    fill: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Hatch:
+    """Parallel strokes filling a convex polygon (ground, sections), `spacing` mm apart.
+
+    They rise at 45° from the direction `turn` (radians).
+    """
+
+    points: tuple[complex, ...]
+    spacing: float = 1.2
+    stroke: Stroke = Stroke(0.13)
+    turn: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """Text at a point: `anchor` says which point of its box lies on `at`."""
+
+    at: complex
+    content: Content
+    anchor: Anchor = "center"
+    size: float = 9.0
+    """Font size in points."""
+    turn: int = 0
+    """Degrees anticlockwise, 0 or 90."""
+    background: bool = False
+    """White paper under the box, for a label that must stand on a line."""
+
+
+Item = Line | Arrow | Circle | Arc | Polyline | Hatch | Label
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A drawing `width` × `height` mm in true size."""
+
+    width: float
+    height: float
+    items: tuple[Item, ...] = field(default=())
+    title: str = ""
+    """A short plain title printed below one of several scenes of a figure, e.g. "a)"."""

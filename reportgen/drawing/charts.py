@@ -1,0 +1,428 @@
+"""Charts: curves over the driver's angle, the polar diagram of a load, bars and histograms of counts.
+
+matplotlib chooses the ticks of curves and simplifies their paths; the typesetter draws and sets all text.
+This is the only module that imports matplotlib, and only when a curve is drawn.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from reportgen.base.units import nice_up
+from reportgen.drawing import Circle, Content, Item, Label, Line, Polyline, Scene, Stroke, style
+from reportgen.drawing.geometry import box, clusters
+from reportgen.drawing.labels import Draft, Request, finish, joined, label
+from reportgen.formula import Chain, Number, Symbol
+
+WIDTH, HEIGHT = 128.0, 62.0
+"""The area inside the axes of curves, mm; with its text a chart is about 150 × 85 mm."""
+HALF_WIDTH, HALF_HEIGHT = 78.0, 46.0
+"""Of a chart with its text and of the area inside its axes, where two charts stand side by side, mm."""
+CHART_MARGIN = 1.5
+AXIS_NAME = 8.0
+"""What the turned name of an axis takes beside its figures, mm."""
+LINE = 4.5
+"""From one line of that name to the next, mm."""
+POLAR_SIZE = 84.0
+"""Of a polar diagram by itself at most, either way, mm."""
+POLAR_PAIRS = 58.0, 54.0, 50.0
+"""Of one that stands beside another if it is narrow enough then, mm."""
+PENS = (
+    Stroke(0.4, style.BLUE),
+    Stroke(0.4, style.RED, style.DASHED),
+    Stroke(0.4, style.BLACK, style.CHAIN),
+    Stroke(0.4, style.GRAY, style.DOTTED),
+)
+"""One curve after the other, distinguished by dashes as well as by colour."""
+GRID = Stroke(0.1, style.PALE)
+EDGE = Stroke(0.25)
+MEAN = Stroke(0.25, style.BLACK, (4.0, 1.0, 0.8, 1.0))
+MARK = 0.75
+"""Radius of the circle at a marked point, mm."""
+
+COUNT_WIDTH = 148.0
+"""Of a figure of bars or a histogram with its text, mm."""
+LENGTH = 100.0
+"""Of the axis of bars at least, mm."""
+ROW, BAR = 6.0, 4.0
+"""From one horizontal bar to the next, and their thickness, mm."""
+COLUMN_HEIGHT = 55.0
+"""Of a histogram, mm."""
+OUTLINE = Stroke(0.3, style.BLUE)
+TICKS = 6
+BETWEEN = 1.0
+"""White between the figures of an axis at least, mm."""
+
+Vertices = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """One curve: x [K] and y [K], its label, and indices of the points that get a mark."""
+
+    label: Content
+    x: ArrayLike
+    y: ArrayLike
+    marks: tuple[int, ...] = ()
+    names: tuple[Content, ...] = ()
+    """Labels of the marks, if they have any."""
+
+
+@dataclass(frozen=True, slots=True)
+class Area:
+    """The room inside the axes that a chart may fill (mm), at round scales which it then prints.
+
+    They are round once the chart is `enlarged` so many times.
+    """
+
+    width: float = WIDTH
+    height: float = HEIGHT
+    enlarged: float = 1.0
+
+    def per_mm(self, length: float, room: float) -> float:
+        """The round scale, of the enlarged chart, at which a length in the unit of its axis fits a room (mm)."""
+        return nice_up(length / (room * self.enlarged))
+
+
+@dataclass(frozen=True, slots=True)
+class _Window:
+    """Data ranges and the paper they are drawn on: x0…x1 over `width` mm, y0…y1 over `height` mm."""
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    width: float
+    height: float
+
+    def vertices(self, x: ArrayLike, y: ArrayLike) -> Vertices:
+        """Places on paper [K, 2]; a gap (nan) stays a gap."""
+        across = (np.asarray(x, dtype=np.float64) - self.x[0]) / (self.x[1] - self.x[0]) * self.width
+        up = (np.asarray(y, dtype=np.float64) - self.y[0]) / (self.y[1] - self.y[0]) * self.height
+        return np.column_stack((across, up))
+
+    def at(self, x: float, y: float) -> complex:
+        across, up = self.vertices([x], [y])[0]
+        return complex(across, up)
+
+
+@dataclass(frozen=True, slots=True)
+class Plotted:
+    """A chart with what places on it mean: the corners of its axes on the scene (mm), and what they stand for."""
+
+    scene: Scene
+    low: complex
+    high: complex
+    x: tuple[float, float]
+    y: tuple[float, float]
+
+
+def chart(
+    series: Sequence[Series],
+    x_label: Content,
+    y_label: Content,
+    *,
+    turn: bool = True,
+    levels: Sequence[tuple[float, Content]] = (),
+    half: bool = False,
+    area: Area | None = None,
+) -> Scene:
+    """Curves in one frame, see `plotted`."""
+    return plotted(series, x_label, y_label, turn=turn, levels=levels, half=half, area=area).scene
+
+
+def plotted(
+    series: Sequence[Series],
+    x_label: Content,
+    y_label: Content,
+    *,
+    turn: bool = True,
+    levels: Sequence[tuple[float, Content]] = (),
+    half: bool = False,
+    area: Area | None = None,
+) -> Plotted:
+    """Curves in one frame.  With `turn` x is an angle in degrees with ticks at multiples of 45, 90 or 180.
+
+    `levels` are horizontal lines with a name, e.g. a mean; with `half` two charts stand side by side; with an `area`
+    both scales are round and printed.  Raises `ValueError` if no value is finite.
+    """
+    window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn, half, area)
+    items = _frame(window, x_ticks, y_ticks, "°" if turn else "")
+    requests: list[Request] = []
+    for level, name in levels:
+        start, end = window.at(window.x[0], level), window.at(window.x[1], level)
+        items.append(Line(start, end, MEAN))
+        places = [start + (end - start) * share for share in (0.97, 0.9, 0.06, 0.5, 0.25, 0.75)]
+        requests.append(label(places, name, prefer=(math.pi / 2, -math.pi / 2)))
+    for n, one in enumerate(series):
+        vertices = window.vertices(one.x, one.y)
+        pen = PENS[n % len(PENS)]
+        items += [Polyline(points, pen) for points in _paths(vertices)]
+        requests += _marked(one, vertices, pen, items)
+        if one.label and len(series) > 1:
+            requests.append(label(_places(vertices), one.label))
+    items += _titles(window, x_label, y_label, items, area is not None)
+    scales = _scale(x_label, window.x, window.width, turn), _scale(y_label, window.y, window.height)
+    notes = scales if area is not None else ()
+    scene = finish(Draft(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN)
+    # The frame is the first closed line; finishing moves all items alike.
+    frame = next(item for item in scene.items if isinstance(item, Polyline) and item.closed)
+    return Plotted(scene, frame.points[0], frame.points[2], window.x, window.y)
+
+
+def polar(
+    series: Series,
+    x_label: Content,
+    y_label: Content = "",
+    *,
+    title: str = "",
+    size: float = POLAR_SIZE,
+    area: Area | None = None,
+) -> Scene:
+    """The hodograph of a vector (x, y) about the pole with equal scales, its marks and the axes named.
+
+    Its longer side inside the axes is `size` mm; in an `area` its scale is round and printed.
+    """
+    x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
+    step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / TICKS, (1, 2, 5))
+    (x0, x1), (y0, y1) = _rounded(x, step), _rounded(y, step)
+    per = size / max(x1 - x0, y1 - y0)
+    if area is not None:
+        per = 1 / area.per_mm(max((x1 - x0) / area.width, (y1 - y0) / area.height), 1.0) / area.enlarged
+    window = _Window((x0, x1), (y0, y1), (x1 - x0) * per, (y1 - y0) * per)
+    items = _frame(window, _steps(x0, x1, step), _steps(y0, y1, step), "")
+    items += [Line(window.at(x0, 0), window.at(x1, 0), EDGE), Line(window.at(0, y0), window.at(0, y1), EDGE)]
+    vertices = window.vertices(x, y)
+    items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
+    requests = _marked(series, vertices, PENS[0], items)
+    items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
+    items += _titles(window, x_label, y_label, items, area is not None)
+    notes = () if area is None else (_scale(x_label, window.x, window.width),)
+    return finish(Draft(tuple(items), tuple(requests)), notes=notes, title=title, margin=2.0)
+
+
+def bars(names: Sequence[Content], counts: Sequence[int], x_label: Content) -> Scene:
+    """One bar below the other, its name on the left and its count at its end; raises `ValueError` for none."""
+    if not counts:
+        raise ValueError("bars need something to count")
+    widest = max(box(name, style.SMALL).width for name in names)
+    length = max(COUNT_WIDTH - widest - 10.0, LENGTH)
+    step, most = _whole_steps(max(counts))
+    height = ROW * len(counts)
+    items: list[Item] = []
+    for tick in range(0, most + 1, step):
+        x = length * tick / most
+        items.append(Line(complex(x, 0), complex(x, height), GRID))
+        items.append(Label(complex(x, -3.0), Number(tick), size=style.SMALL))
+    for number, (name, count) in enumerate(zip(names, counts, strict=True)):
+        y = height - ROW * (number + 0.5)
+        items.append(_bar(complex(0, y - BAR / 2), complex(length * count / most, y + BAR / 2)))
+        items.append(Label(complex(-1.5, y), name, "right", style.SMALL))
+    items.append(Line(0j, complex(0, height), EDGE))
+    items.append(Label(complex(length / 2, -8.5), x_label))
+    return finish(Draft(tuple(items)), margin=1.5)
+
+
+def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y_label: Content) -> Scene:
+    """How many values lie between each two of the `edges` [K+1], which are evenly spaced; `counts` [K]."""
+    if len(edges) != len(counts) + 1 or not counts:
+        raise ValueError("a histogram has one more edge than counts")
+    step, most = _whole_steps(max(counts))
+    width = (COUNT_WIDTH - 20.0) / len(counts)
+    items: list[Item] = []
+    for tick in range(0, most + 1, step):
+        y = COLUMN_HEIGHT * tick / most
+        items.append(Line(complex(0, y), complex(width * len(counts), y), GRID))
+        items.append(Label(complex(-1.5, y), Number(tick), "right", style.SMALL))
+    for number, count in enumerate(counts):
+        if count:
+            items.append(_bar(complex(width * number, 0), complex(width * (number + 1), COLUMN_HEIGHT * count / most)))
+    items += [Label(complex(width * n, -3.0), Number(edge), size=style.SMALL) for n, edge in enumerate(edges)]
+    items.append(Line(0j, complex(width * len(counts), 0), EDGE))
+    items.append(Label(complex(width * len(counts) / 2, -8.5), x_label))
+    items.append(Label(complex(-9.0, COLUMN_HEIGHT / 2), y_label, turn=90))
+    return finish(Draft(tuple(items)), margin=1.5)
+
+
+# --- curves ---------------------------------------------------------------------------------------
+
+
+def _window(
+    series: Sequence[Series], levels: Sequence[float], turn: bool, half: bool, area: Area | None
+) -> tuple[_Window, list[float], list[float]]:
+    """Ranges and ticks: whole multiples of 45, 90 or 180 degrees across, matplotlib's choice upwards."""
+    from matplotlib.ticker import MaxNLocator, MultipleLocator
+
+    x = np.concatenate([np.asarray(one.x, dtype=np.float64) for one in series])
+    values = np.concatenate([np.asarray(one.y, dtype=np.float64) for one in series])
+    if not (np.isfinite(x).any() and np.isfinite(values).any()):
+        raise ValueError("a chart needs finite values")
+    y = np.concatenate((values, [0.0, *levels]))
+    x0, x1 = float(np.nanmin(x)), float(np.nanmax(x))
+    ticks = MaxNLocator(6 if half else 7, steps=[1, 2, 2.5, 5, 10]).tick_values(np.nanmin(y), np.nanmax(y))
+    y_ticks = [float(t) for t in ticks]
+    if turn:
+        locator = MultipleLocator((45 if x1 - x0 <= 450 else 90) * (2 if half else 1))
+        x_ticks = [float(t) for t in locator.tick_values(x0, x1) if x0 - 1e-6 <= t <= x1 + 1e-6]
+    else:
+        x_ticks = [float(t) for t in MaxNLocator(5 if half else 9).tick_values(x0, x1)]
+        x0, x1 = x_ticks[0], x_ticks[-1]
+    across, up = x1 - x0, y_ticks[-1] - y_ticks[0]
+    if area is not None:
+        scales = area.per_mm(across, area.width), area.per_mm(up, area.height)
+        width, height = across / scales[0] / area.enlarged, up / scales[1] / area.enlarged
+    else:
+        width, height = (HALF_WIDTH - _beside(x_ticks, y_ticks), HALF_HEIGHT) if half else (WIDTH, HEIGHT)
+    return _Window((x0, x1), (y_ticks[0], y_ticks[-1]), width, height), x_ticks, y_ticks
+
+
+def _scale(label: Content, ends: tuple[float, float], length: float, degrees: bool = False) -> Content:
+    """The scale of an axis: μ_M = 2 N·m/mm, for the name of the axis "M (N·m; positive: …)"."""
+    named = label.parts[0] if isinstance(label, Chain) else None
+    shown = Symbol("μ", named.base) if isinstance(named, Symbol) else Symbol("μ")
+    text = label.note if isinstance(label, Chain) else str(label)
+    unit = "°" if degrees else text.partition(";")[0].rpartition(", ")[2]
+    above, stroke, below = unit.partition("/")
+    below = below.strip("()")
+    per_mm = f"{above}/({below}·mm)" if stroke else f"{unit}/mm"
+    return Chain((shown, Number(float(f"{(ends[1] - ends[0]) / length:.9g}"), unit=per_mm)))
+
+
+def _beside(x_ticks: Sequence[float], y_ticks: Sequence[float]) -> float:
+    """What figures and the turned name of a chart take left and right of its frame (mm)."""
+    widest = max(box(_figure(tick, y_ticks, ""), style.SMALL).width for tick in y_ticks)
+    last = box(_figure(x_ticks[-1], x_ticks, "°"), style.SMALL).width
+    return widest + AXIS_NAME + last / 2 + 2 * CHART_MARGIN
+
+
+def _rounded(values: Vertices, step: float) -> tuple[float, float]:
+    """Whole steps around the values and 0; at least one."""
+    low, high = min(0.0, float(np.nanmin(values))), max(0.0, float(np.nanmax(values)))
+    first, last = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
+    return first * step, max(last, first + 1) * step
+
+
+def _steps(low: float, high: float, step: float) -> list[float]:
+    return [low + k * step for k in range(round((high - low) / step) + 1)]
+
+
+def _frame(window: _Window, x_ticks: Sequence[float], y_ticks: Sequence[float], unit: str) -> list[Item]:
+    """The frame with its grid and the figures at it; the line of y = 0 stands out."""
+    items: list[Item] = []
+    figured = _with_room(window, x_ticks, unit)
+    for tick in x_ticks:
+        foot = window.at(tick, window.y[0])
+        items.append(Line(foot, window.at(tick, window.y[1]), GRID))
+        if tick in figured:
+            items.append(Label(foot - 3.0j, _figure(tick, x_ticks, unit), "center", style.SMALL))
+    for tick in y_ticks:
+        left = window.at(window.x[0], tick)
+        zero = abs(tick) < 1e-12 * max(map(abs, window.y))
+        items.append(Line(left, window.at(window.x[1], tick), EDGE if zero else GRID))
+        items.append(Label(left - 1.5, _figure(tick, y_ticks, ""), "right", style.SMALL))
+    items.append(_box(window.at(window.x[0], window.y[0]), window.at(window.x[1], window.y[1]), EDGE))
+    return items
+
+
+def _with_room(window: _Window, ticks: Sequence[float], unit: str) -> list[float]:
+    """The ticks that get a figure: all, or every second or fifth one from 0, as the figures have room side by side."""
+    step = (ticks[-1] - ticks[0]) / (len(ticks) - 1)
+    apart = step / (window.x[1] - window.x[0]) * window.width
+    widest = max(box(_figure(tick, ticks, unit), style.SMALL).width for tick in ticks)
+    stride = next((every for every in (1, 2, 5) if every * apart >= widest + BETWEEN), 10)
+    return [tick for tick in ticks if round(tick / step) % stride == 0]
+
+
+def _box(low: complex, high: complex, pen: Stroke, fill: str | None = None) -> Polyline:
+    corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
+    return Polyline(corners, pen, closed=True, fill=fill)
+
+
+def _figure(tick: float, ticks: Sequence[float], unit: str) -> Number:
+    """A tick's number with as many decimals as the step between ticks needs."""
+    step = abs(ticks[1] - ticks[0]) if len(ticks) > 1 else 1.0
+    decimals = max(0, -math.floor(math.log10(step) + 1e-9))
+    if abs(step * 10**decimals - round(step * 10**decimals)) > 1e-6:
+        decimals += 1
+    return Number(tick, decimals, unit)
+
+
+def _titles(
+    window: _Window, x_label: Content, y_label: Content, items: Sequence[Item], in_lines: bool = False
+) -> list[Item]:
+    """The axes' names: below the middle and, turned, left of the widest figure.
+
+    `in_lines` a turned name that is longer than its axis is broken after the unit.
+    """
+    figures = [item for item in items if isinstance(item, Label) and item.anchor == "right"]
+    widest = max((box(item.content, item.size).width for item in figures), default=0.0)
+    titles: list[Item] = []
+    if x_label:
+        titles.append(Label(complex(window.width / 2, -8.5), x_label))
+    lines = _lines(y_label) if in_lines and box(y_label, style.LABEL).width > window.height else [y_label]
+    for number, line in enumerate(reversed(lines)):
+        if line:
+            titles.append(Label(complex(-widest - 5.5 - LINE * number, window.height / 2), line, turn=90))
+    return titles
+
+
+def _lines(name: Content) -> list[Content]:
+    """ω (rad/s; positive: anticlockwise) as two lines: ω (rad/s), and when it is positive."""
+    if not isinstance(name, Chain) or "; " not in name.note:
+        return [name]
+    unit, sense = name.note.split("; ", 1)
+    return [replace(name, note=unit), f"({sense})"]
+
+
+def _paths(vertices: Vertices) -> list[tuple[complex, ...]]:
+    """The curve on paper with points left out that lie within a fortieth of a millimetre, split at gaps."""
+    from matplotlib.path import Path
+
+    # matplotlib simplifies to a ninth of its own unit: that unit is made small enough here.
+    scale = 4.0
+    parts: list[list[complex]] = []
+    path = Path(vertices * scale)
+    path.simplify_threshold = 1 / 9
+    path.should_simplify = True
+    for corner, code in path.iter_segments(simplify=True, curves=False, remove_nans=True):
+        if code == Path.MOVETO:
+            parts.append([])
+        if code in (Path.MOVETO, Path.LINETO):
+            parts[-1].append(complex(corner[0], corner[1]) / scale)
+    return [tuple(part) for part in parts if len(part) > 1]
+
+
+def _marked(series: Series, vertices: Vertices, pen: Stroke, items: list[Item]) -> list[Request]:
+    """Circles at the marked points (added to the items) and requests for their names."""
+    where = [complex(*vertices[i]) for i in series.marks]
+    solid = Stroke(0.25, pen.colour)
+    items += [Circle(at, MARK, solid, style.PAPER) for at in where if np.isfinite(at)]
+    named = [(at, name) for at, name in zip(where, series.names, strict=False) if np.isfinite(at)]
+    return [
+        label(group[0][0], *joined(name for _, name in group), gap=MARK + 0.4, size=style.SMALL)
+        for group in clusters(named, 0.6, lambda mark: mark[0])
+    ]
+
+
+def _places(vertices: Vertices) -> list[complex]:
+    """Places along a curve where its label may stand: the highest and lowest first, then all over."""
+    finite = vertices[np.isfinite(vertices).all(axis=1)]
+    spread = finite[np.linspace(0, len(finite) - 1, 17).astype(int)]
+    ends = finite[[int(finite[:, 1].argmax()), int(finite[:, 1].argmin())]]
+    return [complex(*p) for p in np.concatenate((ends, spread[1:-1]))]
+
+
+# --- counts ---------------------------------------------------------------------------------------
+
+
+def _whole_steps(largest: int) -> tuple[int, int]:
+    """A whole step between ticks, and the last tick, at or above the largest count."""
+    step = max(round(nice_up(max(largest, 1) / TICKS, (1, 2, 5))), 1)
+    return step, step * max(math.ceil(largest / step), 1)
+
+
+def _bar(low: complex, high: complex) -> Polyline:
+    return _box(low, high, OUTLINE, style.TINT)

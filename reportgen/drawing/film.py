@@ -1,0 +1,295 @@
+"""Drawings that move: their items, and where each of them is at every sample of a turn.
+
+Nothing here is computed twice: a place is a `Track`, an array over the samples, and an item names the tracks that
+it follows.  A machine is drawn once, each link in its own frame; plans are arrows between two tracks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from reportgen.drawing import Circle, Content, Item, Polyline, Stroke, style
+from reportgen.drawing.charts import Plotted
+from reportgen.drawing.geometry import bounds
+from reportgen.drawing.plan import PENS, Construction
+from reportgen.drawing.scheme import Looks, Skeleton, ground_guides, parts_of, skeleton
+from reportgen.formula import vocabulary
+from reportgen.machine import Crank, Linkage
+from reportgen.machine.motion import Motion
+
+ROOM = 9.0
+"""White around what moves, for its labels (mm)."""
+TOGETHER = 1e-6
+"""Values that differ by no more of their greatest are one that stands still."""
+
+
+class Track:
+    """Values over the samples of a turn or of the cycle, real or complex; one that stands still has one."""
+
+    def __init__(self, values: np.ndarray) -> None:
+        array = np.atleast_1d(np.asarray(values))
+        finite = array[np.isfinite(array)]
+        still = finite.size == array.size and np.abs(array - array[0]).max() <= TOGETHER * np.abs(array).max()
+        self.values = array[:1] if still else array
+
+    def __add__(self, other: Track) -> Track:
+        return Track(self.values + other.values)
+
+
+@dataclass(frozen=True, slots=True)
+class Still:
+    """What does not move."""
+
+    items: tuple[Item, ...]
+    layer: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Carried:
+    """What moves with a frame: drawn about its origin, which goes along `at` and turns by `angle` (radians)."""
+
+    items: tuple[Item, ...]
+    at: Track
+    angle: Track | None = None
+    layer: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Vector:
+    """An arrow between two tracks, or with no `head` a line, `beyond` mm longer than its end."""
+
+    start: Track
+    end: Track
+    stroke: Stroke
+    head: float = style.HEAD
+    label: Content | None = None
+    name: str = ""
+    layer: str = ""
+    beyond: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """A label at a track, on the side away from its `neighbours`."""
+
+    content: Content
+    at: Track
+    neighbours: tuple[Track, ...] = ()
+    gap: float = 1.0
+    layer: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """A named point that tells its motion when it is pointed at: its places in m, its rates in SI units."""
+
+    name: str
+    on_stage: Track
+    place: Track
+    velocity: Track
+    acceleration: Track
+
+
+MovingItem = Still | Carried | Vector | Name
+
+
+@dataclass(frozen=True, slots=True)
+class Scales:
+    """The scales of a drawing that is shown finer where it is small: each as it is printed, and how much finer it is.
+
+    `at` is the number of the one in use at each sample.
+    """
+
+    printed: tuple[Content, ...]
+    times: tuple[float, ...]
+    at: Track
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """A drawing that moves, in mm, in the box from `low` to `high`; `notes` are printed below it.
+
+    With `scales` it is drawn so many times as large as its tracks have it, at each sample.
+    """
+
+    key: str
+    title: str
+    items: tuple[MovingItem, ...]
+    low: complex
+    high: complex
+    notes: tuple[Content, ...] = ()
+    spots: tuple[Spot, ...] = ()
+    scales: Scales | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A curve of a chart: what it shows, and its values in the unit of its axis."""
+
+    label: Content
+    values: Track
+
+
+@dataclass(frozen=True, slots=True)
+class Chart:
+    """A chart that a cursor runs over, the driver's way across."""
+
+    title: str
+    plotted: Plotted
+    curves: tuple[Curve, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """A number of the moment: its symbol, its unit, its values in that unit."""
+
+    symbol: Content
+    unit: str
+    values: Track
+    decimals: int
+
+
+@dataclass(frozen=True, slots=True)
+class Errors:
+    """What drawing straight lines between samples costs at most."""
+
+    place: float
+    """Of drawn points (mm)."""
+    crank: float
+    """The drawn crank (mm), or the way of a sliding driver."""
+    share: float
+    """Of velocities, accelerations and forces: the share of their greatest value."""
+
+
+@dataclass(frozen=True, slots=True)
+class Film:
+    """All that moves on a page.
+
+    `knots` are the samples of one turn in degrees, from 0 to 360; tracks of the cycle go on through all `turns`.
+    """
+
+    knots: np.ndarray
+    turns: int
+    span: float
+    """The way (mm) of a sliding driver, which takes the place of the turn; 0 for a crank."""
+    positions: tuple[tuple[str, float], ...]
+    """Label and cycle angle (degrees) of each numbered position."""
+    shown: int
+    """The position (from 0) that the page opens at."""
+    stages: tuple[Stage, ...]
+    charts: tuple[Chart, ...]
+    values: tuple[Value, ...]
+    errors: Errors
+    layers: tuple[str, ...] = field(default=())
+    """What can be switched on, of `LAYERS`, in their order."""
+
+
+LAYERS = ("paths", "velocities", "accelerations", "centres", "loads", "inertia", "weights", "reactions")
+"""What can be drawn on the machine; the first is shown from the start."""
+
+
+# --- making drawings that move --------------------------------------------------------------------------
+
+
+def linkage_items(linkage: Linkage, motion: Motion, at: int, scale: float, looks: Looks) -> list[MovingItem]:
+    """A linkage in the order in which figures paint it, drawn as at the sample `at`, `scale` mm of paper per m."""
+    bones = skeleton(linkage, motion, at, scale)
+    places = {name: Track(point.p * scale) for name, point in motion.points.items()}
+    frames = {link: (Track(motion.origins[link].p * scale), Track(motion.links[link].angle)) for link in linkage.links}
+    parts = {
+        link: parts_of(
+            bones, link, looks, complex(motion.origins[link].p[at]) * scale, float(motion.links[link].angle[at])
+        )
+        for link in linkage.links
+    }
+    items: list[MovingItem] = [Still(ground_guides(bones, looks)), *_crank_circle(linkage, bones)]
+    for layer in ("rails", "bars", "blocks"):
+        for link, (origin, angle) in frames.items():
+            if drawn := getattr(parts[link], layer):
+                items.append(Carried(drawn, origin, angle))
+    items += [Still(style.pivot(bones.points[name])) for name in bones.pivots]
+    joints = [name for name in bones.joints if name not in bones.pivots]
+    items += [Carried((style.joint(0j),), places[name]) for name in joints]
+    items += [Carried(style.mass_centre(0j), places[name]) for name in looks.centres]
+    further = [name for name in places if name not in {*bones.joints, *looks.centres}]
+    items += [Carried((style.point(0j),), places[name]) for name in further]
+    items += [
+        Name(vocabulary.point(name), place, tuple(_neighbours(name, bones, places)), style.JOINT + 0.5)
+        for name, place in places.items()
+    ]
+    return items
+
+
+def _crank_circle(linkage: Linkage, bones: Skeleton) -> list[MovingItem]:
+    driver = linkage.driver
+    if not isinstance(driver, Crank):
+        return []
+    centre = bones.points[driver.centre]
+    return [Still((Circle(centre, abs(bones.points[driver.pin] - centre), style.THIN),))]
+
+
+def _neighbours(name: str, bones: Skeleton, places: dict[str, Track]) -> Iterable[Track]:
+    """The points that a point is joined to by bars, whose side its label keeps off."""
+    for link, joints in bones.bars.items():
+        own = [*joints, *(point for point, owner in bones.owners.items() if owner == link and point not in joints)]
+        if name in own:
+            yield from (places[other] for other in own if other != name)
+
+
+def path_items(linkage: Linkage, motion: Motion, names: Sequence[str], scale: float) -> list[MovingItem]:
+    """The curves that points describe."""
+    found: list[MovingItem] = []
+    for name in names:
+        curve = motion.points[name].p[motion.reachable] * scale
+        found.append(Still((Polyline(tuple(complex(p) for p in curve), style.PATH),), "paths"))
+    return found
+
+
+def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
+    """A plan that moves: each of its corners follows the track of its name."""
+    items: list[MovingItem] = [
+        Vector(tracks[line.start], tracks[line.end], style.CONSTRUCTION, 0.0, beyond=6.0) for line in plan.lines
+    ]
+    joined: dict[str, list[Track]] = {}
+    for one in plan.vectors:
+        start, end = tracks[one.start], tracks[one.end]
+        joined.setdefault(one.start, []).append(end)
+        joined.setdefault(one.end, []).append(start)
+        items.append(Vector(start, end, PENS[one.style], label=one.label, name=one.name))
+    if plan.pole:
+        items.append(Carried((Circle(0j, 0.7, Stroke(0.25), style.PAPER),), tracks[plan.points[0].at]))
+    for label, corner in dict.fromkeys((point.label, point.at) for point in plan.points):
+        items.append(Name(label, tracks[corner], tuple(joined.get(corner, ())), 0.9))
+    return items
+
+
+def extent(items: Iterable[MovingItem]) -> tuple[complex, complex]:
+    """Lower left and upper right corner of what the items, but for switched ones, ever cover, with room for labels."""
+    points: list[complex] = []
+    for item in items:
+        match item:
+            case Still(still) if still:
+                points += bounds(still)
+            case Carried(carried, at, angle) if not item.layer:
+                low, high = bounds(carried)
+                turned = np.exp(1j * angle.values) if angle is not None else np.array([1.0])
+                box = (low, high, complex(low.real, high.imag), complex(high.real, low.imag))
+                points += [p for corner in box for p in _corners(Track(at.values + corner * turned))]
+            case Vector(start, end) if not item.layer:
+                points += [*_corners(start), *_corners(end)]
+            case _:
+                pass
+    array = np.array(points)
+    room = complex(ROOM, ROOM)
+    low, high = complex(array.real.min(), array.imag.min()), complex(array.real.max(), array.imag.max())
+    return low - room, high + room
+
+
+def _corners(track: Track) -> tuple[complex, complex]:
+    values = track.values[np.isfinite(track.values)]
+    if not values.size:
+        return 0j, 0j
+    return complex(values.real.min(), values.imag.min()), complex(values.real.max(), values.imag.max())

@@ -1,0 +1,282 @@
+"""Figures of forces: separated links, Zhukovsky's lever, the rule of 90° for a Coriolis acceleration.
+
+Forces are arrows of readable, not proportional, length at their points; arms of moments are dimensioned.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Literal
+
+from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene, style
+from reportgen.drawing.geometry import clusters, on_one_line, polar, unit
+from reportgen.drawing.labels import Draft, Request, finish, joined, label
+from reportgen.drawing.plan import CROWDED, Plan, point_names
+from reportgen.drawing.scheme import Looks, mechanism, skeleton
+from reportgen.formula import Symbol, constructions
+from reportgen.machine import Linkage
+from reportgen.machine.motion import Motion
+
+SHORTEST, STEP, LONGEST = 13.0, 6.5, 26.0
+"""Drawn lengths of forces at one point, mm: of two in one direction the second is a step longer."""
+PARALLEL = math.radians(9)
+"""Arrows at one point closer than this in direction would lie on each other."""
+COUPLE_RADIUS = 6.0
+LEAST_ARM = 0.5
+"""An arm shorter than this (mm) is not drawn: the force goes through the point."""
+TOGETHER = 0.3
+"""Arms whose ends are nearer than this (mm) share one dimension."""
+BEYOND, BESIDE = 22.0, -34.0
+"""Ends of a guide's line (mm from the point); the sense of ω is drawn at the second, clear of the vectors."""
+QUARTER = 8.0
+"""Radius of the arc of 90°, mm."""
+
+
+@dataclass(frozen=True, slots=True)
+class Force:
+    """A force at `at` (mm on the drawing) along `direction` (any size); `id` ties an arm to it."""
+
+    label: Content
+    at: complex
+    direction: complex
+    kind: Literal["load", "reaction"] = "load"
+    id: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Couple:
+    """A couple drawn as an arc about `at`, anticlockwise when `sense` > 0."""
+
+    label: Content
+    at: complex
+    sense: float
+
+
+@dataclass(frozen=True, slots=True)
+class ArmOf:
+    """The distance from the moment point `about` to the line of the force with the id `force`."""
+
+    label: Content
+    about: complex
+    force: str
+
+
+@dataclass(frozen=True, slots=True)
+class Sliding:
+    """A relative velocity along a guide that turns: labels, directions (any size), and the sense of ω (±1)."""
+
+    point: Symbol
+    velocity: tuple[Symbol, complex]
+    coriolis: tuple[Symbol, complex]
+    omega: tuple[Symbol, float]
+
+
+# --- figures --------------------------------------------------------------------------------------
+
+
+def bodies(
+    linkage: Linkage,
+    motion: Motion,
+    index: int,
+    scale: float,
+    links: Sequence[int],
+    forces: Sequence[Force] = (),
+    *,
+    arms: Sequence[ArmOf] = (),
+    turning: Sequence[Couple] = (),
+    extra: Draft | None = None,
+    looks: Looks,
+    title: str = "",
+) -> Scene:
+    """The chosen links at position `index`, true to `scale` (mm per m), with all that acts on them.
+
+    `extra` is drawn with them.  Points of forces, couples and moments are in mm of the drawing: metres times
+    `scale`, from the mechanism's origin.
+    """
+    bones = skeleton(linkage, motion, index, scale)
+    joints = [[bones.points[name] for name in bones.bars.get(link, ())] for link in links]
+    bars = [bar for ends in joints for bar in combinations(ends, 2)]
+    draft = mechanism(bones, links, looks) + draw_forces(forces, arms, bars) + draw_couples(turning)
+    return finish(draft + extra if extra else draft, notes=looks.notes, title=title)
+
+
+def lever(
+    plan: Plan, forces: Sequence[Force], arms: Sequence[ArmOf] = (), *, sense: int = 1, notes: Sequence[Content] = ()
+) -> Scene:
+    """Zhukovsky's lever: the velocity plan turned 90° as a rigid lever about its pole, loaded by all forces.
+
+    It is turned anticlockwise for `sense` = +1.  The forces act at the images of their points, in the *turned*
+    plan's coordinates.  Σ F h = 0 with the balancing force at the crank pin's image gives the driver's torque.
+    """
+    rigid = plan.scaled(1j * sense)
+    items: list[Item] = [Line(vector.start, vector.end, style.VISIBLE) for vector in rigid.drawn()]
+    # The pole is the fixed pivot.
+    items += [Circle(point.at, 0.7, style.VISIBLE, style.PAPER) for point in rigid.points[1:]]
+    items += [Circle(point.at, 1.1, style.VISIBLE, style.PAPER) for point in rigid.points[:1]]
+    groups = clusters(rigid.points, CROWDED, lambda point: point.at)
+    names = tuple(label(group[0].at, *point_names(group), gap=1.3) for group in groups)
+    return finish(Draft(tuple(items), names) + draw_forces(forces, arms), notes=notes)
+
+
+def coriolis(sliding: Sliding) -> Scene:
+    """The rule of 90°: the relative velocity, turned in the sense of ω, points along aᵏ = 2 ω × v_r."""
+    along, sense = unit(sliding.velocity[1]), sliding.omega[1]
+    start = cmath.phase(along)
+    quarter = Arc(0j, QUARTER, start, start + sense * math.pi / 2, style.CONSTRUCTION, style.DIMENSION_HEAD)
+    guide = Draft((Line(BESIDE * along, BEYOND * along, style.OLD), quarter))
+    ends = Draft(
+        (Circle(0j, 0.7, style.VISIBLE, style.PAPER), Circle(BESIDE * along, 0.7, style.VISIBLE, style.PAPER)),
+        (label(0j, sliding.point, gap=1.4),),
+    )
+    vectors = draw_forces(
+        (
+            Force(sliding.velocity[0], 0j, sliding.velocity[1], "load", "v"),
+            Force(sliding.coriolis[0], 0j, sliding.coriolis[1], "reaction", "a"),
+        )
+    )
+    turning = draw_couples((Couple(sliding.omega[0], BESIDE * along, sense),))
+    return finish(guide + ends + vectors + turning)
+
+
+# --- arrows and arcs ------------------------------------------------------------------------------
+
+
+def draw_forces(
+    forces: Sequence[Force], arms: Sequence[ArmOf] = (), bars: Sequence[tuple[complex, complex]] = ()
+) -> Draft:
+    """Arrows with their labels and the arms to their lines; forces without direction are left out.
+
+    A force that would lie along one of the `bars` from its end is drawn as a push from outside instead, one that
+    would lie on another force beside it, a thin line from its point.
+    """
+    shown = [force for force in forces if force.direction != 0]
+    items: list[Item] = []
+    requests: list[Request] = []
+    shafts: dict[str, tuple[complex, complex]] = {}
+    drawn: list[tuple[complex, complex]] = []
+    for force, tip in zip(shown, _tips(shown), strict=True):
+        start, end = force.at, tip
+        if _lies_along(force, bars):
+            start, end = force.at - (tip - force.at), force.at
+        by = _aside((start, end), drawn)
+        shafts[force.id] = start, end
+        drawn.append((start + by, end + by))
+        if by:
+            items.append(Line(force.at, force.at + by, style.LEADER))
+        pen = style.ACTIVE if force.kind == "load" else style.REACTION
+        items.append(Arrow(start + by, end + by, pen, style.HEAD, force.id))
+        requests.append(_name(start + by, end + by, force, force.at + by))
+    feet = {arm.force: foot(arm.about, *shafts[arm.force]) for arm in arms if arm.force in shafts}
+    long = [arm for arm in arms if arm.force in feet and abs(feet[arm.force] - arm.about) >= LEAST_ARM]
+    for arm in long:
+        end = feet[arm.force]
+        same = [
+            other
+            for other in long
+            if abs(other.about - arm.about) < TOGETHER and abs(feet[other.force] - end) < TOGETHER
+        ]
+        items += _extension(end, *shafts[arm.force])
+        if same[0] is arm:
+            items += _dimension(arm.about, end, *shafts[arm.force])
+            requests.append(_arm_name(arm.about, end, same))
+    return Draft(tuple(items), tuple(requests))
+
+
+def draw_couples(couples: Sequence[Couple]) -> Draft:
+    """Arcs of seven tenths of a turn about their points."""
+    arcs: list[Item] = []
+    requests: list[Request] = []
+    for couple in couples:
+        if couple.sense == 0:
+            continue
+        start, stop = (-0.35, 1.05) if couple.sense > 0 else (1.05, -0.35)
+        arcs.append(Arc(couple.at, COUPLE_RADIUS, start * math.pi, stop * math.pi, style.ACTIVE, style.HEAD))
+        places = [couple.at + COUPLE_RADIUS * polar(angle) for angle in (0.35, 0.9, 1.6, 2.4, -0.6)]
+        requests.append(label(places, couple.label))
+    return Draft(tuple(arcs), tuple(requests))
+
+
+def foot(about: complex, start: complex, end: complex) -> complex:
+    """The foot of the perpendicular from `about` on the line through two points."""
+    return complex(constructions.foot(about, start, unit(end - start)))
+
+
+def _parallel(one: complex, other: complex) -> bool:
+    return abs(cmath.phase(unit(other) / unit(one))) < PARALLEL
+
+
+def _tips(forces: Sequence[Force]) -> list[complex]:
+    """Where the arrows end: the later of two that would coincide is drawn longer."""
+    tips: list[complex] = []
+    for n, force in enumerate(forces):
+        before = sum(
+            abs(other.at - force.at) < 1.0 and _parallel(force.direction, other.direction) for other in forces[:n]
+        )
+        length = min(SHORTEST + STEP * before, LONGEST + 2 * before)
+        tips.append(force.at + length * unit(force.direction))
+    return tips
+
+
+def _lies_along(force: Force, bars: Sequence[tuple[complex, complex]]) -> bool:
+    return any(
+        abs(here - force.at) < 1.0 and _parallel(force.direction, there - here)
+        for bar in bars
+        for here, there in (bar, bar[::-1])
+    )
+
+
+def _aside(shaft: tuple[complex, complex], drawn: Sequence[tuple[complex, complex]]) -> complex:
+    """By how much (mm) an arrow stands beside its line, so that it lies on none that is drawn."""
+    step = -1j * unit(shaft[1] - shaft[0]) * style.BESIDE
+    shifts = (step * number for number in range(len(drawn) + 1))
+    return next(
+        by
+        for by in shifts
+        if not any(on_one_line((shaft[0] + by, shaft[1] + by), one, style.ON_LINE, style.HEAD) for one in drawn)
+    )
+
+
+def _name(start: complex, end: complex, force: Force, at: complex) -> Request:
+    """The name at the head, or at the tail of an arrow that pushes."""
+    u = unit(end - start)
+    along, across = cmath.phase(u), cmath.phase(u) + math.pi / 2
+    if end == at:
+        sides = (along + math.pi, across, across + math.pi)
+        return label((start, start + u * 3, start + u * 6), force.label, prefer=sides)
+    sides = (along, across, across + math.pi)
+    return label((end, end - u * style.HEAD / 2, end - u * 2 * style.HEAD), force.label, prefer=sides)
+
+
+def _extension(base: complex, start: complex, end: complex) -> list[Item]:
+    """The force's line drawn on from its arrow to the foot of the arm and a little beyond."""
+    u = unit(end - start)
+    along = ((base - start) * u.conjugate()).real
+    if along < 0:
+        return [Line(start, base - 3.0 * u, style.CONSTRUCTION)]
+    if along > abs(end - start):
+        return [Line(end, base + 3.0 * u, style.CONSTRUCTION)]
+    return []
+
+
+def _dimension(about: complex, base: complex, start: complex, end: complex) -> list[Item]:
+    """The arm with a head at each end where there is room, and the right angle at its foot."""
+    reach = base - about
+    items: list[Item] = [Arrow(about, base, style.DIMENSION, style.DIMENSION_HEAD)]
+    if abs(reach) > 4 * style.DIMENSION_HEAD:
+        items.append(Arrow(about + reach / 2, about, style.DIMENSION, style.DIMENSION_HEAD))
+    if abs(reach) > 3:
+        back, side = -unit(reach) * 1.4, unit(end - start) * 1.4
+        items.append(Polyline((base + back, base + back + side, base + side), style.DIMENSION))
+    return items
+
+
+def _arm_name(about: complex, base: complex, arms: Sequence[ArmOf]) -> Request:
+    reach = base - about
+    across = cmath.phase(reach) + math.pi / 2
+    places = [about + reach * share for share in (0.5, 0.35, 0.65, 0.2, 0.8)]
+    names = dict.fromkeys(arm.label for arm in arms)
+    return label(places, *joined(names), prefer=(across, across + math.pi))

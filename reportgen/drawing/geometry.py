@@ -1,0 +1,394 @@
+"""Items of a scene as plain geometry: segments, extents, moving, clipping."""
+
+from __future__ import annotations
+
+import cmath
+import json
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache, reduce
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Stroke
+from reportgen.formula import Symbol, setting
+from reportgen.formula.vocabulary import numbered, runs
+
+Complexes = NDArray[np.complex128]
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Part = TypeVar("Part")
+
+CIRCLE_SIDES = 24
+
+
+def ends(item: Item) -> Complexes:
+    """The item's strokes as segments, an array [K, 2] of complex points; a label has none."""
+    match item:
+        case Line(start, end):
+            return np.array([[start, end]])
+        case Arrow(start, end, _, head):
+            size = abs(end - start)
+            if size == 0:
+                return np.array([[start, end]])
+            # Labels keep clear of the head, which is a third as wide as it is long.
+            u = (end - start) / size
+            head = min(head, size)
+            left, right = end - head * u * (1 + 0.18j), end - head * u * (1 - 0.18j)
+            return np.array([[start, end], [end, left], [end, right], [left, right]])
+        case Circle(centre, radius):
+            return _chain(_arc(centre, radius, 0.0, math.tau))
+        case Arc(centre, radius, start, stop):
+            return _chain(_arc(centre, radius, start, stop))
+        case Polyline(points, _, closed):
+            return _chain(np.array([*points, points[0]] if closed else points))
+        case Hatch(points):
+            return _chain(np.array([*points, points[0]]))
+        case Label():
+            return np.empty((0, 2), dtype=np.complex128)
+
+
+def _arc(centre: complex, radius: float, start: float, stop: float) -> Complexes:
+    sides = max(2, math.ceil(CIRCLE_SIDES * abs(stop - start) / math.tau))
+    return np.asarray(centre + radius * np.exp(1j * np.linspace(start, stop, sides + 1)))
+
+
+def _chain(points: Complexes) -> Complexes:
+    return np.column_stack((points[:-1], points[1:]))
+
+
+def segments(items: Iterable[Item]) -> Complexes:
+    """All strokes of the items as segments [K, 2]."""
+    parts = [ends(item) for item in items]
+    return np.concatenate(parts) if parts else np.empty((0, 2), dtype=np.complex128)
+
+
+def frame(label: Label) -> tuple[complex, complex]:
+    """Centre and half size (width + i height, mm) of a label's box on the sheet."""
+    extent = box(label.content, label.size)
+    width, height = extent.width, extent.height + extent.depth
+    if label.turn == 90:
+        width, height = height, width
+    right = ("left" in label.anchor) - ("right" in label.anchor)
+    up = ("bottom" in label.anchor) - ("top" in label.anchor)
+    return label.at + complex(right * width, up * height) / 2, complex(width, height) / 2
+
+
+def corners(item: Item) -> Complexes:
+    """Points whose bounding box is the item's."""
+    match item:
+        case Label():
+            centre, half = frame(item)
+            return np.array([centre - half, centre + half])
+        case Circle(centre, radius):
+            return np.array([centre - radius * (1 + 1j), centre + radius * (1 + 1j)])
+        case _:
+            return ends(item).ravel()
+
+
+def bounds(items: Iterable[Item]) -> tuple[complex, complex]:
+    """Lower left and upper right corner of the box around all items; (0, 0) for none."""
+    points = [corners(item) for item in items]
+    return corners_of(np.concatenate(points)) if points else (0j, 0j)
+
+
+def corners_of(points: Sequence[complex] | Complexes) -> tuple[complex, complex]:
+    """Lower left and upper right corner of the box around points."""
+    p = np.asarray(points, dtype=np.complex128)
+    return complex(p.real.min(), p.imag.min()), complex(p.real.max(), p.imag.max())
+
+
+def moved(item: Item, by: complex) -> Item:
+    """The item shifted by a vector in mm."""
+    match item:
+        case Line(start, end) | Arrow(start, end):
+            return replace(item, start=start + by, end=end + by)
+        case Circle(centre) | Arc(centre):
+            return replace(item, centre=centre + by)
+        case Polyline(points) | Hatch(points):
+            return replace(item, points=tuple(point + by for point in points))
+        case Label(at):
+            return replace(item, at=at + by)
+
+
+def enlarged(item: Item, factor: float) -> Item:
+    """The item as a photographic enlargement about the origin shows it: pens, arrowheads and letters grow too."""
+
+    def pen(stroke: Stroke) -> Stroke:
+        return _enlarged_pen(stroke, factor)
+
+    match item:
+        case Line(start, end, stroke):
+            return Line(start * factor, end * factor, pen(stroke))
+        case Arrow(start, end, stroke, head):
+            return replace(item, start=start * factor, end=end * factor, stroke=pen(stroke), head=head * factor)
+        case Circle(centre, radius, outline):
+            return replace(item, centre=centre * factor, radius=radius * factor, stroke=outline and pen(outline))
+        case Arc(centre, radius, _, _, stroke, head):
+            return replace(item, centre=centre * factor, radius=radius * factor, stroke=pen(stroke), head=head * factor)
+        case Polyline(points, outline):
+            return replace(item, points=tuple(p * factor for p in points), stroke=outline and pen(outline))
+        case Hatch(points, spacing, stroke):
+            return replace(item, points=tuple(p * factor for p in points), spacing=spacing * factor, stroke=pen(stroke))
+        case Label(at, _, _, size):
+            return replace(item, at=at * factor, size=size * factor)
+
+
+@lru_cache(maxsize=256)
+def _enlarged_pen(stroke: Stroke, factor: float) -> Stroke:
+    """The same few pens draw every figure."""
+    return replace(stroke, width=factor * stroke.width, dash=tuple(factor * part for part in stroke.dash))
+
+
+def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[complex, complex] | None:
+    """The part of a segment inside the box low…high, or None (Liang–Barsky)."""
+    d = end - start
+    enter, leave = 0.0, 1.0
+    for speed, lower, upper in (
+        (d.real, low.real - start.real, high.real - start.real),
+        (d.imag, low.imag - start.imag, high.imag - start.imag),
+    ):
+        if speed == 0:
+            if lower > 0 or upper < 0:
+                return None
+            continue
+        first, last = sorted((lower / speed, upper / speed))
+        enter, leave = max(enter, first), min(leave, last)
+    return (start + enter * d, start + leave * d) if enter < leave else None
+
+
+def clusters(parts: Iterable[Part], reach: float, at: Callable[[Part], complex]) -> list[list[Part]]:
+    """Parts of a figure grouped, in order, so that those with places `at` within `reach` mm share a group."""
+    parts = list(parts)
+    points = list(map(at, parts))
+    group = list(range(len(points)))
+    for i, p in enumerate(points):
+        for j in range(i):
+            if abs(p - points[j]) <= reach and group[i] != group[j]:
+                old, new = max(group[i], group[j]), min(group[i], group[j])
+                group = [new if g == old else g for g in group]
+    return [[part for part, g in zip(parts, group, strict=True) if g == key] for key in sorted(set(group))]
+
+
+def on_one_line(one: tuple[complex, complex], other: tuple[complex, complex], apart: float, least: float) -> bool:
+    """Whether two segments lie within `apart` mm of the longer one's line and cover more than `least` mm of it."""
+    one, other = sorted((one, other), key=lambda ends: -abs(ends[1] - ends[0]))
+    u = unit(one[1] - one[0])
+    ends = [(end - one[0]) * u.conjugate() for end in other]
+    if max(abs(end.imag) for end in ends) > apart:
+        return False
+    low, high = sorted(end.real for end in ends)
+    return min(high, abs(one[1] - one[0])) - max(low, 0.0) > least
+
+
+def unit(vector: complex) -> complex:
+    """The direction of a vector; 1 for a vector of no length."""
+    size = abs(vector)
+    return vector / size if size > 0 else 1 + 0j
+
+
+def polar(angle: float) -> complex:
+    """e^{iφ}."""
+    return cmath.exp(1j * angle)
+
+
+def rectangle(centre: complex, length: float, width: float, angle: float = 0.0) -> tuple[complex, ...]:
+    """Corners of a rectangle, its length along `angle`."""
+    u = polar(angle)
+    a, b = complex(length, width) / 2, complex(length, -width) / 2
+    return (centre - u * a, centre + u * b, centre + u * a, centre - u * b)
+
+
+def overlap(centres: Complexes, half: Complexes, strokes: Complexes, clearance: float) -> Flags:
+    """Whether boxes [K] (centre, half size as width + i height) touch segments [S, 2]: flags [K, S].
+
+    The separating axes of a box and a segment are x, y and the segment's normal.
+    """
+    middle, reach = (strokes[:, 0] + strokes[:, 1]) / 2, (strokes[:, 1] - strokes[:, 0]) / 2
+    along, up = reach.real.copy(), reach.imag.copy()
+    hw, hh = half.real[:, None] + clearance, half.imag[:, None] + clearance
+    rx, ry = np.abs(along), np.abs(up)
+    dx, dy = centres.real[:, None] - middle.real, centres.imag[:, None] - middle.imag
+    touching: Flags = np.abs(dx) < hw + rx
+    touching &= np.abs(dy) < hh + ry
+    dy *= along
+    dx *= up
+    dy -= dx
+    touching &= np.abs(dy, out=dy) < hw * ry + hh * rx
+    return touching
+
+
+# --- how much paper a label takes, from a table of glyph sizes ------------------------------------
+# The box of a label is the extent of its ink: advance widths, the tallest height above the baseline and the greatest
+# depth below it. Scripts are set at 0.7 of the size, as both typesetters do.
+
+POINT = 25.4 / 72.27
+"""One printer's point in mm."""
+SCRIPT = 0.7
+SMALL_CUT = 1.17
+"""Letters cut for 6 points, as LaTeX sets scripts, are so much wider than larger ones scaled down."""
+SUPER_SHIFT, SUB_SHIFT = 0.38, 0.18
+"""Shift of the scripts' baselines, in font sizes."""
+OVER = 0.25
+"""What an arrow or a bar above takes, in font sizes."""
+RELATION = 0.56
+"""Width of the space on both sides of a relation or a sign, in font sizes (thick spaces)."""
+GAPS: Mapping[setting.Role, float] = {"product": RELATION, "separator": 0.5}
+"""Width of a sign with its space, in font sizes, where it is not as wide as a plus."""
+THIN = 0.17
+"""Between a function and what it is applied to, in font sizes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """Width, height above and depth below the baseline, in mm."""
+
+    width: float
+    height: float
+    depth: float
+
+    def beside(self, other: Box) -> Box:
+        """Both boxes on one baseline."""
+        return Box(self.width + other.width, max(self.height, other.height), max(self.depth, other.depth))
+
+
+NOTHING = Box(0.0, 0.0, 0.0)
+
+
+@lru_cache(maxsize=4096)
+def box(content: Content, size: float = 9.0, displayed: bool = False) -> Box:
+    """The box of a label's content at a font size in points; unknown letters count as one em.
+
+    The fractions of a `displayed` formula are in full size.
+    """
+    return Boxes(size * POINT, displayed).content(content)
+
+
+def _text(text: str, em: float, italic: bool = False) -> Box:
+    glyphs = [(italic and ITALIC.get(letter)) or ROMAN.get(letter) or _unknown(letter) for letter in text]
+    if not glyphs:
+        return NOTHING
+    k = em / 1000
+    advances, heights, depths = zip(*glyphs, strict=True)
+    return Box(k * sum(advances), k * max(heights), k * max(depths))
+
+
+def _unknown(letter: str) -> tuple[int, int, int]:
+    """A letter that the table lacks: one of an alphabet is as wide as a wide letter, any other as one em."""
+    if letter.isalpha() and letter < "\u2000":
+        return (700 if letter.isupper() else 600), 750, 200
+    return 1000, 750, 200
+
+
+def _gap(width: float) -> Box:
+    return Box(width, 0.0, 0.0)
+
+
+def _scripts(base: Box, sub: Box, sup: Box, em: float, cut: float = 1.0) -> Box:
+    height, depth = base.height, base.depth
+    if sup.width:
+        height = max(height, sup.height + SUPER_SHIFT * em)
+    if sub.width:
+        depth = max(depth, sub.depth + SUB_SHIFT * em)
+    return Box(base.width + cut * max(sub.width, sup.width), height, depth)
+
+
+def _symbol(symbol: Symbol, em: float) -> Box:
+    base = _letters(symbol.base, em)
+    if symbol.over:
+        base = Box(max(base.width, 0.5 * em), base.height + OVER * em, base.depth)
+    sub, sup = (_text(script, SCRIPT * em) for script in (symbol.sub, symbol.sup))
+    if any(number for _, number in numbered(symbol.sub)):
+        sub = Box(sub.width, sub.height, sub.depth + SUB_SHIFT * SCRIPT * em)
+    return _scripts(base, sub, sup, em, SMALL_CUT)
+
+
+def _letters(text: str, em: float) -> Box:
+    """Letters of formulas, digits that stand below them in the size of scripts."""
+    whole = NOTHING
+    for letters, digits in runs(text):
+        below = _text(digits, SCRIPT * em)
+        whole = whole.beside(_scripts(_text(letters, em, italic=True), below, NOTHING, em, SMALL_CUT))
+    return whole
+
+
+class Boxes(setting.Setter[Box]):
+    """Formulas as the boxes that both typesetters set for them; em is the font size (mm)."""
+
+    def __init__(self, em: float, displayed: bool = False) -> None:
+        super().__init__("en")
+        self.em = em
+        self.displayed = displayed
+
+    def text(self, text: str) -> Box:
+        return _text(text, self.em)
+
+    def part(self, part: setting.Part) -> Box:
+        em, of = self.em, self.part
+        match part:
+            case Symbol():
+                return _symbol(part, em)
+            case setting.Written(digits, unit):
+                return self.text(digits).beside(self.text(" " + unit)) if unit else self.text(digits)
+            case setting.Sign(sign, "prefix" | "slash"):
+                return self.text(sign)
+            case setting.Sign(_, role):
+                return _gap(GAPS.get(role, 0.78 + RELATION) * em)
+            case setting.Row(parts):
+                return _row(map(of, parts))
+            case setting.Raised(base, exponent):
+                return _scripts(of(base), NOTHING, self.script.part(exponent), em)
+            case setting.Quotient(top, bottom):
+                return self.quotient(top, bottom)
+            case setting.Radical(inner):
+                line = Box(0.85 * em, 0.2 * em, 0.0).beside(of(inner))
+                return Box(line.width, line.height + 0.1 * em, line.depth - 0.1 * em)
+            case setting.Fence("[", inner):
+                return of(inner).beside(_gap(em))
+            case setting.Fence(left, inner, right):
+                return self.text(left + right).beside(of(inner))
+            case setting.Applied(name, exponent, to):
+                power = NOTHING if exponent is None else self.script.part(exponent)
+                function = _scripts(self.text(name), NOTHING, power, em)
+                return function.beside(of(to) if isinstance(to, setting.Fence) else _gap(THIN * em).beside(of(to)))
+            case setting.Grid(rows):
+                lines = [_row(map(of, row)).beside(_gap((len(row) - 1) * em)) for row in rows]
+                half = sum(line.height + line.depth for line in lines) / 2
+                width = max((line.width for line in lines), default=0.0)
+                return Box(width, half + 0.25 * em, half - 0.25 * em)
+            case setting.Note(text):
+                # Both typesetters set the note in parentheses, a quad away.
+                return _gap(em).beside(self.text(f"({text})"))
+
+    @property
+    def script(self) -> Boxes:
+        return Boxes(SCRIPT * self.em)
+
+    def quotient(self, top: setting.Part, bottom: setting.Part) -> Box:
+        """A fraction, whose parts are in the size of scripts and have white beside them within a line of text."""
+        em, size, white = self.em, self if self.displayed else self.script, 0.0 if self.displayed else 0.24
+        above, below = size.part(top), size.part(bottom)
+        axis, gap = 0.25 * em, 0.12 * em
+        width = max(above.width, below.width) + white * em
+        return Box(width, axis + gap + above.height + above.depth, below.height + below.depth + gap - axis)
+
+
+def _row(boxes: Iterable[Box]) -> Box:
+    return reduce(Box.beside, boxes, NOTHING)
+
+
+# --- sizes of glyphs ------------------------------------------------------------------------------
+
+# (advance, height above the baseline, depth below it) in thousandths of the font size.  Read once, with
+# fontTools, from the Latin Modern fonts that both typesetters set (New Computer Modern has the same widths):
+# the upright letters from lmroman10-regular, signs, Greek and the mathematical italic from latinmodern-math;
+# an advance is never less than the right edge of the glyph.
+_GLYPHS = json.loads(Path(__file__).with_name("glyphs.json").read_text(encoding="utf-8"))
+ROMAN: dict[str, tuple[int, int, int]] = {letter: tuple(sizes) for letter, sizes in _GLYPHS["roman"].items()}
+"""Upright letters, digits and signs."""
+ITALIC: dict[str, tuple[int, int, int]] = {letter: tuple(sizes) for letter, sizes in _GLYPHS["italic"].items()}
+"""Letters of formulas."""

@@ -1,0 +1,403 @@
+"""The position plan: all positions of a mechanism in one drawing, true to scale, with paths of points.
+
+Also the mechanism at one position with the instant centres of its links.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.base.units import nice_up
+from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Polyline, Scene, Stroke, style
+from reportgen.drawing.geometry import Complexes, box, clusters, polar, unit
+from reportgen.drawing.labels import CLEAR, Draft, Request, finish, joined, label
+from reportgen.drawing.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
+from reportgen.formula import Symbol, vocabulary
+from reportgen.machine import GROUND, Crank, Linkage
+from reportgen.machine.motion import Motion
+
+TOGETHER = 0.3
+"""Points nearer than this (mm) share one label."""
+CROWDED = 24
+"""With more positions than this only the emphasised one is numbered."""
+DOT = 0.55
+VELOCITY, ANGLE = 20.0, 11.0
+"""Length of a velocity's arrow and radius of an angle's arc (mm) beside instant centres."""
+LEAST_ANGLE = 0.03
+"""A smaller angle (radians) has no arc that can be seen."""
+BEYOND = 3.0
+"""How far (mm) a normal goes on beyond the centre."""
+
+
+@dataclass(frozen=True, slots=True)
+class PositionPlan:
+    """What a position plan shows.
+
+    `numbered` are points labelled with each position's number (A₁ … A₈), `paths` points whose curves are
+    drawn from a dense motion, `emphasised` the index (from 0) of the position drawn heavy, if any;
+    `labels` replaces the positions' numbers.
+    """
+
+    numbered: tuple[str, ...]
+    paths: tuple[str, ...] = ()
+    emphasised: int | None = None
+    labels: tuple[str, ...] = ()
+
+    def label(self, k: int) -> str:
+        """What the position of index `k` (from 0) is called."""
+        return self.labels[k] if self.labels else str(k + 1)
+
+
+def position_plan(
+    linkage: Linkage,
+    motion: Motion,
+    dense: Motion,
+    scale: float,
+    shows: PositionPlan,
+    notes: Sequence[Content] = (),
+    *,
+    beside: Draft | None = None,
+) -> Scene:
+    """The scene, `scale` mm of paper per m, with a drawing `beside` it about the same origin (an indicator diagram)."""
+    count = len(motion.driver)
+    every = [skeleton(linkage, motion, k, scale) for k in range(count)]
+    reached = [bones for bones in every if bones.reached]
+    items: list[Item] = []
+    requests: list[Request] = []
+    # A point that carries numbers needs no name of its own.
+    unnumbered = [name for name in shows.paths if name not in shows.numbered]
+    if isinstance(linkage.driver, Crank):
+        centre = linkage.driver.centre
+        radii = _radii(dense, centre, shows.numbered, scale)
+        items += [Circle(every[0].points[centre], radius, style.THIN) for radius in radii]
+    items += [line for bones in reached[:1] for line in _axes(bones)]
+    for bones in reached:
+        items += _links(bones, style.THIN, shows.numbered)
+    drawn: list[Complexes] = []
+    for name in shows.paths:
+        curve = dense.points[name].p[dense.reachable] * scale
+        # Two points that describe one curve share its line, whose dashes would else fill each other's gaps.
+        if not any(_covers(other, curve) for other in drawn):
+            items.append(Polyline(tuple(complex(p) for p in curve), style.PATH))
+            drawn.append(curve)
+    if shows.emphasised is not None and every[shows.emphasised].reached:
+        bones = every[shows.emphasised]
+        items += _links(bones, style.HEAVY, (*shows.paths, *shows.numbered))
+        items += [style.point(bones.points[name]) for name in shows.paths]
+        requests += [label(bones.points[name], vocabulary.point(name), gap=style.POINT + 0.4) for name in unnumbered]
+    else:
+        for name in unnumbered:
+            # The name of a path stands where it goes farthest out, or elsewhere along it.
+            curve = dense.points[name].p[dense.reachable] * scale
+            far = np.argsort(-np.abs(curve - curve.mean()), kind="stable")
+            requests.append(
+                label([complex(p) for p in curve[far][:: max(1, len(curve) // 10)]], vocabulary.point(name))
+            )
+    if reached:
+        shown = shows.emphasised if shows.emphasised is not None and every[shows.emphasised].reached else None
+        turning = driver_arrow(linkage, motion, every[shown] if shown is not None else reached[0])
+        items += turning.items
+        requests += turning.requests
+    for name in reached[0].pivots if reached else ():
+        items += style.pivot(reached[0].points[name])
+        requests.append(label(reached[0].points[name], vocabulary.point(name), gap=style.JOINT + 0.4))
+    numbers = range(count) if count <= CROWDED else [k for k in (shows.emphasised,) if k is not None]
+    draft = Draft(tuple(items), tuple(requests)) + _numbers(every, numbers, shows)
+    return finish(draft + beside if beside else draft, notes=notes)
+
+
+@dataclass(frozen=True, slots=True)
+class Centre:
+    """The instant centre of a link, at `at` (mm), where the normals of the velocities of two `points` meet."""
+
+    name: Content
+    at: complex
+    points: tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class PlaneMotion:
+    """A link in plane motion by two of its points: their velocities (any size), names of the angles with it."""
+
+    points: tuple[str, ...]
+    velocities: tuple[complex, ...]
+    names: tuple[Content, ...]
+    angles: tuple[Content, ...]
+
+
+def centre_plan(
+    linkage: Linkage,
+    motion: Motion,
+    index: int,
+    scale: float,
+    centres: Sequence[Centre],
+    looks: Looks,
+    moving: Sequence[PlaneMotion] = (),
+) -> Scene:
+    """The mechanism at position `index` of `motion` with its links' instant centres and the normals to them.
+
+    Of links that are `moving` the velocities are drawn, not to scale, with their angles.
+    """
+    bones = skeleton(linkage, motion, index, scale)
+    draft = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
+    normals: list[Item] = []
+    marks: list[Item] = []
+    names: list[Request] = []
+    for centre in centres:
+        for start in (bones.points[name] for name in centre.points):
+            way = centre.at - start
+            if abs(way) > style.JOINT:
+                normals.append(Line(start, centre.at + way / abs(way) * BEYOND, style.NORMAL))
+        marks.append(Circle(centre.at, DOT, Stroke(0.2, style.RED), style.PAPER))
+        names.append(label(centre.at, centre.name, gap=DOT + 0.5))
+    whole = Draft((*normals, *draft.items, *marks), (*draft.requests, *names))
+    return finish(whole + _inclined(bones, moving), notes=looks.notes)
+
+
+def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Draft:
+    """Velocities at their points and their angles with the links, counted from the way from base to point."""
+    items: list[Item] = []
+    requests: list[Request] = []
+    drawn: list[str] = []
+    for one in moving:
+        base, end = (bones.points[name] for name in one.points)
+        rod = unit(end - base)
+        if one.velocities[1]:
+            items.append(Line(end, end + rod * (ANGLE + BEYOND), style.CONSTRUCTION))
+        for name, v, letter, angle in zip(one.points, one.velocities, one.names, one.angles, strict=True):
+            if v == 0:
+                continue
+            at, along = bones.points[name], unit(v)
+            if name not in drawn:
+                drawn.append(name)
+                items.append(Arrow(at, at + VELOCITY * along, style.ACTIVE, style.HEAD))
+                requests.append(label(at + VELOCITY * along, letter, prefer=(float(np.angle(along)),)))
+            start, turn = float(np.angle(rod)), float(np.angle(along / rod))
+            if abs(turn) > LEAST_ANGLE:
+                items.append(Arc(at, ANGLE, start, start + turn, style.DIMENSION, style.DIMENSION_HEAD))
+            middle = at + ANGLE * polar(start + turn / 2)
+            requests.append(label(middle, angle, prefer=(start + turn / 2,), size=style.SMALL))
+    return Draft(tuple(items), tuple(requests))
+
+
+def _covers(one: Complexes, other: Complexes) -> bool:
+    """Whether a curve lies on another one."""
+    starts, ways = one[:-1], np.diff(one)
+    sizes = np.where(np.abs(ways) > 0, np.abs(ways) ** 2, 1.0)
+    off = other[:, None] - starts
+    share = np.clip((off * ways.conj()).real / sizes, 0.0, 1.0)
+    return bool(np.abs(off - share * ways).min(axis=1).max(initial=0.0) < TOGETHER)
+
+
+def _radii(dense: Motion, centre: str, numbered: Sequence[str], scale: float) -> list[float]:
+    """Radii of the circles that numbered points describe about the driver's centre, each once."""
+    radii: list[float] = []
+    for name in numbered:
+        arms = dense.points[name].p[dense.reachable] - dense.points[centre].p[dense.reachable]
+        sizes = np.abs(arms) * scale
+        if sizes.size and np.ptp(sizes) < 1e-6 and not any(abs(r - sizes[0]) < 1e-3 for r in radii):
+            radii.append(float(sizes[0]))
+    return radii
+
+
+def _axes(bones: Skeleton) -> list[Item]:
+    """The axes of the ground guides, a little longer than the ways on them; equal ones are drawn once."""
+    lines: list[Item] = []
+    for slide in bones.slides:
+        if slide.on == GROUND and abs(slide.high - slide.low) > 0:
+            on = (slide.high - slide.low) / abs(slide.high - slide.low) * 8
+            line = Line(slide.low - on, slide.high + on, style.AXIS)
+            if line not in lines:
+                lines.append(line)
+    return lines
+
+
+def _links(bones: Skeleton, pen: Stroke, further: Sequence[str] = ()) -> list[Item]:
+    """Bars between the joints of each link; a plate where one of its `further` points lies off them.
+
+    A link with a slideway reaches from its joint to the way's near end, as a lever through its pivot does.
+    """
+    result: list[Item] = []
+    for link, names in bones.bars.items():
+        own = [*names, *(name for name in further if bones.owners.get(name) == link and name not in names)]
+        points = [bones.points[name] for name in own]
+        for slide in bones.slides:
+            if slide.on == link and points:
+                points.append(min((slide.low, slide.high), key=lambda end: abs(end - points[0])))
+        result += style.body(points, pen, fill=None)
+    for slide in bones.slides:
+        if slide.on != GROUND:
+            result.append(Line(slide.low, slide.high, pen))
+    return result
+
+
+def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionPlan) -> Draft:
+    """Dots at the numbered positions and their names, one label for points that coincide."""
+    shown = [
+        (every[k].points[name], Symbol(vocabulary.point(name).base, shows.label(k)))
+        for name in shows.numbered
+        for k in numbers
+        if every[k].reached
+    ]
+    middle = sum(at for at, _ in shown) / len(shown) if shown else 0j
+    items: list[Item] = []
+    requests: list[Request] = []
+    for group in clusters(shown, TOGETHER, lambda one: one[0]):
+        at = group[0][0]
+        items.append(Circle(at, DOT, Stroke(0.2), style.PAPER))
+        out = (float(np.angle(at - middle)),) if abs(at - middle) > 1 else ()
+        size = style.LABEL if len(group) < 3 else style.SMALL
+        requests.append(label(at, *joined(name for _, name in group), prefer=out, gap=DOT + 0.5, size=size))
+    return Draft(tuple(items), tuple(requests))
+
+
+# --- the indicator diagram beside its cylinder ----------------------------------------------------
+# Stroke in line with and in the scale of the piston's way.
+# It is drawn in the coordinates of the position plan, so that a line across from the piston meets the curve at the
+# piston's own position.
+
+STROKES = (
+    Stroke(0.35, style.BLUE, style.CHAIN),
+    Stroke(0.25, style.BLACK),
+    Stroke(0.5, style.RED),
+    Stroke(0.35, style.BLACK, style.DASHED),
+)
+"""Pens of the branches in their order, told apart by dashes and width as well as by colour."""
+WIDTH = 80.0
+"""Of the diagram at most, mm."""
+NARROW, SHAPE = 46.0, 1.5
+"""On a sheet it is so wide at least (mm), and so many times as wide as high at most."""
+AWAY = 0.94
+"""How far beside the cylinder it stands, in its widths."""
+AXIS_PEN = Stroke(0.2)
+TICK = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """One stroke's line: fractions of the stroke from the top dead centre and pressures (any one unit)."""
+
+    label: Content
+    fraction: tuple[float, ...]
+    pressure: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A numbered position on the diagram: where it is read, and the place it is projected from (mm)."""
+
+    label: Content
+    fraction: float
+    pressure: float
+    from_point: complex | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """Where the diagram stands, in mm: its stroke axis runs from `top` to `bottom`, pressure along `side`.
+
+    `scale` is μ_p, pressure per mm; `axis` and `note` are the label of the pressure axis and the
+    printed scale.
+    """
+
+    top: complex
+    bottom: complex
+    side: complex
+    scale: float
+    axis: Content = ""
+    note: Content = ""
+
+    def at(self, fraction: float, pressure: float) -> complex:
+        """The place on paper of a fraction of the stroke and a pressure."""
+        way = self.bottom - self.top
+        return self.top + fraction * way + unit(self.side) * pressure / self.scale
+
+
+def beside(
+    top: complex, bottom: complex, side: complex, highest: float, enlarged: float | None = None
+) -> tuple[complex, complex, float]:
+    """The ends of the diagram's axis beside the cylinder, and the μ_p that makes it fit.
+
+    μ_p is round once the drawing is `enlarged` so many times, as on a drawing sheet; there the diagram is no wider than
+    goes with its stroke.
+    """
+    width = WIDTH
+    if enlarged is not None:
+        width = min(WIDTH, max(NARROW, SHAPE * abs(top - bottom)))
+    else:
+        enlarged = 1.0
+    away = unit(side) * AWAY * width
+    return top + away, bottom + away, nice_up(highest / width / enlarged) * enlarged
+
+
+def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Reading] = ()) -> Draft:
+    """The diagram with its branches named, its readings numbered and projected from the slider."""
+    pressures = [p for branch in branches for p in branch.pressure]
+    lowest, highest = min([0.0, *pressures]), max([0.0, *pressures])
+    items = [*_diagram_axes(frame, lowest, highest), *_projections(frame, readings)]
+    requests = []
+    for n, branch in enumerate(branches):
+        points = tuple(frame.at(x, p) for x, p in zip(branch.fraction, branch.pressure, strict=True))
+        items.append(Polyline(points, STROKES[n % len(STROKES)]))
+        requests.append(label(_along(points), branch.label, size=style.SMALL))
+    read = [(frame.at(reading.fraction, reading.pressure), reading.label) for reading in readings]
+    items += [Circle(at, 0.5, Stroke(0.2), style.PAPER) for at, _ in read]
+    for group in clusters(read, 0.3, lambda one: one[0]):
+        numbers = joined(number for _, number in group)
+        outward = (cmath.phase(unit(frame.side)),)
+        requests.append(label(group[0][0], *numbers, prefer=outward, gap=0.9, size=style.SMALL))
+    if frame.axis:
+        tip = frame.at(0.0, highest) + 12 * unit(frame.side)
+        requests.append(label(tip, frame.axis, prefer=(cmath.phase(frame.top - frame.bottom),), gap=1.0))
+    if frame.note:
+        middle = frame.at(1.0, (highest + lowest) / 2)
+        requests.append(label(middle, frame.note, prefer=(-math.pi / 2,), gap=8))
+    return Draft(tuple(items), tuple(requests))
+
+
+def _diagram_axes(frame: Frame, lowest: float, highest: float) -> list[Item]:
+    """The stroke axis at p = 0, the pressure axis at the top dead centre with ticks, limits dashed."""
+    u = unit(frame.side)
+    across = unit(frame.top - frame.bottom)
+    over = 10 * u
+    step = nice_up((highest - lowest) / 6)
+    items: list[Item] = [
+        Line(frame.top, frame.bottom, AXIS_PEN),
+        Arrow(frame.at(0, min(lowest, 0)), frame.at(0, highest) + over, AXIS_PEN, 2.2),
+        Line(frame.at(1, min(lowest, 0)), frame.at(1, highest) + 0.5 * over, style.AXIS),
+    ]
+    for k in range(1, int(highest / step + 1e-9) + 1):
+        at = frame.at(0, k * step)
+        items.append(Line(at, at + across * TICK, AXIS_PEN))
+        number = f"{k * step:g}"
+        extent = box(number, style.SMALL)
+        # The box's half size across the axis: a wide number beside an upright axis stands farther off.
+        half = (abs(across.real) * extent.width + abs(across.imag) * (extent.height + extent.depth)) / 2
+        items.append(Label(at + across * (TICK + CLEAR + half), number, "center", style.SMALL))
+    return items
+
+
+def _projections(frame: Frame, readings: Sequence[Reading]) -> list[Item]:
+    """Thin lines from the slider's places to the farthest reading at each."""
+    farthest: dict[complex, complex] = {}
+    for reading in readings:
+        if reading.from_point is None:
+            continue
+        to = frame.at(reading.fraction, reading.pressure)
+        key = next((p for p in farthest if abs(p - reading.from_point) < 0.05), reading.from_point)
+        if key not in farthest or abs(to - key) > abs(farthest[key] - key):
+            farthest[key] = to
+    return [Line(start, end, style.CONSTRUCTION) for start, end in farthest.items()]
+
+
+def _along(points: Sequence[complex]) -> list[complex]:
+    """Places along a polyline at even shares of its length, the middle ones first."""
+    p = np.asarray(points)
+    way = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(p)))))
+    shares = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88]) * way[-1]
+    return [complex(q) for q in np.interp(shares, way, p.real) + 1j * np.interp(shares, way, p.imag)]

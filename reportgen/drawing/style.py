@@ -1,0 +1,280 @@
+"""The look of all figures: colours, pens and sizes, and the signs of links and joints.
+
+The mechanism is black, with two accent colours; lines of construction are gray.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from reportgen.drawing import Arc, Circle, Hatch, Item, Line, Polyline, Stroke
+from reportgen.drawing.geometry import clipped, polar, rectangle, unit
+
+BLACK, GRAY, PALE = "#000000", "#6b6b6b", "#a8a8a8"
+BLUE, RED = "#123c7c", "#9c1c1c"
+PAPER, TINT = "#ffffff", "#eef1f5"
+
+VISIBLE = Stroke(0.35)
+"""Outlines of links and curves."""
+HEAVY = Stroke(0.5)
+THIN = Stroke(0.15, GRAY)
+"""Circles, guides, lines of projection."""
+AXIS = Stroke(0.13, GRAY, (5.0, 1.0, 0.8, 1.0))
+"""Axes of symmetry and of guides."""
+PROJECTION = Stroke(0.18, BLACK, (5.0, 1.0, 0.8, 1.0))
+"""An axis that vectors are projected on."""
+CONSTRUCTION = Stroke(0.13, GRAY, (1.6, 1.0))
+"""Auxiliary directions of a plan, which go a little beyond their end."""
+LEADER = Stroke(0.1, GRAY)
+SOLID, DASHED, CHAIN, DOTTED = (), (2.4, 0.9), (3.6, 0.8, 0.6, 0.8), (0.9, 0.7)
+"""What tells lines apart that are printed without colour, beside their widths."""
+KNOWN = Stroke(0.35)
+RELATIVE = Stroke(0.3, BLUE, CHAIN)
+FOUND = Stroke(0.3, RED, DASHED)
+"""A vector that a plan gives by closing."""
+ACTIVE = Stroke(0.5, BLUE)
+REACTION = Stroke(0.3, RED, DASHED)
+PATH = Stroke(0.3, BLUE, CHAIN)
+"""The curve that a point describes."""
+NORMAL = Stroke(0.18, RED, (1.8, 1.0))
+"""A normal to a velocity, through an instant centre."""
+NEW = Stroke(0.5, BLUE)
+"""What a stage of a construction adds."""
+OLD = Stroke(0.2, GRAY)
+DIMENSION = Stroke(0.13)
+
+ON_LINE, BESIDE = 0.4, 1.6
+"""Arrows within the first distance (mm) of one line lie on each other: the later one is drawn beside by the second."""
+
+HEAD, DIMENSION_HEAD = 2.6, 1.6
+LABEL, SMALL = 9.0, 8.6
+"""Font sizes in points, the second where labels are dense; its indices, 0.7 of it, have six points still."""
+
+# --- signs ----------------------------------------------------------------------------------------
+
+JOINT = 1.2
+"""Radius of a revolute joint, mm."""
+POINT = 0.7
+"""Radius of a point that is no joint."""
+BLOCK = (9.0, 5.0)
+"""Length along the guide and width of a block, mm."""
+SMALL_BLOCK = (4.0, 2.2)
+"""The same in a small sketch."""
+STRIP = 1.7
+"""Width of a strip of ground."""
+OPEN = 1.0
+"""White between a bar and the wall it passes, mm."""
+SHORTEST_WALL = 3.0
+"""A shorter piece of wall (mm) between two bars is left out."""
+PLAY = 0.35
+"""White between a block and its guide."""
+CENTRE = 1.2
+"""Radius of the sign of a mass centre, mm."""
+
+
+def joint(at: complex) -> Item:
+    """A revolute joint between two moving links."""
+    return Circle(at, JOINT, VISIBLE, PAPER)
+
+
+def point(at: complex) -> Item:
+    """A named point of a link that is no joint."""
+    return Circle(at, POINT, None, BLACK)
+
+
+def pivot(at: complex) -> tuple[Item, ...]:
+    """A revolute joint on the ground: two legs on a hatched strip."""
+    left, right = at + complex(-2.6, -5), at + complex(2.6, -5)
+    return (
+        Polyline((at, left, right), VISIBLE, closed=True, fill=PAPER),
+        *ground(at + complex(-4.6, -5), at + complex(4.6, -5), -1),
+        joint(at),
+    )
+
+
+def small_pivot(at: complex) -> tuple[Item, ...]:
+    """A revolute joint on the ground in a small sketch."""
+    left, right = at + complex(-1.3, -2.4), at + complex(1.3, -2.4)
+    return (
+        Polyline((at, left, right), THIN, closed=True, fill=PAPER),
+        Line(left - 0.8, right + 0.8, VISIBLE),
+        Circle(at, POINT, VISIBLE, PAPER),
+    )
+
+
+def ground(start: complex, end: complex, side: int) -> tuple[Item, ...]:
+    """A standing edge with its hatching, at 45° to it, to the left (+1) or right (−1) of the way from start to end."""
+    u = unit(end - start)
+    out = u * 1j * side * STRIP
+    turn = math.remainder(cmath.phase(u), math.pi / 2)
+    return Hatch((start, end, end + out, start + out), turn=turn), Line(start, end, VISIBLE)
+
+
+def guide(
+    low: complex, high: complex, size: tuple[float, float], bars: Sequence[tuple[complex, complex]] = ()
+) -> tuple[Item, ...]:
+    """Walls on both sides of the way of a block, half a block longer than the way, open where `bars` cross them."""
+    u = unit(high - low)
+    away = u * 1j * (size[1] / 2 + PLAY)
+    on = u * (size[0] / 2 + 2.0)
+    walls = [(low - on + side * away, high + on + side * away, side) for side in (1, -1)]
+    return tuple(
+        item
+        for start, end, side in walls
+        for piece in _uncrossed(start, end, side, bars)
+        for item in ground(*piece, side)
+    )
+
+
+def _uncrossed(
+    start: complex, end: complex, side: int, bars: Sequence[tuple[complex, complex]]
+) -> list[tuple[complex, complex]]:
+    """The pieces of a wall that are left clear by the bars that cross its strip."""
+    u, length = unit(end - start), abs(end - start)
+    gaps = []
+    for bar in bars:
+        # In coordinates along the wall and out of it, which the strip fills from 0 to STRIP.
+        a, b = (complex(p.real, side * p.imag) for p in ((point - start) * u.conjugate() for point in bar))
+        if part := clipped(a, b, complex(-OPEN, 0.0), complex(length + OPEN, STRIP)):
+            low, high = sorted(p.real for p in part)
+            gaps.append((low - OPEN, high + OPEN))
+    pieces, at = [], 0.0
+    for low, high in [*sorted(gaps), (length, length)]:
+        if low - at >= SHORTEST_WALL or (at == 0.0 and low >= length):
+            pieces.append((start + u * at, start + u * min(low, length)))
+        at = max(at, high)
+    return pieces
+
+
+def block(at: complex, angle: float, size: tuple[float, float]) -> Item:
+    return Polyline(rectangle(at, *size, angle), VISIBLE, closed=True, fill=TINT)
+
+
+def body(points: Sequence[complex], pen: Stroke = HEAVY, fill: str | None = TINT) -> tuple[Item, ...]:
+    """A link through its joints: a bar where they are in line, else the triangle or polygon around them."""
+    if len(points) < 2:
+        return ()
+    p = np.asarray(points)
+    base = max(((a, b) for a in points for b in points), key=lambda pair: abs(pair[1] - pair[0]))
+    u = unit(base[1] - base[0])
+    if len(points) == 2 or np.abs(((p - base[0]) * u.conjugate()).imag).max() < 0.05:
+        return (Line(base[0], base[1], pen),)
+    return (Polyline(tuple(_around(points)), pen, closed=True, fill=fill),)
+
+
+def _around(points: Sequence[complex]) -> list[complex]:
+    """The corners of the convex polygon around points, anticlockwise."""
+    ordered = sorted(set(points), key=lambda p: (p.real, p.imag))
+
+    def chain(ways: Sequence[complex]) -> list[complex]:
+        kept: list[complex] = []
+        for p in ways:
+            while len(kept) > 1 and ((kept[-1] - kept[-2]).conjugate() * (p - kept[-1])).imag <= 0:
+                kept.pop()
+            kept.append(p)
+        return kept[:-1]
+
+    return [*chain(ordered), *chain(ordered[::-1])]
+
+
+def mass_centre(at: complex) -> tuple[Item, ...]:
+    """A circle with two black quarters."""
+    quarters = []
+    for start in (0.0, math.pi):
+        rim = (at + CENTRE * polar(start + k * math.pi / 8) for k in range(5))
+        quarters.append(Polyline((at, *rim), None, closed=True, fill=BLACK))
+    return (Circle(at, CENTRE, Stroke(0.2), PAPER), *quarters)
+
+
+# --- what writers without a word for it draw instead ------------------------------------------------
+
+Segment = tuple[complex, complex]
+Bezier = tuple[complex, complex, complex, complex]
+Triangle = tuple[complex, complex, complex]
+
+HEAD_SLENDERNESS = 0.32
+"""Width of an arrow head over its length."""
+HEAD_SHARE = 0.75
+"""The largest share of a short arrow that its head may take."""
+
+
+def arrow_head(start: complex, end: complex, length: float) -> tuple[complex, Triangle | None]:
+    """(where the shaft ends, the head's triangle tip first) of an arrow whose tip lies on `end`.
+
+    The shaft ends inside the head, so that no square pen end shows beside the tip; the head shrinks
+    on an arrow shorter than itself.  An arrow of no length has no head.
+    """
+    span = abs(end - start)
+    if span == 0 or length <= 0:
+        return end, None
+    head = min(length, HEAD_SHARE * span)
+    along = (end - start) / span
+    back = end - head * along
+    side = 0.5 * HEAD_SLENDERNESS * head * along * 1j
+    return end - 0.7 * head * along, (end, back + side, back - side)
+
+
+def arc_to_beziers(centre: complex, radius: float, start: float, stop: float) -> list[Bezier]:
+    """Cubic Bézier pieces of an arc from `start` to `stop` (radians), each of at most 45°.
+
+    The handles are (4/3) tan(Δ/4) of the radius; the error stays below 5e-6 of the radius.
+    """
+    count = max(1, math.ceil(abs(stop - start) / (math.pi / 4) - 1e-9))
+    step = (stop - start) / count
+    handle = 4 / 3 * math.tan(step / 4)
+    pieces = []
+    for index in range(count):
+        first = cmath.rect(radius, start + index * step)
+        last = cmath.rect(radius, start + (index + 1) * step)
+        handles = centre + first * (1 + 1j * handle), centre + last * (1 - 1j * handle)
+        pieces.append((centre + first, *handles, centre + last))
+    return pieces
+
+
+def arc_with_head(arc: Arc) -> tuple[list[Bezier], Triangle | None]:
+    """(pieces of the arc, its head's triangle or None): the head is a chord whose tip is the arc's stop."""
+    sweep = arc.stop - arc.start
+    if arc.head <= 0 or arc.radius <= 0 or sweep == 0:
+        return arc_to_beziers(arc.centre, arc.radius, arc.start, arc.stop), None
+    # The chord of the head spans this angle; no more than the arc itself has to give.
+    chord = min(arc.head / arc.radius, HEAD_SHARE * abs(sweep), 1.0)
+    angle = math.copysign(2 * math.asin(chord / 2), sweep)
+    tip = arc.centre + cmath.rect(arc.radius, arc.stop)
+    tail = arc.centre + cmath.rect(arc.radius, arc.stop - angle)
+    _, triangle = arrow_head(tip + (tail - tip) / HEAD_SHARE, tip, abs(tip - tail))
+    return arc_to_beziers(arc.centre, arc.radius, arc.start, arc.stop - 0.7 * angle), triangle
+
+
+def clip_hatch(points: Sequence[complex], spacing: float, turn: float = 0.0) -> list[Segment]:
+    """Strokes at 45° to `turn` (radians) inside a convex polygon, `spacing` mm apart, counted from the sheet's origin.
+
+    Neighbouring hatches thus run into each other.  Raises `ValueError` for a spacing that is not positive.
+    """
+    if spacing <= 0:
+        raise ValueError("the spacing of a hatch must be positive")
+    along = cmath.exp(1j * (turn + math.pi / 4))
+    turned = [point / along for point in points]
+    heights = [point.imag for point in turned]
+    if not turned:
+        return []
+    strokes = []
+    for index in range(math.ceil(min(heights) / spacing), math.floor(max(heights) / spacing) + 1):
+        height = index * spacing
+        crossings = [
+            a.real + (b.real - a.real) * (height - a.imag) / (b.imag - a.imag)
+            for a, b in zip(turned, turned[1:] + turned[:1], strict=True)
+            if (a.imag <= height) != (b.imag <= height)
+        ]
+        if len(crossings) == 2 and abs(crossings[0] - crossings[1]) > 1e-6:
+            left, right = sorted(crossings)
+            strokes.append((complex(left, height) * along, complex(right, height) * along))
+    return strokes
+
+
+def decimal(value: float) -> str:
+    """A length to a thousandth of a millimetre, without trailing zeros and without a negative zero."""
+    return f"{round(value, 3) + 0.0:.3f}".rstrip("0").rstrip(".")

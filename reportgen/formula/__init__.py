@@ -1,0 +1,360 @@
+"""Expressions that both render and evaluate, written as mathematics is.
+
+One small algebra serves three readers.  The *ledger* defines every quantity by an expression over
+other quantities (`Ref`); the *document* shows it with symbols, then with the printed numbers; a
+*checker* evaluates either (`notation.evaluation`).  Passes are plain functions over the frozen nodes, so a
+new writer needs no new node and a new node needs no new writer method.
+
+    v = ω1 * R * sin(φ + β) / cos(β)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any, Literal, cast
+
+from reportgen.base.units import printed
+
+
+class _Algebra:
+    """The operators.  A sum or a product takes in its left operand's terms alone, so that parentheses are printed
+    where they are written; a minus before a product or a fraction stands before the whole of it.
+    """
+
+    __slots__ = ()
+    __array_ufunc__ = None  # a number of numpy leaves the operation to the expression
+
+    def __add__(self, other: Operand) -> Sum:
+        return Sum((*_terms(self), as_expression(other)))
+
+    def __radd__(self, other: float) -> Sum:
+        return Sum((as_expression(other), _node(self)))
+
+    def __sub__(self, other: Operand) -> Sum:
+        return Sum((*_terms(self), Negative(as_expression(other))))
+
+    def __rsub__(self, other: float) -> Sum:
+        return Sum((as_expression(other), Negative(_node(self))))
+
+    def __mul__(self, other: Operand) -> Expression:
+        match self:
+            case Negative(of):
+                return Negative(of * as_expression(other))
+            case Product(factors):
+                return Product((*factors, as_expression(other)))
+        return Product((_node(self), as_expression(other)))
+
+    def __rmul__(self, other: float) -> Product:
+        return Product((as_expression(other), _node(self)))
+
+    def __truediv__(self, other: Operand) -> Expression:
+        if isinstance(self, Negative):
+            return Negative(Fraction(self.of, as_expression(other)))
+        return Fraction(_node(self), as_expression(other))
+
+    def __rtruediv__(self, other: float) -> Fraction:
+        return Fraction(as_expression(other), _node(self))
+
+    def __pow__(self, exponent: float) -> Power:
+        return Power(_node(self), as_expression(exponent))
+
+    def __neg__(self) -> Negative:
+        return Negative(_node(self))
+
+    def __abs__(self) -> Call:
+        return Call("abs", (_node(self),))
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol(_Algebra):
+    """A printed symbol: base letter(s) with upright subscript and superscript.
+
+    `over` is "vector" for an arrow above, "segment" for a bar above a length measured on a drawing.
+    A constant such as π carries its `value`; any other symbol evaluates only by name.
+    """
+
+    base: str
+    sub: str = ""
+    sup: str = ""
+    over: Literal["", "vector", "segment"] = ""
+    value: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Number(_Algebra):
+    """A number as printed: `value` is in `unit`, shown with `decimals` (None: exact, shown as it is)."""
+
+    value: float
+    decimals: int | None = None
+    unit: str = ""
+
+    @property
+    def shown(self) -> float:
+        """The value a reader of the page sees."""
+        return self.value if self.decimals is None else printed(self.value, self.decimals)
+
+    @property
+    def half_unit(self) -> float:
+        """Half a unit of the last printed digit; 0 for exact numbers."""
+        return 0.0 if self.decimals is None else 0.5 * 10.0**-self.decimals
+
+
+@dataclass(frozen=True, slots=True)
+class Ref(_Algebra):
+    """Another quantity of the ledger, by its id."""
+
+    id: str
+
+
+@dataclass(frozen=True, slots=True)
+class Sum(_Algebra):
+    terms: tuple[Expression, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Product(_Algebra):
+    factors: tuple[Expression, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Negative(_Algebra):
+    of: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Fraction(_Algebra):
+    top: Expression
+    bottom: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Power(_Algebra):
+    base: Expression
+    exponent: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Root(_Algebra):
+    of: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Call(_Algebra):
+    """A function of `evaluation.FUNCTIONS` by its name: sin, cos, …, or a construction of plane geometry."""
+
+    name: str
+    arguments: tuple[Expression, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Matrix(_Algebra):
+    """A matrix, or with rows of one entry a column, of a displayed equation; it has no single value."""
+
+    rows: tuple[tuple[Expression, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Chain(_Algebra):
+    """formula = substitution = result, as one printed line.
+
+    `parts` are shown joined by "="; the last is the result.  `note` is a word of reason after the
+    result ("since ω1 is constant"); it is never evaluated.
+    """
+
+    parts: tuple[Expression, ...]
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """One vector of a vector equation and what is known of it.
+
+    `known` gives, in the order of the equation's `rows` (direction, sense, size), the text or
+    expression printed below the symbol; None prints as the mark of an unknown, "?".
+    """
+
+    symbol: Symbol
+    known: tuple[Expression | str | None, ...] = ()
+    sign: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class VectorEquation(_Algebra):
+    """Sides of a vector equation joined by "="; under each term its line of `rows` says what is known."""
+
+    sides: tuple[tuple[Term, ...], ...]
+    rows: tuple[str, ...] = ()
+
+
+Expression = (
+    Symbol | Number | Ref | Sum | Product | Negative | Fraction | Power | Root | Call | Matrix | Chain | VectorEquation
+)
+
+Operand = Expression | float
+
+PI = Symbol("π", value=math.pi)
+
+
+# --- building -------------------------------------------------------------------------------------
+
+
+def as_expression(value: Operand) -> Expression:
+    """A node as it is, a number as an exact `Number`."""
+    return Number(float(value)) if isinstance(value, (int, float)) else value
+
+
+def _node(value: Any) -> Expression:
+    """A node, which the type checker knows as the base of all."""
+    return cast(Expression, value)
+
+
+def _terms(node: Any) -> tuple[Expression, ...]:
+    return node.terms if isinstance(node, Sum) else (node,)
+
+
+def total(terms: Iterable[Expression]) -> Expression:
+    """The sum of terms as they are, none of them taken apart; a single one is itself."""
+    every = tuple(terms)
+    return every[0] if len(every) == 1 else Sum(every)
+
+
+def call(name: str, *arguments: Operand) -> Call:
+    """A function of `evaluation.FUNCTIONS` by its name."""
+    return Call(name, tuple(map(as_expression, arguments)))
+
+
+def column(*entries: Operand) -> Matrix:
+    return Matrix(tuple((as_expression(entry),) for entry in entries))
+
+
+def sqrt(of: Operand) -> Root:
+    return Root(as_expression(of))
+
+
+OfOne = Callable[[Operand], Call]
+OfTwo = Callable[[Operand, Operand], Call]
+
+sin: OfOne = partial(call, "sin")
+cos: OfOne = partial(call, "cos")
+tan: OfOne = partial(call, "tan")
+asin: OfOne = partial(call, "arcsin")
+acos: OfOne = partial(call, "arccos")
+atan: OfOne = partial(call, "arctan")
+
+
+def signed(sense: float, of: Expression) -> Expression:
+    """An expression as it stands, or with the other sign where `sense` is negative."""
+    if sense > 0:
+        return of
+    return of.of if isinstance(of, Negative) else Negative(of)
+
+
+def size(of: Operand) -> Call:
+    """|of| of a number with a sign, printed as it stands; abs is measured on a drawing."""
+    return call("size", of)
+
+
+def atan2(across: Operand, along: Operand) -> Call:
+    return call("arctan2", across, along)
+
+
+# --- constructions: what is drawn and measured, with points and vectors as complex numbers ----------------
+
+
+def meet(p: Operand, u: Operand, q: Operand, w: Operand) -> Call:
+    """Where the line through p along u meets the line through q along w."""
+    return call("meet", p, u, q, w)
+
+
+def circle_line(centre: Operand, radius: Operand, p: Operand, u: Operand, sign: float) -> Call:
+    """Where a circle meets the line through p along u: the farther end along u for sign +1."""
+    return call("circle_line", centre, radius, p, u, sign)
+
+
+def circle_circle(c1: Operand, r1: Operand, c2: Operand, r2: Operand, sign: float) -> Call:
+    """Where two circles meet: to the left of the way from c1 to c2 for sign +1."""
+    return call("circle_circle", c1, r1, c2, r2, sign)
+
+
+turned: OfOne = partial(call, "turned")
+"""A vector turned by 90° anticlockwise."""
+cross: OfTwo = partial(call, "cross")
+"""The z-component of a × b."""
+dot: OfTwo = partial(call, "dot")
+"""The scalar product."""
+cis: OfOne = partial(call, "cis")
+"""The unit vector at an angle from +x."""
+arg: OfOne = partial(call, "arg")
+"""A vector's direction from +x, in (−π, π]."""
+heading: OfOne = partial(call, "heading")
+"""A vector's direction from +x, in [0, 2π)."""
+sign: OfOne = partial(call, "sign")
+"""+1, 0 or −1."""
+quotient: OfTwo = partial(call, "quotient")
+"""a / b, and 0 where b is 0: the arm of a force that is not there."""
+
+
+def unit(vector: Operand) -> Call:
+    """A vector's direction, a vector of length 1; 0 for one of no length."""
+    return quotient(vector, call("abs", vector))
+
+
+# --- passes ---------------------------------------------------------------------------------------
+
+
+def children(node: Expression) -> tuple[Expression, ...]:
+    """The direct sub-expressions of a node, in printed order."""
+    match node:
+        case Sum(parts) | Product(parts) | Call(_, parts) | Chain(parts):
+            return parts
+        case Negative(of) | Root(of):
+            return (of,)
+        case Fraction(first, second) | Power(first, second):
+            return (first, second)
+        case Matrix(rows):
+            return tuple(entry for row in rows for entry in row)
+        case VectorEquation(sides):
+            return tuple(term.symbol for side in sides for term in side)
+        case _:
+            return ()
+
+
+def rebuild(node: Expression, change: Callable[[Expression], Expression]) -> Expression:
+    """The node with `change` applied to each direct sub-expression."""
+    match node:
+        case Sum(parts) | Product(parts):
+            return type(node)(tuple(map(change, parts)))
+        case Negative(of) | Root(of):
+            return type(node)(change(of))
+        case Fraction(first, second) | Power(first, second):
+            return type(node)(change(first), change(second))
+        case Call(name, arguments):
+            return Call(name, tuple(map(change, arguments)))
+        case Matrix(rows):
+            return Matrix(tuple(tuple(map(change, row)) for row in rows))
+        case Chain(parts):
+            return replace(node, parts=tuple(map(change, parts)))
+        case _:
+            return node
+
+
+def walk(node: Expression) -> Iterator[Expression]:
+    """The node and everything below it, in printed order."""
+    yield node
+    for child in children(node):
+        yield from walk(child)
+
+
+def refs(node: Expression) -> tuple[str, ...]:
+    """Ids of the quantities an expression stands on, each once, in order of first appearance."""
+    return tuple(dict.fromkeys(part.id for part in walk(node) if isinstance(part, Ref)))
+
+
+def substitute(node: Expression, change: Callable[[Ref], Expression]) -> Expression:
+    """The expression with every `Ref` replaced by what `change` gives for it."""
+    if isinstance(node, Ref):
+        return change(node)
+    return rebuild(node, lambda child: substitute(child, change))

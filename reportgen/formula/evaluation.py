@@ -1,0 +1,145 @@
+"""The values of expressions: functions by their names, constructions of plane geometry among them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from reportgen.formula import (
+    Call,
+    Chain,
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Ref,
+    Root,
+    Sum,
+    Symbol,
+    constructions,
+)
+from reportgen.formula.constructions import Value
+
+
+def circle_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value) -> Value:
+    """Where a circle meets the line through p along u, a vector of any length."""
+    return constructions.circle_line(centre, radius, p, u / abs(u), sign)
+
+
+def quotient(a: Value, b: Value) -> Value:
+    """a / b, and 0 where b is nothing: the arm of a force that is not there."""
+    b = np.asarray(b)
+    return np.where(b == 0, 0.0, a / np.where(b == 0, 1.0, b))
+
+
+def if_zero(a: Value, b: Value) -> Value:
+    """b where a is nothing, 0 elsewhere: the couple that remains when its force vanishes."""
+    return np.where(np.asarray(a) == 0, b, 0.0)
+
+
+def within(value: Value, least: Value, most: Value) -> Value:
+    """The value itself, nan where it is less than `least` or more than `most`."""
+    value = np.asarray(value)
+    return np.where((value >= least) & (value <= most), value, np.nan)
+
+
+def mean(values: Value) -> Value:
+    """The mean over positions, the last axis; it keeps that axis, so that it stands for all of them."""
+    return np.mean(np.atleast_1d(values), axis=-1, keepdims=True)
+
+
+def level(value: Value, steps: Value) -> Value:
+    """The mean over a cycle by the trapezoid rule, `steps` being the ways from each position to the next."""
+    mean_of_step = (np.asarray(value) + np.roll(value, -1, axis=-1)) / 2
+    return np.sum(mean_of_step * steps, axis=-1, keepdims=True) / np.sum(steps)
+
+
+def excess(value: Value, steps: Value) -> Value:
+    """The integral of what is above the mean, from the first position to each, by the trapezoid rule."""
+    above = np.asarray(value) - level(value, steps)
+    parts = (above + np.roll(above, -1, axis=-1)) / 2 * steps
+    return np.roll(np.cumsum(parts, axis=-1), 1, axis=-1) - np.sum(parts, axis=-1, keepdims=True)
+
+
+def heading(vector: Value) -> Value:
+    """A vector's direction from +x, in [0, 2π); rounding just below a full turn counts as 0."""
+    return np.mod(np.angle(vector) + 1e-12, 2 * np.pi) - 1e-12
+
+
+FUNCTIONS: Mapping[str, Callable[..., Value]] = {
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "arcsin": np.arcsin,
+    "arccos": np.arccos,
+    "arctan": np.arctan,
+    "arctan2": np.arctan2,
+    "abs": np.abs,
+    "size": np.abs,
+    "sign": np.sign,
+    "re": np.real,
+    "im": np.imag,
+    "arg": np.angle,
+    "heading": heading,
+    "cis": lambda angle: np.exp(1j * np.asarray(angle)),
+    "cross": constructions.cross,
+    "dot": constructions.dot,
+    "meet": constructions.meet,
+    "circle_line": circle_line,
+    "circle_circle": constructions.circle_circle,
+    "turned": lambda vector: 1j * vector,
+    "min": np.minimum,
+    "max": np.maximum,
+    "mean": mean,
+    "level": level,
+    "excess": excess,
+    "highest": lambda value: np.max(value, axis=-1, keepdims=True),
+    "lowest": lambda value: np.min(value, axis=-1, keepdims=True),
+    "quotient": quotient,
+    "if_zero": if_zero,
+    "within": within,
+}
+"""What a `Call` may name.  sin, cos and tan take radians; a `Number` in degrees converts itself."""
+
+TRIGONOMETRIC = frozenset({"sin", "cos", "tan"})
+
+
+def evaluate(node: Expression, values: Mapping[str, Value] | None = None) -> Value:
+    """The value of an expression; `values` gives that of every `Ref` by id.
+
+    Printed numbers evaluate as shown, degrees as radians.  Raises `KeyError` for an unknown id and
+    `ValueError` for a symbol without a value.
+    """
+    match node:
+        case Number():
+            return math.radians(node.shown) if node.unit == "°" else node.shown
+        case Ref(id):
+            if values is None:
+                raise KeyError(id)
+            return values[id]
+        case Symbol(value=value):
+            if value is None:
+                raise ValueError(f"symbol {node.base} has no value")
+            return value
+        case Sum(terms):
+            return sum(evaluate(term, values) for term in terms)
+        case Product(factors):
+            return math.prod((evaluate(factor, values) for factor in factors), start=1.0)
+        case Negative(of):
+            return -evaluate(of, values)
+        case Fraction(top, bottom):
+            return evaluate(top, values) / evaluate(bottom, values)
+        case Power(base, exponent):
+            return evaluate(base, values) ** evaluate(exponent, values)
+        case Root(of):
+            return np.sqrt(evaluate(of, values))
+        case Call(name, arguments):
+            return FUNCTIONS[name](*(evaluate(argument, values) for argument in arguments))
+        case Chain(parts):
+            return evaluate(parts[-1], values)
+        case _:
+            raise ValueError(f"a {type(node).__name__} has no single value")

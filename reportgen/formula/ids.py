@@ -1,0 +1,265 @@
+"""The ids of all quantities, a family each: `ids.velocity("B")` is v.B, `ids.reaction("12", "t")` is R.12.t.
+
+A quantity that is one of its kind has its id as text (`mu.l`, `omega.1`, `M.eq`).  No two families read the same id,
+but that the distance of a centre of percussion is a length, too, and that those which put a word before any other id
+read more: where two do, the one that stands first means it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+# --- one template makes the ids of a family and reads them ----------------------------------------
+# velocity = Name("v.{point}")
+# velocity("B") == "v.B"
+# velocity.read("v.B") == {"point": "B"}
+# "v.B" in velocity
+# A template is text with places, of which `PLACES` says what may stand in them; what is in brackets may be missing.
+
+PLACES: Mapping[str, str] = {
+    # links and the forces between them
+    "link": r"\d+",
+    "number": r"\d+",
+    "slider": r"\d|[A-Z][^.]*",
+    "group": r"\d[\d,]*",
+    "joint": r"\d[\d,]+|cb",
+    "force": r"[A-Z][^.]*(?:\.[ntkrs])?",
+    # points and what lies between them
+    "point": r"[A-Z][^.]*",
+    "about": r"[A-Z][^.]*",
+    "line": r"[A-Z][^.]*",
+    "to": r"[A-Z][^.]*",
+    "relative": r"[A-Z][^.]*[A-Z][^.]*",
+    "start": r"[a-z]\d*",
+    "end": r"[a-z]\d*",
+    # what of a quantity is meant
+    "what": "[va]",
+    "plan": "[lva]",
+    "rate": "omega|eps",
+    "axis": "[xy]",
+    "part": "[ntkrs]",
+    "slide": "[kr]",
+    "letter": "[a-z]",
+    "bound": "max|min",
+    "stroke": "work|back",
+    "method": "eq|vw",
+    "figure": r"r|c|given|mean|mean\.positions|least|greatest|energy|difference",
+    "matrix": "d?[AB]",
+    # the rest of an id, whatever it is
+    "corner": ".+",
+    "edge": ".+",
+    "id": ".+",
+}
+"""What may stand in a place, as a regular expression; in any other place one word without dots."""
+
+_PLACE = re.compile(r"\{(\w+)\}")
+_MAY_BE_MISSING = re.compile(r"\[(.*?)\]")
+
+
+@dataclass(frozen=True)
+class Name:
+    """A family of ids, as a template: `R.{joint}[.{part}]` is R.12 as well as R.12.t."""
+
+    text: str
+
+    def __call__(self, *of: object) -> str:
+        """The id with these words in its places.  Raises `KeyError` if they are too many or too few."""
+        return self._forms[len(of)] % of
+
+    def read(self, id: str) -> dict[str, str] | None:
+        """What stands in the places of an id, "" in one that is missing; None for an id of another family."""
+        found = self._pattern.fullmatch(id)
+        return None if found is None else {name: text or "" for name, text in found.groupdict().items()}
+
+    def __contains__(self, id: str) -> bool:
+        return self._pattern.fullmatch(id) is not None
+
+    def only(self, **words: str) -> Name:
+        """The narrower family that has these words in these places."""
+        return Name(_PLACE.sub(lambda place: words.get(place[1], place[0]), self.text))
+
+    def of(self, words: Mapping[str, str]) -> str:
+        """The id with these words in its places, as `read` gives them: a word that is "" leaves its place out."""
+        return self(*(words[place] for place in _PLACE.findall(self.text) if words[place]))
+
+    @cached_property
+    def _forms(self) -> Mapping[int, str]:
+        """What the words are put into, by their number: with what is in brackets and without."""
+        texts = _MAY_BE_MISSING.sub("", self.text), _MAY_BE_MISSING.sub(r"\1", self.text)
+        return {len(_PLACE.findall(text)): _PLACE.sub("%s", text) for text in texts}
+
+    @cached_property
+    def _pattern(self) -> re.Pattern[str]:
+        def plain(text: str) -> str:
+            return re.escape(text).replace(r"\[", "(?:").replace(r"\]", ")?")
+
+        between, *places = _PLACE.split(self.text)
+        parts = [plain(between)]
+        for place, after in zip(places[::2], places[1::2], strict=True):
+            parts += [f"(?P<{place}>{PLACES.get(place, '[^.]+')})", plain(after)]
+        return re.compile("".join(parts))
+
+
+# --- the families --------------------------------------------------------------------------------
+# --- geometry: true lengths, lengths on the drawing, places and directions
+
+percussion = Name("l.{point}K{link}")  # to the centre of percussion
+length = Name("l.{line}[{to}]")  # AB in one word or in two
+drawn = Name("drawn.{line}[{to}]")
+laid_line = Name("laid.{line}[{to}]")
+scale = Name("mu.{plan}")
+place = Name("p.{point}")
+coordinate = Name("{point}.{axis}")
+mass_centre = Name("s.{link}")  # its share of the length of a rod
+along_link = Name("{point}.along")
+across_link = Name("{point}.across")
+frame_coordinate = Name("frame.{axis}.{point}")
+point_turn = Name("turn.{point}")  # from the rod to the arm of a point of its link
+rod = Name("rod.{link}")
+link_axis = Name("axis.{link}")
+slot = Name("slot.{link}")
+slot_on_link = Name("slot.{link}.local")
+guide = Name("guide.{link}")
+guide_on_link = Name("guide.{link}.local")
+guide_place = Name("guide.{link}.at")
+guide_place_on_link = Name("guide.{link}.at.local")
+similar = Name("similar.{point}")
+angle = Name("phi.{of}")
+inclination = Name("beta.{link}")
+slope = Name("eta.{point}")
+inner_angle = Name("alpha.{number}")
+outer_angle = Name("psi.{number}")
+
+# --- masses
+
+weight = Name("G{link}")
+mass = Name("m.{link}")
+inertia = Name("J.{link}")
+reduced_inertia = Name("J.r.{link}")
+
+# --- rotation of links
+
+angular_velocity = Name("omega.{link}")
+angular_acceleration = Name("eps.{link}")
+signed = Name("turn.{rate}.{link}")  # anticlockwise positive
+bound_of_speed = Name("omega.{bound}")
+LINK_RATE: Mapping[str, Name] = {"omega": angular_velocity, "eps": angular_acceleration}
+
+# --- plans of velocities and accelerations
+
+velocity = Name("v.{point}")
+acceleration = Name("a.{point}[.{part}]")
+POLE = "p"
+"""The corner of both plans that stands for what is fixed."""
+POINT_RATE: Mapping[str, Name] = {"v": velocity, "a": acceleration}
+stroke_velocity = Name("v.{stroke}")
+segment = Name("seg.{what}.{start}{end}")
+relative_segment = Name("seg.a.{part}.{relative}")
+laid = Name("laid.{what}.{edge}")
+plan_point = Name("plan.{what}.{corner}")
+direction = Name("dir.{what}.{point}")
+
+# --- exercises of plane motion
+
+velocity_component = Name("v.{point}.{axis}")
+acceleration_component = Name("a.{point}.{axis}")
+sliding_velocity = Name("v.{point}.r")
+centre_coordinate = Name("centre.{link}.{axis}")
+velocity_factor = Name("k.{point}")
+
+# --- instant centres
+
+centre = Name("ic.{link}")
+centre_reach = Name("ic.reach.{link}")
+centre_distance = Name("ic.seg.{link}.{point}")
+centre_omega = Name("ic.omega.{link}")
+centre_velocity = Name("ic.v.{link}")
+rod_angle = Name("ic.angle.{link}.{point}")
+projection = Name("ic.along.{link}.{point}")
+CENTRES = (centre, centre_reach, centre_distance, centre_omega, centre_velocity, rod_angle, projection)
+
+# --- closed formulas
+
+formula_angle = Name("f.phi.{link}")
+formula_coordinate = Name("f.{axis}.{line}")
+formula_component = Name("f.{axis}.{point}.{what}")
+formula_velocity = Name("f.v.{point}")
+formula_acceleration = Name("f.a.{point}[.{part}]")
+formula_sliding = Name("f.{what}.{slide}")
+formula_angular_velocity = Name("f.omega.{link}")
+formula_angular_acceleration = Name("f.eps.{link}")
+slider_way = Name("x.{slider}")
+matrix_entry = Name("{matrix}.{number}")
+numerator = Name("q.{link}")
+
+# --- loads
+
+displacement = Name("s.{link}")
+displacement_on_paper = Name("way.{link}")
+pressure = Name("p.{link}")
+applied_force = Name("P{link}[{letter}]")  # a letter where a link has several
+applied_torque = Name("M{link}[{letter}]")
+given_force = Name("P[{point}].given")
+inertia_force = Name("Pqt{link}")
+inertia_couple = Name("M.Pqt{link}")
+inertia_offset = Name("e.Pqt{link}")
+vector = Name("F.{force}")
+couple = Name("couple.{force}")
+lone_couple = Name("lone.{force}")
+beside = Name("beside.{force}")
+sense = Name("sense.{force}")
+assumed = Name("assumed.{force}")
+down = Name("down.{link}")
+
+# --- reactions
+
+reaction = Name("R.{joint}[.{part}]")
+reaction_couple = Name("M.{joint}")
+application = Name("x.{joint}")
+arm = Name("h.{force}.{about}")
+force_scale = Name("mu.R{group}")
+force_segment = Name("seg.{group}.{force}")
+laid_force = Name("laid.{group}.{force}")
+force_corner = Name("plan.R{group}.{corner}")
+force_direction = Name("dir.{force}")
+
+# --- the balance of the driver and the cycle
+
+lever_arm = Name("h.{force}.p")
+lever_moment = Name("M.{force}.p")
+lone_moment = Name("M.{force}.lone.p")
+balance = Name("M.{method}")
+figure_of_balance = Name("M.{figure}")  # over the cycle, or of the reduced torque
+
+# --- a word before the id of another quantity
+
+formula = Name("f.{id}")
+far = Name("far.{id}")
+unit = Name("unit.{id}")
+rule = Name("rule.{id}")
+rest = Name("rest.{id}")
+
+# --- names that are no ids: of the forces of a plan and of the corners of a plan of accelerations
+
+reaction_force = Name("R{joint}[.{part}]")
+relative_corner = Name("{part}.{relative}")
+
+
+def joint(one: int, other: int) -> str:
+    """The digits of the force of one link on another: 12, or 1,12 with long numbers."""
+    return f"{one}{other}" if max(one, other) < 10 else f"{one},{other}"
+
+
+def linked(joint: str) -> tuple[str, str]:
+    """The two links of a joint's digits, the acting one first: 12 is 1 and 2."""
+    one, other = joint.split(",") if "," in joint else tuple(joint)
+    return one, other
+
+
+def of_force(name: str) -> str:
+    """The id of a force's size by the force's name: R12.t has R.12.t, a load's size is called like the load."""
+    found = reaction_force.read(name)
+    return name if found is None else reaction.of(found)

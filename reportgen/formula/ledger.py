@@ -1,0 +1,324 @@
+"""Named numbers and their definitions, and the ledger evaluated again from other values.
+
+The families of the finished sheet (`notation.sheet`) with their decimals.  A `Quantity` is a family at one
+position.  Definitions are expressions over other families, so the ledger evaluates itself
+(`Ledger.evaluate`), tells what depends on what (`refs`), and prints its own worked lines (`Ledger.chain`).
+
+A plan's point and the length measured to it are two families; a definition further on uses the one or
+the other.  Whoever measured another length goes on from a vector of that length, and whoever computed
+another one lays that off: `carried` pairs each size with its vector, and `follow` makes the vector as long.
+What is worked out from a measured length with a scale moves nothing on paper.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from reportgen.formula import (
+    Call,
+    Chain,
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Product,
+    Ref,
+    Sum,
+    Symbol,
+    rebuild,
+    refs,
+    vocabulary,
+)
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.sheet import Family
+
+Entered = Callable[[str, dict[str, np.ndarray]], None]
+"""What is called after each quantity of an evaluation, with its id and all values so far."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A family at one position, as printed: `value` in `unit` with `decimals`."""
+
+    id: str
+    position: int | None
+    symbol: Symbol
+    unit: str
+    value: float
+    decimals: int | None
+    definition: Expression | None
+
+    @property
+    def number(self) -> Number:
+        return Number(self.value, self.decimals, self.unit)
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """All families of a report, how finely each is printed, and what could not be made to recompute."""
+
+    families: Mapping[str, Family]
+    decimals: Mapping[str, int | None]
+    positions: int
+    cancellations: tuple[str, ...] = ()
+    units: Mapping[str, str] = field(default_factory=dict)
+    """Units whose printed form depends on the language, e.g. rpm."""
+    lines: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """The ids of what the report sets out together, by the names that the machine's sheet gives."""
+
+    @cached_property
+    def inputs(self) -> Mapping[str, tuple[str, ...]]:
+        """What the definition of each quantity names."""
+        return {
+            id: () if family.definition is None else refs(family.definition) for id, family in self.families.items()
+        }
+
+    @cached_property
+    def constructed(self) -> frozenset[str]:
+        """What a drawing gives."""
+        return frozenset(id for id, family in self.families.items() if family.constructed)
+
+    @cached_property
+    def signed(self) -> Mapping[str, str]:
+        """The signed angular velocities and accelerations by their sizes: omega.2 → turn.omega.2."""
+        return {family.of: id for id, family in self.families.items() if family.is_signed_rotation}
+
+    @cached_property
+    def vectors(self) -> Mapping[str, str]:
+        """The vectors by their sizes: seg.v.pb → plan.v.b, seg.v.as2 → laid.v.as2, Pqt2 → F.Pqt2."""
+        found: dict[str, str] = {}
+        for id, family in self.families.items():
+            match family.definition:
+                case Call("abs", (Ref(vector),)):
+                    found[id] = vector
+            # A vector that is computed from its size follows it by itself.
+            size = family.of if family.hidden else ""
+            if size in self and family.definition is not None and size not in self.inputs[id]:
+                found[size] = id
+        return found
+
+    def size_of(self, id: str) -> str:
+        """The id of a signed rotation's size; any other quantity is its own size."""
+        family = self.families[id]
+        return family.of if family.is_signed_rotation else id
+
+    def in_language(self, names: Mapping[str, str]) -> Ledger:
+        """The same ledger with its symbols in a language; `names` are the indices as that language has them."""
+        shown = {id: vocabulary.in_language(family.symbol, names) for id, family in self.families.items()}
+        return replace(self, families={id: replace(one, symbol=shown[id]) for id, one in self.families.items()})
+
+    def __contains__(self, id: str) -> bool:
+        return id in self.families
+
+    def __getitem__(self, id: str) -> Family:
+        return self.families[id]
+
+    def known(self, ids: Iterable[str]) -> list[str]:
+        """Those of the ids that are entered, each once."""
+        return [id for id in dict.fromkeys(ids) if id in self.families]
+
+    def quantity(self, id: str, position: int | None = None) -> Quantity:
+        """One number as printed.  Raises `KeyError` for an unknown id."""
+        family = self.families[id]
+        how = family.how
+        value = float(family.at(position).real) / how.scale
+        decimals = self.decimals[id] if value else None
+        return Quantity(
+            id=id,
+            position=None if len(family.values) == 1 else position,
+            symbol=family.symbol,
+            unit=self.units.get(how.unit, how.unit),
+            value=value if decimals is not None else float(f"{value:.12g}"),
+            decimals=decimals,
+            definition=family.definition,
+        )
+
+    def number(self, id: str, position: int | None = None, *, size: bool = False) -> Number:
+        """The printed number of a quantity with its unit; `size` leaves its sign away."""
+        number = self.quantity(id, position).number
+        return Number(abs(number.value), number.decimals, number.unit) if size else number
+
+    def symbol(self, id: str) -> Symbol:
+        return self.families[id].symbol
+
+    def chain(self, id: str, position: int | None = None, note: str = "") -> Chain:
+        """The worked line: symbol = formula = numbers put in = result with its unit.
+
+        A quantity that is given or measured on a drawing has no formula: symbol = value.
+        """
+        family = self.families[id]
+        result = self.number(id, position)
+        if family.arm:
+            result = Number(abs(result.value), result.decimals, result.unit)
+        if family.line is None or family.constructed:
+            return Chain((family.symbol, result), note)
+        shown = self._signs_out(family.line, position)
+        formula = _replace(shown, lambda ref: self.symbol(ref.id))
+        numbers = _replace(shown, lambda ref: self._bare(ref.id, position))
+        parts: list[Expression] = [family.symbol, formula]
+        if numbers != formula and not (isinstance(numbers, Number) and numbers.shown == result.shown):
+            parts.append(numbers)
+        return Chain((*parts, result), note)
+
+    def _bare(self, id: str, position: int | None) -> Number:
+        """A number inside a line, without its unit (but degrees keep theirs)."""
+        number = self.number(id, position, size=self.families[id].arm)
+        return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
+
+    def _signs_out(self, node: Expression, position: int | None) -> Expression:
+        """The definition as it stands at one position: signs of arms before their terms, nothings left out."""
+        match node:
+            case Sum(terms):
+                kept = [self._signs_out(term, position) for term in terms if not self._is_nothing(term, position)]
+                if not kept:
+                    return Number(0.0)
+                return kept[0] if len(kept) == 1 else Sum(tuple(kept))
+            case Negative(of):
+                inner = self._signs_out(of, position)
+                if isinstance(inner, Sum):
+                    return Sum(tuple(_negated(term) for term in inner.terms))
+                return _negated(inner)
+            case Product(factors):
+                minus = sum(
+                    isinstance(factor, Ref)
+                    and self.families[factor.id].arm
+                    and float(self.families[factor.id].at(position).real) < 0
+                    for factor in factors
+                )
+                product = Product(tuple(self._signs_out(factor, position) for factor in factors))
+                return Negative(product) if minus % 2 else product
+            case _:
+                return rebuild(node, lambda child: self._signs_out(child, position))
+
+    def _is_nothing(self, term: Expression, position: int | None) -> bool:
+        return any(self.families[id].optional and self.families[id].at(position) == 0 for id in refs(term))
+
+    def evaluate(
+        self,
+        changes: Mapping[str, Any] | None = None,
+        *,
+        entered: Entered | None = None,
+        only: Container[str] | None = None,
+    ) -> dict[str, np.ndarray]:
+        """All values again from given data and definitions, with some of them replaced.
+
+        `changes` maps ids to SI values (a number or one per position), or to functions of the value
+        computed and of all before it; whatever depends on them follows.  Changes may have a further
+        axis in front, [cases, positions]: many changed worlds at once.  `entered` is called with each id and
+        the values so far; `only` leaves the other families as they are.
+        """
+        values: dict[str, np.ndarray] = {}
+        # What no drawing can have (a sine above 1) is NaN, and so is what stands on it.
+        with np.errstate(all="ignore"):
+            for id, family in self.families.items():
+                change = None if changes is None else changes.get(id)
+                if change is not None and not callable(change):
+                    values[id] = np.atleast_1d(np.asarray(change))
+                else:
+                    values[id] = family.values
+                    if family.definition is not None and (only is None or id in only):
+                        values[id] = np.atleast_1d(np.asarray(evaluate(family.definition, values)))
+                    if change is not None:
+                        values[id] = np.atleast_1d(np.asarray(change(values[id], values)))
+                if entered is not None:
+                    entered(id, values)
+        return values
+
+    def redrawn(self, scales: Mapping[str, float | np.ndarray]) -> Ledger:
+        """The same ledger with drawings to other scales (SI, by id), one or [N]: what is on paper is as much longer as
+        its scale is smaller, at every position.  Nothing else changes.
+        """
+        families = dict(self.families)
+        for id, family in self.families.items():
+            if id in scales:
+                families[id] = replace(family, values=np.atleast_1d(scales[id]), definition=None)
+            elif (scale := vocabulary.scale_on_paper(id)) in scales:
+                longer = self.families[scale].values / scales[scale]
+                families[id] = replace(family, values=family.values * longer)
+        decimals = {**self.decimals, **dict.fromkeys(scales)}
+        return replace(self, families=families, decimals=decimals)
+
+    def ancestors(self, id: str) -> tuple[str, ...]:
+        """Every quantity that one stands on, directly or through others, nearest first."""
+        found: dict[str, None] = {}
+        waiting = list(self.inputs[id])
+        while waiting:
+            current = waiting.pop(0)
+            if current not in found:
+                found[current] = None
+                waiting.extend(self.inputs[current])
+        return tuple(found)
+
+
+def _negated(node: Expression) -> Expression:
+    return node.of if isinstance(node, Negative) else Negative(node)
+
+
+def _replace(node: Expression, change: Any) -> Expression:
+    """`substitute`, simplifying what only a definition needs: a factor 1, a double minus, a fraction of a minus."""
+    if isinstance(node, Ref):
+        result: Expression = change(node)
+        return result
+    node = rebuild(node, lambda child: _replace(child, change))
+    if isinstance(node, Fraction) and isinstance(node.top, Negative):
+        return Negative(Fraction(node.top.of, node.bottom))
+    if isinstance(node, Sum):
+        return Sum((node.terms[0], *map(_sign_before, node.terms[1:])))
+    return node
+
+
+def _sign_before(term: Expression) -> Expression:
+    """A negative number as a later term of a sum: its sign becomes that of the term."""
+    match term:
+        case Number(value) if value < 0:
+            return Negative(replace(term, value=-value))
+        case Negative(Number(value) as number) if value < 0:
+            return replace(number, value=-value)
+        case _:
+            return term
+
+
+def follow(ledger: Ledger, changes: Mapping[str, Any], *, only: Container[str] | None = None) -> dict[str, np.ndarray]:
+    """As `Ledger.evaluate`, with each vector as long as the size says that was measured of it or laid off."""
+    vectors = {size: one for size, one in ledger.vectors.items() if only is None or size in only}
+    sizes: dict[str, list[str]] = {}
+    for size, vector in vectors.items():
+        sizes.setdefault(vector, []).append(size)
+
+    def stretch(size: str, values: dict[str, np.ndarray]) -> None:
+        vector = vectors[size]
+        factor = np.abs(values[size]) / np.abs(values[vector])
+        values[vector] = values[vector] * np.where(np.isfinite(factor), factor, 1.0)
+
+    def entered(id: str, values: dict[str, np.ndarray]) -> None:
+        if id in vectors and vectors[id] in values:
+            stretch(id, values)
+        for size in sizes.get(id, ()):
+            if size in values:
+                stretch(size, values)
+
+    return ledger.evaluate(changes, entered=entered, only=only)
+
+
+def standing_on(ledger: Ledger, id: str) -> tuple[str, ...]:
+    """Every quantity that one stands on, nearest first: its `ancestors` and what was read from their vectors."""
+    read: dict[str, list[str]] = {}
+    order = {name: index for index, name in enumerate(ledger.families)}
+    for size, vector in ledger.vectors.items():
+        read.setdefault(vector, []).append(size)
+    found: dict[str, None] = {}
+    waiting = [id]
+    while waiting:
+        current = waiting.pop(0)
+        nearer = [*ledger.inputs[current]]
+        nearer += [size for size in read.get(current, ()) if order[size] < order[id]]
+        for name in nearer:
+            if name not in found and name != id:
+                found[name] = None
+                waiting.append(name)
+    return tuple(found)

@@ -1,0 +1,220 @@
+"""A sheet of formulas: named quantities, each entered once, with its definition, and worked out as it is entered.
+
+A machine opens the sheet with its given data; the ledger writes on it position by position.  `define` and
+`give` hand back the quantity as an expression, so that the next formula is written with it:
+
+    R = q.define("R", H / 2)
+    L = q.define("L", R / λ)
+    q.set_out("synthesis", R, L)
+
+The last line says which worked lines the report sets out together, and what its words call them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from reportgen.formula import Call, Expression, Operand, Ref, Symbol, as_expression, vocabulary, walk
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.vocabulary import KINDS, MAX_DIGITS, Chapter, Kind
+
+ZERO = 1e-9
+"""A value below this share of its own scale is nothing: it prints as 0."""
+
+ROUND = 1e-12
+"""An angle this little below a whole turn (rad) is one."""
+
+CONSTRUCTIONS = frozenset(
+    {"meet", "circle_line", "circle_circle", "abs", "cis", "turned", "arg", "re", "im", "cross", "dot"}
+    | {"mean", "level", "excess", "highest", "lowest", "quotient", "if_zero", "sign", "heading"}
+)
+"""Functions that stand for drawing and measuring: a definition with one of them is not printed as a formula."""
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """One quantity at all positions.
+
+    `values` are SI (complex for a point or vector of the plane), one per position or a single one.
+    `definition` is None for given data.  `exact` data print as they were given.  An `arm` is a signed
+    length printed by its size, its sign going to the term it stands in; an `optional` term is left out
+    of a sum where it is nothing.  `scale` is the size below which, times 1e-9, a value is nothing.  A
+    `hidden` family serves a construction and is never printed.  `of` is the id of the size whose direction,
+    signed value or vector this is, of an arm the load, `about` the point an arm is measured from; both are ""
+    for any other quantity.  `written` is a formula of the same value in place of the definition on the page, where
+    printed figures would be too few for that.
+    """
+
+    id: str
+    symbol: Symbol
+    kind: str
+    values: np.ndarray
+    definition: Expression | None = None
+    exact: bool = False
+    arm: bool = False
+    optional: bool = False
+    scale: float = 0.0
+    hidden: bool = False
+    chapter: Chapter = Chapter.geometry
+    of: str = ""
+    about: str = ""
+    written: Expression | None = None
+
+    @property
+    def line(self) -> Expression | None:
+        """The formula of its line on the page."""
+        return self.definition if self.written is None else self.written
+
+    @property
+    def how(self) -> Kind:
+        """How it is printed: its unit and its figures."""
+        return KINDS[self.kind]
+
+    @property
+    def is_plane(self) -> bool:
+        """Whether its values are points or vectors of the plane, which are drawn and not printed."""
+        return bool(np.iscomplexobj(self.values))
+
+    @property
+    def is_direction(self) -> bool:
+        """Whether it is the angle of a vector from +x."""
+        return vocabulary.row(self.id).around
+
+    @property
+    def is_signed_rotation(self) -> bool:
+        """Whether it is an angular velocity or acceleration with its sign, whose size is another quantity."""
+        return bool(self.of) and self.kind in ("angular velocity", "angular acceleration")
+
+    @property
+    def constructed(self) -> bool:
+        """Whether a drawing gives it: it is measured, not computed by a printed formula."""
+        return self.definition is not None and any(
+            isinstance(part, Call) and part.name in CONSTRUCTIONS for part in walk(self.definition)
+        )
+
+    def at(self, position: int | None) -> Any:
+        """Its SI value at a position counted from 1; nothing is exactly 0."""
+        value = self.values[0 if len(self.values) == 1 or position is None else position - 1]
+        return value * 0 if abs(value) < ZERO * self.scale else value
+
+
+class Sheet:
+    """Quantities in the order of their definition, over so many positions; each is evaluated as it is entered."""
+
+    def __init__(self, positions: int = 1) -> None:
+        self.positions = positions
+        self.families: dict[str, Family] = {}
+        self.lines: dict[str, tuple[str, ...]] = {}
+        """The ids of what the report sets out together, by the name that its words have for it."""
+        self.chapter = Chapter.geometry
+        """Where a quantity belongs that the vocabulary gives no chapter."""
+        self._values: dict[str, np.ndarray] = {}
+
+    def copy(self, positions: int = 0) -> Sheet:
+        """What is entered so far, to be continued, over another number of positions if one is given."""
+        other = Sheet(positions or self.positions)
+        other.families, other._values, other.lines = dict(self.families), dict(self._values), dict(self.lines)
+        other.chapter = self.chapter
+        return other
+
+    def extend(self, other: Sheet) -> None:
+        """Enter what stands on another sheet; raises `ValueError` for a quantity that is on both."""
+        for family in other.families.values():
+            self.enter(family)
+        for name, ids in other.lines.items():
+            self.set_out(name, *ids)
+
+    def set_out(self, name: str, *quantities: Ref | str) -> None:
+        """The report sets these quantities out in this order, behind any that it has under this name already.
+
+        A quantity may be entered later; one that never is, is left out.
+        """
+        ids = (one if isinstance(one, str) else one.id for one in quantities)
+        self.lines[name] = (*self.lines.get(name, ()), *ids)
+
+    def worked(self, *quantities: Ref) -> tuple[Ref, ...]:
+        """Those of the quantities that have a formula, rather than being given."""
+        return tuple(one for one in quantities if self.families[one.id].definition is not None)
+
+    @contextmanager
+    def within(self, chapter: Chapter) -> Iterator[None]:
+        """What is entered meanwhile belongs to a chapter: to `formulas` in any case, else where no row says more."""
+        before, self.chapter = self.chapter, chapter
+        yield
+        self.chapter = before
+
+    def __contains__(self, id: str) -> bool:
+        return id in self.families
+
+    def __getitem__(self, id: str) -> Ref:
+        """A quantity that is entered, as an expression; raises `KeyError` for any other."""
+        return Ref(self.families[id].id)
+
+    def find(self, id: str) -> Ref | None:
+        """A quantity as an expression, None if it is not entered."""
+        return Ref(id) if id in self.families else None
+
+    def value(self, quantity: str | Ref) -> np.ndarray:
+        """The SI values of a quantity, one or one per position."""
+        return self._values[quantity if isinstance(quantity, str) else quantity.id]
+
+    def si(self, quantity: str | Ref) -> float:
+        """The SI value of a quantity that has one for all positions."""
+        return float(self.value(quantity)[0])
+
+    def give(
+        self, id: str, value: Any, symbol: Symbol | str = "", kind: str = "", *, exact: bool = True, **traits: Any
+    ) -> Ref:
+        """Enter given data (SI): a number, or one per position."""
+        values = np.atleast_1d(np.asarray(value))
+        return self._enter(id, symbol, kind, values, None, exact=exact, **traits)
+
+    def define(self, id: str, definition: Operand, symbol: Symbol | str = "", kind: str = "", **traits: Any) -> Ref:
+        """Enter a quantity defined by earlier ones; raises `KeyError` if one of them is missing."""
+        expression = as_expression(definition)
+        with np.errstate(all="ignore"):
+            values = np.atleast_1d(np.asarray(evaluate(expression, self._values)))
+        return self._enter(id, symbol, kind, values, expression, **traits)
+
+    def angle(self, id: str, values: np.ndarray, symbol: Symbol | str = "") -> Ref:
+        """Enter an angle at every position [N], within one turn; whole hundredths of a degree print as they are."""
+        turned = np.mod(values + ROUND, 2 * np.pi) - ROUND
+        hundredths = np.degrees(turned) * 100
+        whole = bool(np.allclose(hundredths, np.round(hundredths), rtol=0, atol=1e-7))
+        return self.give(id, turned, symbol, "angle", exact=whole, scale=1.0)
+
+    def construct(self, id: str, definition: Operand, of: str = "") -> Ref:
+        """Enter a point or vector of a drawing, which has no printed symbol of its own."""
+        return self.define(id, definition, Symbol(id), "ratio", hidden=True, of=of)
+
+    def _enter(
+        self, id: str, symbol: Symbol | str, kind: str, values: np.ndarray, definition: Expression | None, **traits: Any
+    ) -> Ref:
+        row = vocabulary.row(id)
+        if isinstance(symbol, str):
+            symbol = Symbol(symbol) if symbol else vocabulary.symbol(id)
+        chapter = Chapter.formulas if self.chapter is Chapter.formulas else row.chapter or self.chapter
+        return self.enter(Family(id, symbol, kind or row.kind, values, definition, chapter=chapter, **traits))
+
+    def enter(self, family: Family) -> Ref:
+        """Enter a quantity as it stands; raises `ValueError` for one that is defined twice or has too few values."""
+        id, count = family.id, len(family.values)
+        if id in self.families:
+            raise ValueError(f"quantity {id} is defined twice")
+        if count not in (1, self.positions):
+            raise ValueError(f"quantity {id} has {count} values")
+        self.families[id] = family
+        self._values[id] = family.values
+        return Ref(id)
+
+
+def is_short(values: np.ndarray | float) -> bool:
+    """Whether values have few digits, as typed ones have, and can be printed as they are (0.171 m)."""
+    return all(
+        abs(float(f"{value:.{MAX_DIGITS - 1}g}") - value) <= 1e-12 * abs(value) for value in np.atleast_1d(values)
+    )

@@ -1,0 +1,403 @@
+"""What an id says: for each family of ids its letter, its kind, its chapter, its plan and how values compare.
+
+A row for each family of `ids`, which reads the id.  A quantity asks here for its symbol, a key for its chapter,
+marking for the scale of a length on paper and for the distance of two values, the words for what they call it.
+
+A *kind* fixes the printed unit, what one such unit is in SI, and the preferred number of significant
+figures; `ledger.decimals` then raises or lowers decimals so that printed lines recompute.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from functools import lru_cache
+
+import numpy as np
+
+from reportgen.formula import Symbol, ids
+from reportgen.formula.constructions import Value
+from reportgen.formula.ids import Name
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """How a kind of quantity is printed: SI value = printed value × `scale`.
+
+    `digits` are the significant figures aimed at for the largest value of a family, and `most` those that
+    it may have where a line needs them; `decimals`, if given, fixes the aim instead.  No value is printed
+    finer than to `finest` decimals (a segment is measured to 0.01 mm whatever its length).
+    """
+
+    unit: str
+    scale: float = 1.0
+    digits: int = 4
+    most: int = 6
+    decimals: int | None = None
+    finest: int | None = None
+
+
+KINDS: dict[str, Kind] = {
+    "ratio": Kind("", digits=5),
+    "count": Kind("", decimals=0),
+    "sign": Kind("", decimals=0),
+    "angle": Kind("°", math.pi / 180, decimals=2),
+    "speed of rotation": Kind("rpm", digits=5),
+    "time": Kind("s", digits=4),
+    "length": Kind("m", digits=4),
+    "diameter": Kind("cm", 1e-2, digits=4),
+    "area": Kind("cm²", 1e-4, digits=5),
+    "product of lengths": Kind("m²", digits=4),
+    "segment": Kind("mm", 1e-3, decimals=2, finest=2),
+    "length scale": Kind("m/mm", 1e3, digits=4),
+    "velocity scale": Kind("m/(s·mm)", 1e3, digits=6),
+    "acceleration scale": Kind("m/(s²·mm)", 1e3, digits=5),
+    "force scale": Kind("N/mm", 1e3, digits=4),
+    "pressure scale": Kind("N/(cm²·mm)", 1e7, digits=4),
+    "velocity": Kind("m/s", most=5),
+    "acceleration": Kind("m/s²", most=5),
+    "angular velocity": Kind("rad/s"),
+    "angular acceleration": Kind("rad/s²", most=5),
+    "weight": Kind("N", digits=4),
+    "gravity": Kind("m/s²", digits=3),
+    "mass": Kind("kg", digits=5),
+    "moment of inertia": Kind("kg·m²", digits=4),
+    "pressure": Kind("N/cm²", 1e4, digits=4),
+    "force": Kind("N", most=5),
+    "torque": Kind("N·m", most=5),
+    "work": Kind("J", most=5),
+    "power": Kind("W", most=5),
+}
+
+MAX_DIGITS = max(kind.most for kind in KINDS.values())
+"""No printed number has more significant figures (on the family's largest value)."""
+
+
+def point(name: str) -> Symbol:
+    """The symbol of a point called e.g. "A", "S2", "O1": letter and lowered number."""
+    letters = name.rstrip("0123456789")
+    return Symbol(letters, sub=name[len(letters) :])
+
+
+def on_plan(name: str, prime: bool = False) -> Symbol:
+    """The image of a point on a velocity plan (b, s2) or, primed, on an acceleration plan (b′, s2′)."""
+    symbol = point(name)
+    return Symbol(symbol.base.lower(), symbol.sub, "′" if prime else "")
+
+
+def vector(symbol: Symbol) -> Symbol:
+    """The same symbol as a vector."""
+    return Symbol(symbol.base, symbol.sub, symbol.sup, "vector")
+
+
+def in_language(symbol: Symbol, names: Mapping[str, str]) -> Symbol:
+    """The symbol with its indices as a language has them: with cb → bal, M_cb is M_bal; h_Pqt5 has the qt of P_qt5."""
+    sub = _WORDS.sub(lambda found: names.get(found[0], found[0]), symbol.sub)
+    return replace(symbol, sub=sub, sup=names.get(symbol.sup, symbol.sup))
+
+
+_WORDS = re.compile("[a-z]+")
+
+
+def lowered(text: str) -> str:
+    """Digits of point names as lowered digits: B3 → B₃."""
+    return text.translate(_LOWERED)
+
+
+_DIGITS, _BELOW = "0123456789", "₀₁₂₃₄₅₆₇₈₉"
+_LOWERED, _RAISED = str.maketrans(_DIGITS, _BELOW), str.maketrans(_BELOW, _DIGITS)
+_RUN = re.compile(f"([^{_BELOW}]*)([{_BELOW}]*)")
+_NUMBERED = re.compile(r"([A-Z])([a-z]*\d+)")
+
+
+def runs(text: str) -> list[tuple[str, str]]:
+    """Letters with the digits that stand below them: O₁A is O with 1, then A."""
+    return [(letters, digits.translate(_RAISED)) for letters, digits in _RUN.findall(text) if letters or digits]
+
+
+def numbered(index: str) -> list[tuple[str, str]]:
+    """An index in names with their numbers and what stands between: O1A is O with 1, then A; h_Pqt5 has P with qt5."""
+    between, *named = _NUMBERED.split(index)
+    pieces = [(between, "")]
+    for letter, number, after in zip(named[::3], named[1::3], named[2::3], strict=True):
+        pieces += [(letter, number), (after, "")]
+    return [piece for piece in pieces if piece[0]]
+
+
+def segment(first: Symbol | str, second: Symbol | str) -> Symbol:
+    """A length between two points of a drawing: a bar over both letters, e.g. over p b or O₁A."""
+    one = first if isinstance(first, Symbol) else Symbol(first)
+    two = second if isinstance(second, Symbol) else Symbol(second)
+    return Symbol(one.base + lowered(one.sub) + one.sup + two.base, two.sub, two.sup, "segment")
+
+
+def drawn_length(first: str, second: str) -> Symbol:
+    """The symbol of a length between two points on a drawing, e.g. AS₂ under a bar."""
+    return segment(point(first), point(second))
+
+
+class Chapter(StrEnum):
+    """The chapters of a key, in their order; `words.yaml` has their headings under `parts`."""
+
+    data = "data"
+    geometry = "geometry"
+    velocity = "velocity"
+    acceleration = "acceleration"
+    formulas = "formulas"
+    loads = "loads"
+    forces = "forces"
+    torque = "torque"
+    cycle = "cycle"
+
+
+@dataclass(frozen=True)
+class Row:
+    """A family of ids, or a single one.
+
+    Under the `letter` stands the text `below`, else the word in the last place, above it the `part`.  `plan` is the id
+    of the scale that lengths on paper are measured with.  What is in braces is a word that stands in that place of the
+    id.  Values that go `around` the circle are directions.  `name` is what `words.yaml` calls the family.
+    """
+
+    ids: Name
+    letter: str = ""
+    kind: str = ""
+    chapter: Chapter | None = None
+    plan: str = ""
+    below: str = ""
+    around: bool = False
+    name: str = ""
+
+    def index(self, words: Mapping[str, str]) -> str:
+        """What is printed below the letter."""
+        named = [word for place, word in words.items() if place not in _NOT_BELOW]
+        return self.below.format(**words) if self.below else next(reversed(named), "")
+
+
+_NOT_BELOW = frozenset({"to", "axis", "part", "about", "letter"})
+"""Places whose words are not printed below a letter."""
+
+_G, _V, _A = Chapter.geometry, Chapter.velocity, Chapter.acceleration
+_LOADS, _FORCES, _TORQUE, _CYCLE = Chapter.loads, Chapter.forces, Chapter.torque, Chapter.cycle
+
+ROWS: tuple[Row, ...] = (
+    # geometry
+    Row(ids.percussion, "l", "length", _LOADS, below="{point}K{link}", name="percussion"),
+    Row(ids.length, "l", "length", _G, name="length"),
+    Row(ids.drawn, "", "segment", _G, "mu.l", name="drawn length"),
+    Row(ids.scale.only(plan="l"), "μ", "length scale", _G, below="l"),
+    Row(Name("R"), "R", "length", _G),
+    Row(Name("L"), "L", "length", _G),
+    Row(Name("H"), "H", "length"),
+    Row(Name("e"), "e", "length"),
+    Row(Name("D"), "D", "diameter"),
+    Row(Name("F"), "F", "area", _G),
+    Row(Name("lambda"), "λ", "ratio", _G),
+    Row(Name("theta"), "θ", "angle"),
+    Row(Name("K"), "K", "ratio"),
+    Row(Name("s"), "s", "ratio"),
+    # masses
+    Row(Name("g"), "g", "gravity"),
+    Row(ids.weight, "G", "weight", _LOADS, name="weight"),
+    Row(ids.mass, "m", "mass", _G, name="mass"),
+    Row(ids.inertia, "J", "moment of inertia", _G, below="S{link}", name="inertia"),
+    Row(ids.reduced_inertia, "J", "moment of inertia", _CYCLE, name="reduced inertia"),
+    Row(Name("J.r"), "J", "moment of inertia", _CYCLE, below="r"),
+    Row(Name("J.d"), "J", "moment of inertia", _CYCLE, below="d"),
+    # rotation
+    Row(Name("n"), "n", "speed of rotation"),
+    Row(Name("omega.of"), "ω", "angular velocity", _CYCLE),
+    Row(ids.bound_of_speed, "ω", "angular velocity", _V),
+    Row(ids.angular_velocity, "ω", "angular velocity", _V, name="angular velocity"),
+    Row(ids.signed.only(rate="omega"), "ω", "angular velocity", _V, name="signed angular velocity"),
+    Row(ids.angular_acceleration, "ε", "angular acceleration", _A, name="angular acceleration"),
+    Row(ids.signed.only(rate="eps"), "ε", "angular acceleration", _A, name="signed angular acceleration"),
+    # plans of velocities and accelerations
+    Row(ids.scale.only(plan="v"), "μ", "velocity scale", _V, below="v"),
+    Row(ids.scale.only(plan="a"), "μ", "acceleration scale", _A, below="a"),
+    Row(ids.segment.only(what="v"), "", "segment", _V, "mu.v", name="segment"),
+    Row(ids.segment.only(what="a"), "", "segment", _A, "mu.a", name="segment"),
+    Row(ids.relative_segment, "", "segment", _A, "mu.a", name="segment"),
+    Row(ids.velocity, "v", "velocity", _V, name="velocity"),
+    Row(ids.stroke_velocity, "v", "velocity", _V),
+    Row(ids.acceleration, "a", "acceleration", _A, name="acceleration"),
+    Row(ids.direction.only(what="v"), "α", "angle", _V, below="v{point}", around=True, name="direction"),
+    Row(ids.direction.only(what="a"), "α", "angle", _A, below="a{point}", around=True, name="direction"),
+    # exercises of plane motion: components, the velocity along a moving line, instant centres, angles of projection
+    Row(ids.velocity_component, "v", "velocity", _V, name="velocity component"),
+    Row(ids.acceleration_component, "a", "acceleration", _A, name="acceleration component"),
+    Row(ids.sliding_velocity, "v", "velocity", _V, name="sliding velocity"),
+    Row(ids.centre_coordinate, "x", "length", _V, name="centre coordinate"),
+    Row(ids.velocity_factor, "k", "length", _V, name="velocity factor"),
+    Row(ids.inner_angle, "α", "angle", name="projection angle"),
+    Row(Name("t"), "t", "time", name="time"),
+    # instant centres
+    Row(ids.centre_distance, "", "segment", _V, "mu.l", name="centre distance"),
+    Row(ids.centre_omega, "ω", "angular velocity", _V, name="centre rotation"),
+    Row(ids.centre_velocity, "v", "velocity", _V, name="centre velocity"),
+    Row(ids.rod_angle, "ψ", "angle", _V, name="rod angle"),
+    Row(ids.projection, "u", "velocity", _V, name="projection"),
+    # closed formulas
+    Row(ids.angle, "φ", "angle", name="angle"),
+    Row(ids.formula_angle, "φ", "angle", name="angle"),
+    Row(ids.inclination, "β", "angle", name="inclination"),
+    Row(ids.formula_velocity, "v", "velocity", name="formula velocity"),
+    Row(ids.formula_acceleration, "a", "acceleration", name="formula acceleration"),
+    Row(ids.formula_sliding.only(what="v"), "v", "velocity"),
+    Row(ids.formula_sliding.only(what="a"), "a", "acceleration"),
+    Row(ids.formula_angular_velocity, "ω", "angular velocity", name="formula angular velocity"),
+    Row(ids.formula_angular_acceleration, "ε", "angular acceleration", name="formula angular acceleration"),
+    Row(ids.formula_coordinate, "{axis}", "length", name="coordinate"),
+    Row(ids.formula_component.only(what="v"), "v", "velocity", name="velocity component"),
+    Row(ids.formula_component.only(what="a"), "a", "acceleration", name="acceleration component"),
+    Row(ids.slider_way, name="way of a slider"),
+    Row(ids.matrix_entry, name="matrix entry"),
+    Row(ids.numerator, name="numerator"),
+    Row(ids.slope, name="slope"),
+    # loads
+    Row(ids.displacement, "s", "length", _LOADS, name="displacement"),
+    Row(ids.pressure, "p", "pressure", _LOADS, name="pressure"),
+    Row(ids.inertia_force, "P", "force", _LOADS, below="qt{link}", name="inertia force"),
+    Row(ids.inertia_couple, "M", "torque", _LOADS, below="qt{link}", name="inertia couple"),
+    Row(ids.inertia_offset, "e", "length", _LOADS, below="qt{link}", name="inertia offset"),
+    Row(ids.applied_force, "P", "force", _LOADS, name="applied force"),
+    Row(ids.applied_torque, "M", "torque", name="applied torque"),
+    Row(ids.given_force, name="given force"),
+    # the balance of the driver
+    Row(ids.lever_arm, "h", "segment", _TORQUE, "mu.v", name="lever arm"),
+    Row(ids.lever_moment, "M", "torque", _TORQUE, name="lever moment"),
+    Row(ids.lone_moment, "M", "torque", _TORQUE),
+    Row(ids.balance, "M", "torque", _TORQUE, name="balance"),
+    # reactions
+    Row(ids.reaction, "R", "force", _FORCES, name="reaction"),
+    Row(ids.reaction_couple, "M", "torque", _FORCES, name="reaction couple"),
+    Row(ids.application, "x", "length", _FORCES, name="application"),
+    Row(ids.arm, "h", "segment", _FORCES, "mu.l", name="arm"),
+    Row(ids.force_scale, "μ", "force scale", _FORCES, name="force scale"),
+    Row(ids.force_direction, "α", "angle", _FORCES, around=True, name="direction"),
+    Row(ids.force_segment, "", "segment", _FORCES, "mu.R{group}", name="segment"),
+    # given data of a linkage
+    Row(ids.frame_coordinate, name="coordinate"),
+    # the cycle
+    Row(ids.figure_of_balance, "M", "torque", name="balance over the cycle"),
+    Row(Name("W"), "W", "work"),
+    Row(Name("power"), "N", "power"),
+)
+_PRINTED = {"t": "τ"}
+_NO_ROW = Row(Name(""))
+
+
+@lru_cache(maxsize=4096)
+def _found(id: str) -> tuple[Row, dict[str, str]]:
+    for row in ROWS:
+        if (words := row.ids.read(id)) is not None:
+            return row, words
+    return _NO_ROW, {}
+
+
+def row(id: str) -> Row:
+    """The row of an id; an empty one for a quantity that a machine has for itself."""
+    return _found(id)[0]
+
+
+def symbol(id: str) -> Symbol:
+    """The symbol of a quantity: the letter of its row, below it what the id names.
+
+    Raises `KeyError` for an id that no row gives a letter.
+    """
+    found, words = _found(id)
+    if not found.letter:
+        raise KeyError(f"no letter for {id}")
+    part = words.get("part", "")
+    return Symbol(found.letter.format(**words), found.index(words), _PRINTED.get(part, part))
+
+
+_POINT = re.compile(r"[A-Z]\d*")
+_OF_POINTS = frozenset({"velocity", "acceleration", "coordinate"})
+
+
+def vector_of(id: str) -> str:
+    """The id of the vector whose length, direction, arm or moment a quantity is; "" for any other quantity.
+
+    seg.v.pb → v.B, seg.v.ab → v.BA, seg.a.n.BA → a.BA.n, dir.R12.n → R.12.n, h.Pqt2.B → Pqt2.
+    """
+    if found := ids.segment.read(id):
+        base = "" if found["start"] == ids.POLE else found["start"]
+        return ids.POINT_RATE[found["what"]](f"{found['end']}{base}".upper())
+    if found := ids.relative_segment.read(id):
+        return ids.acceleration(found["relative"], found["part"])
+    if found := ids.direction.read(id):
+        return ids.POINT_RATE[found["what"]](found["point"])
+    for of_force in (ids.force_segment, ids.force_direction, ids.arm, ids.lever_arm, ids.lever_moment):
+        if found := of_force.read(id):
+            return ids.of_force(found["force"])
+    return ""
+
+
+def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
+    """The key of an id's phrase under `quantities` in `words.yaml`, and the words that are put into it.
+
+    `shown` is the quantity's symbol, whose points may say more than the id's (B₃B₂ for B3B).
+    """
+    found, parts = _found(id)
+    index = found.index(parts)
+    points = _POINT.findall(shown.sub if found.kind in ("velocity", "acceleration") else index)
+    link, other = ids.linked(parts["joint"]) if "joint" in parts else (parts.get("link", index), "")
+    words = {
+        "line": lowered(index),
+        "link": link,
+        "other": other,
+        "axis": parts.get("axis", ""),
+        "about": lowered(parts.get("about", "")),
+        "plan": shown.sub.removeprefix("R"),
+        **dict(zip(("point", "base"), map(lowered, points), strict=False)),
+    }
+    name = f"{found.name}.{parts['part']}" if found.letter and parts.get("part") else found.name
+    return (f"{name}.relative" if name in _OF_POINTS and len(points) > 1 else name), words
+
+
+def words_of(table: Mapping[str, str], id: str, kind: str, shown: Symbol) -> Iterator[str]:
+    """What a table of `words.yaml` says of a quantity, the nearest first: of its id, its family, its kind.
+
+    A key of the table names one or several of them, with commas between; with a kind behind it, as in `balance:force`,
+    it means only quantities of that kind, and all of them by `:force`.  Where two keys name the same, the first counts.
+    """
+    said: dict[str, str] = {}
+    for names, text in table.items():
+        said = dict.fromkeys(names.split(", "), text) | said
+    found, parts = _found(id)
+    families = (f"{found.name}.{parts.get('axis')}", wording(id, shown)[0])
+    named = (one for name in (id, *families) for one in (f"{name}:{kind}", name))
+    return (said[one] for one in (*named, f":{kind}") if one in said)
+
+
+@lru_cache(maxsize=4096)
+def plan(id: str) -> str:
+    """The id of the scale that a length on paper is measured with; "" for anything else."""
+    found, parts = _found(id)
+    return found.plan.format(**parts)
+
+
+def scale_on_paper(id: str) -> str:
+    """The id of the scale of a length or a point on paper; "" for anything else."""
+    if is_laid(id):
+        return "mu.l"
+    if found := ids.plan_point.read(id):
+        return ids.scale(found["what"])
+    if found := ids.force_corner.read(id):
+        return ids.force_scale(found["group"])
+    return plan(id)
+
+
+def is_laid(id: str) -> bool:
+    """Whether it is a length or vector as it is laid off on paper."""
+    return any(id in family for family in (ids.laid_line, ids.laid, ids.laid_force))
+
+
+def distance(id: str, one: Value, other: Value) -> Value:
+    """How far two values (SI) of a quantity lie apart: of directions, around the circle."""
+    apart = np.abs(one - other)
+    return np.abs(np.mod(one - other + np.pi, 2 * np.pi) - np.pi) if row(id).around else apart

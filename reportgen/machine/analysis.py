@@ -1,0 +1,347 @@
+"""The one place that joins machine, mechanism and cycle: Machine → Analysis (arrays over positions)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, partial
+from string import ascii_lowercase
+from typing import Any
+
+import numpy as np
+
+from reportgen.formula import Chain, ids
+from reportgen.formula.sheet import Sheet
+from reportgen.machine import Crank, Linkage
+from reportgen.machine.forces import Forces, Load, inertia_loads, mean_over, solve_forces, virtual_work_torque, weights
+from reportgen.machine.gas import indicated_work, stroke_at
+from reportgen.machine.loads import Applied, Course, Piston, Torque
+from reportgen.machine.motion import Motion, solve_motion
+
+FULL_TURN = 2 * np.pi
+
+
+@dataclass(frozen=True)
+class Gas:
+    """The gas in one cylinder over positions [N]: cycle angle, s/H, stroke number 0…3, gauge pressure (Pa)."""
+
+    piston: Piston
+    angle: np.ndarray
+    fraction: np.ndarray
+    stroke: np.ndarray
+    pressure: np.ndarray
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """Everything computed of a machine at its cycle angles [N] (0 at position 1, growing with the rotation)."""
+
+    machine: Machine
+    cycle_angle: np.ndarray
+    motion: Motion
+    gas: Mapping[str, Gas]
+    weights: tuple[Load, ...]
+    inertia: tuple[Load, ...]
+    applied: tuple[Load, ...]
+    forces: Forces
+    torque: np.ndarray
+    """Balancing torque by equilibrium of the driver (N·m, anticlockwise positive)."""
+    torque_by_work: np.ndarray
+    """The same by virtual work; shares no code with `torque`."""
+
+    @property
+    def loads(self) -> tuple[Load, ...]:
+        return (*self.inertia, *self.applied, *self.weights)
+
+    @cached_property
+    def summary(self) -> Summary:
+        return summarise(self.machine)
+
+
+@dataclass(frozen=True)
+class Summary:
+    """The cycle as a whole, from continuous quadrature: mean torque (N·m), power (W), indicated work (J).
+
+    `extremes` are (cycle angle, torque) of the least and the greatest torque, to a thousandth of a degree.
+    """
+
+    mean_torque: float
+    power: float
+    work: float
+    energy_error: float
+    """|sgn(ω1)·mean(M_cb) + W/(2π·turns)| over the greatest torque of the cycle."""
+    extremes: tuple[tuple[float, float], tuple[float, float]]
+
+
+def gas_in(piston: Piston, motion: Motion, cycle_angle: np.ndarray) -> Gas:
+    """The gas in a cylinder: s/H from the pin's place, pressure from the indicator diagram."""
+    angle = piston.phase + cycle_angle
+    return Gas(
+        piston,
+        angle,
+        piston.fraction(motion),
+        stroke_at(angle, piston.dead_centres),
+        piston.law.reading(cycle_angle, motion),
+    )
+
+
+def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis:
+    """Solve motion, gas, forces and both torques at the machine's positions, or at other cycle angles."""
+    angles = machine.cycle_angles if cycle_angle is None else np.asarray(cycle_angle, dtype=float)
+    linkage = machine.linkage
+    motion = motion_at(machine, angles)
+    gas = {piston.name: gas_in(piston, motion, angles) for piston in machine.pistons}
+    applied = (
+        *(_load(force, angles, motion) for force in machine.applied),
+        *(_couple(torque, angles, motion) for torque in machine.torques),
+    )
+    heavy, inert = weights(linkage, motion), inertia_loads(linkage, motion)
+    loads = (*heavy, *inert, *applied)
+    forces = solve_forces(linkage, motion, loads)
+    return Analysis(
+        machine=machine,
+        cycle_angle=angles,
+        motion=motion,
+        gas=gas,
+        weights=heavy,
+        inertia=inert,
+        applied=applied,
+        forces=forces,
+        torque=forces.torque,
+        torque_by_work=virtual_work_torque(linkage, motion, loads),
+    )
+
+
+def motion_at(machine: Machine, cycle_angle: np.ndarray) -> Motion:
+    """The motion at cycle angles [N]."""
+    return solve_motion(machine.linkage, machine.angles(cycle_angle), machine.turn * machine.speed)
+
+
+def _load(force: Applied, cycle_angle: np.ndarray, motion: Motion) -> Load:
+    size = force.law.value(cycle_angle, motion)
+    return Load(
+        force.name,
+        force.link,
+        np.asarray(size * force.direction, dtype=np.complex128),
+        motion.points[force.point].p,
+        np.zeros_like(cycle_angle),
+    )
+
+
+def _couple(torque: Torque, cycle_angle: np.ndarray, motion: Motion) -> Load:
+    still = np.zeros(cycle_angle.shape, dtype=np.complex128)
+    size = torque.law.value(cycle_angle, motion)
+    return Load(torque.name, torque.link, still, motion.origins[torque.link].p, size)
+
+
+def breaks(machine: Machine) -> np.ndarray:
+    """Cycle angles where the loads have corners: dead centres and nodes of the tables."""
+    laws = [*(force.law for force in machine.applied), *(torque.law for torque in machine.torques)]
+    found = [corner for law in laws for corner in law.breaks(partial(motion_at, machine))]
+    whole = machine.turns * FULL_TURN
+    return np.unique(np.mod(found, whole).round(13)) if found else np.array([])
+
+
+def _work(machine: Machine) -> float:
+    """The work of the loads over the cycle (J): of gas exact from its table, else ∫ F·v dt and ∫ M ω dt."""
+    whole = machine.turns * FULL_TURN
+    pistons = {piston.name: piston for piston in machine.pistons}
+    total = 0.0
+    for force in machine.applied:
+        if force.name in pistons:
+            total += _indicated(machine, pistons[force.name])
+            continue
+
+        def power(angle: np.ndarray, force: Applied = force) -> np.ndarray:
+            motion = motion_at(machine, angle)
+            along = np.real(np.conj(force.direction) * motion.points[force.point].v)
+            return np.asarray(force.law.value(angle, motion) * along)
+
+        corners = force.law.breaks(partial(motion_at, machine))
+        total += mean_over(power, np.mod(list(corners), whole), 0.0, whole) * machine.way / machine.speed
+    for torque in machine.torques:
+
+        def turning(angle: np.ndarray, torque: Torque = torque) -> np.ndarray:
+            motion = motion_at(machine, angle)
+            return np.asarray(torque.law.value(angle, motion) * motion.links[torque.link].omega)
+
+        corners = torque.law.breaks(partial(motion_at, machine))
+        total += mean_over(turning, np.mod(list(corners), whole), 0.0, whole) * machine.way / machine.speed
+    return total
+
+
+def _indicated(machine: Machine, piston: Piston) -> float:
+    def rate(angle: np.ndarray) -> np.ndarray:
+        return piston.fraction_rate(motion_at(machine, angle - piston.phase))
+
+    return indicated_work(piston.indicator, piston.area, piston.stroke, rate)
+
+
+def _energy_gained(machine: Machine) -> float:
+    """What the links gain in energy of motion and height over the way of a sliding driver (J); 0 over a turn."""
+    if not machine.span:
+        return 0.0
+    linkage, motion = machine.linkage, motion_at(machine, np.array([0.0, FULL_TURN]))
+    total = np.zeros(2)
+    for body in linkage.inertias:
+        centre = motion.points[body.centre]
+        height = np.real(np.conj(linkage.gravity) * centre.p)
+        total += body.mass * (np.abs(centre.v) ** 2 / 2 - height)
+        total += body.moment * motion.links[body.link].omega ** 2 / 2
+    return float(total[1] - total[0])
+
+
+def summarise(machine: Machine) -> Summary:
+    """Mean, extremes and energy balance over the cycle: sgn(ω1)·mean(M_cb) = −W/(2π·turns)."""
+    whole = machine.turns * FULL_TURN
+    mean = mean_over(lambda angle: analyse(machine, angle).torque_by_work, breaks(machine), 0.0, whole)
+    work, gained = _work(machine), _energy_gained(machine)
+    fine = np.linspace(0.0, whole, 360 * machine.turns, endpoint=False)
+    torque = analyse(machine, fine).torque
+    return Summary(
+        float(mean),
+        abs(float(mean)) * machine.speed,
+        float(work),
+        abs(machine.turn * mean + (work - gained) / machine.way) / max(float(np.nanmax(np.abs(torque))), 1e-300),
+        (_extreme(machine, fine, torque, -1), _extreme(machine, fine, torque, 1)),
+    )
+
+
+def _extreme(machine: Machine, angles: np.ndarray, torque: np.ndarray, sense: int) -> tuple[float, float]:
+    """The greatest (`sense` +1) or least (−1) torque and its cycle angle: the best of a grid, looked at closer."""
+    for _ in range(2):
+        best, step = int(np.nanargmax(sense * torque)), float(angles[1] - angles[0])
+        angles = np.linspace(angles[best] - step, angles[best] + step, 81)
+        if machine.span:  # a slide ends where its way ends
+            angles = np.unique(np.clip(angles, 0.0, FULL_TURN))
+        torque = analyse(machine, angles).torque
+    best = int(np.nanargmax(sense * torque))
+    # A turn closes at its end; a slide has come to it.
+    return float(angles[best] if machine.span else angles[best] % (machine.turns * FULL_TURN)), float(torque[best])
+
+
+# --- what a machine of the catalogue turns its parameters into ------------------------------------
+# Plain data that the rest of the house reads.
+# A catalogue file gives a `Machine`; nothing downstream asks which kind it is.
+
+NEAR = 1e-6
+"""Positions nearer than this (rad) are one."""
+
+
+class Position(int):
+    """The number of a position, from 1, that is written as its label."""
+
+    label: str
+
+    def __new__(cls, number: int, label: str = "") -> Position:
+        position = super().__new__(cls, number)
+        position.label = label or str(int(number))
+        return position
+
+    def __str__(self) -> str:
+        return self.label
+
+
+def no_formulas(q: Sheet) -> None:
+    """A machine without closed formulas."""
+
+
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """A mechanism with its drive, its loads and the outline of its report.
+
+    A turn has `count` positions, numbered from driver angle `start` in the direction `turn` (+1
+    anticlockwise); the cycle of loads takes `turns` turns of the driver.  `sheet` holds the given data and what
+    follows from them; `formulas` writes the closed formulas on it once the plans are there.  `outline` names the
+    report's sections in order.
+    """
+
+    kind: str
+    linkage: Linkage
+    start: float
+    turn: int
+    speed: float
+    count: int
+    turns: int
+    sheet: Sheet
+    outline: tuple[str, ...]
+    formulas: Callable[[Sheet], None] = no_formulas
+    pistons: tuple[Piston, ...] = ()
+    applied: tuple[Applied, ...] = ()
+    """All forces that are neither weight nor inertia, the gas on `pistons` among them."""
+    torques: tuple[Torque, ...] = ()
+    """Torques other than inertia couples."""
+    idle: tuple[str, ...] = ()
+    """Names of loads that the file gives as zero throughout; they are in neither of the two above."""
+    sliders: tuple[Course, ...] = ()
+    """Sliders with dead centres, the pistons among them."""
+    positive: Mapping[str, complex] = field(default_factory=dict)
+    """Unit vectors along which the motion of sliders counts as positive, by their pins; else along their guides."""
+    paths: tuple[str, ...] = ()
+    """Points whose paths the position plan shows."""
+    compared: tuple[tuple[str, str], ...] = ()
+    """Pairs of a plan's quantity and its closed formula, compared in the report."""
+    equations: Mapping[str, tuple[Chain, ...]] = field(default_factory=dict)
+    """Equations by name that the words of its analytic method show."""
+    unevenness: float | None = None
+    """δ of the speed that a flywheel is to keep to, if the report has its chapter."""
+    places: tuple[float, ...] = ()
+    """Cycle angles of the positions of one turn; empty: evenly spaced from 0."""
+    labels: tuple[str, ...] = ()
+    """What the positions of the cycle are called; empty: their numbers."""
+    span: float = 0.0
+    """The way (m) of a sliding driver over the cycle, which then stands for one turn; 0 for a crank."""
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    """What the kind's own words may name beside quantities."""
+
+    @property
+    def way(self) -> float:
+        """The driver's way over the cycle: an angle (rad), or the span of a sliding driver (m)."""
+        return self.span or self.turns * 2 * np.pi
+
+    @property
+    def positions(self) -> int:
+        """Number of positions of the whole cycle."""
+        return self.count * self.turns
+
+    @property
+    def cycle_angles(self) -> np.ndarray:
+        """Cycle angles of all positions [count·turns], 0 at position 1, growing with the rotation."""
+        step = 2 * np.pi / self.count
+        if not self.places:
+            return np.arange(self.positions) * step
+        turns = np.arange(self.turns)[:, None] * (2 * np.pi)
+        return np.asarray((turns + np.asarray(self.places)).ravel())
+
+    def angles(self, cycle_angle: np.ndarray) -> np.ndarray:
+        """Driver angles at the given cycle angles; the coordinates (m) of a sliding driver."""
+        return self.start + self.turn * cycle_angle * (self.span / (2 * np.pi) if self.span else 1.0)
+
+    @property
+    def drawn(self) -> float:
+        """The crank's drawn length (m on paper) where the file or the kind sets it, else 0."""
+        driver = self.linkage.driver
+        id = ids.drawn(driver.centre, driver.pin) if isinstance(driver, Crank) else ""
+        return self.sheet.si(id) if id in self.sheet else 0.0
+
+    def position(self, number: int) -> Position:
+        """A position by its number from 1."""
+        return Position(number, self.labels[number - 1] if self.labels else "")
+
+    def numbered(self, numbers: Iterable[int]) -> tuple[Position, ...]:
+        return tuple(map(self.position, numbers))
+
+
+def lettered(count: int, turns: int, extra: Iterable[float]) -> tuple[tuple[float, ...], tuple[str, ...]]:
+    """Cycle angles of one turn's positions, and labels of the cycle's: `count` even ones 0, 1, …, others a, b, ….
+
+    Of the `extra` angles those that coincide with an even one are left out; the letters follow the angle and
+    go on from turn to turn, as the numbers do.
+    """
+    even = np.arange(count) * (2 * np.pi / count)
+    turned = np.mod(np.asarray(list(extra)) + NEAR, 2 * np.pi) - NEAR
+    new = [float(angle) for angle in turned if np.abs(even - angle).min() > NEAR]
+    places = sorted([*map(float, even), *new])
+    numbers, letters = iter(range(count * turns)), iter(ascii_lowercase)
+    labels = [next(letters) if place in new else str(next(numbers)) for _ in range(turns) for place in places]
+    return tuple(places), tuple(labels)

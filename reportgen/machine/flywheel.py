@@ -1,0 +1,140 @@
+"""The flywheel that keeps a machine's speed within bounds, by energy and reduced inertia.
+
+With the reduced torque M_r(φ) of the loads and a constant torque M_c = −mean M_r on the other side, the
+excess work is A(φ) = ∫(M_r + M_c) dφ, and with the reduced moment of inertia J_r(φ) of the links and J_d of
+the flywheel  ½(J_d + J_r) ω² = E₀ + A.  The bounds ω_m(1 ± δ/2) are just met where the lines of slope
+½ω² touch the curve A over J_r (Wittenbauer):  a = max(A − ½ω_max² J_r),  b = min(A − ½ω_min² J_r),
+J_d = (a − b)/(δ ω_m²).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reportgen.machine.analysis import FULL_TURN, Analysis, Machine, analyse, breaks
+from reportgen.machine.forces import Load, virtual_work_torque
+from reportgen.machine.motion import Motion
+
+Floats = NDArray[np.float64]
+ORDER = 8
+"""Gauss nodes between neighbouring angles: exact to rounding for a degree or less of a smooth torque."""
+
+
+@dataclass(frozen=True)
+class Flywheel:
+    """The regulated cycle over angles φ [N] (rad, in the direction of rotation).
+
+    `torque` M_r and `constant` M_c (N·m), `inertia` J_r and `moment` J_d (kg·m²), `work` A, `upper` a and
+    `lower` b (J), `speed` ω [N] and its bounds `fastest`, `slowest` (rad/s); `high`, `low` are the indices
+    where the speed reaches them.
+    """
+
+    angle: Floats
+    torque: Floats
+    constant: float
+    inertia: Floats
+    work: Floats
+    upper: float
+    lower: float
+    moment: float
+    speed: Floats
+    fastest: float
+    slowest: float
+    high: int
+    low: int
+
+
+def accumulated(function: Callable[[Floats], Floats], angle: Floats) -> Floats:
+    """∫ f dφ from the first angle to each [N]; f is smooth between neighbouring angles, which rise."""
+    nodes, factors = np.polynomial.legendre.leggauss(ORDER)
+    half = np.diff(angle)[:, None] / 2
+    inside = angle[:-1, None] + half * (nodes + 1)
+    values = np.asarray(function(inside.ravel())).reshape(inside.shape)
+    return np.concatenate(([0.0], np.cumsum((half * factors * values).sum(axis=1))))
+
+
+def regulate(angle: Floats, torque: Floats, work: Floats, inertia: Floats, speed: float, unevenness: float) -> Flywheel:
+    """The flywheel for mean speed ω_m and unevenness δ, from M_r, its work ∫M_r dφ and J_r at angles [N].
+
+    The angles span the whole cycle.  `moment` is 0 or less where the links alone are even enough; the speed is
+    then not that of a flywheel, and nan.
+    """
+    mean = float(work[-1] / (angle[-1] - angle[0]))
+    excess = work - mean * (angle - angle[0])
+    fastest, slowest = speed * (1 + unevenness / 2), speed * (1 - unevenness / 2)
+    above, below = excess - fastest**2 * inertia / 2, excess - slowest**2 * inertia / 2
+    high, low = int(above.argmax()), int(below.argmin())
+    upper, lower = float(above[high]), float(below[low])
+    moment = (upper - lower) / (unevenness * speed**2)
+    energy = fastest**2 * moment / 2 - upper
+    squared = 2 * (energy + excess) / (moment + inertia) if moment > 0 else np.full(angle.shape, np.nan)
+    return Flywheel(
+        angle=angle,
+        torque=torque,
+        constant=-mean,
+        inertia=inertia,
+        work=excess,
+        upper=upper,
+        lower=lower,
+        moment=moment,
+        speed=np.sqrt(squared),
+        fastest=fastest,
+        slowest=slowest,
+        high=high,
+        low=low,
+    )
+
+
+SAMPLES = 1440
+"""Angles of a turn at which the extremes of energy are looked for: a quarter degree misses less than 1e-5."""
+SAME = 1e-9
+"""Angles nearer than this (rad) are one; a torque below this share of what the loads could do is none."""
+
+
+def reduced_inertia(machine: Machine, motion: Motion) -> np.ndarray:
+    """J_r = Σ m (v_S/ω₁)² + J (ω/ω₁)² [N] (kg·m²)."""
+    total = np.zeros_like(motion.driver)
+    for body in machine.linkage.inertias:
+        total += body.mass * np.abs(motion.points[body.centre].v) ** 2
+        total += body.moment * motion.links[body.link].omega ** 2
+    return np.asarray(total / motion.rate**2)
+
+
+def reduced_torque(analysis: Analysis) -> np.ndarray:
+    """M_r [N] (N·m) of weights and applied loads, positive in the direction of rotation."""
+    static = (*analysis.weights, *analysis.applied)
+    return np.asarray(-analysis.machine.turn * virtual_work_torque(analysis.machine.linkage, analysis.motion, static))
+
+
+def possible(analysis: Analysis, loads: Sequence[Load]) -> float:
+    """The torque (N·m) of these loads if all acted on the fastest point and link, along their motion."""
+    motion = analysis.motion
+    fastest = max(float(np.abs(point.v).max()) for point in motion.points.values())
+    turning = max(float(np.abs(link.omega).max()) for link in motion.links.values())
+    force = sum(float(np.abs(load.force).max()) for load in loads)
+    couple = sum(float(np.abs(load.couple).max()) for load in loads)
+    return (force * fastest + couple * turning) / abs(motion.rate)
+
+
+def flywheel(machine: Machine, unevenness: float) -> Flywheel:
+    """The flywheel for the unevenness δ, over angles among which are all positions and corners of the loads."""
+    whole = machine.turns * FULL_TURN
+    own = np.concatenate((machine.cycle_angles, breaks(machine), [0.0, whole]))
+    grid = np.linspace(0.0, whole, machine.turns * SAMPLES + 1)
+    every = np.sort(np.concatenate((grid, own)))
+    angle = every[np.concatenate(([True], np.diff(every) > SAME))]
+    analysis = analyse(machine, angle)
+    torque, least = reduced_torque(analysis), SAME * possible(analysis, (*analysis.weights, *analysis.applied))
+    idle = np.abs(torque).max() <= least
+    return regulate(
+        angle,
+        np.zeros_like(torque) if idle else torque,
+        np.zeros_like(torque) if idle else accumulated(lambda angle: reduced_torque(analyse(machine, angle)), angle),
+        reduced_inertia(machine, analysis.motion),
+        machine.speed,
+        unevenness,
+    )

@@ -1,0 +1,311 @@
+"""Weights and inertia forces, the reactions in every joint, and the driver's balancing torque.
+
+Every joint holds two unknowns: the two components of a force in a revolute joint, the force across
+the guide and a couple in a prismatic one.  Two links and three joints make six equations with six
+unknowns, whatever the kind of the group; all positions are solved in one batch.  Groups are taken in
+the reverse of their assembly, so that each hands its reactions on to links not yet balanced.  The work of
+the same loads gives the torque a second time, without any reaction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from reportgen.formula import ids
+from reportgen.formula.constructions import cross, dot
+from reportgen.machine import DRIVER, GROUND, Dyad, Joint, Linkage, joints
+from reportgen.machine.motion import Complexes, Floats, Motion, solve2
+
+CONVERGED = 1e-12
+ORDER = 16
+AT_ALL = 1e-9
+MOST_PARTS = 4096
+MOST_HALVINGS = 50
+"""A part so often halved is below the spacing of floats beside it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """A force (N) at a point (m) of a link, and a couple (N·m); arrays over positions [N]."""
+
+    name: str
+    link: int
+    force: Complexes
+    point: Complexes
+    couple: Floats
+
+    def moment(self, about: Complexes | complex) -> Floats:
+        """Moment about a point: (point − about) × force + couple."""
+        return np.asarray(cross(self.point - about, self.force) + self.couple)
+
+
+def weights(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
+    """Weights m·g at the mass centres, named "G" and the link's number; a massless link has none."""
+    still = np.zeros_like(motion.driver)
+    return tuple(
+        Load(
+            ids.weight(body.link),
+            body.link,
+            np.full(still.shape, body.mass * linkage.gravity, dtype=np.complex128),
+            motion.points[body.centre].p,
+            still,
+        )
+        for body in linkage.inertias
+        if body.mass
+    )
+
+
+def inertia_loads(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
+    """D'Alembert's loads −m a_S at S with the couple −J ε, named "Pqt" and the link's number."""
+    return tuple(
+        Load(
+            ids.inertia_force(body.link),
+            body.link,
+            -body.mass * motion.points[body.centre].a,
+            motion.points[body.centre].p,
+            -body.moment * motion.links[body.link].epsilon,
+        )
+        for body in linkage.inertias
+        if body.mass or body.moment
+    )
+
+
+def as_single_force(load: Load) -> Complexes:
+    """Where a force F at S with couple M acts as the force alone: the point S − i F M / F².
+
+    It lies at the distance |M|/|F| = J|ε|/(m|a_S|) from S, square to the force, on the side that gives
+    M.  It is S itself where M = 0, and nan where F = 0 with M ≠ 0: a pure couple.
+    """
+    square = np.abs(load.force) ** 2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        arm = -1j * load.force * (load.couple / np.where(square > 0, square, np.nan))
+    return np.where(load.couple == 0, load.point, load.point + arm)
+
+
+def percussion_meeting(a: Complexes, s: Complexes, a_a: Complexes, a_s: Complexes, l_sk: float) -> Complexes:
+    """The point Q on the line of a link's single inertia force, as it is found by drawing.
+
+    Split a_S = a_A + a_SA: the part −m a_A acts along the line through S parallel to a_A, the part of
+    the turning about A along the line through K parallel to a_SA, K on AS beyond S at `l_sk`.  The
+    lines meet in Q; nan where they are parallel.  a, s in m, a_a, a_s in m/s².
+    """
+    k = s + (s - a) / np.abs(s - a) * l_sk
+    along, _ = solve2(a_a, a_a - a_s, k - s)
+    return s + along * a_a
+
+
+# --- work and means -------------------------------------------------------------------------------
+
+
+def virtual_work_torque(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> Floats:
+    """The driver's balancing torque M = −(ΣF·v + ΣMω)/ω₁ (N·m); with a sliding driver the force (N).
+
+    Loads on links of `linkage` include inertia forces, so that this is D'Alembert's principle.
+    Raises `ValueError` when the driver stands still.
+    """
+    if motion.rate == 0:
+        raise ValueError("virtual work needs a moving driver")
+    power = np.where(motion.reachable, 0.0, np.nan)
+    for load in loads:
+        moved = motion.of(load.link, load.point).v
+        power = power + dot(load.force, moved) + load.couple * motion.links[load.link].omega
+    return -power / motion.rate
+
+
+def mean_over(function: Callable[[Floats], Floats], breaks: Iterable[float], start: float, stop: float) -> float:
+    """∫ f dx / (stop − start) by composite Gauss–Legendre quadrature, split at `breaks`.
+
+    Every part between breaks must be smooth.  Parts are halved, those alone where it matters, as beside a dead point,
+    until halving no longer changes them: by 1e-12 of the mean of |f| in all, or by 1e-9 where rounding allows no more.
+    Raises `ValueError` on an empty interval or when it does not settle.
+    """
+    if not stop > start:
+        raise ValueError("the interval is empty")
+    edges = np.array(sorted({start, stop, *(float(x) for x in breaks if start < x < stop)}))
+    low, high = edges[:-1], edges[1:]
+    whole, _ = _gauss(function, low, high)
+    settled = settled_size = 0.0
+    best, least = np.nan, np.inf
+    for _ in range(MOST_HALVINGS):
+        middle = (low + high) / 2
+        low, high = np.stack((low, middle), 1).ravel(), np.stack((middle, high), 1).ravel()
+        halves, sizes = _gauss(function, low, high)
+        size = settled_size + float(sizes.sum())
+        off = np.abs(halves[::2] + halves[1::2] - whole)
+        if off.sum() < least * size:
+            best, least = (settled + float(halves.sum())) / (stop - start), float(off.sum()) / size
+        if off.sum() <= CONVERGED * size:
+            return best if size else 0.0
+        # A part that is off by less than its even share of all that is allowed is not halved again.
+        open_ = np.repeat(off > CONVERGED * size / MOST_PARTS, 2)
+        settled += float(halves[~open_].sum())
+        settled_size += float(sizes[~open_].sum())
+        low, high, whole = low[open_], high[open_], halves[open_]
+        if low.size > MOST_PARTS:
+            break
+    if least <= AT_ALL:
+        return best
+    raise ValueError("the quadrature does not settle")
+
+
+def _gauss(function: Callable[[Floats], Floats], low: Floats, high: Floats) -> tuple[Floats, Floats]:
+    """∫ f dx and ∫ |f| dx of each part, from one call of the function at all nodes in order."""
+    nodes, factors = np.polynomial.legendre.leggauss(ORDER)
+    half = (high - low)[:, None] / 2
+    x = low[:, None] + half * (nodes + 1)
+    values = np.asarray(function(x.ravel()), dtype=np.float64).reshape(x.shape)
+    parts = half * factors
+    return np.sum(parts * values, axis=1), np.sum(parts * np.abs(values), axis=1)
+
+
+NOTHING = 1e-12
+"""A force across a guide below this part of the group's largest is rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reaction:
+    """The force of one link on another (N) and, in a guide, its moment (N·m) about the joint's point.
+
+    `point` (m) is the joint in a revolute joint; in a guide it is where the single resultant crosses
+    the guide's line, nan where the reaction is a pure couple.
+    """
+
+    force: Complexes
+    point: Complexes
+    moment: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Forces:
+    """Reactions "R12" (link 1 on link 2) and "R21" for every joint, and what balances the driver.
+
+    `torque` is the torque on the crank (N·m), or for a sliding driver the force along its guide (N).
+    """
+
+    reactions: Mapping[str, Reaction]
+    torque: Floats
+
+
+class _Wrench(NamedTuple):
+    """A force at a point with a couple."""
+
+    force: Complexes
+    point: Complexes
+    couple: Floats | float
+
+    def moment(self, about: Complexes) -> Floats:
+        return np.asarray(cross(self.point - about, self.force) + self.couple)
+
+
+def reaction_name(source: int, target: int) -> str:
+    """The key of the force of link `source` on link `target`: "R12"; "R1,12" with long numbers."""
+    return ids.reaction_force(ids.joint(source, target))
+
+
+def solve_forces(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> Forces:
+    """Balance every link under `loads`; nan where the position is unreachable.
+
+    Raises `KeyError` for a load on a link that does not move.
+    """
+    carried: dict[int, list[_Wrench]] = {link: [] for link in linkage.links}
+    for load in loads:
+        carried[load.link].append(_Wrench(load.force, load.point, load.couple))
+    reactions: dict[str, Reaction] = {}
+    listed = joints(linkage)
+    for dyad in reversed(linkage.dyads):
+        own = tuple(joint for joint in listed if joint.group == dyad.links)
+        wrenches = _balance(dyad, own, motion, carried)
+        largest = max(float(np.max(np.abs(wrench.force), initial=0.0, where=motion.reachable)) for wrench in wrenches)
+        for joint, wrench in zip(own, wrenches, strict=True):
+            _enter(reactions, joint, wrench, motion, NOTHING * largest)
+            source = joint.links[0]
+            if source not in dyad.links and source != GROUND:
+                carried[source].append(_Wrench(-wrench.force, wrench.point, -wrench.couple))
+    ground, torque = _drive(listed[0], motion, carried[DRIVER])
+    _enter(reactions, listed[0], ground, motion, 0.0)
+    return Forces(reactions, torque)
+
+
+def _balance(dyad: Dyad, own: tuple[Joint, ...], motion: Motion, carried: Mapping[int, list[_Wrench]]) -> list[_Wrench]:
+    """The wrenches of a group's joints on their second links.
+
+    Rows: ΣF_x, ΣF_y, ΣM/l about the middle point, of the one link and of the other; columns: two
+    unknowns of each joint.  The length l only brings forces and moments to one size.
+    """
+    pole = motion.points[dyad.middle].p
+    valid = motion.reachable
+
+    def farthest(points: Iterable[str]) -> float:
+        return max(float(np.max(np.abs(motion.points[name].p - pole)[valid], initial=0.0)) for name in points)
+
+    # Joints that lie in one point do so but for rounding.
+    reach, whole = farthest(joint.point for joint in own), farthest(motion.points)
+    length = reach if reach > NOTHING * whole else whole or 1.0
+    matrix = np.zeros((6, 6, pole.size))
+    known = np.zeros((6, pole.size))
+    columns = [column for joint in own for column in _unknowns(joint, motion, length)]
+    for row, link in zip((0, 3), dyad.links, strict=True):
+        for column, wrench in enumerate(columns):
+            joint = own[column // 2]
+            if link in joint.links:
+                sense = 1.0 if link == joint.links[1] else -1.0
+                matrix[row : row + 3, column] = _components(wrench, pole, length, sense)
+        for wrench in carried[link]:
+            known[row : row + 3] += _components(wrench, pole, length, -1.0)
+    matrix[:, :, ~valid] = np.eye(6)[:, :, None]
+    known[:, ~valid] = np.nan
+    found = np.linalg.solve(np.moveaxis(matrix, 2, 0), known.T[:, :, None])[:, :, 0].T
+    return [
+        _Wrench(
+            first.force * found[2 * k] + second.force * found[2 * k + 1],
+            first.point,
+            first.couple * found[2 * k] + second.couple * found[2 * k + 1],
+        )
+        for k, (first, second) in enumerate(zip(columns[::2], columns[1::2], strict=True))
+    ]
+
+
+def _unknowns(joint: Joint, motion: Motion, length: float) -> tuple[_Wrench, _Wrench]:
+    """The two unit wrenches that a joint can hold, on its second link."""
+    at = motion.points[joint.point].p
+    still = np.zeros_like(at)
+    if joint.kind == "R":
+        return _Wrench(still + 1, at, 0.0), _Wrench(still + 1j, at, 0.0)
+    return _Wrench(1j * motion.slides[joint.links].direction, at, 0.0), _Wrench(still, at, length)
+
+
+def _components(wrench: _Wrench, pole: Complexes, length: float, sense: float) -> Floats:
+    """ΣF_x, ΣF_y and ΣM/l of one wrench, [3, N]."""
+    force = sense * wrench.force
+    return np.stack((force.real, force.imag, sense * wrench.moment(pole) / length))
+
+
+def _enter(reactions: dict[str, Reaction], joint: Joint, wrench: _Wrench, motion: Motion, nothing: float) -> None:
+    """List a joint's reaction in both directions; a force up to `nothing` has no line of action."""
+    source, target = joint.links
+    point = wrench.point
+    moment = np.broadcast_to(np.asarray(wrench.couple, dtype=np.float64), point.shape)
+    if joint.kind == "P":
+        d = motion.slides[joint.links].direction
+        across = cross(d, wrench.force)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            offset = moment / np.where(np.abs(across) > nothing, across, np.nan)
+        point = np.where(moment == 0, point, point + d * offset)
+    reactions[reaction_name(source, target)] = Reaction(wrench.force, point, moment)
+    reactions[reaction_name(target, source)] = Reaction(-wrench.force, point, -moment)
+
+
+def _drive(joint: Joint, motion: Motion, carried: Sequence[_Wrench]) -> tuple[_Wrench, Floats]:
+    """The ground's wrench on the driver and what balances it: M = −ΣM about the centre, or F = −ΣF·d."""
+    at = motion.points[joint.point].p
+    still = np.where(motion.reachable, 0.0, np.nan)
+    force = sum((wrench.force for wrench in carried), still + 0j)
+    moment = sum((wrench.moment(at) for wrench in carried), still)
+    if joint.kind == "R":
+        return _Wrench(-force, at, 0.0), -moment
+    d = motion.slides[joint.links].direction
+    return _Wrench(-1j * d * cross(d, force), at, -moment), -dot(d, force)

@@ -1,0 +1,386 @@
+"""Kinematics of the five Assur groups of class II, and the vectors of the plane they are written in.
+
+Each kind has one function: it finds the position in closed form, then the two unknown rates along two
+known directions with `solve2`, first for velocities, then for accelerations.  Nothing loops over
+positions; what cannot be assembled is nan.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from reportgen.formula.constructions import SquareRoot, along_line, circle_circle, cross, shares
+from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Flags = NDArray[np.bool_]
+
+SINGULAR = 1e-5
+"""Sine of the angle below which two directions count as parallel.
+
+A position found near such a place carries a relative error of about ε/sin² (ε = 2e-16): past this
+bound its rates would be wrong in the sixth digit, so none are given.
+"""
+
+TOUCHING = 1e-13
+"""A square root of minus this, relative, is a flat position met exactly, not an unreachable one."""
+
+COINCIDENT = 1e-9
+"""Points nearer than this, relative to their distance from the origin, give no direction."""
+
+RODS: Mapping[DyadKind, int] = {"RRR": 2, "RRP": 1, "RPR": 0, "PRP": 0, "RPP": 0}
+"""How many of a kind's `lengths` are lengths of rods."""
+
+
+# --- vectors of the plane, as complex numbers of any shape ---------------------------------------
+
+
+def unit(angle: Floats | float) -> Complexes:
+    """Unit vector e^{iθ} at `angle` (rad)."""
+    return np.asarray(np.exp(1j * np.asarray(angle, dtype=np.float64)), dtype=np.complex128)
+
+
+def solve2(u: Complexes | complex, w: Complexes | complex, rhs: Complexes | complex) -> tuple[Floats, Floats]:
+    """The real x, y with x·u + y·w = rhs; nan where u and w are parallel to within `SINGULAR`."""
+    regular = np.abs(cross(u, w)) > SINGULAR * np.abs(u) * np.abs(w)
+    return shares(rhs, np.where(regular, u, np.nan), w)
+
+
+# --- groups ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class LinkMotion:
+    """Angle (rad), angular velocity (rad/s) and acceleration (rad/s²) of a link, each [N]."""
+
+    angle: Floats
+    omega: Floats
+    epsilon: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class PointMotion:
+    """Position (m), velocity (m/s) and acceleration (m/s²) of a point, complex [N]."""
+
+    p: Complexes
+    v: Complexes
+    a: Complexes
+
+
+@dataclass(frozen=True, slots=True)
+class SlideMotion:
+    """Relative motion in a prismatic joint: s (m) along the unit vector `direction`, ṡ and s̈."""
+
+    s: Floats
+    v: Floats
+    a: Floats
+    direction: Complexes
+
+
+@dataclass(frozen=True, slots=True)
+class Rail:
+    """A guide as it moves: its point `at`, its direction, and the link that carries it."""
+
+    link: int
+    at: PointMotion
+    direction: Complexes
+    carrier: LinkMotion
+
+    def carried(self, p: Complexes) -> PointMotion:
+        """The point of the guide's own link that lies at `p`: v = v_G + iω r, a = a_G + (iε − ω²) r."""
+        return carried(self.at, self.carrier, p)
+
+
+@dataclass(frozen=True, slots=True)
+class Assembled:
+    """A group in motion: its middle point, its two links with their frames' origins, its slides."""
+
+    middle: PointMotion
+    links: tuple[LinkMotion, LinkMotion]
+    origins: tuple[PointMotion, PointMotion]
+    slides: Mapping[tuple[int, int], SlideMotion]
+
+
+End = PointMotion | Rail
+
+
+def carried(base: PointMotion, link: LinkMotion, p: Complexes) -> PointMotion:
+    """The point at `p` of a rigid link that moves with `base` and turns as `link` does."""
+    r = p - base.p
+    return PointMotion(p, base.v + 1j * link.omega * r, base.a + (1j * link.epsilon - link.omega**2) * r)
+
+
+def assemble(dyad: Dyad, start: End, end: End, sign: Floats) -> Assembled:
+    """The group on its two ends; `sign` [N] is its orientation.
+
+    Raises `TypeError` when an end is a guide where the kind has a revolute joint, or the reverse, and
+    `ValueError` for a rod without length.
+    """
+    if min(dyad.lengths[: RODS[dyad.kind]], default=1.0) <= 0:
+        raise ValueError(f"dyad {dyad.links}: a rod must have a length")
+    match dyad.kind, start, end:
+        case "RRR", PointMotion(), PointMotion():
+            return _rrr(dyad, start, end, sign)
+        case "RRP", PointMotion(), Rail():
+            return _rrp(dyad, start, end, sign)
+        case "RPR", PointMotion(), PointMotion():
+            return _rpr(dyad, start, end, sign)
+        case "PRP", Rail(), Rail():
+            return _prp(dyad, start, end)
+        case "RPP", PointMotion(), Rail():
+            return _rpp(dyad, start, end)
+    raise TypeError(f"dyad {dyad.links}: the ends do not fit the kind {dyad.kind}")
+
+
+def _root(scale: Floats | float) -> SquareRoot:
+    """The square root that is nan where the square is negative by more than rounding of `scale`²."""
+
+    def root(square: Floats) -> Floats:
+        touching = (square < 0) & (square >= -TOUCHING * np.square(scale))
+        return np.sqrt(np.where(touching, 0.0, np.where(square < 0, np.nan, square)))
+
+    return root
+
+
+def _rrr(dyad: Dyad, p: PointMotion, t: PointMotion, sign: Floats) -> Assembled:
+    """v_P + iω_i PQ = v_T + iω_j TQ."""
+    first, second = dyad.lengths
+    with np.errstate(divide="ignore", invalid="ignore"):
+        q = circle_circle(p.p, first, t.p, second, sign, _root(first))
+    r, s = q - p.p, q - t.p
+    omega_i, omega_j = solve2(1j * r, -1j * s, t.v - p.v)
+    epsilon_i, epsilon_j = solve2(1j * r, -1j * s, t.a - p.a + omega_i**2 * r - omega_j**2 * s)
+    i = LinkMotion(np.angle(r), omega_i, epsilon_i)
+    j = LinkMotion(np.angle(s), omega_j, epsilon_j)
+    return Assembled(carried(p, i, q), (i, j), (p, t), {})
+
+
+def _rrp(dyad: Dyad, p: PointMotion, rail: Rail, sign: Floats) -> Assembled:
+    """v_P + iω_i PQ = v_Qk + ṡ d, with 2iω_k ṡ d (Coriolis) on a turning guide."""
+    length = dyad.lengths[0]
+    d = rail.direction
+    s = along_line(p.p, length, rail.at.p, d, sign, _root(length))
+    q = rail.at.p + s * d
+    r = q - p.p
+    under = rail.carried(q)
+    omega, rate = solve2(1j * r, -d, under.v - p.v)
+    coriolis = 2j * rail.carrier.omega * rate * d
+    epsilon, rate2 = solve2(1j * r, -d, under.a + coriolis - p.a + omega**2 * r)
+    i = LinkMotion(np.angle(r), omega, epsilon)
+    j = LinkMotion(np.angle(d), rail.carrier.omega, rail.carrier.epsilon)
+    middle = PointMotion(q, under.v + rate * d, under.a + coriolis + rate2 * d)
+    return Assembled(middle, (i, j), (p, middle), {(rail.link, dyad.links[1]): SlideMotion(s, rate, rate2, d)})
+
+
+def _rpr(dyad: Dyad, p: PointMotion, t: PointMotion, sign: Floats) -> Assembled:
+    """v_P = v_T + iω TP + ṡ u, a_P = a_T + (iε − ω²) TP + 2iωṡ u + s̈ u."""
+    offset = dyad.lengths[1]
+    r = p.p - t.p
+    # A pin met by its own slider's centre leaves the direction to rounding.
+    r = np.where(np.abs(r) > COINCIDENT * (np.abs(p.p) + np.abs(t.p)), r, np.nan)
+    s = sign * _root(np.abs(r))(np.abs(r) ** 2 - offset**2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        u = unit(np.angle(r / (s + 1j * offset)))
+    omega, rate = solve2(1j * r, u, p.v - t.v)
+    epsilon, rate2 = solve2(1j * r, u, p.a - t.a + omega**2 * r - 2j * omega * rate * u)
+    link = LinkMotion(np.angle(u), omega, epsilon)
+    i, j = dyad.links
+    return Assembled(carried(t, link, p.p), (link, link), (p, t), {(j, i): SlideMotion(s, rate, rate2, u)})
+
+
+def _prp(dyad: Dyad, first: Rail, second: Rail) -> Assembled:
+    """v_Qk + ṡ₁ d₁ = v_Qm + ṡ₂ d₂."""
+    d, e = first.direction, second.direction
+    s, t = solve2(d, -e, second.at.p - first.at.p)
+    q = first.at.p + s * d
+    under, over = first.carried(q), second.carried(q)
+    v, w = solve2(d, -e, over.v - under.v)
+    turning, other = 2j * first.carrier.omega * v * d, 2j * second.carrier.omega * w * e
+    a, b = solve2(d, -e, over.a + other - under.a - turning)
+    middle = PointMotion(q, under.v + v * d, under.a + turning + a * d)
+    i, j = dyad.links
+    links = (
+        LinkMotion(np.angle(d), first.carrier.omega, first.carrier.epsilon),
+        LinkMotion(np.angle(e), second.carrier.omega, second.carrier.epsilon),
+    )
+    slides = {(first.link, i): SlideMotion(s, v, a, d), (second.link, j): SlideMotion(t, w, b, e)}
+    return Assembled(middle, links, (middle, middle), slides)
+
+
+def _rpp(dyad: Dyad, p: PointMotion, rail: Rail) -> Assembled:
+    """v_P = v_Pk + ṡ d + ṫ w: both slides turn with the guide's link, 2iω_k (ṡ d + ṫ w) is Coriolis."""
+    d = rail.direction
+    w = d * unit(dyad.slide_angle)
+    under = rail.carried(p.p)
+    turning = 2j * rail.carrier.omega
+    s, t = solve2(d, w, p.p - rail.at.p)
+    v, vt = solve2(d, w, p.v - under.v)
+    a, at = solve2(d, w, p.a - under.a - turning * (v * d + vt * w))
+    q = rail.carried(rail.at.p + s * d)
+    middle = PointMotion(q.p, q.v + v * d, q.a + turning * v * d + a * d)
+    link = LinkMotion(np.angle(d), rail.carrier.omega, rail.carrier.epsilon)
+    i, j = dyad.links
+    slides = {(rail.link, j): SlideMotion(s, v, a, d), (j, i): SlideMotion(t, vt, at, w)}
+    return Assembled(middle, (link, link), (p, middle), slides)
+
+
+# --- positions ------------------------------------------------------------------------------------
+# Velocities and accelerations of a whole mechanism, over all positions at once.
+
+__all__ = ["LinkMotion", "Motion", "PointMotion", "SlideMotion", "solve_motion"]
+
+SUBSTEP = np.radians(2.0)
+"""Largest step of a crank between two positions, so that angles unwrap the way the links really turn."""
+SUBSTEPS_OF_A_SLIDE = 180
+
+Places = NDArray[np.int64] | slice
+
+Arrays = TypeVar("Arrays", LinkMotion, PointMotion, SlideMotion)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The motion of every link, named point and slide over positions [N].
+
+    `driver` is the crank's angle (rad) or the slide's coordinate (m), `rate` its constant rate.
+    `slides` are keyed (guide link, slider link); `origins` are the origins of the links' frames.
+    Positions where `reachable` is False have nan where nothing can be said.
+    """
+
+    driver: Floats
+    rate: float
+    links: Mapping[int, LinkMotion]
+    points: Mapping[str, PointMotion]
+    slides: Mapping[tuple[int, int], SlideMotion]
+    origins: Mapping[int, PointMotion]
+    reachable: Flags
+
+    def of(self, link: int, at: Complexes | complex) -> PointMotion:
+        """The material point of `link` that lies at `at` now: v = v_O + iω r, a = a_O + (iε − ω²) r."""
+        p = np.broadcast_to(np.asarray(at, dtype=np.complex128), self.driver.shape)
+        if link == GROUND:
+            return PointMotion(p, np.zeros_like(p), np.zeros_like(p))
+        return carried(self.origins[link], self.links[link], p)
+
+
+def solve_motion(linkage: Linkage, driver: ArrayLike, rate: float) -> Motion:
+    """The motion at driver coordinates `driver` [N], passed through in this order at the constant `rate`.
+
+    Between positions far apart the solver takes substeps, so that link angles are continuous.
+    Raises `ValueError` for a moving guide under a sliding driver and `KeyError` for a dyad that hangs
+    on a point or link not yet placed.
+    """
+    given = np.atleast_1d(np.asarray(driver, dtype=np.float64))
+    path, kept = _path(given, isinstance(linkage.driver, Crank))
+    state = _State(linkage, path, rate)
+    for dyad in linkage.dyads:
+        state.add(dyad)
+    return state.motion(given, kept)
+
+
+def _path(driver: Floats, turning: bool) -> tuple[Floats, Places]:
+    """The driver's way with substeps between far positions, and the places of the positions on it."""
+    steps = np.abs(np.diff(driver))
+    if not steps.size or not np.isfinite(steps).all():
+        return driver, slice(None)
+    largest = SUBSTEP if turning else max(np.ptp(driver) / SUBSTEPS_OF_A_SLIDE, np.finfo(float).tiny)
+    parts = np.maximum(np.ceil(steps / largest * (1 - 1e-12)).astype(np.int64), 1)
+    if parts.max() == 1:
+        return driver, slice(None)
+    kept = np.concatenate(([0], np.cumsum(parts)))
+    path = np.interp(np.arange(kept[-1] + 1), kept, driver)
+    path[kept] = driver
+    return path, kept
+
+
+class _State:
+    """What is placed so far while the groups are assembled one after another."""
+
+    def __init__(self, linkage: Linkage, path: Floats, rate: float) -> None:
+        self.linkage, self.path, self.rate = linkage, path, rate
+        zero = np.zeros_like(path)
+        self.still: Complexes = zero.astype(np.complex128)
+        self.links: dict[int, LinkMotion] = {GROUND: LinkMotion(zero, zero, zero)}
+        self.origins: dict[int, PointMotion] = {GROUND: self._fixed(0)}
+        self.points = {name: self._fixed(p) for name, p in linkage.ground.items()}
+        self.slides: dict[tuple[int, int], SlideMotion] = {}
+        self.reachable = np.isfinite(path)
+        self._drive()
+
+    def _fixed(self, p: complex) -> PointMotion:
+        return PointMotion(np.full_like(self.still, p), self.still, self.still)
+
+    def _drive(self) -> None:
+        q, zero, driver = self.path, np.zeros_like(self.path), self.linkage.driver
+        if isinstance(driver, Crank):
+            link, origin = LinkMotion(q, zero + self.rate, zero), self.points[driver.centre]
+            pin = carried(origin, link, origin.p + driver.length * unit(q))
+        else:
+            if driver.guide.link != GROUND:
+                raise ValueError("the guide of a sliding driver must be fixed to the ground")
+            d = unit(driver.guide.angle)
+            pin = PointMotion(driver.guide.at + q * d, np.full_like(self.still, self.rate * d), self.still)
+            link, origin = LinkMotion(zero + driver.guide.angle, zero, zero), pin
+            self.slides[GROUND, DRIVER] = SlideMotion(q, zero + self.rate, zero, np.full_like(self.still, d))
+        self.points[driver.pin] = pin
+        self._place(DRIVER, link, origin)
+
+    def _place(self, number: int, link: LinkMotion, origin: PointMotion) -> None:
+        """Enter a link and the points fixed to it."""
+        self.links[number], self.origins[number] = link, origin
+        for point in self.linkage.points:
+            if point.link == number:
+                self.points[point.name] = carried(origin, link, origin.p + point.local * unit(link.angle))
+
+    def _end(self, end: str | Guide) -> End:
+        if isinstance(end, str):
+            return self.points[end]
+        carrier, origin = self.links[end.link], self.origins[end.link]
+        turned = unit(carrier.angle)
+        at = carried(origin, carrier, origin.p + end.at * turned)
+        return Rail(end.link, at, turned * unit(end.angle), carrier)
+
+    def add(self, dyad: Dyad) -> None:
+        """Assemble one group and note where it cannot be."""
+        sign = np.full(self.path.shape, float(dyad.sign))
+        group = assemble(dyad, self._end(dyad.start), self._end(dyad.end), sign)
+        parts = (group.middle.p, group.middle.a, *(part for link in group.links for part in (link.angle, link.epsilon)))
+        self.reachable = self.reachable & np.isfinite(parts).all(axis=0)
+        self.points[dyad.middle] = group.middle
+        self.slides.update(group.slides)
+        for number, link, origin in zip(dyad.links, group.links, group.origins, strict=True):
+            self._place(number, LinkMotion(_continuous(link.angle), link.omega, link.epsilon), origin)
+
+    def motion(self, driver: Floats, kept: Places) -> Motion:
+        """The result at the positions asked for; the substeps are dropped."""
+        return Motion(
+            driver=driver,
+            rate=self.rate,
+            links={number: _take(link, kept) for number, link in self.links.items() if number != GROUND},
+            points={name: _take(point, kept) for name, point in self.points.items()},
+            slides={key: _take(slide, kept) for key, slide in self.slides.items()},
+            origins={number: _take(origin, kept) for number, origin in self.origins.items()},
+            reachable=self.reachable[kept],
+        )
+
+
+def _take(motion: Arrays, kept: Places) -> Arrays:
+    if isinstance(kept, slice):
+        return motion
+    return type(motion)(*(getattr(motion, field.name)[kept] for field in fields(motion)))
+
+
+def _continuous(angle: Floats) -> Floats:
+    """The angle without jumps of 2π; gaps of nan are stepped over."""
+    finite = np.isfinite(angle)
+    if finite.all():
+        return np.unwrap(angle)
+    result = angle.copy()
+    result[finite] = np.unwrap(angle[finite])
+    return result

@@ -1,0 +1,239 @@
+"""Tolerance bands: how far off a value may be that was drawn by hand, or worked out with three figures.
+
+Bands are errors of drawing and of rounding, carried through the ledger.  Each error is a small change of one
+quantity; the ledger evaluates all of them at once, [errors, positions], and gives how far every later
+quantity moves.  An error that may lie anywhere within ±e has the standard deviation e/√3; independent ones
+add by their squares, and the band reaches to three of their sum's deviations.  A quantity's own error,
+which nothing evens out, is added whole:
+
+    band = e_own + 3 √(Σᵢ (∂f/∂xᵢ eᵢ/√3)²)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from reportgen.formula import Call, Ref, ids, refs, vocabulary
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.sheet import Family
+
+PAPER_ERROR = 0.5e-3
+"""How far off a drawn point may lie (m on paper), at each end of a measured length."""
+
+DIGITS = 3
+"""Significant figures that a value is computed with."""
+
+WHOLE_DEGREE = np.pi / 180
+
+REACH = 3 / np.sqrt(3)
+"""Three standard deviations of errors that are spread evenly over ±1."""
+
+DIAGRAM = 0.1
+"""How high an indicator diagram is plotted (m on paper)."""
+
+SMALL = 0.05
+"""The share of a pressure that reading it from such a diagram may be off by."""
+
+SHARE = 1e-4
+"""A change of this share of an error stands for its slope."""
+
+
+def drawn_bands(
+    ledger: Ledger, error: float = PAPER_ERROR, scales: Mapping[str, np.ndarray] | None = None
+) -> dict[str, np.ndarray]:
+    """Half widths (SI) [N] when every length on paper is off by `error` (m) at each of its ends.
+
+    `scales` are those of plans drawn at others than the report's, as multiples of these, by id: a larger drawing is
+    read more finely.
+    What is read or worked out from the drawing is also written down with so many figures only.
+    """
+    bands = _carried_through(ledger, measuring_errors(ledger, error, scales))
+    for id, band in bands.items():
+        # A direction is written down in whole degrees.
+        last = WHOLE_DEGREE / 2 if is_direction(id) else half_unit(ledger[id].values, DIGITS)
+        bands[id] = band + np.where(band > 0, last, 0.0)
+    return bands
+
+
+def computed_bands(ledger: Ledger, digits: int = DIGITS) -> dict[str, np.ndarray]:
+    """Half widths (SI) [N] when every value that is not given is rounded to `digits` significant figures.
+
+    What stands on integrals over the cycle is worked out by the trapezoid rule.
+    """
+    errors = {
+        id: half_unit(family.values, digits)
+        for id, family in ledger.families.items()
+        if not (family.hidden or family.is_plane or family.exact or family.definition is None)
+    }
+    bands = _carried_through(ledger, errors)
+    return bands | {id: bands[id] + error for id, error in trapezoid_errors(ledger).items()}
+
+
+def measuring_errors(
+    ledger: Ledger, error: float = PAPER_ERROR, scales: Mapping[str, np.ndarray] | None = None
+) -> dict[str, np.ndarray]:
+    """The own errors (SI) of what is measured: two ends of a length; of a direction, two ends over its length.
+
+    Other angles are measured between lines as long as the drawn crank.
+    """
+    errors: dict[str, np.ndarray] = {}
+    drawn_at = scales or {}
+    lengths = (float(one.values[0]) for one in ledger.families.values() if is_chosen_length(ledger, one))
+    crank = min(lengths, default=np.inf)
+    for id, family in ledger.families.items():
+        if family.hidden or family.is_plane or not (family.constructed or _may_be_measured(family)):
+            continue
+        if family.kind == "segment":
+            errors[id] = np.full(len(family.values), 2 * error * drawn_at.get(vocabulary.plan(id), 1.0))
+        elif is_direction(id):
+            side = _on_paper(ledger, id)
+            length = np.abs(side.values) / drawn_at.get(vocabulary.plan(side.id), 1.0)
+            with np.errstate(all="ignore"):
+                errors[id] = np.minimum(np.where(length > 0, 2 * error / length, np.pi), np.pi)
+        elif family.kind == "angle":
+            errors[id] = np.full(len(family.values), 2 * error * drawn_at.get("mu.l", 1.0) / crank)
+        elif family.kind == "length" and isinstance(family.definition, Call) and family.definition.name == "abs":
+            # Measured on the drawing of the mechanism, as a slider's way is.
+            scale = ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
+            errors[id] = np.full(len(family.values), 2 * error * scale)
+    for link, slope in _pressure_slopes(ledger).items():
+        pressure = np.abs(ledger[ids.pressure(link)].values)
+        # Read from a diagram that the student has plotted; what is small stands in the table.
+        height = np.minimum(error / DIAGRAM * np.nanmax(pressure), SMALL * pressure)
+        errors[ids.pressure(link)] = slope * 2 * error * ledger["mu.l"].values * drawn_at.get("mu.l", 1.0) + height
+    return errors
+
+
+def _may_be_measured(family: Family) -> bool:
+    """Whether a length from a plan's pole, worked out by similarity from another, can be read from the plan as well."""
+    plan, found = vocabulary.plan(family.id), ids.segment.read(family.id)
+    from_pole = found is not None and found["start"] == ids.POLE
+    return bool(from_pole and family.definition and any(vocabulary.plan(id) == plan for id in refs(family.definition)))
+
+
+def _pressure_slopes(ledger: Ledger) -> dict[str, np.ndarray]:
+    """How steeply the pressure on each piston changes over its way [N], from the flatter side of each position."""
+    slopes: dict[str, np.ndarray] = {}
+    for id, family in ledger.families.items():
+        found = ids.pressure.read(id)
+        if found and (displacement := ids.displacement(link := found["link"])) in ledger:
+            way = ledger[displacement].values
+            with np.errstate(all="ignore"):
+                sides = [np.abs((np.roll(family.values, k) - family.values) / (np.roll(way, k) - way)) for k in (1, -1)]
+            slopes[link] = np.nan_to_num(np.min(np.where(np.isfinite(sides), sides, np.inf), axis=0), posinf=0.0)
+    return slopes
+
+
+def is_direction(id: str) -> bool:
+    """Whether a quantity is the direction of a vector."""
+    return vocabulary.row(id).around
+
+
+def is_chosen_length(ledger: Ledger, family: Family) -> bool:
+    """Whether a length on paper was chosen, as that of the drawn crank is, itself or by a round scale."""
+    if family.kind != "segment":
+        return False
+    return family.definition is None or any(is_round_scale(ledger[id]) for id in refs(family.definition))
+
+
+def is_round_scale(family: Family) -> bool:
+    """Whether it is a scale that the crank is drawn to, which the scale of the drawing, `mu.l`, says again."""
+    return family.kind == "length scale" and family.id != "mu.l"
+
+
+def half_unit(values: np.ndarray, digits: int) -> np.ndarray:
+    """Half a unit of the last of `digits` significant figures; 0 for 0."""
+    sizes = np.abs(values)
+    with np.errstate(all="ignore"):
+        unit = 10.0 ** (np.floor(np.log10(sizes) + 1e-12) - digits + 1)
+    return np.where(np.isfinite(unit) & (sizes > 0), unit / 2, 0.0)
+
+
+def _or_nothing(values: np.ndarray) -> np.ndarray:
+    """The values, 0 for those that do not exist; numpy's own `nan_to_num` takes several times as long."""
+    return np.where(np.isnan(values), 0.0, values)
+
+
+def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Half widths (SI) [N] of every printed quantity from own errors of some."""
+    rows = {id: row for row, id in enumerate(errors)}
+    shown = [id for id, family in ledger.families.items() if not (family.hidden or family.is_plane)]
+    if not rows:
+        return {id: np.zeros(len(ledger[id].values)) for id in shown}
+
+    def moved(id: str) -> object:
+        def move(value: np.ndarray, _: Mapping[str, np.ndarray]) -> np.ndarray:
+            step = np.zeros((len(rows), errors[id].shape[-1]))
+            step[rows[id]] = SHARE * _or_nothing(errors[id])
+            return value + step
+
+        return move
+
+    values = ledger.evaluate({id: moved(id) for id in errors})
+    bands: dict[str, np.ndarray] = {}
+    for id in shown:
+        family = ledger[id]
+        change = np.atleast_2d(values[id] - family.values)
+        if family.how.unit == "°":
+            change = np.mod(change + np.pi, 2 * np.pi) - np.pi
+        own = _or_nothing(np.broadcast_to(errors.get(id, 0.0), family.values.shape))
+        if id in rows:
+            change[rows[id]] = 0.0
+        inherited = REACH * np.sqrt((_or_nothing(change) ** 2).sum(axis=0)) / SHARE
+        # A single value depends on the errors at all positions.
+        band = own + (inherited.max(keepdims=True) if len(own) == 1 else inherited)
+        # Near a dead centre a very short vector may have any direction.
+        bands[id] = np.minimum(band, np.pi) if family.how.unit == "°" else band
+    return bands
+
+
+def _on_paper(ledger: Ledger, id: str) -> Family:
+    """The drawn length (m) of the vector whose direction `dir.…` is measured, or the vector itself on paper."""
+    definition = ledger[id].definition
+    assert isinstance(definition, Call), f"{id} is no direction of a vector"
+    (vector,) = definition.arguments
+    assert isinstance(vector, Ref), f"{id} is no direction of a vector"
+    # The side of a force plan that is drawn for a force; on other plans the vector itself lies on paper.
+    measured = Call("abs", (vector,))
+    sides = (one for one in ledger.families.values() if one.kind == "segment")
+    return next((one for one in sides if one.of == vector.id or one.definition == measured), ledger[vector.id])
+
+
+# --- the flywheel as it is worked out on paper ----------------------------------------------------
+# Integrals over the cycle by the trapezoid rule, from the positions alone.
+# The report integrates continuously. With some ten positions a student cannot, so the difference belongs to the
+# tolerance; where it is large, the quantity cannot be worked out from the positions and is not asked for.
+
+LARGE = 0.1
+"""The share of a quantity's largest value that the rule may miss it by."""
+
+
+def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
+    """How far excess work [N], flywheel [1] and regulated speed [N] by the rule lie from those of the ledger (SI)."""
+    if "J.d" not in ledger:
+        return {}
+    torque = ledger["M.r"].values.real
+    angle = np.abs(np.unwrap(ledger["phi.1"].values.real))
+    angle = np.abs(angle - angle[0])
+    cycle = 2 * np.pi * np.ceil(angle[-1] / (2 * np.pi))
+    steps = np.diff(np.append(angle, cycle))
+    work = steps * (torque + np.roll(torque, -1)) / 2
+    balanced = np.concatenate(([0.0], np.cumsum(work - work.sum() * steps / cycle)[:-1]))
+    inertia = ledger["J.r"].values.real if "J.r" in ledger else np.zeros(len(torque))
+    most, least = (float(ledger[id].values[0].real) for id in ("omega.max", "omega.min"))
+    upper, lower = np.max(balanced - most**2 * inertia / 2), np.min(balanced - least**2 * inertia / 2)
+    rates = float(ledger["unevenness"].values[0].real) * float(ledger["omega.1"].values[0].real) ** 2
+    flywheel = (upper - lower) / rates
+    found = {"A.excess": balanced, "J.d": np.array([flywheel])}
+    if "omega.of" in ledger:
+        energy = most**2 * flywheel / 2 - upper
+        found["omega.of"] = np.sqrt(2 * (energy + balanced) / (flywheel + inertia))
+    return {id: np.abs(values - ledger[id].values.real) for id, values in found.items()}
+
+
+def is_workable(ledger: Ledger, id: str, errors: Mapping[str, np.ndarray]) -> bool:
+    """Whether a quantity can be worked out from the positions alone; the speed only where the excess work can."""
+    id = "A.excess" if id == "omega.of" else id
+    return id not in errors or bool(np.nanmax(errors[id]) <= LARGE * np.nanmax(np.abs(ledger[id].values)))

@@ -1,0 +1,276 @@
+"""A marked sheet in words: the student's own workbook with colours and comments, and a page of feedback."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
+from string import Formatter
+from typing import Any
+
+from reportgen import report as tree
+from reportgen.base.errors import Problem
+from reportgen.base.units import MINUS, Language, printed, write
+from reportgen.formula import Number
+from reportgen.marking.key import shown_number, words_of
+from reportgen.marking.key_files import band, band_decimals
+from reportgen.marking.marks import Marked, Marking, Verdict, points_of
+from reportgen.marking.paper import DASH, cells, fields, heading, paper, paragraph, student_rows
+from reportgen.marking.sheet import NAMES, asked_positions, given_entry, grid, info_page, page, rows_shown
+from reportgen.report import Block, Column, Document, Inline, InlineMath, Inlines, Paragraph, Table, Text, plain
+from reportgen.report.case import Key, Row
+from reportgen.workbook import Book, Entry, Sheet
+from reportgen.workbook.writing import Style
+
+STYLES: Mapping[Verdict, Style] = {
+    Verdict.right: "good",
+    Verdict.follows: "linked",
+    Verdict.wrong: "warn",
+    Verdict.blank: "input",
+    Verdict.unreadable: "doubt",
+    Verdict.implausible: "doubt",
+}
+FIRST: Style = "bad"
+"""The look of the first wrong value of a chain."""
+
+POINTS, COUNT = 15.0, 16.5
+"""Widths (mm) of columns of points and of counts."""
+
+LEAST, MOST = 1e-6, 1e9
+"""A student's value between these is written out, any other with a power of ten."""
+
+
+# --- the workbook ---------------------------------------------------------------------------------
+
+
+def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
+    """The marked sheet as a workbook: the layout of the answer sheet, points behind each row and their sum below."""
+    key, words = marking.key, words_of(marking.key)
+    feedback = words["feedback"]
+    marked = {(cell.id, cell.position): cell for cell in marking.cells}
+    positions = asked_positions(key)
+
+    def filling(row: Row, position: int) -> Entry | None:
+        place = (row.id, position)
+        if place in marked:
+            return _marked(marking, words, marked[place], show_answers)
+        if position not in row.positions:
+            return given_entry(row, position)
+        # A value that is not marked stands as it was typed.
+        answer = marking.submission.values.get(place)
+        return Entry(answer.value if answer else None)
+
+    def tail(row: Row) -> Sequence[Entry]:
+        own = [marked[row.id, k] for k in row.positions if (row.id, k) in marked]
+        return _points(own) if own else ()
+
+    heads = (feedback["points"], feedback["out_of"])
+    rows = grid(
+        key,
+        feedback["marked"],
+        "",
+        filling=filling,
+        rows=rows_shown(key),
+        positions=positions,
+        tail_head=heads,
+        tail=tail,
+    )
+    between = (Entry(),) * (NAMES - 2 + len(positions))
+    total = (Entry(), Entry(feedback["total"], "bold"), *between, *_points(marking.cells, "bold"))
+    title = f"{feedback['marked']} {key.id}"
+    return Book((page(feedback["marked"], (*rows, total)), _legend(words), info_page(key)), title)
+
+
+def _marked(marking: Marking, words: Mapping[str, Any], cell: Marked, show_answers: bool) -> Entry:
+    """A judged cell: the student's value on the colour of its verdict."""
+    problem = marking.submission.problems.get((cell.id, cell.position))
+    comment = _comment(cell, marking.key, words, problem.message if problem else "", show_answers)
+    return Entry(cell.given, FIRST if cell.first else STYLES[cell.verdict], comment)
+
+
+def _points(judged: Sequence[Marked], style: Style = "") -> tuple[Entry, Entry]:
+    """Points earned and points to be earned."""
+    earned, worth = points_of(judged)
+    return (Entry(round(earned, 2), style), Entry(round(worth, 2), style))
+
+
+def _legend(words: Mapping[str, Any]) -> Sheet:
+    """What the colours mean."""
+    notes, verdicts = words["verdict_notes"], words["verdicts"]
+    styles = [(verdict.value, style) for verdict, style in STYLES.items()]
+    styles.insert(2, ("first", FIRST))
+    rows = tuple(
+        (Entry(str(verdicts[name]), style), Entry(str(notes[name]).partition(":")[0])) for name, style in styles
+    )
+    return Sheet(words["feedback"]["legend"], rows, (18.0, 80.0), protected=True)
+
+
+# --- the page -------------------------------------------------------------------------------------
+
+
+def feedback_document(marking: Marking, title: str, show_answers: bool = True) -> Document:
+    """The feedback on one submission, in the language of its assignment; `title` is the machine's name.
+
+    It holds nothing of any other student.
+    """
+    key, words = marking.key, words_of(marking.key)
+    feedback = words["feedback"]
+    score = sentence(
+        feedback["score"],
+        points=points_text(marking.points, key.language),
+        out_of=points_text(marking.out_of, key.language),
+    )
+    blocks: list[Block] = [
+        heading(feedback["title"]),
+        *fields(((words["answer_sheet"]["kind"], title), *student_rows(key))),
+        Paragraph((tree.Strong(score),)),
+        *(paragraph(words["warnings"][warning]) for warning in marking.warnings),
+        *_section(feedback["firsts"], _firsts(marking, words, show_answers)),
+        *_section(feedback["followed"], _listed_cells(marking, words, _followed(marking), feedback["followed_lead"])),
+        *_section(feedback["elsewhere"], _listed_cells(marking, words, marking.elsewhere, feedback["elsewhere_lead"])),
+        *_section(feedback["unread"], _listed(marking.submission.problems.values())),
+        *_section(feedback["noted"], _listed(marking.submission.notes)),
+        _by_part(marking, words),
+    ]
+    owner = key.student.get("name", "")
+    return paper(key.language, words, f"{feedback['title']} – {key.id}", blocks, owner, key.variant)
+
+
+def _section(title: str, blocks: Iterable[Block]) -> tuple[Block, ...]:
+    """A section with its heading; no heading without a block."""
+    inner = tuple(blocks)
+    return (heading(title, 2), *inner) if inner else ()
+
+
+def _firsts(marking: Marking, words: Mapping[str, Any], show_answers: bool) -> Iterator[Block]:
+    """The first error of each chain, in the order of the sheet."""
+    firsts = [cell for cell in marking.first_errors if cell.given is not None]
+    if not firsts:
+        if not any(cell.verdict is Verdict.wrong for cell in marking.cells):
+            yield paragraph(words["feedback"]["no_firsts"])
+        return
+    yield paragraph(words["feedback"]["firsts_lead"])
+    lines = (_first(cell, marking.key, words, show_answers) for cell in firsts)
+    yield tree.List(tuple((Paragraph(line),) for line in lines), ordered=True)
+
+
+def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool) -> Inlines:
+    """One error: what, where, the value given, perhaps the one expected; then the mistake in words."""
+    feedback, row = words["feedback"], key.row(cell.id)
+    assert cell.given is not None
+    number = shown_number(row, cell.expected)
+    expected = tree.Value(Number(number.value, number.decimals, row.unit))
+    label = key.label(cell.position)
+    return (
+        InlineMath(row.symbol),
+        *((Text(f" ({row.what})"),) if row.what else ()),
+        *(sentence(feedback["at"], label=label) if label else ()),
+        *sentence(feedback["yours"], value=_given_value(row, cell.given)),
+        *(sentence(feedback["expected"], value=expected) if show_answers else ()),
+        Text(". "),
+        *mistake_inlines(cell, key, words),
+    )
+
+
+def _followed(marking: Marking) -> list[Marked]:
+    """The values that differ from the key but earned their points."""
+    return [cell for cell in marking.cells if cell.verdict is Verdict.follows]
+
+
+def _listed_cells(marking: Marking, words: Mapping[str, Any], chosen: Sequence[Marked], lead: str) -> Iterator[Block]:
+    """A paragraph that names some values, quantity by quantity, behind a lead."""
+    key = marking.key
+    if not chosen:
+        return
+    line: list[Any] = []
+    for id, of_row in groupby(chosen, lambda cell: cell.id):
+        symbol = InlineMath(key.row(id).symbol)
+        labels = ", ".join(key.label(cell.position) for cell in of_row if cell.position)
+        line += [Text("; ")] if line else []
+        line += sentence(words["feedback"]["with_labels"], symbol=symbol, labels=labels) if labels else (symbol,)
+    yield Paragraph((Text(f"{lead} "), *line, Text(".")))
+
+
+def _listed(problems: Iterable[Problem]) -> Iterator[Block]:
+    """Faults of single cells, each with its place in the student's own file."""
+    found = sorted(problems, key=lambda problem: problem.mark)
+    if found:
+        texts = (f"{str(one.mark).removeprefix(f'{one.mark.file}:')}: {one.message}." for one in found)
+        yield tree.List(tuple((paragraph(text),) for text in texts))
+
+
+def _by_part(marking: Marking, words: Mapping[str, Any]) -> Table:
+    """Counts of verdicts and points, a part a row, and their sums."""
+    key, feedback = marking.key, words["feedback"]
+    verdicts = [verdict for verdict in Verdict if any(cell.verdict is verdict for cell in marking.cells)]
+    parts = groupby(marking.cells, lambda cell: key.row(cell.id).part)
+    heads = (feedback["part"], *(str(words["verdicts"][v]) for v in verdicts), feedback["points"], feedback["out_of"])
+    first = tree.TEXT_WIDTH - len(verdicts) * COUNT - 2 * POINTS
+    columns = (Column(first, "left"), *(Column(COUNT),) * len(verdicts), Column(POINTS), Column(POINTS))
+    rows = [_counted(str(words["parts"][part]), list(of_part), verdicts, key) for part, of_part in parts]
+    rows.append(_counted(feedback["total"], marking.cells, verdicts, key))
+    return Table(columns, (cells(heads),), tuple(map(cells, rows)), (Text(feedback["by_part"]),))
+
+
+def _counted(name: str, judged: Sequence[Marked], verdicts: Sequence[Verdict], key: Key) -> tuple[str, ...]:
+    counts = Counter(cell.verdict for cell in judged)
+    numbers = (str(counts[verdict] or DASH) for verdict in verdicts)
+    return (name, *numbers, *(points_text(value, key.language) for value in points_of(judged)))
+
+
+# --- verdicts and mistakes in words ---------------------------------------------------------------
+
+
+def sentence(words: str, /, **parts: Inline | str) -> Inlines:
+    """Words with texts and inlines put in where they are named."""
+    result: list[Inline] = []
+    for text, name, _, _ in Formatter().parse(words):
+        result += [Text(text)] if text else []
+        if name:
+            part = parts[name]
+            result.append(Text(part) if isinstance(part, str) else part)
+    return tuple(result)
+
+
+def points_text(points: float, language: Language) -> str:
+    """Points to at most two decimals."""
+    return write(printed(points, 2), None, language)
+
+
+def _given_value(row: Row, value: float) -> Inline:
+    """A student's value with its unit, to six figures; one of any size takes little room."""
+    if value and not LEAST < abs(value) < MOST:
+        return Text(f"{value:.4g} {row.unit}".replace("-", MINUS).strip())
+    return tree.Value(Number(float(f"{value:.6g}"), None, row.unit))
+
+
+def mistake_inlines(cell: Marked, key: Key, words: Mapping[str, Any]) -> Inlines:
+    """What went wrong, in a sentence; a general one where no mistake was recognised."""
+    if not cell.mistake:
+        return (Text(words["feedback"]["unnamed"]),)
+    # The key may have no row of the quantity in which it was made.
+    row = key.find(cell.where) or key.row(cell.id)
+    return sentence(words["mistakes"][cell.mistake], symbol=InlineMath(row.symbol))
+
+
+def _comment(cell: Marked, key: Key, words: Mapping[str, Any], message: str, show_answers: bool) -> str:
+    """The comment on a cell that is not right; `message` says why it could not be read."""
+    notes = words["verdict_notes"]
+    if cell.verdict is Verdict.right:
+        return str(words["feedback"]["elsewhere_note"]) if cell.elsewhere else ""
+    if cell.verdict is Verdict.unreadable:
+        return str(notes["unreadable"]).format(message=message)
+    lines = [str(notes["first" if cell.first else cell.verdict])]
+    if cell.first and cell.mistake:
+        lines.append(plain(mistake_inlines(cell, key, words), key.language))
+    if show_answers:
+        row = key.row(cell.id)
+        number, width = shown_number(row, cell.expected), band(row, cell.band) or 0.0
+        expected = str(words["feedback"]["expected_note"]).format(
+            value=write(number.value, number.decimals, key.language),
+            band=write(width, band_decimals(width), key.language),
+            unit=row.unit,
+        )
+        # Without a unit a space is left before the full stop.
+        lines.append(expected.replace(" .", "."))
+    return "\n".join(lines)

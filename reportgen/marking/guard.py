@@ -1,0 +1,439 @@
+"""Sheets that are not the student's own work: what speaks for it is told, and little is taken.
+
+Five things are looked for: one number throughout, rows or columns that do not vary, other data than the
+assignment's, and values of a classmate.  Each is a `Flag` with its places and its reason.  Marks are taken only for
+what is beyond doubt, and only if the policy says so: what follows from a wrong value is otherwise the student's.
+
+Copying shows in values that are the student's alone: too far from the key and from what the own values give to come
+from rounding.  An honest one meets a classmate's figures now and then; how many do so by chance is a binomial tail,
+multiplied by the classmates, chapters and positions that were compared, and only what is rarer than `CHANCE` is told.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from reportgen.formula import vocabulary
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.vocabulary import Chapter
+from reportgen.marking.bands import is_direction
+from reportgen.marking.marks import Cells, Flag, Guide, Marked, Place, Submission, Verdict
+from reportgen.marking.mistakes import WRONG_DATUM
+from reportgen.marking.working import Working, last_half_unit
+from reportgen.report.case import Key, Role, Row
+
+SAME = 0.8
+"""The share of a sheet's, a column's or a chapter's values that are not its own."""
+
+ALL = 0.95
+"""The share that is a whole, but for a slip or two."""
+
+FEWEST = 4
+"""Fewer values may agree by chance."""
+
+FEWEST_ROWS = 8
+"""Rows that show whether two columns are one."""
+
+APART = 3.0
+"""Two values differ for certain where they lie this many tolerances apart."""
+
+OTHER_DATA = 3
+"""So many given data taken wrongly make other data; one or two are misread."""
+
+NAMED = 2
+"""So many of them at least are known by the datum that explains them."""
+
+INVENTED = 5
+"""So many wrong values that are worked out from given data alone, of whatever kind, are other data too."""
+
+CHANCE = 3e-4
+"""The chance that an honest sheet is told to hold a classmate's values; the suite tests it to 1 in 1000."""
+
+NEAR, FAR = 0.3, 0.02
+"""The chance that a value meets a classmate's in all figures: one right but for the drawing; one wrong.
+
+A length of 0.1 mm read to ± 0.3 mm meets another reading of it in one case of four.  A wrong value may have any of
+some hundred numbers of three figures near by.
+"""
+
+LAST = 1.5
+"""So many units of the last figure may come from rounding."""
+
+DEGREE = 1.0
+"""A direction is read to whole degrees (°)."""
+
+STEPS = (1.0, 0.5)
+TENTH = 0.1
+"""Lengths on paper are read to whole or half millimetres or, where they show that, to tenths (mm)."""
+
+
+@dataclass(frozen=True)
+class Classmate:
+    """Another student's assignment, and the sheet that was handed in for it."""
+
+    key: Key
+    submission: Submission | None = None
+
+
+def guard(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> tuple[dict[Place, Marked], tuple[Flag, ...]]:
+    """The cells without what the policy takes, and everything that was found."""
+    result, flags = dict(cells), []
+    for search in (_one_number, _same_columns, _constant_rows):
+        flags += list(search(guide, cells))
+    flags += _other_data(guide, cells, classmates)
+    flags += _copied(guide, cells, classmates)
+    policy = guide.policy
+    for number, flag in enumerate(flags):
+        places = flag.spoiled if policy.takes(flag.kind, guide.key.id) else ()
+        taken = [place for place in places if result[place].points]
+        if taken:
+            flags[number] = replace(flag, taken=tuple(taken))
+            result |= {place: replace(result[place], verdict=Verdict.implausible, points=0.0) for place in taken}
+        for place in flag.places:
+            if flag.other:
+                names = (*result[place].classmates, flag.other)
+                result[place] = replace(result[place], classmates=tuple(dict.fromkeys(names)))
+    return result, tuple(flags)
+
+
+def _filled(cells: Cells) -> list[Place]:
+    return [place for place, cell in cells.items() if cell.given is not None]
+
+
+# --- the sheet alone ------------------------------------------------------------------------------
+
+
+def _one_number(guide: Guide, cells: Cells) -> Iterator[Flag]:
+    """Nearly all cells hold one number, which most of them should not."""
+    filled = _filled(cells)
+    number, _ = Counter(cells[place].given for place in filled).most_common(1)[0] if filled else (None, 0)
+    same = tuple(place for place in filled if cells[place].given == number)
+    wrong = [place for place in same if cells[place].verdict is not Verdict.right]
+    if len(same) >= SAME * len(filled) and len(wrong) >= max(FEWEST, len(same) / 2):
+        yield Flag("stock", same, tuple(filled))
+
+
+def _constant_rows(guide: Guide, cells: Cells) -> Iterator[Flag]:
+    """Rows of one number throughout where the key varies by more than its bands."""
+    rows: dict[str, list[Place]] = {}
+    for place in _filled(cells):
+        rows.setdefault(place[0], []).append(place)
+    for places in rows.values():
+        row = [cells[place] for place in places]
+        varies = np.ptp([cell.expected for cell in row]) > APART * max(cell.band for cell in row)
+        if len(row) >= FEWEST and len({cell.given for cell in row}) == 1 and varies:
+            yield Flag("constant", tuple(places))
+
+
+def _same_columns(guide: Guide, cells: Cells) -> Iterator[Flag]:
+    """A position whose values are those of another one, figure for figure, where the key tells them apart."""
+    positions = sorted({position for _, position in _filled(cells) if position})
+    copies: set[int] = set()
+    for one, other in combinations(positions, 2):
+        telling = [id for id, position in cells if position == one and _differ(cells, (id, one), (id, other))]
+        same = [id for id in telling if cells[id, one].given == cells[id, other].given]
+        if len(telling) < FEWEST_ROWS or len(same) < SAME * len(telling) or {one, other} <= copies:
+            continue
+        right = {k: sum(cells[id, k].verdict is Verdict.right for id in same) for k in (one, other)}
+        copy = one if one in copies or (other not in copies and right[one] < right[other]) else other
+        copies.add(copy)
+        # What is right in spite of it stays.
+        spoiled = tuple(place for place in cells if place[1] == copy and cells[place].verdict is Verdict.follows)
+        yield Flag("columns", tuple((id, copy) for id in same), spoiled, other="", count=len(telling))
+
+
+def _differ(cells: Cells, one: Place, other: Place) -> bool:
+    """Whether both hold a value, and the key's lie apart."""
+    if other not in cells or cells[one].given is None or cells[other].given is None:
+        return False
+    band = max(cells[one].band, cells[other].band)
+    return abs(cells[one].expected - cells[other].expected) >= APART * band
+
+
+def _other_data(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> Iterator[Flag]:
+    """Values that belong to other data than the assignment's: what follows from them is work on another one.
+
+    Two data are enough where the whole sheet is right for a classmate's assignment, from which it has them.
+    """
+    first = [place for place, cell in cells.items() if cell.first and cell.position == 0]
+    named = [place for place in first if cells[place].mistake == WRONG_DATUM]
+    # What is worked out from given data alone, wrongly and nobody knows how, may be of other data too.
+    alone = [place for place in first if not any(id in guide.rows for id in guide.before[place[0]])]
+    unnamed = [place for place in alone if not cells[place].mistake]
+    misread = {cells[place].where for place in named}
+    other = ""
+    if len(misread) >= NAMED:
+        other = next((one.key.id for one in classmates if _is_right_for(guide, cells, one)), "")
+    if other or len(misread) + len(unnamed) >= (OTHER_DATA if len(misread) >= NAMED else INVENTED):
+        causes = {*named, *unnamed}
+        follows = (place for place, cell in cells.items() if cell.verdict is Verdict.follows)
+        spoiled = (one for one in follows if guide.stands_on(one, causes) or misread & {*guide.before[one[0]]})
+        # In the order of the sheet, which is the same in every run.
+        yield Flag("other-data", tuple(place for place in first if place in causes), tuple(spoiled), other=other)
+
+
+def _is_right_for(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
+    """Whether nearly all values that tell a classmate's assignment from the own one are right for the classmate's."""
+    telling = met = 0
+    for cell in cells.values():
+        row = _row(classmate, cell)
+        if cell.given is None or row is None or _is_drawn(row):
+            continue
+        theirs = float(row.values[row.at(cell.position)])
+        if _apart(guide, cell, theirs, cell.expected) >= APART * cell.band:
+            telling += 1
+            met += _apart(guide, cell, cell.given, theirs) <= cell.band
+    return telling >= FEWEST_ROWS and met >= ALL * telling
+
+
+# --- classmates -----------------------------------------------------------------------------------
+
+
+def _copied(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> list[Flag]:
+    """Runs of values that a classmate's sheet or key has, by chapters, by positions and over the sheet."""
+    step = _read_to(guide, cells)
+    own = {place: cell for place, cell in cells.items() if cell.given is not None and _is_personal(guide, cell, step)}
+    right = [cell for cell in cells.values() if cell.verdict is Verdict.right]
+    others = [one for one in classmates if one.key.id != guide.key.id and not _is_source(guide, right, one)]
+    runs: dict[Chapter | int, list[Place]] = {}
+    for place in own:
+        runs.setdefault(guide.rows[place[0]].part, []).append(place)
+        if place[1]:
+            runs.setdefault(place[1], []).append(place)
+    parts = [*runs.values(), list(own)]
+    compared = 2 * len(others) * len(parts)
+    flags: list[Flag] = []
+    for classmate in others:
+        meets = {place: _meets(guide, cell, classmate) for place, cell in own.items()}
+        found: dict[Place, None] = {}
+        chance = 1.0
+        wrong = [[place for place in part if not _is_near(own[place])] for part in parts]
+        for part in (*parts, *wrong):
+            telling = [place for place in part if meets[place] is not None]
+            met = [place for place in telling if meets[place]]
+            if len(met) < max(FEWEST, SAME * len(telling)):
+                continue
+            by_chance = compared * _tail([NEAR if _is_near(own[place]) else FAR for place in telling], len(met))
+            if by_chance < CHANCE:
+                found |= dict.fromkeys(met)
+                chance = min(chance, by_chance)
+        if found:
+            flags.append(Flag("classmate", tuple(found), other=classmate.key.id, chance=chance))
+    # Of several with the same values the nearest is named; a whole sheet is one whose values are nearly all met.
+    flags.sort(key=lambda flag: -len(flag.places))
+    by_id = {one.key.id: one for one in others}
+    filled = tuple(_filled(cells))
+    return [
+        replace(flag, kind="classmate-sheet", spoiled=filled) if _is_whole(guide, cells, by_id[flag.other]) else flag
+        for flag in flags
+    ]
+
+
+def _is_whole(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
+    """Whether a sheet has nearly all values of a classmate's that would be wrong on it."""
+    telling = [
+        cell
+        for place, cell in cells.items()
+        if cell.given is not None
+        and (theirs := _theirs(classmate, place)) is not None
+        and _apart(guide, cell, theirs, cell.expected) > cell.band
+    ]
+    met = sum(_equal(cell, _theirs(classmate, (cell.id, cell.position))) for cell in telling)
+    return len(telling) > FEWEST_ROWS and met >= SAME * len(telling)
+
+
+def _is_source(guide: Guide, right: Sequence[Marked], classmate: Classmate) -> bool:
+    """Whether it is the other sheet that has this one's values: those that are `right` here and wrong there.
+
+    What depends on a scale says nothing: the classmate may have chosen another one than the key.
+    """
+    taken = 0
+    for cell in right:
+        # Few values are equal, so that is asked first: there may be hundreds of classmates.
+        if not _equal(cell, _theirs(classmate, (cell.id, cell.position))):
+            continue
+        row = _row(classmate, cell)
+        if row is not None and not _is_drawn(row):
+            taken += _apart(guide, cell, float(row.values[row.at(cell.position)]), cell.expected) >= APART * cell.band
+    return taken >= FEWEST_ROWS
+
+
+def _is_drawn(row: Row) -> bool:
+    """Whether it is a scale or a length on paper."""
+    return row.role is Role.scale or bool(vocabulary.plan(row.id))
+
+
+def _row(classmate: Classmate, cell: Marked) -> Row | None:
+    """The row of a classmate's key for a cell, if it has a value there."""
+    row = classmate.key.find(cell.id)
+    return row if row is not None and row.has(cell.position) and cell.position <= len(row.values) else None
+
+
+def _apart(guide: Guide, cell: Marked, one: float, other: float) -> float:
+    """How far two values of a cell lie apart, in printed units."""
+    unit = guide.ledger[cell.id].how.scale
+    return float(guide.distance(cell.id, one * unit, other * unit)) / unit
+
+
+def _theirs(classmate: Classmate, place: Place) -> float | None:
+    answer = classmate.submission.values.get(place) if classmate.submission else None
+    return None if answer is None else answer.value
+
+
+def _equal(cell: Marked, value: float | None) -> bool:
+    return value is not None and cell.given is not None and math.isclose(cell.given, value, rel_tol=1e-9)
+
+
+def _read_to(guide: Guide, cells: Cells) -> float:
+    """The step (mm) to which the lengths on paper of a sheet are read."""
+    lengths = [cell.given for cell in cells.values() if cell.given and guide.ledger[cell.id].kind == "segment"]
+    for step in STEPS:
+        if sum(math.isclose(one, round(one / step) * step, rel_tol=1e-9) for one in lengths) >= SAME * len(lengths):
+            return step
+    return TENTH
+
+
+def _is_personal(guide: Guide, cell: Marked, step: float) -> bool:
+    """Whether a value is neither the key's nor what the student's own give, as far as it is written down.
+
+    Two who read one length to `step` (mm) write the same, of a short one not even a second figure.  One that was
+    worked out rightly from a wrong one says nothing: so would anybody's with the same mistake.
+    """
+    assert cell.given is not None
+    if cell.verdict is Verdict.follows or (cell.mistake and cell.mistake != WRONG_DATUM) or cell.given == 0:
+        return False
+    last = 2 * last_half_unit(cell.given)
+    if guide.ledger[cell.id].kind == "segment":
+        last = max(last, step)
+    elif is_direction(cell.id):
+        last = max(last, DEGREE)
+    return all(_apart(guide, cell, cell.given, value) > LAST * last for value in (cell.expected, cell.own))
+
+
+def _is_near(cell: Marked) -> bool:
+    return cell.verdict is Verdict.right
+
+
+def _meets(guide: Guide, cell: Marked, classmate: Classmate) -> bool | None:
+    """Whether a value is the classmate's; None where that says nothing."""
+    row, theirs = _row(classmate, cell), _theirs(classmate, (cell.id, cell.position))
+    if row is None:
+        return None
+    assert cell.given is not None
+    value = float(row.values[row.at(cell.position)])
+    if _is_near(cell):
+        # Two readings of one drawing.
+        return None if theirs is None else _equal(cell, theirs)
+    # A direction that is a little wrong has few whole degrees to be; any other value has a hundred.
+    far = APART if is_direction(cell.id) else 1.0
+    if _apart(guide, cell, value, cell.expected) < far * cell.band:
+        return None
+    return _equal(cell, theirs) or _apart(guide, cell, cell.given, value) <= last_half_unit(cell.given) * (1 + 1e-9)
+
+
+def _tail(chances: Sequence[float], met: int) -> float:
+    """The chance that so many or more of independent events happen."""
+    counts = np.array([1.0])
+    for one in chances:
+        counts = np.convolve(counts, (1 - one, one))
+    return float(counts[met:].sum())
+
+
+# --- right values that the student's own do not give ----------------------------------------------
+# Nothing is taken for them, but both sides should know.
+# The drawing's tolerance is wide: a reaction may be right within ± 180 N, and yet not be the student's own length
+# times the own scale. What is worked out from values that all stand on the sheet can be held against them more
+# closely, and so can what is measured on a force plan of which all forces do.
+
+ROOM = 2.0
+"""So many times the rounding of all that is written down may part a value from what the others give."""
+
+
+CLOSES = 1.5
+"""So many times the error of a measured length may part it from the one with which the own forces close the plan."""
+
+
+def not_from_own(working: Working, cells: Cells) -> frozenset[Place]:
+    """The places of right values that differ from what the student's own values beside them give."""
+    return frozenset(
+        place for place, cell in cells.items() if cell.verdict is Verdict.right and _differs(working, cell)
+    )
+
+
+def _differs(working: Working, cell: Marked) -> bool:
+    ledger, world = working.guide.ledger, working.world
+    id = ledger.size_of(cell.id)
+    definition = ledger[id].definition
+    assert cell.given is not None, "only a given value is right"
+    kind = ledger[id].kind
+    if kind == "segment":
+        return _differs_on_plan(working, cell)
+    if definition is None or id in ledger.constructed or kind.endswith("scale"):
+        return False
+    index = working.guide.rows[cell.id].at(cell.position)
+
+    def at(name: str) -> float:
+        values = world[name]
+        return float(values[index if len(values) > 1 else 0].real)
+
+    inputs = {name: at(name) for name in ledger.inputs[id]}
+    rounding = {name: _rounding(working, name, cell.position) for name in inputs}
+    if not inputs or any(share is None for share in rounding.values()) or not any(rounding.values()):
+        return False
+
+    # The first row as the values stand on the sheet, each further one with another of them moved.
+    moved = {name: share for name, share in rounding.items() if share}
+    values = {name: np.full((len(moved) + 1, 1), value) for name, value in inputs.items()}
+    for row, (name, share) in enumerate(moved.items(), start=1):
+        values[name][row] *= 1 + share
+    with np.errstate(all="ignore"):
+        own, *others = (abs(float(one.real)) for one in np.asarray(evaluate(definition, values))[:, 0])
+        moves = [abs(one - own) for one in others]
+    value = abs(float(working.values[cell.id][index]))
+    last = last_half_unit(cell.given) * float(working.unit(cell.id)[index])
+    return bool(np.isfinite(own) and abs(value - own) > ROOM * (sum(moves) + last))
+
+
+def _differs_on_plan(working: Working, cell: Marked) -> bool:
+    """Whether a length on a force plan is not that of the own forces, all of which stand on the sheet."""
+    guide, plan = working.guide, vocabulary.plan(cell.id)
+    if guide.ledger[plan].kind != "force scale" or not _stands(working, plan, cell.position):
+        return False
+    known = (guide.ledger[one.of].of for id, one in guide.ledger.families.items() if vocabulary.plan(id) == plan)
+    laid = [id for id in known if id in guide.rows and plan not in guide.before[id]]
+    assert cell.given is not None, "only a given value is right"
+    if not all(_stands(working, id, cell.position) for id in laid):
+        return False
+    apart = abs(abs(cell.given) - abs(cell.own))
+    # What is rounded in the forces shows as well where the plan is large.
+    forces = (working.submission.values[id, guide.place(guide.rows[id], cell.position)].value for id in laid)
+    scale = working.submission.values[plan, guide.place(guide.rows[plan], cell.position)].value
+    rounding = sum(map(last_half_unit, forces)) / abs(scale) if scale else np.inf
+    error = 2 * guide.policy.paper / guide.ledger[cell.id].how.scale
+    return bool(apart > CLOSES * error + rounding)
+
+
+def _stands(working: Working, id: str, position: int) -> bool:
+    """Whether a value that is asked for was filled in."""
+    row = working.guide.rows.get(id)
+    return row is not None and (id, working.guide.place(row, position)) in working.submission.values
+
+
+def _rounding(working: Working, id: str, position: int) -> float | None:
+    """The share by which a value that was gone on from may be rounded: 0 if it was given; None if it is not known."""
+    guide = working.guide
+    row = guide.key.find(id)
+    if row is None or row.id not in guide.rows:
+        family = guide.ledger[id]
+        given = not guide.ledger.inputs[id]
+        return 0.0 if given and not (family.hidden or family.is_plane) and row is not None else None
+    answer = working.submission.values.get((row.id, guide.place(row, position)))
+    if answer is None:
+        return None
+    return last_half_unit(answer.value) / abs(answer.value) if answer.value else 0.0

@@ -1,0 +1,343 @@
+"""The answer key: every quantity of a report at every position, with the bands within which it is right.
+
+Its rows are the ledger's own families, so key, report and marker cannot disagree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from reportgen.assignment.reading import placed
+from reportgen.base.errors import Finding
+from reportgen.base.source import read_source
+from reportgen.base.units import Language, significant_decimals
+from reportgen.base.words import as_error, close_or_known, load_words, search_path
+from reportgen.formula import Expression, Number, Symbol, ids, refs, vocabulary
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.plain import formula
+from reportgen.formula.sheet import Family, is_short
+from reportgen.formula.vocabulary import MAX_DIGITS, Chapter
+from reportgen.marking.bands import (
+    computed_bands,
+    drawn_bands,
+    is_chosen_length,
+    is_round_scale,
+    is_workable,
+    trapezoid_errors,
+)
+from reportgen.report.case import INSTANT, Calculation, Key, Opened, Role, Row, Span
+from reportgen.report.equations import heading_words
+from reportgen.report.report import Report
+
+
+def words_of(key: Key) -> Mapping[str, Any]:
+    """The words of a key's language and machine."""
+    return load_words(search_path(key.language, key.kind))
+
+
+def symbol_text(row: Row, key: Key) -> str:
+    """A quantity's symbol in one line of plain text, e.g. v_BA."""
+    return formula(row.symbol, key.language)
+
+
+def shown_number(row: Row, value: float) -> Number:
+    """A number of a row as the report prints it: to its decimals, or without the dust of floats."""
+    return Number(value if row.decimals is not None else float(f"{value:.12g}"), row.decimals)
+
+
+def machine_key(case: Calculation) -> Key:
+    """The key of a machine, over all positions of its cycle."""
+    machine, report = case.analysis.machine, Report(case)
+    labels = tuple(str(machine.position(k)) for k in range(1, machine.positions + 1))
+    printed = report.all_positions if report.thinned else ()
+    span = Span(labels, machine.count, tuple(case.assignment.worked_positions), printed)
+    return make_key(case, case.ledger, span, lambda id: positive_sense(id, report))
+
+
+def make_key(case: Opened, ledger: Ledger, span: Span = INSTANT, sense_of: Callable[[str], str] = lambda id: "") -> Key:
+    """The key of an assignment from the ledger that its report prints, over the positions of its `span`.
+
+    `sense_of` a quantity is which sense of it counts as positive, in words; without it all are sizes.
+    """
+    assignment, words, worked = case.assignment, case.words, span.worked
+    by_rule = trapezoid_errors(ledger)
+    on_paper, by_rounding = drawn_bands(ledger), computed_bands(ledger)
+    complete = set(worked) == set(range(1, len(span.labels) + 1))
+
+    def row(id: str) -> Row:
+        family = ledger[id]
+        scale = family.how.scale
+        values = np.array([family.at(k + 1).real for k in range(len(family.values))])
+        sense = sense_of(id)
+        if family.is_direction:
+            # A vector of no length has none.
+            exists = [ledger[family.of].at(k + 1) != 0 for k in range(len(values))]
+            values = np.where(exists, np.abs(values), np.nan)
+        if family.arm:
+            values = np.abs(values)
+        role = _role(ledger, family)
+        part = Chapter.data if role is Role.given and len(values) == 1 else family.chapter
+        # What is read from a diagram can be worked out on paper, an integral over the cycle cannot.
+        integral = family.definition is None or ids.rest(id) in ledger
+        workable = id != "M.difference" and (len(values) > 1 or not integral)
+        workable = workable and (part is not Chapter.cycle or complete) and is_workable(ledger, id, by_rule)
+        asked = (role is Role.scale and not is_round_scale(family)) or (role is Role.asked and workable)
+        return Row(
+            id=id,
+            part=part,
+            role=role,
+            symbol=family.symbol,
+            kind=family.kind,
+            unit=ledger.units.get(family.how.unit, family.how.unit),
+            decimals=_decimals(ledger.decimals[id], values / scale),
+            values=values / scale,
+            drawn=on_paper[id] / scale,
+            computed=by_rounding[id] / scale,
+            positions=_asked_at(values, worked, span.count, family.kind == "force scale") if asked else (),
+            sense=tuple(_sense(family, value, words["sense"]) for value in values),
+            size=family.of if family.is_signed_rotation else "",
+            what=phrase(id, ledger, words),
+            positive=words["magnitude"] if sense == MAGNITUDE else sense,
+            open_sense=is_open(values, sense),
+        )
+
+    parts, families = list(Chapter), ledger.families.values()
+    # No rows for points, optional quantities and the sizes of signed rotations.
+    shown = (one.id for one in families if not (one.hidden or one.is_plane or one.optional or one.id in ledger.signed))
+    rows = sorted([row(id) for id in shown], key=lambda row: parts.index(row.part))
+    student = assignment.report.student
+    fields = {"name": student.name, "id": student.id, "class": student.class_}
+    return Key(
+        id=assignment.id,
+        kind=assignment.kind,
+        variant=assignment.variant,
+        language=assignment.language,
+        student={name: text for name, text in fields.items() if text},
+        labels=span.labels,
+        rows=tuple(rows),
+        printed=span.printed,
+    )
+
+
+def _role(ledger: Ledger, family: Family) -> Role:
+    if is_chosen_length(ledger, family) or family.kind.endswith("scale"):
+        return Role.scale
+    typed = family.exact if family.definition is None else not refs(family.definition)
+    return Role.given if typed else Role.asked
+
+
+def _decimals(of_ledger: int | None, values: np.ndarray) -> int | None:
+    """The ledger's; data of several positions that are exact but endless, such as 129.128571…°, get 6 figures."""
+    if of_ledger is not None or len(values) == 1 or is_short(values):
+        return of_ledger
+    return significant_decimals(float(np.nanmax(np.abs(values))), MAX_DIGITS)
+
+
+def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int, chosen: bool) -> tuple[int, ...]:
+    """The worked positions; what repeats from turn to turn (all kinematics) is asked for in the first turn.
+
+    What is `chosen` at each position, as a scale, may be another one though the report has the same.
+    """
+    if len(values) == 1:
+        return (0,)
+    turns = np.reshape(values, (-1, count)) if len(values) > count else np.empty((0, count))
+    repeats = not chosen and len(turns) > 0 and np.allclose(turns, turns[0], rtol=1e-9, atol=1e-12, equal_nan=True)
+    asked = ((k - 1) % count + 1 if repeats else k for k in worked)
+    return tuple(dict.fromkeys(k for k in asked if np.isfinite(values[k - 1])))
+
+
+def _sense(family: Family, value: float, words: Mapping[str, str]) -> str:
+    """The sense of a rotation in words; "" for any other quantity."""
+    if not family.is_signed_rotation:
+        return ""
+    return words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"]
+
+
+# --- what each quantity is ------------------------------------------------------------------------
+# In words, and which sense of it counts as positive, for the rows of task, sheet and key.
+# The phrases ("normal acceleration of B about A") stand in `words.yaml` under `quantities`, by the families of the
+# vocabulary; a quantity that a machine has for itself, or calls by another name, stands there by its own id, or among
+# the names of the given data. Those of the senses stand under `positive`, by ids, families and kinds, of which the
+# nearest decides; those of a machine come before the common ones.
+
+MAGNITUDE = "magnitude"
+"""Stands in place of a phrase where the sign of a quantity says nothing."""
+
+
+def phrase(id: str, ledger: Ledger, words: Mapping[str, Any]) -> str:
+    """What a quantity is, without a capital; "" where the words have no phrase for it."""
+    if given := words.get("given", {}).get(id):
+        return _uncapitalised(str(given))
+    phrases: Mapping[str, str] = words["quantities"]
+    shown, kind = (ledger[id].symbol, ledger[id].kind) if id in ledger else (_symbol(id), "")
+    vector = vocabulary.vector_of(id)
+    _, parts = vocabulary.wording(id, shown)
+    of = phrase(vector, ledger, words) if vector else ""
+    bodies = {name: _body(parts[link], phrases) for name, link in (("body", "link"), ("onto", "other"))}
+    found = next(vocabulary.words_of(phrases, id, kind, shown), "")
+    return found.format(**parts, **bodies, of=of)
+
+
+def _body(link: str, phrases: Mapping[str, str]) -> str:
+    """A link, or the frame, as what acts or is acted on."""
+    return str(phrases["frame"]) if link == "0" else str(phrases["link"]).format(link=link)
+
+
+def _uncapitalised(text: str) -> str:
+    """A name of the given data as it stands in a sentence; what begins with an abbreviation stays."""
+    return text if text[1:2].isupper() else text[:1].lower() + text[1:]
+
+
+def _symbol(id: str) -> Symbol:
+    """The symbol of a vector that has no row of its own."""
+    try:
+        return vocabulary.symbol(id)
+    except KeyError:
+        return Symbol("")
+
+
+# --- senses ----------------------------------------------------------------------------------------
+
+
+def positive_sense(id: str, report: Report) -> str:
+    """The phrase of a quantity, `MAGNITUDE`, or "" where no words say anything."""
+    family, ledger = report.ledger[id], report.ledger
+    known = _points(id, ledger) | _way(id, report)
+    for phrase in vocabulary.words_of(report.words["positive"], id, family.kind, family.symbol):
+        try:
+            return phrase.format(**known)
+        except KeyError:
+            # It speaks of something that this quantity has not.
+            continue
+    return ""
+
+
+def _points(id: str, ledger: Ledger) -> dict[str, str]:
+    """Both ends, and the letters, of the rod or slot that a projection or an assumed sense goes by."""
+    along, component = ids.projection.read(id), ids.reaction.read(id)
+    if component and (assumed := ids.assumed(ids.reaction_force.of(component))) in ledger:
+        (direction, *_) = refs(_definition(ledger, assumed))
+        along = ids.rod.read(direction) or ids.slot.read(direction)
+    if along is None or (rod := ids.rod(along["link"])) not in ledger:
+        return {}
+    end, start = (vocabulary.lowered(_point(place)) for place in refs(_definition(ledger, rod)))
+    return {"start": start, "end": end, "line": f"{start}{end}"}
+
+
+def _point(id: str) -> str:
+    """The name of the point whose place it is."""
+    found = ids.place.read(id)
+    assert found is not None, f"{id} is no place"
+    return found["point"]
+
+
+def _definition(ledger: Ledger, id: str) -> Expression:
+    definition = ledger[id].definition
+    assert definition is not None, f"{id} is constructed from nothing"
+    return definition
+
+
+def _way(id: str, report: Report) -> dict[str, str]:
+    """Where a slider's motion counts as positive, in words."""
+    found = ids.formula_velocity.read(id) or ids.formula_acceleration.read(id)
+    way = report.slider_senses.get(found["point"]) if found else None
+    return {} if way is None else {"way": heading_words(report, float(np.degrees(np.angle(way))))}
+
+
+def is_open(values: np.ndarray, sense: str) -> bool:
+    """Whether the papers leave the sign of values open: there are negative ones, and no words about them."""
+    return sense == MAGNITUDE or (not sense and bool(np.nanmin(values, initial=0.0) < 0))
+
+
+# --- what an answer sheet asks for ----------------------------------------------------------------
+# All that can be worked out, or a choice of it by sections and ids.
+# The key holds every quantity in any case; a choice only takes away cells to be filled in.
+
+NOT = "-"
+"""Before a pattern of what is left out."""
+
+DEFAULT = (
+    "*",
+    # How it was drawn: lengths and angles on paper, scales, arms.
+    *("-drawn.*", "-seg.*", "-mu.*", "-h.*", "-ic.*"),
+    # Second ways to the same result.
+    *("-formulas", "-l.*K[0-9]*", "-e.Pqt*", "-M.*.p"),
+    # What is read off a force plan beside the size of a reaction.
+    *("-dir.R*", "-R.*.n", "-x.*"),
+)
+"""What is asked for unless a policy says otherwise: what a quantity comes to, not how it was drawn or checked."""
+
+EVERYTHING = ("*",)
+
+
+@dataclass(frozen=True, slots=True)
+class Ask:
+    """A choice: sections and ids by patterns, of which the last that fits decides, "-" before those left out.
+
+    A choice that begins by leaving out takes from the `DEFAULT`.  `by_section` puts each section of the printed
+    sheet on pages of its own.  `file` is the policy that gives the patterns, where one does.
+    """
+
+    patterns: tuple[str, ...] = DEFAULT
+    by_section: bool = False
+    file: Path | None = field(default=None, compare=False)
+
+    def __str__(self) -> str:
+        return ", ".join((*self.patterns, *(("by section",) if self.by_section else ())))
+
+    def wants(self, row: Row) -> bool:
+        """Whether a row that can be asked for is."""
+        wanted = False
+        for pattern in _whole(self.patterns):
+            if _fits(pattern, row):
+                wanted = not pattern.startswith(NOT)
+        return wanted
+
+    def of(self, key: Key, also: Container[str] = ()) -> Key:
+        """The key with the cells that are chosen, and those of the rows whose ids are in `also`."""
+        rows = (row if row.id in also or self.wants(row) else replace(row, positions=()) for row in key.rows)
+        return replace(key, rows=tuple(rows))
+
+    def check(self, keys: Iterable[Key], language: Language | None = None) -> None:
+        """Raises `AssignmentError`, located in the policy, for patterns that fit nothing in any of the keys.
+
+        The keys are taken one after the other, no more of them than it needs.
+        """
+        if self.file is None:
+            return
+        left = {index: one for index, one in enumerate(self.patterns) if one.removeprefix(NOT) not in set(Chapter)}
+        known: dict[str, None] = dict.fromkeys(Chapter)
+        tried = False
+        for key in keys if left else ():
+            tried = True
+            known |= dict.fromkeys(row.id for row in key.asked)
+            left = {index: one for index, one in left.items() if not any(_fits(one, row) for row in key.asked)}
+            if not left:
+                return
+        findings = [
+            Finding("ask-fits-nothing", ("ask", index), _about(one, list(known))) for index, one in left.items()
+        ]
+        if tried and findings:
+            raise as_error(placed(read_source(self.file), findings), language)
+
+
+def _fits(pattern: str, row: Row) -> bool:
+    """Whether a pattern, with or without `NOT`, is the section of a row or fits its id."""
+    bare = pattern.removeprefix(NOT)
+    return bare == row.part or (bare not in set(Chapter) and fnmatchcase(row.id, bare))
+
+
+def _about(pattern: str, known: Sequence[str]) -> dict[str, str]:
+    """What to say of a pattern that fits nothing: what it was probably meant to be, or the sections."""
+    close = close_or_known(pattern.removeprefix(NOT), known)
+    return {"text": pattern, **(close if "close" in close else {"known": ", ".join(Chapter)})}
+
+
+def _whole(patterns: Sequence[str]) -> Sequence[str]:
+    return (*DEFAULT, *patterns) if patterns and patterns[0].startswith(NOT) else patterns

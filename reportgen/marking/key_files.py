@@ -1,0 +1,247 @@
+"""The key as files: a workbook laid out as the answer sheet, CSV, JSON, and a document to print."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+
+from reportgen import report as tree
+from reportgen.base.units import significant_decimals
+from reportgen.formula import Number, Symbol
+from reportgen.formula.sheet import ZERO
+from reportgen.marking.key import shown_number, symbol_text, words_of
+from reportgen.marking.paper import (
+    DASH,
+    cells,
+    fields,
+    heading,
+    paper,
+    paragraph,
+    shared_symbols,
+    student_rows,
+    symbol_inlines,
+    symbol_width,
+)
+from reportgen.marking.sheet import Filling, grid, info_page, number_format, page
+from reportgen.report import Cell, Column, Document, InlineMath, Inlines, Table, Text
+from reportgen.report.case import Key, Row
+from reportgen.workbook import Book, Entry
+
+FORMAT = "reportgen-key/1"
+"""Of the JSON."""
+BAND_DIGITS = 2
+"""Significant figures of a band."""
+VALUE, BAND, SENSE = 15.6, 16.2, 23.0
+"""Widths (mm) of the columns of a quantity at each position."""
+SYMBOL, UNIT = 16.0, 22.0
+SINGLE, SINGLE_BAND = 24.0, 17.0
+"""Widths (mm) of the columns of single values; what they are has the rest."""
+FINER, FINEST = 3, 7
+"""Decimals of a band beyond those of its row; those of one whose row is exact."""
+
+
+def band(row: Row, width: float) -> float | None:
+    """A band's half width to two significant figures; one that is negligible beside the row is 0."""
+    if width != width:
+        return None
+    return 0.0 if width < ZERO * np.nanmax(np.abs(row.values), initial=0.0) else float(f"{width:.{BAND_DIGITS}g}")
+
+
+def band_decimals(width: float) -> int:
+    """Decimals that show two significant figures of a band."""
+    return max(significant_decimals(width, BAND_DIGITS), 0)
+
+
+# --- tables and data ------------------------------------------------------------------------------
+
+
+def key_book(key: Key) -> Book:
+    """The key as a workbook: values, both bands, directions in words, each a page; values are unrounded.
+
+    The page of values is laid out as a filled answer sheet.
+    """
+    words = words_of(key)["key"]
+    positions = range(1, len(key.labels) + 1)
+    turning = [row for row in key.rows if any(row.sense)]
+
+    def filling(entry: Callable[[Row, int], Entry]) -> Filling:
+        return lambda row, position: entry(row, row.at(position)) if row.has(position) else None
+
+    pages: list[tuple[str, Callable[[Row, int], Entry], Sequence[Row]]] = [
+        (words["answers"], _value_entry, key.rows),
+        (words["drawn"], lambda row, index: Entry(band(row, float(row.drawn[index]))), key.rows),
+        (words["computed"], lambda row, index: Entry(band(row, float(row.computed[index]))), key.rows),
+        *([(words["senses"], lambda row, index: Entry(row.sense[index]), turning)] if turning else []),
+    ]
+    sheets = (page(name, grid(key, name, "", filling(entry), rows, positions)) for name, entry, rows in pages)
+    return Book((*sheets, info_page(key)), f"{words['title']} {key.id}")
+
+
+def _value_entry(row: Row, index: int) -> Entry:
+    """A number that shows the report's decimals; an empty cell for one that does not exist."""
+    value = float(row.values[index])
+    return Entry(value, format=number_format(row)) if value == value else Entry()
+
+
+def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
+    """The key as rows of CSV: id, part, symbol, unit, position, value as printed, direction, both bands."""
+    words = words_of(key)
+    sheet, names = words["answer_sheet"], words["key"]
+    quantity = (sheet["id"], names["part"], sheet["symbol"], sheet["what"], sheet["unit"])
+    head = (*quantity, words["table"]["position"], sheet["value"], names["sense"], names["drawn"], names["computed"])
+    body = (
+        (
+            row.id,
+            words["parts"][row.part],
+            symbol_text(row, key),
+            row.described,
+            row.unit,
+            "" if row.single else key.labels[index],
+            shown_number(row, float(value)).shown if value == value else None,
+            row.sense[index],
+            band(row, float(row.drawn[index])),
+            band(row, float(row.computed[index])),
+        )
+        for row in key.rows
+        for index, value in enumerate(row.values)
+    )
+    return (head, *body)
+
+
+def key_data(key: Key) -> dict[str, Any]:
+    """The key as a JSON object: unrounded values in the units of the report, null for what does not exist.
+
+    `values`, `drawn`, `computed` (half widths of the bands) and `sense` have an entry for each of `positions`,
+    or a single one; `asked` are the positions of the answer sheet by label, [""] for a single value.
+    """
+    return {
+        "format": FORMAT,
+        "id": key.id,
+        "kind": key.kind,
+        "variant": key.variant,
+        "language": key.language,
+        "student": dict(key.student),
+        "positions": list(key.labels),
+        "rows": [
+            {
+                "id": row.id,
+                "part": row.part.value,
+                "role": row.role.value,
+                "symbol": symbol_text(row, key),
+                "what": row.what,
+                "positive": row.positive,
+                "kind": row.kind,
+                "unit": row.unit,
+                "decimals": row.decimals,
+                "asked": [key.label(k) for k in row.positions],
+                "values": _numbers(row.values),
+                "drawn": _numbers(row.drawn),
+                "computed": _numbers(row.computed),
+                "sense": list(row.sense),
+            }
+            for row in key.rows
+        ],
+    }
+
+
+def key_json(key: Key) -> str:
+    """The text of `key_data`."""
+    return json.dumps(key_data(key), ensure_ascii=False, allow_nan=False, indent=1) + "\n"
+
+
+def _numbers(values: Iterable[float]) -> list[float | None]:
+    return [float(value) if value == value else None for value in values]
+
+
+# --- the document ---------------------------------------------------------------------------------
+
+
+def key_document(key: Key, title: str) -> Document:
+    """The key as a numbered document; `title` is the machine's name."""
+    words = words_of(key)
+    blocks: list[tree.Block] = [
+        heading(words["key"]["title"]),
+        *fields(((words["answer_sheet"]["kind"], title), *student_rows(key))),
+        paragraph(words["key"]["note"]),
+        *([paragraph(words["key"]["thinned"].format(count=len(key.printed)))] if key.printed else []),
+    ]
+    for part, rows in groupby(key.rows, lambda row: row.part):
+        blocks += _tables(key, words, str(words["parts"][part]), list(rows))
+    return paper(key.language, words, f"{words['key']['title']} – {key.id}", blocks, variant=key.variant)
+
+
+def _tables(key: Key, words: Mapping[str, Any], name: str, rows: Sequence[Row]) -> Iterator[Table]:
+    """The tables of a part: single values in a list, then quantities beside one another by position."""
+    singles = [row for row in rows if row.single]
+    if singles:
+        yield _list(words, name, singles)
+    turning = [row for row in rows if not row.single and any(row.sense)]
+    others = [row for row in rows if not row.single and not any(row.sense)]
+    shared = shared_symbols((*others, *turning))
+    for group in (others, turning):
+        width = VALUE + 2 * BAND + (SENSE if group is turning else 0.0)
+        most = int((tree.TEXT_WIDTH - tree.FIRST_COLUMN) // width)
+        for start in range(0, len(group), most):
+            yield _by_position(key, words, name, group[start : start + most], shared)
+
+
+def _list(words: Mapping[str, Any], name: str, rows: Sequence[Row]) -> Table:
+    """Single values, a quantity a row."""
+    heads, shared = words["table"], shared_symbols(rows)
+    senses = any(any(row.sense) for row in rows)
+    symbol = symbol_width(rows, shared, SYMBOL)
+    widths = [UNIT, SINGLE, SINGLE_BAND, SINGLE_BAND, *([SENSE] if senses else [])]
+    columns = (Column(symbol), Column(tree.TEXT_WIDTH - symbol - sum(widths), "left"), *map(Column, widths))
+    titles = [heads["symbol"], words["answer_sheet"]["what"], heads["unit"], heads["value"]]
+    titles += [words["key"][name] for name in ("drawn", "computed", *(["sense"] if senses else []))]
+    body = (
+        cells((symbol_inlines(row, row.symbol in shared), row.described, row.unit, *_values(row, 0, senses)))
+        for row in rows
+    )
+    return Table(columns, (cells(titles),), tuple(body), (Text(name),))
+
+
+def _by_position(
+    key: Key, words: Mapping[str, Any], name: str, rows: Sequence[Row], shared: Container[Symbol]
+) -> Table:
+    """Quantities beside one another, positions below one another."""
+    heads, senses = words["key"], any(any(row.sense) for row in rows)
+    widths = (VALUE, BAND, BAND, *((SENSE,) if senses else ()))
+    under = ("", heads["drawn"], heads["computed"], *((heads["sense"],) if senses else ()))
+    titles = (Cell(_title(row, row.symbol in shared), len(widths)) for row in rows)
+    head = ((*cells((words["table"]["position"],)), *titles), (Cell(), *cells(under) * len(rows)))
+    body = (
+        cells((label, *(value for row in rows for value in _values(row, index, senses))))
+        for index, label in enumerate(key.labels)
+        if not key.printed or index + 1 in key.printed
+    )
+    columns = tuple(map(Column, (tree.FIRST_COLUMN, *widths * len(rows))))
+    return Table(columns, head, tuple(body), (Text(name),))
+
+
+def _title(row: Row, with_id: bool) -> Inlines:
+    """Symbol and unit of a quantity, perhaps with its id; below, what it is."""
+    text = (f", {row.unit}" if row.unit else "") + (f" ({row.id})" if with_id else "")
+    return (InlineMath(row.symbol), *((Text(text),) if text else ()), tree.LineBreak(), Text(row.described))
+
+
+def _values(row: Row, index: int, senses: bool) -> tuple[Number | str, ...]:
+    """A value, its two bands, and perhaps its direction in words."""
+    value = float(row.values[index])
+    widths = (float(row.drawn[index]), float(row.computed[index]))
+    bands = (_band_number(row, width) if value == value else DASH for width in widths)
+    return (shown_number(row, value), *bands, *((row.sense[index],) if senses else ()))
+
+
+def _band_number(row: Row, width: float) -> Number | str:
+    """A band; far below the last figure of its row it is 0."""
+    shown = band(row, width)
+    if shown is None:
+        return DASH
+    decimals = min(band_decimals(shown), FINEST if row.decimals is None else row.decimals + FINER)
+    number = Number(shown, decimals)
+    return number if number.shown else Number(0.0)

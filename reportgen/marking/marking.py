@@ -1,0 +1,223 @@
+"""Every value of a sheet judged: right, following from the student's own earlier values, or wrong.
+
+A wrong value costs its own mark once.  What stands on it is worked out again from the student's own
+values; where that is met, it earns its mark.  A wrong value with nothing wrong before it is the first
+of its chain, and the mistake behind it is sought by name.  A student who compares a sheet before handing
+it in is told where it first leaves the assignment, without marks or answers.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from reportgen.formula.ledger import Ledger
+from reportgen.marking.bands import half_unit
+from reportgen.marking.guard import Classmate, guard, not_from_own
+from reportgen.marking.key import Ask, symbol_text, words_of
+from reportgen.marking.marks import (
+    Cells,
+    Flag,
+    Guide,
+    Marked,
+    Marking,
+    Place,
+    Policy,
+    Submission,
+    Values,
+    Verdict,
+    open_guide,
+)
+from reportgen.marking.misread import misread_by_many, misread_data, mistakes_of_plans
+from reportgen.marking.mistakes import WRONG_DATUM, Mistake, mistakes_of_working, slips_of_writing
+from reportgen.marking.sheet import read_submission
+from reportgen.marking.working import Working, lay_out
+from reportgen.report.case import Case, Row
+
+SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
+    slips_of_writing,
+    mistakes_of_plans,
+    misread_by_many,
+    mistakes_of_working,
+    misread_data,
+)
+"""What looks for names, one after the other."""
+
+
+def mark(guide: Guide, submission: Submission, classmates: Sequence[Classmate] = ()) -> Marking:
+    """The verdicts on a submission; `classmates` are those that none of its values should come from."""
+    working = lay_out(guide, submission)
+    possible = [working.own_values(blank_from_key=True), working.own_values(blank_from_key=False)]
+    cells = {
+        (row.id, position): _judged(working, submission, row, position, possible)
+        for row in guide.judged
+        for position in row.positions
+    }
+    wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
+    cells |= {place: replace(cells[place], first=True) for place in wrong if not guide.stands_on(place, wrong)}
+    for search in SEARCHES:
+        found = search(working, cells)
+        for place, mistake in found.items():
+            cells[place] = replace(cells[place], mistake=mistake.name, where=mistake.where)
+        cells |= _charged_once(working, cells, found)
+    cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
+    flags: tuple[Flag, ...] = ()
+    if guide.policy.guard:
+        cells, flags = guard(guide, cells, classmates)
+    order = {row.id: index for index, row in enumerate(guide.key.rows)}
+    in_order = sorted(cells.values(), key=lambda cell: order[cell.id])
+    return Marking(guide.key, submission, tuple(in_order), flags)
+
+
+def _judged(working: Working, submission: Submission, row: Row, position: int, possible: Sequence[Values]) -> Marked:
+    """The verdict on one cell; `possible` are values that follow from the student's own."""
+    guide, place = working.guide, (row.id, position)
+    family, index = guide.ledger[row.id], row.at(position)
+    unit, worth = float(working.unit(row.id)[index]), guide.policy.worth(row.id)
+    bands = working.bands[row.id]
+    band = float(bands[index if len(bands) > 1 else 0])
+    key = float(family.at(position).real)
+    following = [_own(guide.ledger, values, row.id, index) for values in possible]
+    following += working.also(row, position)
+    value = float(working.values[row.id][index]) if row.id in working.values else float("nan")
+    verdict, points, own = Verdict.wrong, 0.0, following[0]
+    if place in submission.problems:
+        verdict = Verdict.unreadable
+    elif np.isnan(value):
+        verdict = Verdict.blank
+    elif guide.distance(row.id, value, key) <= band:
+        verdict, points = Verdict.right, worth * guide.policy.right
+    elif met := [one for one in following if _follows(guide, row.id, value, one, band)]:
+        verdict, points, own = Verdict.follows, worth * guide.policy.follows, met[0]
+    return Marked(
+        row.id,
+        position,
+        verdict=verdict,
+        given=None if np.isnan(value) else submission.values[place].value,
+        expected=key / unit,
+        own=own / unit,
+        band=band / unit,
+        points=points,
+        worth=worth * guide.policy.right,
+    )
+
+
+def _own(ledger: Ledger, values: Values, id: str, index: int) -> float:
+    """What a quantity comes to from the student's own values; a signed one has its size from before it."""
+    own = float(values[id][index].real)
+    before = ledger.size_of(id)
+    size = values.get(before) if before != id else None
+    return own if size is None else float(np.copysign(abs(size[index].real), own))
+
+
+def _follows(guide: Guide, id: str, value: float, own: float, band: float) -> bool:
+    """Whether a student's value (SI) is what the earlier ones give.
+
+    The band grows in proportion where that is larger than any right value.
+    """
+    size = guide.size(id)
+    if size and np.isfinite(own):
+        band = band * max(1.0, abs(own) / size) + float(half_unit(np.array([own]), guide.policy.digits)[0])
+    return bool(guide.distance(id, value, own) <= band)
+
+
+def _charged_once(working: Working, cells: Cells, found: Mapping[Place, Mistake]) -> dict[Place, Marked]:
+    """Of all wrong values that come from one mistake before the sheet, only the first costs its mark.
+
+    Whoever took the stroke for the radius without writing the radius down went wrong once, though no
+    value on the sheet stands on another that shows it.
+    """
+    guide, policy = working.guide, working.guide.policy
+    order = {row.id: index for index, row in enumerate(guide.judged)}
+    changed: dict[Place, Marked] = {}
+    unseen = {
+        (one.name, one.where): one for one in found.values() if not any(map(working.shows, one.changes or [one.where]))
+    }
+    for (name, where), mistake in unseen.items():
+        own_values = working.own_values(changes=mistake.changes)
+        once = len(guide.ledger[where].values) == 1 or name == WRONG_DATUM
+        caused = [place for place, one in found.items() if (one.name, one.where) == (name, where)]
+        charged: dict[int, Place] = {}
+        for place in sorted(caused, key=lambda place: order[place[0]]):
+            # In a quantity with a value at each position, it is a mistake of its own at each of them.
+            charged.setdefault(0 if once else place[1], place)
+        for place, cell in cells.items():
+            if cell.verdict is not Verdict.wrong or place in charged.values() or place in changed:
+                continue
+            index = guide.rows[cell.id].at(cell.position)
+            unit = float(working.unit(cell.id)[index])
+            own = _own(guide.ledger, own_values, cell.id, index)
+            if _follows(guide, cell.id, float(working.values[cell.id][index]), own, cell.band * unit):
+                points = policy.worth(cell.id) * policy.follows
+                changed[place] = replace(
+                    cell, verdict=Verdict.follows, own=own / unit, points=points, first=False, mistake="", where=""
+                )
+    return changed
+
+
+NEAREST = 4
+"""How many of the quantities that one is worked out from are named."""
+
+
+def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...], bool]:
+    """Lines that say where a sheet leaves its assignment, and whether it agrees as far as it is filled in.
+
+    Raises `AssignmentError` if the sheet cannot be read.
+    """
+    guide = open_guide(case, Policy(guard=False))
+    submission = read_submission(sheet, guide.key, guide.key.language)
+    # What the sheet has no row for is not missing.
+    guide = replace(guide, key=Ask(()).of(guide.key, submission.rows))
+    marking = mark(guide, submission)
+    # A blank value does not disagree, nor does one that follows from a right one.
+    agrees = not (marking.submission.problems or any(cell.verdict is Verdict.wrong for cell in marking.cells))
+    return tuple(_lines(guide, marking, hint, agrees)), agrees
+
+
+def _lines(guide: Guide, marking: Marking, hint: bool, agrees: bool) -> Iterator[str]:
+    """A line for each first divergence, with the cell it stands in; `hint` adds where to look, never the answer."""
+    words = words_of(marking.key)["compare"]
+    for problem in marking.submission.problems.values():
+        yield str(problem)
+    counted = Counter(cell.verdict for cell in marking.cells)
+    for cell in marking.first_errors:
+        given = marking.submission.values[(cell.id, cell.position)]
+        yield words["first"].format(mark=given.mark, symbol=_named(marking, cell), text=given.text)
+        if hint:
+            yield f"    {_hint(guide, marking, cell)}"
+    later = counted[Verdict.wrong] - len(marking.first_errors)
+    if later:
+        yield words["later"].format(count=later)
+    if counted[Verdict.follows] and marking.first_errors:
+        yield words["follows"].format(count=counted[Verdict.follows])
+    if counted[Verdict.blank]:
+        yield words["blank"].format(count=counted[Verdict.blank])
+    if agrees:
+        yield words["agrees"].format(count=counted[Verdict.right] + counted[Verdict.follows])
+
+
+def _hint(guide: Guide, marking: Marking, cell: Marked) -> str:
+    """The mistake by name; else what the value is worked out from, and whether it is too large."""
+    words = words_of(marking.key)
+    if cell.mistake:
+        where = marking.key.find(cell.where)
+        symbol = symbol_text(where, marking.key) if where else _named(marking, cell)
+        return str(words["mistakes"][cell.mistake]).format(symbol=symbol)
+    assert cell.given is not None, "only a given value diverges"
+    size = words["compare"]["larger" if abs(cell.given) > abs(cell.own) else "smaller"]
+    shown = (marking.key.find(id) for id in guide.before[cell.id])
+    nearest = [symbol_text(row, marking.key) for row in shown if row is not None][:NEAREST]
+    return f"{size} {words['compare']['from'].format(symbols=', '.join(dict.fromkeys(nearest)))}" if nearest else size
+
+
+def _named(marking: Marking, cell: Marked) -> str:
+    """A quantity's symbol, with its position unless it is the same at all positions."""
+    words, row = words_of(marking.key)["compare"], marking.key.row(cell.id)
+    symbol = symbol_text(row, marking.key)
+    if cell.position == 0:
+        return symbol
+    return str(words["at"].format(symbol=symbol, label=marking.key.label(cell.position)))

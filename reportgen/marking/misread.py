@@ -1,0 +1,364 @@
+"""Given data taken wrongly, sought backwards from the values that stand on them.
+
+Many values show the crank, a fixed point, a rod of a plan, the size of a load: what stands on such a datum is wrong at
+every position, in values of which none stands on another, and nearly all of them agree in what the datum was taken for.
+A few show a mass or the diameter; then it must be a number that somebody would have given.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.formula import ids, refs, vocabulary
+from reportgen.formula.ledger import follow
+from reportgen.marking.bands import half_unit, is_direction
+from reportgen.marking.marks import Cells, Guide, Marked, Place, Verdict
+from reportgen.marking.mistakes import WRONG_DATUM, Mistake, foreseen, unseen_mistakes
+from reportgen.marking.working import Change, Working, last_half_unit
+
+FACTORS = np.geomspace(1 / 4, 4, 120)
+WIDE = np.geomspace(1 / 5, 5, 400)
+"""A datum that is taken wrongly lies within these of the right one."""
+
+FEWEST = 3
+"""Fewer values may agree in a datum by chance."""
+
+NEAR = 0.04
+"""Values of a datum that are nearer than this share are one: each is found from a drawing."""
+
+UNLIKE = 0.005
+"""A datum nearer than this share to the right one was not taken wrongly."""
+
+NEAT = 2
+"""Significant figures of a datum that somebody would have given; a half of the last one where the right one has it."""
+
+APART = 3.0
+"""A right value that would be this many tolerances off with another datum shows that the datum was right."""
+
+
+# --- behind many values ---------------------------------------------------------------------------
+
+
+def misread_by_many(working: Working, cells: Cells) -> dict[Place, Mistake]:
+    """The data behind first wrong values that have no name yet, where many agree in them."""
+    open_ones = [place for place, cell in cells.items() if cell.first and not cell.mistake]
+    if len(open_ones) < FEWEST:
+        return {}
+    candidates = [*_worked_out(working, open_ones), *_candidates(working, open_ones)]
+    return behind_many(working, cells, open_ones, candidates, FEWEST)
+
+
+def _worked_out(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
+    """Mistakes with a name in what is worked out before some of the places: one that explains as much goes first."""
+    guide = working.guide
+    before = Counter(id for place in places for id in guide.before[place[0]])
+    for id in guide.ledger.families:
+        if before[id] >= FEWEST and guide.ledger[id].definition is not None:
+            yield from unseen_mistakes(working, id)
+
+
+def _candidates(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
+    """Each datum that some of the places stand on, at the values in which most of them agree."""
+    for id in _data(working.guide):
+        behind = [place for place in places if id in working.guide.before[place[0]]]
+        if len(behind) < FEWEST:
+            continue
+        found = list(_crossings(working, id, behind))
+        factors = np.array([factor for factor, _ in found])
+        near = np.abs(factors[:, None] / factors[None, :] - 1) < NEAR
+        if not found or near.sum(axis=1).max() < FEWEST:
+            continue
+        together = near[near.sum(axis=1).argmax()]
+        # What is worked out shows it more closely than what is drawn.
+        exact = [factor for (factor, single), one in zip(found, together, strict=True) if one and single]
+        for factor in (*exact[:1], float(np.median(factors[together]))):
+            if abs(factor - 1) > UNLIKE:
+                yield Mistake(WRONG_DATUM, id, {id: _times(factor)})
+
+
+def _times(factor: float) -> Change:
+    return lambda value, _: value * factor
+
+
+def _data(guide: Guide) -> Iterator[str]:
+    """Given data, and loads of a given size, that are not asked for."""
+    for id, family in guide.ledger.families.items():
+        # A ratio is given as 1/3.6, which the ledger works out.
+        given = not guide.ledger.inputs[id]
+        unseen = not (family.hidden or family.is_plane or id in guide.rows)
+        if given and unseen and (len(family.values) == 1 or id in guide.pitfalls.applied) and np.any(family.values):
+            yield id
+
+
+def _crossings(working: Working, id: str, places: Sequence[Place]) -> Iterator[tuple[float, bool]]:
+    """The multiples of a datum at which quantities pass through the student's values, and whether these are single."""
+    guide = working.guide
+    wanted = {name for place in places for name in (place[0], *guide.before[place[0]])}
+    worlds = follow(guide.ledger, {id: FACTORS[:, None] * guide.ledger[id].values}, only=wanted)
+    for row, position in places:
+        index = guide.rows[row].at(position)
+        column = np.broadcast_to(worlds[row].real, (len(FACTORS), len(guide.ledger[row].values)))[:, index]
+        given = float(working.values[row][index])
+        if guide.is_unsigned(row):
+            column, given = np.abs(column), abs(given)
+        apart = column - given
+        for at in np.flatnonzero(np.diff(np.sign(apart)) != 0):
+            one, other = apart[at], apart[at + 1]
+            if np.isfinite(one) and np.isfinite(other):
+                share = one / (one - other)
+                yield float(FACTORS[at] * (1 - share) + FACTORS[at + 1] * share), position == 0
+
+
+# --- behind single values -------------------------------------------------------------------------
+# A datum is sought by working backwards: the ledger is evaluated with many values of it at once, and the one
+# that meets the student's value counts if it is a number that somebody would have given: as round as the
+# right one.  A slip of arithmetic could otherwise nearly always be put down to some datum.
+
+
+@dataclass(frozen=True, slots=True)
+class _Datum:
+    """A given quantity and the value (SI) that it seems to have been taken for."""
+
+    id: str
+    value: float
+
+    @property
+    def mistake(self) -> Mistake:
+        return Mistake(WRONG_DATUM, self.id, {self.id: lambda value, _: np.full_like(value, self.value)})
+
+
+def misread_data(working: Working, cells: Cells) -> dict[Place, Mistake]:
+    """The misread data behind first wrong values that have no other name: of several the one that explains most.
+
+    Only what is the same at all positions is traced back: a length, a mass, the crank's speed.
+    """
+    guide = working.guide
+    left = [place for place, cell in cells.items() if cell.first and not cell.mistake and guide.rows[place[0]].single]
+    possible = {
+        place: [one for one in _possible_data(working, cells[place]) if _explains(working, cells[place], one)]
+        for place in left
+    }
+    found: dict[Place, Mistake] = {}
+    candidates = list(dict.fromkeys(one for data in possible.values() for one in data))
+    candidates = [one for one in candidates if not _is_contradicted(guide, cells, one)]
+    while left and candidates:
+        explained = {one: [place for place in left if _explains(working, cells[place], one)] for one in candidates}
+        most = max(map(len, explained.values()))
+        equal = [one for one in candidates if len(explained[one]) == most]
+        if not most:
+            break
+        # What stands on wrong values as well tells two apart that explain these equally.
+        best = equal[0] if len(equal) == 1 else max(equal, key=lambda one: _following(working, cells, one))
+        found |= dict.fromkeys(explained[best], best.mistake)
+        left = [place for place in left if place not in explained[best]]
+        candidates.remove(best)
+    for place in left:
+        # Elsewhere the datum was right, so it must be a slip in copying it: one figure, met in all figures.
+        slip = next((one for one in possible[place] if _is_slip(working, cells[place], one)), None)
+        if slip is not None:
+            found[place] = slip.mistake
+    return found
+
+
+def _following(working: Working, cells: Cells, datum: _Datum) -> int:
+    """How many of the wrong values follow from the student's own with this value of the datum."""
+    values, guide = working.own_values(changes=datum.mistake.changes), working.guide
+    count = 0
+    for cell in cells.values():
+        if cell.verdict is Verdict.wrong:
+            index = _index(guide, cell)
+            apart = guide.distance(cell.id, values[cell.id][index].real, _given(working, cell))
+            count += bool(apart <= cell.band * float(working.unit(cell.id)[index]))
+    return count
+
+
+def _possible_data(working: Working, cell: Marked) -> Iterator[_Datum]:
+    """Neat values of each datum at which a quantity passes through the student's value."""
+    guide = working.guide
+    for id in guide.before[cell.id]:
+        family = guide.ledger[id]
+        single = len(family.values) == 1 and not (family.hidden or family.is_plane)
+        if not single or id in guide.rows or not family.values[0] > 0:
+            continue
+        right = float(family.values[0])
+        values = _at(guide, cell, id, WIDE * right) - _given(working, cell)
+        crossing = np.flatnonzero(np.diff(np.sign(values)) != 0)
+        for index in crossing[np.isfinite(values[crossing]) & np.isfinite(values[crossing + 1])]:
+            one, other = values[index], values[index + 1]
+            share = one / (one - other)
+            factor = float(WIDE[index : index + 2] @ (1 - share, share))
+            yield _Datum(id, _neat(guide, id, right * factor))
+
+
+def _explains(working: Working, cell: Marked, datum: _Datum) -> bool:
+    """Whether the quantity comes to the student's value, not the key's, with this value of the datum."""
+    guide = working.guide
+    if datum.id not in guide.before[cell.id]:
+        return False
+    band = cell.band * float(working.unit(cell.id)[_index(guide, cell)])
+    with_it = float(_at(guide, cell, datum.id, np.array([datum.value]))[0])
+    key = float(guide.ledger[cell.id].values[_index(guide, cell)].real)
+    return abs(with_it - _given(working, cell)) <= band < abs(with_it - key)
+
+
+def _is_slip(working: Working, cell: Marked, datum: _Datum) -> bool:
+    """Whether a datum differs from the given one in its last figure by one, and gives the value as it is written."""
+    right = float(working.guide.ledger[datum.id].values[0])
+    last = 2 * float(half_unit(np.array([right]), NEAT)[0])
+    with_it = float(_at(working.guide, cell, datum.id, np.array([datum.value]))[0])
+    assert cell.given is not None, "a wrong value is given"
+    written = last_half_unit(cell.given) * float(working.unit(cell.id)[_index(working.guide, cell)])
+    return abs(abs(datum.value - right) - last) < last / 10 and abs(with_it - _given(working, cell)) <= written
+
+
+def _is_contradicted(guide: Guide, cells: Cells, datum: _Datum) -> bool:
+    """Whether a value that is right, and stands on nothing wrong, would lie far off with this value of the datum.
+
+    Lengths on paper prove nothing: they are read at the student's own scale.
+    """
+    values = follow(guide.ledger, {datum.id: np.array([datum.value])})
+    wrong = {place[0] for place, cell in cells.items() if cell.verdict is Verdict.wrong}
+    for (id, position), cell in cells.items():
+        before = set(guide.before[id])
+        proves = cell.verdict is Verdict.right and not _is_on_paper(guide, id)
+        if proves and datum.id in before and not wrong & before:
+            column = np.broadcast_to(values[id].real, len(guide.ledger[id].values))
+            moved = float(column[guide.rows[id].at(position)]) / guide.ledger[id].how.scale - cell.expected
+            if abs(moved) > APART * cell.band:
+                return True
+    return False
+
+
+def _is_on_paper(guide: Guide, id: str) -> bool:
+    kind = guide.ledger[id].kind
+    return kind == "segment" or kind.endswith("scale") or is_direction(id)
+
+
+def _at(guide: Guide, cell: Marked, id: str, values: np.ndarray) -> np.ndarray:
+    """A quantity (SI) over values of a datum [M]."""
+    wanted = {*guide.before[cell.id], cell.id}
+    result = follow(guide.ledger, {id: values[:, None]}, only=wanted)[cell.id].real
+    return np.broadcast_to(result, (len(values), len(guide.ledger[cell.id].values)))[:, _index(guide, cell)]
+
+
+def _given(working: Working, cell: Marked) -> float:
+    return float(working.values[cell.id][_index(working.guide, cell)])
+
+
+def _index(guide: Guide, cell: Marked) -> int:
+    return guide.rows[cell.id].at(cell.position)
+
+
+def _neat(guide: Guide, id: str, value: float) -> float:
+    """The nearest number (SI) as round as the right one in the datum's printed unit; for 1/3.6 that of its inverse."""
+    family = guide.ledger[id]
+    # Lengths stand in metres in the ledger and in millimetres on the page: the same figures.
+    taken, right = (one / family.how.scale for one in (value, float(family.values[0])))
+    # A ratio that the ledger works out was given as 1/3.6.
+    if family.kind == "ratio" and taken < 1 and family.definition is not None:
+        return family.how.scale / _rounded(1 / taken, 1 / right)
+    return _rounded(taken, right) * family.how.scale
+
+
+def _rounded(value: float, like: float) -> float:
+    """A number to `NEAT` figures, to halves of the last one if `like` has more figures than these or begins with 1."""
+    begins_with_1 = f"{like:.0e}".startswith("1")
+    parts = 1 if np.isclose(like, float(f"{like:.{NEAT - 1}e}"), rtol=1e-9) and not begins_with_1 else 2
+    step = 10.0 ** (np.floor(np.log10(value)) - NEAT + 1) / parts
+    return float(round(value / step) * step)
+
+
+# --- mistakes in drawing a plan -------------------------------------------------------------------
+# One vector reversed or left out moves every point behind it.
+# Nothing that the sheet shows holds such a mistake, and no value read from the plan stands on another one; so it is
+# sought in all values at once that are read there, and counts if it explains nearly all of them.
+
+FEWEST_READ = 2
+"""One value alone may have been read wrongly."""
+
+AGREED = 0.7
+"""The share of the first wrong values behind a vector that a mistake in it explains."""
+
+
+def mistakes_of_plans(working: Working, cells: Cells) -> dict[Place, Mistake]:
+    """The vectors reversed or left out behind first wrong values that have no name yet."""
+    open_ones = [place for place, cell in cells.items() if cell.first and not cell.mistake and place[1]]
+    candidates = list(_vectors_laid(working.guide))
+    found: dict[Place, Mistake] = {}
+    for position in dict.fromkeys(position for _, position in open_ones):
+        here = [place for place in open_ones if place[1] == position]
+        found |= behind_many(working, cells, here, candidates, FEWEST_READ)
+    return found
+
+
+def behind_many(
+    working: Working, cells: Cells, places: Sequence[Place], candidates: Sequence[Mistake], fewest: int
+) -> dict[Place, Mistake]:
+    """The mistakes that explain nearly all wrong values behind them, `fewest` at least, those of the most first."""
+    guide = working.guide
+    first = list(dict.fromkeys(id for id, _ in places))
+    before = {id: {*guide.before[id]} for id in first}
+    candidates = [one for one in candidates if any(one.changes.keys() & before[id] for id in first)]
+    if len(places) < fewest or not candidates:
+        return {}
+    values = foreseen(working, first, candidates)
+    met = {place: _met(working, cells, place, values[place[0]]) for place in places}
+    found: dict[Place, Mistake] = {}
+    left = list(places)
+    while best := _best(candidates, left, met, before, fewest):
+        mistake, explained = best
+        found |= dict.fromkeys(explained, mistake)
+        left = [place for place in left if place not in explained]
+    return found
+
+
+def _vectors_laid(guide: Guide) -> Iterator[Mistake]:
+    """Each vector that is laid in a plan, and each load as a whole, left out or reversed."""
+    ledger = guide.ledger
+    for id, family in ledger.families.items():
+        if family.definition is not None and vocabulary.is_laid(id) and family.is_plane and not family.of:
+            # The vector of a force, or the length of aⁿ on paper, which a line says of aⁿ itself.
+            source = ledger[refs(family.definition)[0]]
+            if source.of:
+                yield from _either("force-left-out", "force-reversed", source.of, id)
+            elif source.definition is not None:
+                yield from _either("part-left-out", "part-reversed", refs(source.definition)[0], id)
+    for load in guide.pitfalls.loads:
+        vector = ids.vector(load)
+        yield from _either("load-forgotten", "load-reversed", load, vector if vector in ledger else load)
+
+
+def _either(left_out: str, reversed_: str, where: str, id: str) -> Iterator[Mistake]:
+    yield Mistake(left_out, where, {id: lambda value, _: value * 0})
+    yield Mistake(reversed_, where, {id: lambda value, _: -value})
+
+
+def _met(working: Working, cells: Cells, place: Place, values: np.ndarray) -> np.ndarray:
+    """Which of the candidates' values [candidates, positions] a student's value is, and not the right one."""
+    guide, cell = working.guide, cells[place]
+    index = guide.rows[place[0]].at(place[1])
+    unit = float(working.unit(place[0])[index])
+    given, band = float(working.values[place[0]][index]), cell.band * unit
+    expected = values[:, index]
+    with np.errstate(all="ignore"):
+        wider = np.maximum(1.0, np.abs(expected) / max(abs(cell.own) * unit, band))
+        near = guide.distance(place[0], given, expected) <= band * wider
+        shows = guide.distance(place[0], cell.own * unit, expected) > band
+    return np.asarray(near & shows)
+
+
+def _best(
+    candidates: list[Mistake], left: list[Place], met: dict[Place, np.ndarray], before: dict[str, set[str]], fewest: int
+) -> tuple[Mistake, list[Place]] | None:
+    """The mistake that explains most of the values that are left, if it explains nearly all that it moves."""
+    best: tuple[Mistake, list[Place]] | None = None
+    for number, mistake in enumerate(candidates):
+        behind = [place for place in left if mistake.changes.keys() & before[place[0]]]
+        explained = [place for place in behind if met[place][number]]
+        if len(explained) >= max(fewest, AGREED * len(behind), len(best[1]) + 1 if best else 0):
+            best = mistake, explained
+    return best

@@ -1,0 +1,452 @@
+"""The mistakes of working that are known by name: each is a change of the ledger, which is evaluated with it.
+
+A `Mistake` says in which quantity it is made, which quantities of the ledger change with it, and what they
+become, given what they come to and all values before them (SI).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from reportgen.formula import Call, Expression, Negative, Sum, rebuild, refs, walk
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.ledger import follow
+from reportgen.formula.sheet import Family
+from reportgen.marking.bands import is_direction
+from reportgen.marking.marks import Cells, Guide, Marked, Place, Values, Verdict
+from reportgen.marking.working import Change, Working
+from reportgen.report.case import Role
+
+WRONG_DATUM = "wrong-datum"
+"""The name of a given datum taken wrongly."""
+
+NO_CORIOLIS = "no-coriolis"
+"""The name of a Coriolis acceleration left out."""
+
+OF_POSITION = frozenset({"counted-backwards", "shifted-forward", "shifted-back"})
+"""Mistakes about where a position lies: one value alone may meet another position's by chance."""
+
+DECIMAL_PLACES = (1, 2, 3, 4, 5)
+"""Decimals that a mark read as that of thousands takes along."""
+
+TRIGONOMETRIC = {"sin", "cos", "tan"}
+INVERSE = {"arcsin", "arccos", "arctan", "arctan2"}
+
+
+@dataclass(frozen=True, slots=True)
+class Mistake:
+    """One mistake that can be made in one quantity.
+
+    `name` is a key of `mistakes` in `words.yaml`, `where` the id of the quantity in which it is made.
+    """
+
+    name: str
+    where: str
+    changes: Mapping[str, Change]
+
+
+def mistakes_in(guide: Guide, id: str, scales: Values) -> Iterator[Mistake]:
+    """All mistakes that can be made in working out one quantity; `scales` are the student's own, in SI.
+
+    What stands printed for every position (the crank's angle) can only be taken at another one.
+    """
+    family = guide.ledger[id]
+    if family.exact and len(family.values) > 1:
+        return
+    for name, change in _changes_of(guide, family, scales):
+        yield Mistake(name, id, {id: change})
+
+
+def general_mistakes(guide: Guide) -> Iterator[Mistake]:
+    """Mistakes about the positions as such, and a Coriolis acceleration that is left out."""
+    ledger = guide.ledger
+    read = [id for id, family in ledger.families.items() if family.definition is None and len(family.values) > 1]
+    if read:
+        count = len(ledger[read[0]].values)
+        order = np.arange(count)
+        for name, taken in (
+            ("counted-backwards", -order % count),
+            ("shifted-forward", np.roll(order, -1)),
+            ("shifted-back", np.roll(order, 1)),
+        ):
+            yield Mistake(name, read[0], {id: _replaced_by(ledger[id].values[taken]) for id in read})
+    for id, family in ledger.families.items():
+        if family.kind == "acceleration" and family.symbol.sup == "k":
+            yield Mistake(NO_CORIOLIS, id, {id: _times(0)})
+
+
+def _changes_of(guide: Guide, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
+    """What one quantity becomes with each mistake, by name."""
+    id = family.id
+    if family.definition is not None:
+        yield from _in_a_definition(guide, family, family.definition, scales)
+    for name, reading in guide.pitfalls.readings.get(id, ()):
+        yield name, _replaced_by(reading)
+    if (rod := guide.pitfalls.whole.get(id)) is not None:
+        yield "wrong-end", lambda value, values: values[rod] - value
+    if is_direction(id):
+        yield "direction-reversed", lambda value, _: value + np.pi
+        return
+    if family.is_signed_rotation:
+        yield "direction-reversed", lambda value, _: -value
+    elif not family.arm and family.kind != "segment" and (family.definition is not None or not family.exact):
+        yield "sign-reversed", lambda value, _: -value
+    for places in DECIMAL_PLACES:
+        yield "thousands-mark", _times(10.0**places)
+
+
+def _in_a_definition(
+    guide: Guide, family: Family, definition: Expression, scales: Values
+) -> Iterator[tuple[str, Change]]:
+    used = [guide.ledger[ref] for ref in dict.fromkeys(refs(definition))]
+    for given in used:
+        yield from _with_a_wrong_input(guide, family, definition, given, scales)
+    if family.kind == "angle" and _calls(definition, INVERSE):
+        yield "radians-for-degrees", _times(np.pi / 180)
+    if _calls(definition, TRIGONOMETRIC):
+        angles = [given.id for given in used if given.kind == "angle"]
+        yield "degrees-for-radians", _with(definition, {id: _degrees(id) for id in angles})
+    if not family.constructed:
+        for other in _other_signs(definition):
+            yield "sign-reversed", _with(other, {})
+
+
+def _with_a_wrong_input(
+    guide: Guide, family: Family, definition: Expression, given: Family, scales: Values
+) -> Iterator[tuple[str, Change]]:
+    """Mistakes about one input of a definition."""
+    ledger, id = guide.ledger, given.id
+
+    def as_printed(_: np.ndarray, values: Values) -> np.ndarray:
+        """The input's printed number taken for the result's."""
+        return values[id] / given.how.scale * family.how.scale
+
+    def instead(other: Callable[[Values], np.ndarray]) -> Change:
+        return _with(definition, {id: other})
+
+    if id == "H" and family.kind == "length":
+        yield "stroke-for-radius", lambda _, values: values[id]
+    elif given.kind == "ratio" and not given.hidden and not given.is_plane:
+        yield "ratio-inverted", instead(lambda values: 1 / values[id])
+    elif given.kind == "diameter":
+        yield "diameter-for-radius", instead(lambda values: 2 * values[id])
+    elif given.kind == "speed of rotation":
+        yield "rpm-for-radians", as_printed
+        # 2πn without the 60.
+        yield "minute-for-second", _times(60.0)
+    elif id == "omega.1" and "n" in ledger:
+        yield "rpm-for-radians", instead(lambda values: values["n"])
+    elif given.kind == "weight" and family.kind == "mass":
+        yield "weight-for-mass", as_printed
+    elif given.kind == "mass" and (weight := _weight(guide, given)):
+        yield "weight-for-mass", instead(lambda values: values[weight])
+    elif given.kind.endswith("scale") and not family.constructed and (power := _power(guide, definition, id)):
+        number = scales.get(id, given.values) / given.how.scale
+        # v = seg and v = μ²·seg instead of v = μ·seg.
+        yield "scale-forgotten", _times(number**-power)
+        yield "scale-twice", _times(number**power)
+
+
+def _weight(guide: Guide, mass: Family) -> str:
+    """The weight of the link that a mass is of, "" if it has none."""
+    weights = (one for one in guide.ledger.families.values() if one.kind == "weight")
+    return next((one.id for one in weights if one.symbol.sub == mass.symbol.sub), "")
+
+
+def _power(guide: Guide, definition: Expression, scale: str) -> int:
+    """The power (±1) in which a scale stands in a definition as a whole; 0 if it does not."""
+    values = {id: guide.ledger[id].values for id in refs(definition)}
+    with np.errstate(all="ignore"):
+        once = np.atleast_1d(evaluate(definition, values))
+        twice = np.atleast_1d(evaluate(definition, values | {scale: 2 * values[scale]}))
+        ratio = (twice / once)[np.isfinite(twice / once)]
+    for power in (1, -1):
+        if ratio.size and np.allclose(ratio, 2.0**power):
+            return power
+    return 0
+
+
+# --- changes ----------------------------------------------------------------------------------------
+
+
+def _times(factor: float | np.ndarray) -> Change:
+    return lambda value, _: value * factor
+
+
+def _replaced_by(other: np.ndarray) -> Change:
+    return lambda _, __: other
+
+
+def _degrees(id: str) -> Callable[[Values], np.ndarray]:
+    return lambda values: np.degrees(values[id])
+
+
+def _with(definition: Expression, others: Mapping[str, Callable[[Values], np.ndarray]]) -> Change:
+    """The definition worked out with other values of some of its inputs."""
+
+    names = refs(definition)
+
+    def change(_: np.ndarray, values: Values) -> np.ndarray:
+        inputs = {id: others[id](values) if id in others else values[id] for id in names}
+        return np.atleast_1d(evaluate(definition, inputs))
+
+    return change
+
+
+def _calls(definition: Expression, names: set[str]) -> bool:
+    return any(isinstance(part, Call) and part.name in names for part in walk(definition))
+
+
+def _other_signs(definition: Expression) -> Iterator[Expression]:
+    """The definition with the sign of one term turned, for every term of its sums."""
+    for part in walk(definition):
+        if isinstance(part, Sum) and len(part.terms) > 1:
+            for index, term in enumerate(part.terms):
+                turned = term.of if isinstance(term, Negative) else Negative(term)
+                changed = Sum((*part.terms[:index], turned, *part.terms[index + 1 :]))
+                yield _put(definition, part, changed)
+
+
+def _put(node: Expression, old: Expression, new: Expression) -> Expression:
+    return new if node is old else rebuild(node, lambda child: _put(child, old, new))
+
+
+# --- the first wrong values by name ---------------------------------------------------------------
+# Slips of writing, mistakes of working; data taken wrongly have their own module.
+# Each search looks at the first wrong values that have no name yet; `marking.SEARCHES` is their order.
+
+FEW_FIGURES = 2
+"""Significant figures that are too few, but still show the value; one figure shows too little."""
+
+FEWEST_ANGLES = 4
+"""Fewer angles show no convention."""
+
+AGREED = 0.8
+"""The share of the angles not right that one convention explains."""
+
+CONVENTIONS: tuple[tuple[str, float, float], ...] = (
+    ("angle-clockwise", -1.0, 0.0),
+    ("angle-from-vertical", 1.0, -90.0),
+    ("angle-from-vertical", -1.0, 90.0),
+    ("angle-from-vertical", 1.0, 90.0),
+)
+"""How angles are measured otherwise: name, factor and summand (°) of the angle asked for."""
+
+OWN_FIGURES = 0.1
+"""A value within the tolerance of nothing shows a mistake that gives it to this share of itself."""
+
+OF_WRITING = frozenset({"thousands-mark", "sign-reversed"})
+"""Slips of writing down, which nobody makes in what is not written down; by chance one of hundreds would fit."""
+
+
+# --- slips of writing -----------------------------------------------------------------------------
+# Too few figures, a value in another cell, angles by another convention: nothing was worked out wrongly, so
+# they are found on the sheet alone, before mistakes of working are sought.
+
+
+def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
+    """The slips behind first wrong values, where they are known."""
+    guide = working.guide
+    first = {place: cell for place, cell in cells.items() if cell.first}
+    found = (
+        *_misplaced(guide, first, cells),
+        *(("too-few-figures", place) for place, cell in first.items() if _has_too_few_figures(cell)),
+        # A scale was taken from the task while the plan was drawn at another.
+        *(
+            ("other-scale", place)
+            for place, cell in first.items()
+            if guide.rows[place[0]].role is Role.scale and _is_other_scale(guide, cell)
+        ),
+        *_by_another_convention(first, cells),
+    )
+    # Nothing else comes from a slip of writing unseen, so it changes no other quantity.
+    return {place: Mistake(name, place[0], {}) for name, place in found}
+
+
+def _is_other_scale(guide: Guide, cell: Marked) -> bool:
+    """Whether a scale is the task's, or chosen freely, but not that of the drawing."""
+    usual = float(guide.key.row(cell.id).values[0])
+    return cell.equals(usual, cell.band) or guide.ledger[cell.id].kind == "force scale"
+
+
+def _has_too_few_figures(cell: Marked) -> bool:
+    """Whether a value is right but for its figures."""
+    given = cell.given
+    return bool(given) and any(
+        given == float(f"{value:.{FEW_FIGURES}g}") and abs(given - value) > cell.band
+        for value in (cell.own, cell.expected)
+    )
+
+
+def _misplaced(guide: Guide, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:
+    """Two values of one unit in each other's rows; a value beside its own cell, which was left empty."""
+    for (one, mine), (other, theirs) in combinations(first.items(), 2):
+        same = one[1] == other[1] and guide.rows[one[0]].unit == guide.rows[other[0]].unit
+        # Of two values that differ in sign alone, both signs were reversed.
+        opposite = abs(mine.expected + theirs.expected) <= mine.band
+        if same and not opposite and _belongs_to(mine, theirs) and _belongs_to(theirs, mine):
+            yield "rows-swapped", one
+            yield "rows-swapped", other
+    for place, cell in first.items():
+        beside = [cells[place[0], position] for position in guide.rows[place[0]].positions]
+        if any(one.verdict is Verdict.blank and _belongs_to(cell, one) for one in beside):
+            yield "wrong-column", place
+
+
+def _belongs_to(cell: Marked, other: Marked) -> bool:
+    """Whether a value is that of another cell, not of its own."""
+    return cell.equals(other.expected, other.band) and abs(cell.expected - other.expected) > other.band
+
+
+def _by_another_convention(first: Cells, cells: Cells) -> Iterable[tuple[str, Place]]:
+    """Directions that one other convention explains, if it explains most of those that are not right."""
+    angles = {place: cell for place, cell in cells.items() if is_direction(place[0]) and cell.given is not None}
+    off = sum(cell.verdict is not Verdict.right for cell in angles.values())
+    best: list[tuple[str, Place]] = []
+    for name, factor, summand in CONVENTIONS:
+        met = [(name, place) for place in first if place in angles and _is_measured(angles[place], factor, summand)]
+        if len(met) >= max(FEWEST_ANGLES, AGREED * off, len(best) + 1):
+            best = met
+    return best
+
+
+def _is_measured(cell: Marked, factor: float, summand: float) -> bool:
+    assert cell.given is not None
+    apart = (cell.given - factor * cell.expected - summand + 180) % 360 - 180
+    return abs(apart) <= cell.band
+
+
+# --- mistakes of working --------------------------------------------------------------------------
+# A mistake may have been made in the wrong quantity itself, or in one before it that the sheet does not show.
+# All of them are evaluated at once, [mistakes, positions]; the one that meets most of the wrong values of a
+# quantity, and meets them best, gives its name.
+
+
+def mistakes_of_working(working: Working, cells: Cells) -> dict[Place, Mistake]:
+    """The mistakes behind the first wrong values that have no name yet, where they are known."""
+    by_row: dict[str, list[int]] = {}
+    for (id, position), cell in cells.items():
+        if cell.first and not cell.mistake:
+            by_row.setdefault(id, []).append(position)
+    # A student goes on from the rounded value written down, or from the one left in the calculator.
+    right = {place for place, cell in cells.items() if cell.verdict is Verdict.right}
+    gone_on_from = (working, working.unrounded(right)) if by_row else ()
+    found = {
+        (id, position): mistake
+        for id, positions in by_row.items()
+        for position, mistake in _explained(gone_on_from, cells, id, positions)
+    }
+    told = Counter(mistake.name for mistake in found.values())
+    return {place: one for place, one in found.items() if one.name not in OF_POSITION or told[one.name] > 1}
+
+
+def _explained(
+    gone_on_from: Sequence[Working], cells: Cells, id: str, positions: Sequence[int]
+) -> Iterator[tuple[int, Mistake]]:
+    """The mistake at each of the positions at which a quantity is wrong, where one is found.
+
+    The first working is the one handed in.
+    """
+    working = gone_on_from[0]
+    guide = working.guide
+    candidates = list(_candidates(working, id))
+    if not candidates:
+        return
+    row = guide.rows[id]
+    index = [row.at(position) for position in positions]
+    given = working.values[id][index]
+    unit = working.unit(id)[index]
+    band = np.array([cells[id, position].band for position in positions]) * unit
+    own, expected = np.array([[cells[id, k].own, cells[id, k].expected] for k in positions]).T * unit
+    values = np.concatenate([foreseen(one, [id], candidates)[id][:, index] for one in gone_on_from])
+    candidates = [*candidates, *candidates]
+    with np.errstate(all="ignore"):
+        # What a mistake makes larger, it makes less certain in the same measure.
+        wider = np.maximum(1.0, np.abs(values) / np.maximum(np.abs(own), band))
+        apart = guide.distance(id, given, values)
+        off = apart / (band * wider)
+        shows = np.min([guide.distance(id, one, values) for one in (own, expected)], axis=0) > band
+    # What is nearly nothing is so by many a mistake: it shows one only if it is met in its own figures.
+    left_out = np.array([[mistake.name == NO_CORIOLIS] for mistake in candidates])
+    met = (off <= 1) & shows & (left_out | (np.abs(given) > band) | (apart <= OWN_FIGURES * np.abs(values)))
+    count = met.sum(axis=1)
+    needs_more = [len(row.positions) > 1 and mistake.name in OF_POSITION for mistake in candidates]
+    for column, position in enumerate(positions):
+        fitting = [n for n in np.flatnonzero(met[:, column]) if count[n] > 1 or not needs_more[n]]
+        if fitting:
+            best = min(fitting, key=lambda n: (-count[n], round(float(off[n, column]), 2), n))
+            yield position, candidates[best]
+
+
+def _candidates(working: Working, id: str) -> Iterator[Mistake]:
+    """Mistakes in the quantity itself, then in unseen ones before it, nearest first, then general ones."""
+    guide = working.guide
+    yield from mistakes_in(guide, id, working.scales)
+    size = guide.ledger.size_of(id)
+    if size != id:
+        yield from mistakes_in(guide, size, working.scales)
+    before = guide.before[id]
+    for other in before:
+        if other != size:
+            yield from unseen_mistakes(working, other)
+    concerned = {*before, id}
+    yield from (mistake for mistake in general_mistakes(guide) if concerned & mistake.changes.keys())
+
+
+def unseen_mistakes(working: Working, id: str) -> Iterator[Mistake]:
+    """Mistakes in a quantity that the sheet does not show; a plan many times too large is never drawn."""
+    family = working.guide.ledger[id]
+    drawn = family.kind == "segment" or family.kind.endswith("scale")
+    if not (working.shows(id) or family.hidden or family.is_plane or drawn):
+        yield from (one for one in mistakes_in(working.guide, id, working.scales) if one.name not in OF_WRITING)
+
+
+def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) -> dict[str, np.ndarray]:
+    """What quantities come to with each mistake, from the student's own earlier values [mistakes, positions]."""
+    guide = working.guide
+    ledger = guide.ledger
+    made: dict[str, list[tuple[int, Change]]] = {}
+    for number, mistake in enumerate(mistakes):
+        for changed, change in mistake.changes.items():
+            made.setdefault(changed, []).append((number, change))
+    judged = {*ids, *map(ledger.size_of, ids)}
+
+    def with_mistakes(name: str) -> Change:
+        def change(computed: np.ndarray, values: Values) -> np.ndarray:
+            base = computed if name in judged else working.entered_values(name, computed, computed)
+            if name not in made:
+                return base
+            width = max(np.shape(base)[-1], len(ledger[name].values))
+            rows = np.array(np.broadcast_to(base, (len(mistakes), width)), dtype=np.result_type(base, float))
+            for number, changed in made[name]:
+                rows[number] = changed(rows[number], _RowOf(values, number))
+            return rows
+
+        return change
+
+    wanted = {*ids}.union(*(guide.before[id] for id in ids))
+    names = {name for name in (*working.entered_ids, *made) if name in wanted}
+    values = follow(ledger, {name: with_mistakes(name) for name in names}, only=wanted)
+    return {id: np.broadcast_to(values[id], (len(mistakes), len(ledger[id].values))).real for id in ids}
+
+
+class _RowOf(Mapping[str, np.ndarray]):
+    """The values with one of several mistakes, of values that have a row for each."""
+
+    def __init__(self, values: Values, number: int) -> None:
+        self.all, self.number = values, number
+
+    def __getitem__(self, id: str) -> np.ndarray:
+        value = self.all[id]
+        return value if value.ndim == 1 else value[self.number % len(value)]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.all)
+
+    def __len__(self) -> int:
+        return len(self.all)

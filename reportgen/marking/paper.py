@@ -1,0 +1,258 @@
+"""Papers beside the report: what they all have in common, and the task with its empty answer sheet."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
+from typing import Any
+
+from reportgen import report as tree
+from reportgen.base.units import Language
+from reportgen.drawing.geometry import box
+from reportgen.formula import Number, Symbol
+from reportgen.formula.vocabulary import Chapter
+from reportgen.marking.key import words_of
+from reportgen.marking.sheet import asked_positions, info_rows, open_cells
+from reportgen.report import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
+from reportgen.report.case import Calculation, Key, Opened, Role, Row
+from reportgen.report.numbering import number
+from reportgen.report.outline import names as names_of
+from reportgen.report.report import PLATES_UP_TO, Report
+
+MOST_POSITIONS, MOST_FILLED = 8, 4
+"""Columns of positions beside one another: of what is given, and of what is to be filled in."""
+KNOWN_DIGITS = 5
+"""Figures of what is given at each position."""
+SYMBOL, UNIT, VALUE = 16.0, 22.0, 15.3
+"""Widths (mm) of the columns of the answer sheet."""
+WIDEST = 30.0
+"""Width (mm) of a column to be filled in by hand, where there is room."""
+LEAST_WHAT = 50.0
+"""Width (mm) that the words of a row need at least."""
+TABLE_SIZE, PADDING = 10.0, 4.0
+"""Font size (points) of a table, and what its cells keep clear of their edges (mm)."""
+
+
+def paper(
+    language: Language,
+    words: Mapping[str, Any],
+    title: str,
+    blocks: Iterable[Block],
+    owner: str = "",
+    variant: str = "",
+) -> Document:
+    """A numbered document without a cover; title left and variant right in its header, `owner` its author."""
+    note = words["variant"].format(variant=variant) if variant else ""
+    terms = words["document"]
+    header, footer = (title, note), ("", terms["page"])
+    return number(
+        Document(
+            language=language,
+            title=title,
+            author=owner,
+            header=header,
+            footer=footer,
+            words=tree.Words(**terms),
+            blocks=tuple(blocks),
+        )
+    )
+
+
+def fields(pairs: Iterable[tuple[str, str]]) -> Iterable[Block]:
+    """Labelled texts, a line each, as typed; without a text a dotted line to fill in."""
+    lines: list[Text | tree.Strong | tree.LineBreak] = []
+    empty: list[Block] = []
+    for label, text in pairs:
+        if not text:
+            empty.append(tree.BlankLine(f"{label}:"))
+            continue
+        lines += [*([tree.LineBreak()] if lines else []), Text(f"{label}: "), tree.Strong((Text(text),))]
+    return (*((Paragraph(tuple(lines)),) if lines else ()), *empty)
+
+
+def heading(title: str, level: int = 1) -> tree.Section:
+    """A heading without a number."""
+    return tree.Section(level, (Text(title),), numbered=False)
+
+
+def paragraph(text: str) -> Paragraph:
+    """A paragraph of plain text."""
+    return Paragraph((Text(text),))
+
+
+def student_rows(key: Key) -> tuple[tuple[str, str], ...]:
+    """Whose paper it is: label and text of assignment, variant (if any), student."""
+    assignment, _, variant, *student = info_rows(key)
+    return (assignment, *((variant,) if key.variant else ()), *student)
+
+
+# --- cells of tables ------------------------------------------------------------------------------
+
+
+DASH = "–"
+"""In the cell of what does not exist."""
+
+
+def cells(contents: Iterable[str | Number | Inlines]) -> tuple[Cell, ...]:
+    """The cells of a row: texts as they stand, numbers, or anything else that a line holds."""
+    return tuple(Cell(_inlines(content)) for content in contents)
+
+
+def _inlines(content: str | Number | Inlines) -> Inlines:
+    if isinstance(content, Number):
+        return (tree.Value(content),) if content.value == content.value else (Text(DASH),)
+    return content if isinstance(content, tuple) else (Text(content),) if content else ()
+
+
+def symbol_inlines(row: Row, with_id: bool) -> Inlines:
+    """A quantity's symbol, perhaps with its id below."""
+    return (InlineMath(row.symbol), *((tree.LineBreak(), Text(row.id)) if with_id else ()))
+
+
+def symbol_width(rows: Iterable[Row], shared: Container[Symbol], least: float) -> float:
+    """The width (mm) of a column of symbols, those that are `shared` with their ids below."""
+    ids = (row.id for row in rows if row.symbol in shared)
+    return max((least, *(box(id, TABLE_SIZE).width + PADDING for id in ids)))
+
+
+def shared_symbols(rows: Iterable[Row]) -> frozenset[Symbol]:
+    """Symbols that several of the rows have."""
+    return frozenset(symbol for symbol, count in Counter(row.symbol for row in rows).items() if count > 1)
+
+
+# --- the task -------------------------------------------------------------------------------------
+
+
+def machine_task(case: Calculation, key: Key, by_section: bool = False) -> Document:
+    """The task of a machine, from the given data to the empty answer sheet; no answer is in it.
+
+    `by_section` puts each section of the sheet on pages of its own, headed by whose it is.  Raises `TemplateError`.
+    """
+    report = Report(case)
+    prose, names, machine = report.prose, names_of(report), case.analysis.machine
+    every = range(1, machine.positions + 1)
+    asked = asked_positions(key)
+    (title, *given) = prose.render("given", names)
+    names |= {
+        "answer_tables": empty_sheet(key, by_section),
+        "asks_scales": any(row.role is Role.scale for row in key.asked),
+        "asked": tuple(map(key.label, asked)),
+        "known_tables": tuple(_known_tables(key, every if machine.count <= PLATES_UP_TO else asked)),
+    }
+    return task_paper(
+        case,
+        key,
+        (title, Paragraph((tree.Strong((Text(case.title),)),), "center")),
+        (*given, *prose.render("task", names)),
+    )
+
+
+def task_paper(case: Opened, key: Key, title: Iterable[Block], blocks: Iterable[Block]) -> Document:
+    """A task: whose it is between its title and what follows."""
+    student = case.assignment.report.student.name or ""
+    contents = (*title, *fields(student_rows(key)), *blocks)
+    return paper(case.assignment.language, case.words, case.course, contents, student, key.variant)
+
+
+def empty_sheet(key: Key, by_section: bool) -> tuple[Block, ...]:
+    """The answer sheet to fill in by hand; `by_section` with each section on pages of its own."""
+    return tuple(_sections(key) if by_section else answer_tables(key))
+
+
+def _sections(key: Key) -> Iterator[Block]:
+    """The empty sheet with a page break before each section but the first, and whose it is on each."""
+    whose = " – ".join(filter(None, (key.id, key.student.get("name", ""), key.student.get("id", ""))))
+    parts = [part for part in Chapter if any(row.part is part for row in key.asked)]
+    for part in parts:
+        if part is not parts[0]:
+            yield tree.PageBreak()
+        yield heading(str(words_of(key)["parts"][part]), 2)
+        yield paragraph(whose)
+        yield from answer_tables(key, part)
+
+
+def answer_tables(key: Key, only: Chapter | None = None) -> Iterator[Table]:
+    """The empty sheet as tables to fill in by hand, a table or more for each part, or for `only` one of them."""
+    words, open_at = words_of(key), open_cells(key)
+    for part, members in groupby(key.rows, lambda row: row.part):
+        if only not in (None, part):
+            continue
+        caption = (Text(str(words["parts"][part])),)
+        rows = [row for row in members if row.positions]
+        shared = shared_symbols(rows)
+        singles = [row for row in rows if row.single]
+        many = [row for row in rows if not row.single]
+        for group, positions in ((singles, [0]), (many, sorted({k for row in many for k in row.positions}))):
+            for some in _split(positions, MOST_FILLED):
+                asked = [row for row in group if set(row.positions) & set(some)]
+                if asked:
+                    yield _answer_table(_heads(key, words, some), asked, some, shared, open_at, caption)
+
+
+def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
+    """What is given at each position (the crank's angle, a load that follows the motion), in the sheet's columns."""
+    words = words_of(key)
+    caption = (Text(str(words["answer_sheet"]["known"])),)
+    rows = [row for row in key.rows if row.role is Role.given and not row.single and row.part is not Chapter.formulas]
+    for some in _split(positions, MOST_POSITIONS) if rows else ():
+        head = (words["table"]["symbol"], words["table"]["unit"], *map(key.label, some))
+        body = (cells((symbol_inlines(row, False), row.unit, *(_known_number(row, k) for k in some))) for row in rows)
+        columns = (Column(SYMBOL), Column(UNIT), *(Column(VALUE),) * len(some))
+        yield Table(columns, (cells(head),), tuple(body), caption)
+
+
+def _known_number(row: Row, position: int) -> Number:
+    """A given number short enough for a column: an angle may be one that follows from lengths."""
+    return Number(float(f"{row.values[row.at(position)]:.{KNOWN_DIGITS}g}"), None)
+
+
+def _split(positions: Sequence[int], most: int) -> Iterator[Sequence[int]]:
+    """Positions in as few sets of nearly one size as have `most` at most."""
+    count = -(-len(positions) // most)
+    for start in range(count):
+        yield positions[start * len(positions) // count : (start + 1) * len(positions) // count]
+
+
+def _heads(key: Key, words: Mapping[str, Any], positions: Sequence[int]) -> tuple[str, ...]:
+    """The words over the columns of a table."""
+    table, sheet = words["table"], words["answer_sheet"]
+    labels = [key.label(k) for k in positions if k]
+    if len(labels) == 1:
+        labels = [sheet["at"].format(label=labels[0])]
+    return (table["symbol"], sheet["what"], table["unit"], *(labels or [table["value"]]))
+
+
+def _answer_table(
+    heads: Sequence[str],
+    rows: Sequence[Row],
+    positions: Sequence[int],
+    shared: Container[Symbol],
+    open_at: Mapping[str, Container[int]],
+    caption: Inlines,
+) -> Table:
+    """Quantities below one another, each with what it is in words.
+
+    `open_at` are the positions at which each row has a cell to fill in, by id.
+    """
+    symbol = symbol_width(rows, shared, SYMBOL)
+    rest = tree.TEXT_WIDTH - symbol - UNIT
+    value = min((rest - LEAST_WHAT) / len(positions), WIDEST)
+    columns = (
+        Column(symbol),
+        Column(rest - value * len(positions), "left"),
+        Column(UNIT),
+        *(Column(value),) * len(positions),
+    )
+    body = (
+        cells(
+            (
+                symbol_inlines(row, row.symbol in shared),
+                row.described,
+                row.unit,
+                *("" if k in open_at[row.id] else DASH for k in positions),
+            )
+        )
+        for row in rows
+    )
+    return Table(columns, (cells(heads),), tuple(body), caption)

@@ -1,0 +1,274 @@
+"""The results of an analysis as plain data (format reportgen-results/1), and as tables on a terminal.
+
+The data are in SI units and radians, unrounded; the tables have a row for each position by its label, and
+vectors by their size.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from reportgen.base.units import Language, significant_decimals, write
+from reportgen.base.words import word
+from reportgen.formula import ids
+from reportgen.machine import Crank
+from reportgen.machine.analysis import Analysis
+from reportgen.machine.forces import Load
+from reportgen.report.case import Calculation, Opened
+from reportgen.workbook import Book, Sheet, write_csv, write_xlsx
+
+FORMAT = "reportgen-results/1"
+
+
+def results(case: Opened, positions: list[Any], **more: Any) -> dict[str, Any]:
+    """The contract's JSON object of a case: one entry a position, null where it cannot be reached; `more` before it."""
+    about = {"format": FORMAT, "kind": case.assignment.kind, "variant": case.assignment.variant, "units": "SI"}
+    return {**about, **more, "positions": positions}
+
+
+def machine_results(case: Calculation) -> dict[str, Any]:
+    """The object of a machine, an entry a position."""
+    analysis = case.analysis
+    signs = {f"{dyad.links[0]}{dyad.links[1]}": dyad.sign for dyad in analysis.machine.linkage.dyads}
+    return results(case, [_position(analysis, k) for k in range(len(analysis.cycle_angle))], dyad_signs=signs)
+
+
+def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
+    motion, linkage = analysis.motion, analysis.machine.linkage
+    crank = isinstance(linkage.driver, Crank)
+    if not motion.reachable[k]:
+        return None
+    entry: dict[str, Any] = {
+        "number": k + 1,
+        **({"label": analysis.machine.labels[k]} if analysis.machine.labels else {}),
+        "crank_angle": float(motion.driver[k]),
+        **({} if crank else {"driver_way": float(abs(motion.driver[k] - analysis.machine.start))}),
+        "cycle_angle": float(analysis.cycle_angle[k]),
+        "points": {
+            name: {"p": pair(point.p[k]), "v": pair(point.v[k]), "a": pair(point.a[k])}
+            for name, point in motion.points.items()
+            if name not in linkage.ground
+        },
+        "links": {
+            str(number): {
+                "angle": float(motion.links[number].angle[k]),
+                "omega": float(motion.links[number].omega[k]),
+                "epsilon": float(motion.links[number].epsilon[k]),
+            }
+            for number in linkage.links
+        },
+    }
+    if not analysis.loads:
+        return entry
+    entry["loads"] = _applied(analysis, k)
+    entry["weights"] = _loads(analysis.weights, k)
+    entry["inertia"] = _loads(analysis.inertia, k)
+    if analysis.gas:
+        entry["pressures"] = {f"p{gas.piston.link}": float(gas.pressure[k]) for gas in analysis.gas.values()}
+    reactions = analysis.forces.reactions.items()
+    entry["reactions"] = {name: pair(reaction.force[k]) for name, reaction in reactions}
+    entry["reactions_in_guides"] = {
+        name: {"moment": float(reaction.moment[k]), "point": pair(reaction.point[k])}
+        for name, reaction in reactions
+        if _slides(analysis, name)
+    }
+    entry["balancing_torque" if crank else "balancing_force"] = {
+        "equilibrium": float(analysis.torque[k]),
+        "virtual_work": float(analysis.torque_by_work[k]),
+    }
+    return entry
+
+
+def _applied(analysis: Analysis, k: int) -> dict[str, Any]:
+    """Forces as [x, y]; a torque, which has no force, as it is in `weights` and `inertia`."""
+    torques = {torque.name for torque in analysis.machine.torques}
+    forces = {load.name: pair(load.force[k]) for load in analysis.applied if load.name not in torques}
+    return {**forces, **_loads(tuple(load for load in analysis.applied if load.name in torques), k)}
+
+
+def _loads(loads: tuple[Load, ...], k: int) -> Mapping[str, Any]:
+    return {
+        load.name: {"force": pair(load.force[k]), "point": pair(load.point[k]), "couple": float(load.couple[k])}
+        for load in loads
+    }
+
+
+def _slides(analysis: Analysis, name: str) -> bool:
+    """Whether a reaction acts in a prismatic joint."""
+    pair = _links(name)
+    return pair in analysis.motion.slides or pair[::-1] in analysis.motion.slides
+
+
+def _links(name: str) -> tuple[int, int]:
+    """The two links of a reaction, the acting one first."""
+    found = ids.reaction_force.read(name)
+    assert found is not None, f"{name} is no reaction"
+    one, other = ids.linked(found["joint"])
+    return int(one), int(other)
+
+
+def pair(value: complex) -> list[float] | None:
+    """[x, y], or null for a point that does not exist."""
+    if not np.isfinite(value):
+        return None
+    return [float(np.real(value)), float(np.imag(value))]
+
+
+DIGITS = 5
+MOST_DECIMALS = 4
+LEADS = ("position", "crank_angle", "driver_way")
+"""Headings that stand in every table: the position, and where the driver is."""
+MOST_COLUMNS = 7
+MM = 1e3
+WORDS = frozenset({"position", "crank_angle", "driver_way", "equilibrium", "virtual_work"})
+"""Headings that are words of a language; the others are symbols."""
+
+Row = dict[str, float | str | None]
+
+
+def print_tables(results: Mapping[str, Any], language: Language) -> None:
+    """Prints the tables of results in the form of `reportgen-results/1`, as wide as they need."""
+    from rich.console import Console
+    from rich.table import Table
+
+    # Numbers are never cut to the width of a terminal; `MOST_COLUMNS` keeps the tables within most.
+    console = Console(width=500)
+    for name, rows in tables(results["positions"]).items():
+        for headings in _split(rows[0]):
+            table = Table(title=word(name, language), title_justify="left", title_style="bold")
+            for heading in headings:
+                text = word(heading, language) if heading in WORDS else heading
+                table.add_column(text, justify="right", no_wrap=True)
+            for cells in zip(*(_column(rows, heading, language) for heading in headings), strict=True):
+                table.add_row(*cells)
+            console.print(table)
+            console.print()
+
+
+def _split(row: Row) -> list[list[str]]:
+    """Headings of the tables side by side that a row is split into, each with the position and its angle."""
+    lead, others = [heading for heading in row if heading in LEADS], [one for one in row if one not in LEADS]
+    return [[*lead, *others[at : at + MOST_COLUMNS]] for at in range(0, len(others), MOST_COLUMNS)]
+
+
+def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]]:
+    """Name of each table and its rows; positions that cannot be reached are left out."""
+    found: dict[str, list[Row]] = defaultdict(list)
+    for position in positions:
+        if position is None:
+            continue
+        lead: Row = {"position": position.get("label", str(position["number"])), **_driver(position)}
+        points, links = position["points"], position["links"]
+        rows: dict[str, Row] = {
+            "velocities": {f"v {name}": _size(point["v"]) for name, point in points.items()},
+            "accelerations": {f"a {name}": _size(point["a"]) for name, point in points.items()},
+            "links": {
+                f"{symbol}{name}": link[quantity]
+                for symbol, quantity in (("ω", "omega"), ("ε", "epsilon"))
+                for name, link in links.items()
+            },
+            "loads": {name: _size(load) for name, load in position.get("loads", {}).items()},
+            "reactions": _once({name: _size(force) for name, force in position.get("reactions", {}).items()}),
+            "torque": dict(position.get("balancing_torque", {})),
+            "force": dict(position.get("balancing_force", {})),
+        }
+        for name, row in rows.items():
+            if row:
+                found[name].append(lead | row)
+    return {name: _without_zeros(rows) for name, rows in found.items()}
+
+
+def _driver(position: Mapping[str, Any]) -> Row:
+    """The position of the driver: the angle of a crank in degrees, the way of a slider in mm; nothing without one."""
+    if "driver_way" in position:
+        return {"driver_way": position["driver_way"] * MM}
+    if "crank_angle" not in position:
+        return {}
+    return {"crank_angle": round(math.degrees(position["crank_angle"]), 6) % 360}
+
+
+def _once(reactions: Row) -> Row:
+    """Each pair R_ij, R_ji once: their sizes are the same."""
+    shown: Row = {}
+    for name, size in reactions.items():
+        if ids.reaction_force(ids.joint(*reversed(_links(name)))) not in shown:
+            shown[name] = size
+    return shown
+
+
+def _without_zeros(rows: list[Row]) -> list[Row]:
+    """The rows without the columns that are zero at every position (a slider's angular velocity)."""
+    kept = [key for key in rows[0] if any(row.get(key) for row in rows) or key in WORDS]
+    return [{key: row.get(key) for key in kept} for row in rows]
+
+
+def _size(vector: Any) -> float | None:
+    """The size of a vector [x, y]; of a reaction with further keys, that of its force."""
+    parts = vector.get("force") if isinstance(vector, Mapping) else vector
+    return None if parts is None else math.hypot(*parts)
+
+
+def _column(rows: Sequence[Row], heading: str, language: Language) -> list[str]:
+    """The column's numbers, all with the decimals that give the largest of them `DIGITS` digits."""
+    values = [row.get(heading) for row in rows]
+    numbers = [value for value in values if not (value is None or isinstance(value, str))]
+    largest = max(map(abs, numbers), default=0.0)
+    whole = all(float(value).is_integer() for value in numbers)
+    decimals = 0 if whole else min(max(significant_decimals(largest, DIGITS), 0), MOST_DECIMALS)
+
+    def cell(value: float | str | None) -> str:
+        if value is None:
+            return "–"
+        return value if isinstance(value, str) else write(value, decimals, language)
+
+    return [cell(value) for value in values]
+
+
+# --- results as files -----------------------------------------------------------------------------
+# A row a position, a column each number, under the names that the JSON has for them.
+# A number's column is the way to it in a position of `reportgen-results/1`: `points.B.v.x`, `links.2.omega`.
+
+Cell = str | float | None
+AXES = ("x", "y")
+WIDTH = 16.0
+"""Of a column, in characters."""
+
+
+def result_file(results: Mapping[str, Any], format: str) -> bytes:
+    """The bytes of results as csv, xlsx or json."""
+    if format == "json":
+        return (json.dumps(results, ensure_ascii=False, allow_nan=False, indent=1) + "\n").encode()
+    rows = result_rows(results)
+    if format == "csv":
+        return write_csv(rows)
+    name = f"{results['kind']} {results['variant']}".strip()
+    return write_xlsx(Book((Sheet(name, rows, (WIDTH,) * len(rows[0]), (1, 1)),), name))
+
+
+def result_rows(results: Mapping[str, Any]) -> list[list[Cell]]:
+    """The heads, then each position; one that cannot be reached has its number alone."""
+    rows = [
+        {"number": float(index)} if position is None else dict(_leaves(position))
+        for index, position in enumerate(results["positions"], start=1)
+    ]
+    heads = list(dict.fromkeys(head for row in rows for head, value in row.items() if value is not None))
+    return [list(heads), *([row.get(head) for head in heads] for row in rows)]
+
+
+def _leaves(value: Any, way: str = "") -> Iterator[tuple[str, Cell]]:
+    """The numbers and texts of an entry with the ways to them; a pair is a vector of the plane."""
+    match value:
+        case Mapping():
+            for name, inner in value.items():
+                yield from _leaves(inner, f"{way}.{name}" if way else str(name))
+        case list():
+            for axis, part in zip(AXES, value, strict=True):
+                yield f"{way}.{axis}", part
+        case _:
+            yield way, value

@@ -1,0 +1,477 @@
+"""The answer sheet as a workbook, and the layout that it shares with the key and with the marked sheet.
+
+The layout is found again by its words: a head row, then a row for each quantity, its id in the first column;
+a column for single values, then one for each position asked.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from itertools import groupby, pairwise
+from pathlib import Path
+from typing import Literal, get_args
+
+import numpy as np
+
+from reportgen.base import units
+from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.units import Dimension, Language, QuantityFault
+from reportgen.base.words import as_error, as_problem, load_words, search_path
+from reportgen.formula.vocabulary import KINDS, Chapter
+from reportgen.marking.key import shown_number, symbol_text, words_of
+from reportgen.marking.marks import Answer, Place, Submission
+from reportgen.report.case import Key, Role, Row
+from reportgen.workbook import Book, Cell, Entry, Page, Sheet, read
+
+NAMES = 5
+"""Columns before those of the positions: id, symbol, what it is, unit, single value."""
+HEAD = 3
+"""Rows down to the head of the columns: title, note, head."""
+
+WHAT = 48.0
+"""Width (characters) of the column that says what a row is."""
+
+Filling = Callable[[Row, int], Entry | None]
+"""What stands in the cell of a row at a position (0 for a single value); None where it has no cell."""
+
+
+def asked_positions(key: Key) -> tuple[int, ...]:
+    """The positions that any row of the sheet is asked at, in their order."""
+    return tuple(sorted({k for row in key.asked for k in row.positions if k}))
+
+
+def rows_shown(key: Key) -> tuple[Row, ...]:
+    """The rows of the sheet: what is given, what is asked, scales; formulas show their data if they are asked for."""
+    formulas = any(row.part is Chapter.formulas for row in key.asked)
+    given = (row.id for row in key.rows if row.role is Role.given and (formulas or row.part is not Chapter.formulas))
+    shown = frozenset(given)
+    return tuple(row for row in key.rows if row.positions or row.id in shown)
+
+
+def number_format(row: Row) -> str:
+    """A spreadsheet's format with the report's decimals."""
+    decimals = row.decimals
+    return "General" if decimals is None else f"0.{'0' * decimals}" if decimals > 0 else "0"
+
+
+def open_cells(key: Key) -> Mapping[str, frozenset[int]]:
+    """The positions at which each row has a cell to fill in, by id.
+
+    A cell is open also where the quantity does not exist (the direction of a velocity that is zero) but
+    others of its part are asked for, so that the sheet does not give it away.
+    """
+    of_part: dict[Chapter, set[int]] = {}
+    for row in key.asked:
+        of_part.setdefault(row.part, set()).update(row.positions)
+    return {
+        row.id: frozenset(row.positions)
+        | {k for k in of_part[row.part] if k and not row.single and np.isnan(row.values[row.at(k)])}
+        for row in key.asked
+    }
+
+
+def given_entry(row: Row, position: int) -> Entry | None:
+    """A given value as the sheet shows it filled in; None where there is none."""
+    if row.role is not Role.given or not row.has(position):
+        return None
+    value = float(row.values[row.at(position)])
+    return Entry(shown_number(row, value).shown, format=number_format(row)) if value == value else None
+
+
+def grid(
+    key: Key,
+    title: str,
+    note: str,
+    filling: Filling,
+    rows: Sequence[Row],
+    positions: Sequence[int],
+    tail_head: Sequence[str] = (),
+    tail: Callable[[Row], Sequence[Entry]] | None = None,
+) -> tuple[tuple[Entry, ...], ...]:
+    """The rows of a page in the sheet's layout; `tail` are further cells behind each row, under `tail_head`."""
+    words = words_of(key)
+    sheet, parts = words["answer_sheet"], words["parts"]
+    heads = (
+        *(sheet[name] for name in ("id", "symbol", "what", "unit", "value")),
+        *(sheet["position"].format(label=key.label(k)) for k in positions),
+        *tail_head,
+    )
+    lines: list[tuple[Entry, ...]] = [
+        (Entry(f"{title} – {key.id}", "title"),),
+        (Entry(note, "note"),),
+        tuple(Entry(head, "head") for head in heads),
+    ]
+    for part, members in groupby(rows, lambda row: row.part):
+        lines.append((Entry(), Entry(str(parts[part]), "bold")))
+        for row in members:
+            cells = (filling(row, k) or Entry(None, "unasked") for k in (0, *positions))
+            what = Entry(row.described)
+            names = (Entry(row.id, "note"), Entry(symbol_text(row, key)), what, Entry(row.unit))
+            lines.append((*names, *cells, *(tail(row) if tail else ())))
+    return tuple(lines)
+
+
+def page(name: str, rows: Sequence[Sequence[Entry]], by_section: bool = False) -> Sheet:
+    """A protected page in the sheet's layout, printed with each section on pages of its own if that is asked for."""
+    columns = len(rows[HEAD - 1])
+    longest = max((len(str(row[0].value or "")) for row in rows[HEAD:]), default=0)
+    widths = (max(longest + 1.0, 11.0), 11.0, WHAT, 13.0, *(12.0,) * (columns - NAMES + 1))
+    # A section begins with its name in bold, behind an empty id.
+    begins = [number for number, row in enumerate(rows[HEAD:], start=HEAD) if len(row) == 2 and row[1].style == "bold"]
+    return Sheet(name, rows, widths, (HEAD, NAMES - 1), protected=True, breaks=begins[1:] if by_section else ())
+
+
+def info_rows(key: Key) -> tuple[tuple[str, str], ...]:
+    """What names a sheet: label and text of assignment, machine, variant, student."""
+    labels = words_of(key)["answer_sheet"]
+    student = key.student
+    return (
+        (labels["assignment"], key.id),
+        (labels["kind"], key.kind),
+        (labels["variant"], key.variant),
+        (labels["name"], student.get("name", "")),
+        (labels["number"], student.get("id", "")),
+        (labels["class"], student.get("class", "")),
+    )
+
+
+def info_page(key: Key) -> Sheet:
+    """The page that names assignment and student."""
+    rows = tuple((Entry(label, "bold"), Entry(text)) for label, text in info_rows(key))
+    return Sheet(words_of(key)["answer_sheet"]["info"], rows, (24.0, 44.0), protected=True)
+
+
+def answer_book(key: Key, by_section: bool = False) -> Book:
+    """The empty sheet as a workbook: given values filled in, cells to fill in unlocked, the rest protected."""
+    sheet, cells = words_of(key)["answer_sheet"], open_cells(key)
+
+    def filling(row: Row, position: int) -> Entry | None:
+        if position in cells.get(row.id, ()):
+            return Entry(None, "input", unlocked=True)
+        return given_entry(row, position)
+
+    rows = grid(key, sheet["title"], sheet["note"], filling, rows_shown(key), asked_positions(key))
+    return Book((page(sheet["answers"], rows, by_section), info_page(key)), f"{sheet['title']} {key.id}")
+
+
+# --- a student's file → `Submission`: the sheet found by its words --------------------------------
+# Its values by quantity and position.
+# Rows and columns may have been moved, sorted or left out: a value's place is given by the id at the head of its row
+# and the label at the head of its column, in either language. Numbers may be written as students write them: with a
+# decimal comma or point, thousands apart, powers of ten, a unit behind.
+
+DecimalMark = Literal[".", ","]
+
+HEAD_WITHIN = 60
+"""Rows among which the head of a sheet is looked for."""
+_UNREADABLE = {"date": "cell-date", "error": "cell-error", "boolean": "cell-boolean"}
+
+
+def read_submission(
+    path: Path,
+    key_of: Callable[[str], Key] | Key,
+    language: Language | None = None,
+    pages: Sequence[Page] | None = None,
+) -> Submission:
+    """The answer sheet of a file, or of its `pages` where they have been read, by the key of its assignment.
+
+    The assignment is the one that its page of information names, or its title, or else the file's stem.
+    `key_of` finds a key by the name that the sheet gives, which may be any text, and raises `KeyError` if
+    there is none.  Raises `AssignmentError`, worded in `language`, if the file cannot be read, is no
+    answer sheet or belongs to another assignment or machine.
+    """
+    pages = read(path, language) if pages is None else pages
+    found = _sheet(pages)
+    if found is None:
+        raise as_error([Fault("sheet-no-head", Mark(str(path)))], language)
+    named = _beside(pages, "assignment") or _titled(found[0].rows[: found[1]])
+    name, mark = named or (path.stem, Mark(str(path)))
+    if isinstance(key_of, Key):
+        key = key_of
+        if named and name != key.id:
+            raise as_error([Fault("sheet-of-another", mark, {"text": name, "wanted": key.id})], language)
+    else:
+        try:
+            key = key_of(name)
+        except KeyError:
+            raise as_error([Fault("sheet-unknown", mark, {"text": name})], language) from None
+    kind = _beside(pages, "kind")
+    if kind and kind[0] != key.kind:
+        about = {"text": f"{name} ({kind[0]})", "wanted": f"{key.id} ({key.kind})"}
+        raise as_error([Fault("sheet-of-another", kind[1], about)], language)
+    reading = _Reading(key, language)
+    reading.sheet(*found)
+    return Submission(
+        key.id, str(path), reading.values, reading.problems, tuple(reading.notes), frozenset(reading.rows)
+    )
+
+
+# --- finding the sheet ----------------------------------------------------------------------------
+
+
+@cache
+def _words(name: str) -> frozenset[str]:
+    """A word of the answer sheet in every language."""
+    sheets = (load_words(search_path(language))["answer_sheet"] for language in get_args(Language))
+    return frozenset(str(words[name]).casefold() for words in sheets)
+
+
+def _says(cell: Cell, name: str) -> bool:
+    return cell.text.strip().rstrip(":").casefold() in _words(name)
+
+
+def _sheet(pages: Sequence[Page]) -> tuple[Page, int] | None:
+    """The page of the answers and the index of its head row: the page so called, else the first that has a head."""
+    called = [page for page in pages if page.name.strip().casefold() in _words("answers")]
+    for page in (*called, *pages):
+        for number, row in enumerate(page.rows[:HEAD_WITHIN]):
+            # The head names more than the id: a lone cell could be anything.
+            if any(_says(cell, "id") for cell in row) and any(_says(cell, "value") for cell in row):
+                return page, number
+    return None
+
+
+def _beside(pages: Sequence[Page], label: str) -> tuple[str, Mark] | None:
+    """What stands beside a label such as that of the assignment, if anything does."""
+    for page in pages:
+        for row in page.rows:
+            for one, cell in pairwise(row):
+                if _says(one, label) and cell.text.strip():
+                    return cell.text.strip(), cell.mark
+    return None
+
+
+def _titled(rows: Sequence[Sequence[Cell]]) -> tuple[str, Mark] | None:
+    """The assignment that the title of the sheet ends with; it is all that is left of a page saved as CSV."""
+    for cell in (cell for row in rows for cell in row):
+        title, dash, name = cell.text.partition("–")
+        if dash and title.strip().casefold() in _words("title") and name.strip():
+            return name.strip(), cell.mark
+    return None
+
+
+# --- reading it -----------------------------------------------------------------------------------
+
+
+@dataclass
+class _Reading:
+    """What is found in one sheet."""
+
+    key: Key
+    language: Language | None
+    values: dict[Place, Answer] = field(default_factory=dict)
+    problems: dict[Place, Problem] = field(default_factory=dict)
+    notes: list[Problem] = field(default_factory=list)
+    rows: set[str] = field(default_factory=set)
+
+    def sheet(self, page: Page, head: int) -> None:
+        """Read all rows below the head."""
+        columns = self.columns(page.rows[head])
+        at = next(number for number, cell in enumerate(page.rows[head]) if _says(cell, "id"))
+        found: dict[Place, Cell] = {}
+        for place, cell in self.cells(page.rows[head + 1 :], at, columns):
+            if place not in found:
+                found[place] = cell
+            elif found[place].text.strip() != cell.text.strip():
+                first = str(found[place].mark).removeprefix(f"{cell.mark.file}:")
+                self.problem(place, Fault("cell-repeated", cell.mark, {"first": first}))
+        texts = (cell.text for cell in found.values() if isinstance(cell.value, str))
+        mark, agreed = decimal_mark(texts, self.key.language)
+        for place, cell in found.items():
+            if place not in self.problems:
+                self.value(place, cell, mark, agreed)
+
+    def columns(self, head: Sequence[Cell]) -> dict[int, int]:
+        """Positions (0 for single values) by the indices of their columns."""
+        labels = {label.casefold(): k for k, label in enumerate(self.key.labels, start=1)}
+        columns: dict[int, int] = {}
+        for number, cell in enumerate(head):
+            if _says(cell, "value"):
+                columns[number] = 0
+            elif (label := _label(cell.text)) is not None:
+                if label in labels:
+                    columns[number] = labels[label]
+                else:
+                    self.note(Fault("cell-no-position", cell.mark, {"text": cell.text}))
+        return columns
+
+    def cells(
+        self, rows: Sequence[Sequence[Cell]], at: int, columns: Mapping[int, int]
+    ) -> Iterator[tuple[Place, Cell]]:
+        """The cells with an answer, each with its place; what is not asked for is left out."""
+        asked = {row.id: row for row in self.key.asked}
+        known = {row.id for row in self.key.rows}
+        for cells in rows:
+            id = cells[at].text.strip() if at < len(cells) else ""
+            answers = [(columns[n], cell) for n, cell in enumerate(cells) if n in columns and not _is_empty(cell)]
+            if id in asked:
+                self.rows.add(id)
+                yield from (((id, k), cell) for k, cell in answers if k in asked[id].positions)
+            elif answers and id not in known:
+                mark = cells[at].mark if id else answers[0][1].mark
+                self.note(Fault("cell-unknown-row" if id else "cell-no-row", mark, {"text": id}))
+
+    def value(self, place: Place, cell: Cell, mark: DecimalMark, agreed: bool) -> None:
+        """Read one cell: a number, or a problem at its place."""
+        row = self.key.row(place[0])
+        if cell.kind in _UNREADABLE:
+            return self.problem(place, Fault(_UNREADABLE[cell.kind], cell.mark, {"text": cell.text}))
+        if cell.value is None:
+            return self.problem(place, Fault("cell-formula", cell.mark, {"text": cell.formula}))
+        if cell.kind == "formula":
+            self.note(Fault("cell-formula-used", cell.mark, {"text": cell.text}))
+        if isinstance(cell.value, float):
+            self.values[place] = Answer(cell.value, cell.text, cell.mark)
+            return None
+        try:
+            number, doubtful = read_number(cell.value, KINDS[row.kind].unit, mark, agreed)
+        except QuantityFault as fault:
+            # The unit is named as the sheet prints it.
+            arguments = fault.arguments | ({"unit": row.unit} if "unit" in fault.arguments else {})
+            return self.problem(place, Fault(fault.code, cell.mark, arguments))
+        if doubtful:
+            self.note(Fault("cell-thousands", cell.mark, {"text": cell.text, "read": f"{number:g}"}))
+        self.values[place] = Answer(number, cell.text, cell.mark)
+        return None
+
+    def problem(self, place: Place, fault: Fault) -> None:
+        self.problems[place] = as_problem(fault, self.language)
+
+    def note(self, fault: Fault) -> None:
+        self.notes.append(as_problem(fault, self.language))
+
+
+def _is_empty(cell: Cell) -> bool:
+    return cell.kind == "empty" or (isinstance(cell.value, str) and is_blank(cell.value))
+
+
+def _label(text: str) -> str | None:
+    """The label of a position in the head of a column, with the word for it or bare; None for another column."""
+    plain = text.strip().casefold()
+    for word in _words("position") | _words("at"):
+        match = re.fullmatch(re.escape(word).replace(r"\{label\}", "(.+)"), plain)
+        if match:
+            return match[1].strip()
+    return plain if re.fullmatch(r"[0-9]+[a-z′']*|[a-z]′?", plain) else None
+
+
+# --- numbers as students write them ---------------------------------------------------------------
+
+BLANKS = frozenset({"", "-", "–", "—", "−", "…", "...", "?", "/"})
+"""What a cell without an answer holds."""
+LONGEST = 60
+"""Characters of a number."""
+
+_SPACES = re.compile(r"[\s\u00a0\u2007\u2009\u202f]+")
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺−", "0123456789-+-")
+_RAISED_POWER = re.compile(r"(?<![0-9])10([⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
+_POWER = re.compile(r"(?:(?<=[0-9])\s*[x×·⋅*.]\s*|^([+-]?))10\s*\^\s*\(?\s*([+-]?[0-9]{1,3})\s*\)?", re.IGNORECASE)
+_NUMBER = re.compile(
+    r"(?P<sign>[+-]?)\s*(?P<body>[0-9]+(?:[ '][0-9]{3}(?![0-9])|[.,][0-9]+)*[.,]?|[.,][0-9]+)"
+    r"(?:[eE](?P<power>[+-]?[0-9]{1,3}))?(?P<unit>\s*[^\s0-9].*|\s+1/.*)?"
+)
+_JOINED = re.compile(r"(?<![A-Za-z])(k?N|kg)(?=[mc]?m)")
+SPELLED = {
+    "độ": "deg",
+    **dict.fromkeys(("vg/ph", "v/ph", "vg/phút", "vòng/phút", "r/min", "rev/min"), "rpm"),
+    "1/s": "s-1",
+    **dict.fromkeys(("1/s2", "1/s²", "1/s^2"), "s-2"),
+}
+"""Units that students write and `units` does not know."""
+
+
+def is_blank(text: str) -> bool:
+    """Whether a cell's text says that there is no answer."""
+    return text.strip() in BLANKS
+
+
+def decimal_mark(texts: Iterable[str], language: Language) -> tuple[DecimalMark, bool]:
+    """The decimal mark that a sheet's texts agree on, and whether they do; else that of the language."""
+    found: set[DecimalMark] = set()
+    for text in texts:
+        match = _matched(text)
+        marks = re.findall("[.,]", match["body"]) if match else []
+        if match and len(marks) == 1 and not _plain(match["body"], ".", text)[2]:
+            found.add("." if marks == ["."] else ",")
+    if len(found) == 1:
+        return found.pop(), True
+    return ("," if language == "vi" else "."), False
+
+
+def read_number(text: str, unit: str, mark: DecimalMark, agreed: bool = False) -> tuple[float, bool]:
+    """A cell's number in `unit` ("" for a pure number), and whether it is doubtful.
+
+    `mark` decides what 1.234 means where the text itself does not; that is doubtful unless the whole sheet
+    `agreed` on the mark.  Raises `QuantityFault` (not-a-number, not-finite, unexpected-, unknown-, wrong-unit).
+    """
+    match = _matched(text)
+    if match is None:
+        raise QuantityFault("not-a-number", text=text)
+    plain, thousands, open_question = _plain(match["body"], mark, text)
+    value = float(f"{match['sign']}{plain}e{match['power'] or 0}")
+    given = (match["unit"] or "").strip()
+    if given:
+        value *= _factor(given, unit, text)
+    if not math.isfinite(value):
+        raise QuantityFault("not-finite", text=text)
+    return value, open_question and (thousands or not agreed)
+
+
+def _matched(text: str) -> re.Match[str] | None:
+    return _NUMBER.fullmatch(_tidy(text)) if len(text) <= LONGEST else None
+
+
+def _tidy(text: str) -> str:
+    """One kind of blank, minus and power of ten: 1,2·10³ becomes 1,2e3."""
+    result = _SPACES.sub(" ", text).strip().lstrip("≈~= ")
+    result = re.sub(r"^[−–—]", "-", result)
+    result = _RAISED_POWER.sub(lambda match: f"10^{match[1].translate(_RAISED)}", result)
+    result = re.sub(r"\^\s*\(?\s*−", "^-", result)
+    return _POWER.sub(lambda match: f"{'' if match[1] is None else match[1] + '1'}e{match[2]}", result)
+
+
+def _plain(body: str, mark: DecimalMark, text: str) -> tuple[str, bool, bool]:
+    """The digits with a decimal point; whether thousands were parted; whether `mark` had to decide it."""
+    joined = body.replace(" ", "").replace("'", "")
+    marks = re.findall("[.,]", joined)
+    whole, *rest = re.split("[.,]", joined)
+    if not marks:
+        return joined, False, False
+    grouped = 1 <= len(whole) <= 3 and all(len(part) == 3 for part in rest[:-1])
+    if len(set(marks)) == 2:
+        # The last mark is the decimal one: 1.234,5 or 1,234.5.
+        if len(set(marks[:-1])) > 1 or marks[-1] in marks[:-1] or not grouped:
+            raise QuantityFault("not-a-number", text=text)
+        return f"{whole}{''.join(rest[:-1])}.{rest[-1] or 0}", True, False
+    if len(marks) > 1:
+        if not grouped or len(rest[-1]) != 3:
+            raise QuantityFault("not-a-number", text=text)
+        return whole + "".join(rest), True, False
+    fits = grouped and len(rest[0]) == 3 and not whole.startswith("0") and joined == body
+    if fits and marks[0] != mark:
+        return whole + rest[0], True, True
+    return f"{whole or 0}.{rest[0] or 0}", False, fits
+
+
+def _factor(given: str, unit: str, text: str) -> float:
+    """What one of the unit given is in the unit asked for."""
+    if not unit:
+        raise QuantityFault("unexpected-unit", text=text)
+    spelled = SPELLED.get(given.casefold(), _JOINED.sub(r"\1 ", given).replace("º", "°"))
+    try:
+        factor, dimension = units.scale(spelled)
+    except ValueError:
+        raise QuantityFault("unknown-unit", given=given, unit=unit) from None
+    wanted_factor, wanted = units.scale(unit)
+    if dimension not in (wanted, _without_radian(wanted)):
+        raise QuantityFault("wrong-unit", given=given, unit=unit)
+    return factor / wanted_factor
+
+
+def _without_radian(dimension: Dimension) -> Dimension:
+    """1/s is commonly written for rad/s; nothing but a bare number would be left of an angle."""
+    return tuple(power for power in dimension if power[0] != "radian") or dimension

@@ -1,0 +1,286 @@
+"""A student's values laid over the ledger of an assignment."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from reportgen.formula import ids, vocabulary
+from reportgen.formula.ledger import follow
+from reportgen.marking.bands import half_unit
+from reportgen.marking.marks import Guide, Place, Submission, Values, makes_scale
+from reportgen.report.case import Role, Row
+
+Change = Callable[[np.ndarray, Values], np.ndarray]
+"""A quantity's value (SI) from what it comes to and all values before it."""
+
+LEAST_FIGURES = 3
+"""Figures that a number has been written with, though noughts at its end do not show them."""
+
+
+@dataclass(frozen=True)
+class Working:
+    """The values of a sheet in SI, [N] or [1], NaN where none is given, by id of the row.
+
+    Lengths on paper are turned to the report's scales: the same vector, drawn at another μ.  `scales`
+    are those of the plans as they were drawn, by id, in SI, `shown` where the sheet leaves no doubt of them; `bands`
+    are the tolerances of such drawings.
+    """
+
+    guide: Guide
+    submission: Submission
+    values: Values
+    scales: Values
+    shown: Values
+
+    @cached_property
+    def _units(self) -> dict[str, np.ndarray]:
+        """What `unit` has been asked for."""
+        return {}
+
+    @cached_property
+    def factors(self) -> dict[str, np.ndarray]:
+        """The scales as multiples of the report's, [N] or [1]."""
+        return {id: scale / self.guide.ledger[id].values for id, scale in self.scales.items()}
+
+    @cached_property
+    def bands(self) -> Mapping[str, np.ndarray]:
+        """The tolerances (SI) [N] of every row, at the student's own scales."""
+        # Nobody gets wider tolerances by a scale that nothing was drawn at.
+        factors = {id: np.where(self.shown[id], one, np.minimum(one, 1.0)) for id, one in self.factors.items()}
+        other = {id: factor for id, factor in factors.items() if (np.abs(factor - 1) > CONFIRMED).any()}
+        return self.guide.bands_at(other) if other else self.guide.bands
+
+    def unit(self, id: str) -> np.ndarray:
+        """What one printed unit of a quantity stands for in `values` [N]: lengths as drawn at the student's scale."""
+        if id not in self._units:
+            family = self.guide.ledger[id]
+            unit = family.how.scale * self.factors.get(vocabulary.plan(id), 1.0) / self.factors.get(id, 1.0)
+            self._units[id] = np.broadcast_to(unit, family.values.shape)
+        return self._units[id]
+
+    def own_values(
+        self, blank_from_key: bool = False, changes: Mapping[str, Change] | None = None
+    ) -> dict[str, np.ndarray]:
+        """What every judged quantity comes to from the student's own earlier values.
+
+        A blank one on the way is replaced by the key's, or else follows like the rest.  `changes` are
+        made to quantities that the sheet does not show.
+        """
+        return self._followed(blank_from_key, changes or {})[0]
+
+    @cached_property
+    def world(self) -> dict[str, np.ndarray]:
+        """All values as the student has them: entered, or following from these; the key's where a cell is blank."""
+        return self._followed(True, {})[1]
+
+    def _followed(
+        self, blank_from_key: bool, unseen: Mapping[str, Change]
+    ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+        ledger = self.guide.ledger
+        result: dict[str, np.ndarray] = {}
+
+        def entered(id: str) -> Change:
+            def change(computed: np.ndarray, values: Values) -> np.ndarray:
+                computed = unseen[id](computed, values) if id in unseen else computed
+                known = ledger[id].values
+                result[id] = np.broadcast_to(computed, known.shape)
+                return self.entered_values(id, computed, known if blank_from_key else computed)
+
+            return change
+
+        values = follow(ledger, {**unseen, **{id: entered(id) for id in self.entered_ids}})
+        return result, values
+
+    def also(self, row: Row, position: int) -> list[float]:
+        """What a quantity may be taken to be as well: another like it, or what another way of drawing gives.
+
+        Whoever takes a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was.  On the lever M = F h′ μ_l
+        where pa is the drawn crank, though the report has μ_v/ω₁ for a plan at another scale.
+        """
+        ledger, index = self.guide.ledger, row.at(position)
+        found = [float(self.values[other][index].real) for other in self.guide.alike[row.id] if other in self.values]
+        if row.role is Role.scale and row.id in self.guide.makers:
+            size, length = self.guide.makers[row.id]
+            if size in self.values and self.values.get(length, np.zeros(1))[0]:
+                found.append(float(self.values[size][0] / self.values[length][0]))
+        found += self._by_length_scale(row, index)
+        return [one for one in found if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)]
+
+    def _by_length_scale(self, row: Row, index: int) -> list[float]:
+        """The moment of a load on the lever by its drawn arm and μ_l as it is written down."""
+        found = ids.lever_moment.read(row.id)
+        if found is None:
+            return []
+        load, arm = found["force"], ids.lever_arm(found["force"])
+        if not {arm, "mu.l"} <= self.values.keys():
+            return []
+        drawn = self.world[arm] / self.factors.get("mu.v", np.ones(1))
+        return [float((self.world[load] * drawn)[index].real) * self._stated("mu.l")] if load in self.world else []
+
+    def _stated(self, scale: str) -> float:
+        """A scale (SI) as it is written down, right or not."""
+        return float(self.values[scale][0] * self.factors.get(scale, np.ones(1))[0])
+
+    def _is_right(self, row: Row, known: float, value: float) -> bool:
+        return bool(np.isclose(known, value, rtol=1e-9))
+
+    def unrounded(self, right: Container[Place]) -> Working:
+        """The same with the key's value at every place where the student's is right."""
+        ledger = self.guide.ledger
+        values = dict(self.values)
+        for row in self.guide.judged:
+            if row.id in values:
+                kept = [self.guide.place(row, k + 1) for k in range(len(values[row.id]))]
+                known = np.array([(row.id, position) in right for position in kept])
+                values[row.id] = np.where(known, ledger[row.id].values.real, values[row.id])
+        return replace(self, values=values)
+
+    def shows(self, id: str) -> bool:
+        """Whether the sheet has a value of a quantity at any position."""
+        return id in self.values or self.guide.ledger.signed.get(id) in self.values
+
+    @cached_property
+    def entered_ids(self) -> tuple[str, ...]:
+        """Ids of the ledger that hold a value of the student's or are judged, sizes of signed rotations too."""
+        judged = [row.id for row in self.guide.judged]
+        return tuple(dict.fromkeys([*judged, *map(self.guide.ledger.size_of, judged), *self.values]))
+
+    def entered_values(self, id: str, computed: np.ndarray, blank: np.ndarray) -> np.ndarray:
+        """The student's values of a quantity, `blank` where there are none; the computed sign where none is judged."""
+        given = self.values.get(id)
+        if given is None:
+            signed = self.values.get(self.guide.ledger.signed.get(id, ""))
+            if signed is None:
+                return blank
+            given = np.abs(signed)
+        elif self.guide.is_unsigned(id):
+            given = np.abs(given) * np.where(computed < 0, -1.0, 1.0)
+        return np.where(np.isnan(given), blank, given)
+
+
+@lru_cache(maxsize=65536)
+def last_half_unit(value: float) -> float:
+    """Half a unit of the last figure of a number as it was written, with three figures at least."""
+    written = f"{abs(value):.11e}".partition("e")[0].replace(".", "").rstrip("0")
+    return float(half_unit(np.array([value]), max(LEAST_FIGURES, len(written)))[0])
+
+
+def lay_out(guide: Guide, submission: Submission) -> Working:
+    """The working of a submission, with every plan read as it was drawn.
+
+    The scale of a plan is what its first length stands for (μ = v_A/pa), the one written down, or the
+    report's: the one that another confirms, or that makes most of the plan right.  A scale written down that
+    is not the plan's own is a wrong value like any other.
+    """
+    values = {row.id: _column(guide, row, submission) for row in guide.key.asked}
+    values = {id: column for id, column in values.items() if not np.isnan(column).all()}
+    asked = [row.id for row in guide.key.asked if row.role is Role.scale and row.kind != "segment"]
+    scales: dict[str, np.ndarray] = {}
+    shown: dict[str, np.ndarray] = {}
+    for scale in asked:
+        usual = guide.ledger[scale].values
+        plan = [id for id in values if vocabulary.plan(id) == scale]
+        first = next((id for id in plan if makes_scale(guide.ledger, id, scale)), None)
+        stated = values.get(scale, np.full(len(usual), np.nan))
+        factor, shown[scale] = np.ones(len(usual)), np.zeros(len(usual), dtype=bool)
+        for place in range(len(usual)):
+            # A scale for all positions is judged by all lengths, a position's own by those of its plan.
+            own = slice(None) if len(usual) == 1 else slice(place, place + 1)
+            tried = [float(one) for one in (stated[place] / usual[place], 1.0)]
+            if (found := in_use(guide, values, scale, own, float(stated[place]))) is not None:
+                tried.insert(0, float(found / usual[place]))
+            if first is not None:
+                with np.errstate(divide="ignore"):
+                    tried.insert(0, float(guide.ledger[first].values[0] / values[first][0]))
+            plan_of_place = [id for id in plan if id != first]
+            factor[place], shown[scale][place] = drawn_at(guide, values, plan_of_place, tried, own)
+        scales[scale] = factor * usual
+        values |= {id: values[id] * factor for id in plan}
+        if scale in values:
+            values[scale] = stated / factor
+    return Working(guide, submission, values, scales, shown)
+
+
+def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:
+    """A row's values in SI; those of the first turn hold for every turn where all turns are the same."""
+    column = np.full(len(row.values), np.nan)
+    scale = guide.ledger[row.id].how.scale
+    for position in row.positions:
+        given = submission.values.get((row.id, position))
+        if given is None:
+            continue
+        places = range(position - 1, len(column), guide.count) if guide.repeats(row) else [row.at(position)]
+        column[list(places)] = given.value * scale
+    return column
+
+
+# --- at which scale a student drew a plan ---------------------------------------------------------
+# What was read from it tells, a scale written down, or the report's.
+# A length stands for a quantity at a scale that is the student's own choice; only sizes over lengths can be judged.
+
+LARGEST_SCALE = 1e6
+"""A student's own scale that differs more than this from the report's is no scale."""
+
+MANY = 3
+"""So many forces over their lengths show the scale that a plan was drawn at."""
+
+READ_TO = 0.05e-3
+"""Half of the last figure of a length on paper (m), which is read to a tenth of a millimetre."""
+
+CONFIRMED = 0.02
+"""Two scales nearer than this are one: a millimetre in the length of a drawn crank."""
+
+
+def in_use(guide: Guide, values: Values, scale: str, place: slice, stated: float) -> float | None:
+    """The scale (SI) that a plan was drawn at by what was read from it: most sizes over their lengths, if these agree.
+
+    Only a scale that is chosen freely shows so; `place` is the part of the columns that is drawn at it.  Where they
+    agree with the one that is `stated`, few are enough: the plan of a crank has two lengths.
+    """
+    if guide.ledger[scale].definition is not None or scale == "mu.l":
+        return None
+    found: list[np.ndarray] = []
+    for length in (id for id in values if vocabulary.plan(id) == scale):
+        for size in guide.sizes[length] & values.keys():
+            with np.errstate(all="ignore"):
+                # A short length may be rounded by more than scales differ.
+                rounding = READ_TO / np.abs(values[length])
+                found.append(np.array([np.abs(values[size] / values[length]), rounding])[:, place])
+    ratios, rounding = np.concatenate(found, axis=1) if found else np.zeros((2, 0))
+    known = np.isfinite(ratios) & (ratios > 0)
+    ratios, rounding = ratios[known], rounding[known]
+    if not ratios.size:
+        return None
+    middle = float(np.median(ratios))
+    if (np.abs(ratios / stated - 1) < CONFIRMED + rounding).mean() > 1 / 2:
+        return stated
+    agree = np.abs(ratios / middle - 1) < CONFIRMED
+    return middle if agree.sum() >= MANY and agree.mean() > 1 / 2 else None
+
+
+def drawn_at(
+    guide: Guide, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice
+) -> tuple[float, bool]:
+    """The scale of a plan over the report's: of those `tried` the first that another confirms, else the best.
+
+    Only the lengths of the plan at a `place` of their columns count.  The second is whether the scale is shown: by
+    another, or by half of the lengths.
+    """
+
+    def right(factor: float) -> int:
+        """How many lengths of the plan are right at that scale."""
+        return sum(
+            int((np.abs(np.abs(values[id]) * factor - np.abs(guide.ledger[id].values)) <= guide.bands[id])[place].sum())
+            for id in plan
+        )
+
+    possible = [one for one in tried if np.isfinite(one) and 1 / LARGEST_SCALE < one < LARGEST_SCALE]
+    first, *others = possible
+    if any(abs(first / other - 1) < CONFIRMED for other in others):
+        return first, True
+    best = max(possible, key=right)
+    return best, 2 * right(best) >= sum(int(np.isfinite(values[id][place]).sum()) for id in plan)

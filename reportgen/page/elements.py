@@ -1,0 +1,430 @@
+"""Scene → inline SVG whose unit is the millimetre, so that a print at 100 % is true to scale.
+
+Pens are classes, defined once for the whole page in its style sheet: colours there follow light and dark.  Labels
+are text, set in the reader's fonts at the places that the report's fonts would take.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from html import escape as escaped
+from itertools import groupby
+
+from reportgen.base.units import Language
+from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene, Stroke, style
+from reportgen.drawing.geometry import POINT, SCRIPT, box, frame
+from reportgen.drawing.style import Bezier, Triangle, arc_with_head, arrow_head, clip_hatch, decimal
+from reportgen.formula import Expression, Sum, Symbol, VectorEquation, setting
+from reportgen.formula.setting import (
+    EQUALS,
+    NARROW,
+    NEGATIVE,
+    PRIMES,
+    Fence,
+    Role,
+    Row,
+    Sign,
+    Source,
+    Written,
+    columns,
+    displayed,
+    is_tall,
+    laid,
+    parted,
+    pieces,
+    sides,
+)
+from reportgen.formula.vocabulary import numbered, runs
+
+COLOURS = {
+    style.BLACK: "ink",
+    style.GRAY: "gray",
+    style.PALE: "pale",
+    style.BLUE: "blue",
+    style.RED: "red",
+    style.PAPER: "paper",
+    style.TINT: "tint",
+}
+"""The colours of figures by the names that the style sheet has for them; any other stays as it is."""
+SUB, SUPER = 0.2, -0.38
+"""Where the base lines of indices lie below and above that of their letter, in font sizes."""
+OVER = 0.09
+"""How far an arrow or a bar is above a letter, in font sizes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """Letters of one label that look alike: italic or not, their size and their base line's drop in font sizes.
+
+    They stand so far `back` from the end of those before them, in their own font size.
+    """
+
+    text: str
+    italic: bool = False
+    size: float = 1.0
+    drop: float = 0.0
+    back: float = 0.0
+
+
+class Pens:
+    """The classes of pens and fills, in the order in which drawings first use them; all begin with the same letter."""
+
+    def __init__(self, letter: str = "p") -> None:
+        self._letter = letter
+        self._names: dict[tuple[Stroke | None, str | None], str] = {}
+        self._sizes: dict[float, str] = {}
+
+    def name(self, stroke: Stroke | None, fill: str | None = None) -> str:
+        """The class of a pen with a fill."""
+        return self._names.setdefault((stroke, fill), f"{self._letter}{len(self._names)}")
+
+    def size(self, points: float) -> str:
+        """The class of a font size."""
+        return self._sizes.setdefault(points, f"{self._letter}s{len(self._sizes)}")
+
+    def rules(self) -> str:
+        """The style sheet's rules for all of them."""
+        lines = []
+        for (stroke, fill), name in self._names.items():
+            parts = [f"fill:{_colour(fill)}"]
+            if stroke is not None:
+                parts += [f"stroke:{_colour(stroke.colour)}", f"stroke-width:{decimal(stroke.width)}"]
+                if stroke.dash:
+                    parts.append(f"stroke-dasharray:{' '.join(map(decimal, stroke.dash))}")
+            lines.append(f".{name}{{{';'.join(parts)}}}")
+        lines += [f".{name}{{font-size:{decimal(points * POINT)}px}}" for points, name in self._sizes.items()]
+        return "\n".join(lines)
+
+
+def _colour(colour: str | None) -> str:
+    if colour is None:
+        return "none"
+    return f"var(--{COLOURS[colour]})" if colour in COLOURS else colour
+
+
+class Painter:
+    """Draws scenes in one language with the pens of one page."""
+
+    def __init__(self, language: Language, pens: Pens) -> None:
+        self.language: Language = language
+        self.pens = pens
+
+    def scene(self, scene: Scene, name: str) -> str:
+        """A drawing in true size; `name` is what a reader who does not see it is told."""
+        width, height = decimal(scene.width), decimal(scene.height)
+        body = self.items(scene.items, scene.height)
+        return (
+            f'<svg class="scene" role="img" aria-label="{escape(name)}" width="{width}mm" height="{height}mm" '
+            f'viewBox="0 0 {width} {height}">{body}</svg>'
+        )
+
+    def items(self, items: Iterable[Item], height: float = 0.0) -> str:
+        """The elements of items, y turned over about the `height` of their sheet."""
+        found = []
+        shapes = (shape for item in items for shape in self._shapes(item, height))
+        for (name, joins), group in groupby(shapes, key=lambda shape: shape[:2]):
+            bodies = [body for _, _, body in group]
+            found.append(f'<path class="{name}" d="{"".join(bodies)}"/>' if joins else "".join(bodies))
+        return "".join(found)
+
+    def _shapes(self, item: Item, height: float) -> Iterator[tuple[str, bool, str]]:
+        """(class, whether it is a path's data, the data or the element) of what an item is drawn with."""
+
+        def at(point: complex) -> str:
+            return f"{decimal(point.real)} {decimal(height - point.imag)}"
+
+        def path(points: Sequence[complex], end: str = "") -> str:
+            return "M" + "L".join(map(at, points)) + end
+
+        def head(triangle: Triangle | None, stroke: Stroke) -> Iterator[tuple[str, bool, str]]:
+            if triangle:
+                yield self.pens.name(None, stroke.colour), True, path(triangle, "Z")
+
+        def curve(pieces: Sequence[Bezier]) -> str:
+            return f"M{at(pieces[0][0])}" + "".join(f"C{at(b)} {at(c)} {at(d)}" for _, b, c, d in pieces)
+
+        match item:
+            case Line(start, end, stroke):
+                yield self.pens.name(stroke), True, path((start, end))
+            case Arrow(start, end, stroke, length):
+                shaft, triangle = arrow_head(start, end, length)
+                yield self.pens.name(stroke), True, path((start, shaft))
+                yield from head(triangle, stroke)
+            case Circle(centre, radius, outline, fill):
+                x, y = at(centre).split()
+                name = self.pens.name(outline, fill)
+                yield name, False, f'<circle class="{name}" cx="{x}" cy="{y}" r="{decimal(radius)}"/>'
+            case Arc(stroke=stroke):
+                curves, triangle = arc_with_head(item)
+                yield self.pens.name(stroke), True, curve(curves)
+                yield from head(triangle, stroke)
+            case Polyline(points, outline, closed, fill):
+                if points:
+                    # A filled shape covers what is drawn before it, so it is an element of its own.
+                    yield self.pens.name(outline, fill), fill is None, self._closed(path(points), closed, outline, fill)
+            case Hatch(points, spacing, stroke, turn):
+                yield self.pens.name(stroke), True, "".join(path(pair) for pair in clip_hatch(points, spacing, turn))
+            case Label():
+                yield "", False, self.label(item, height)
+
+    def _closed(self, data: str, closed: bool, outline: Stroke | None, fill: str | None) -> str:
+        data += "Z" * closed
+        return data if fill is None else f'<path class="{self.pens.name(outline, fill)}" d="{data}"/>'
+
+    # --- labels
+
+    def label(self, label: Label, height: float = 0.0) -> str:
+        """A label as text: its middle, left or right end where the scene has it, its base line as its metrics say."""
+        extent, (centre, half) = box(label.content, label.size), frame(label)
+        turned = label.turn == 90
+        side = "s" if "left" in label.anchor else "e" if "right" in label.anchor else "m"
+        if turned:
+            base = complex(centre.real + half.real - extent.depth, centre.imag)
+            side = "m"
+        else:
+            across = {"s": -half.real, "e": half.real, "m": 0.0}[side]
+            base = complex(centre.real + across, centre.imag - half.imag + extent.depth)
+        x, y = decimal(base.real), decimal(height - base.imag)
+        turn = f' transform="rotate(-90 {x} {y})"' if turned else ""
+        text = (
+            f'<text class="{side} {self.pens.size(label.size)}" x="{x}" y="{y}"{turn}>{self.text(label.content)}</text>'
+        )
+        left = base.real - {"s": 0.0, "e": extent.width, "m": extent.width / 2}[side]
+        text += self._accent(label.content, label.size, complex(left, base.imag), height)
+        if label.background:
+            low, high = centre - half, centre + half
+            corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
+            text = self.items((Polyline(corners, None, closed=True, fill=style.PAPER),), height) + text
+        return text
+
+    def _accent(self, content: Content, size: float, base: complex, height: float) -> str:
+        """The arrow or bar over a label that is one symbol."""
+        if not isinstance(content, Symbol) or not content.over:
+            return ""
+        em = size * POINT
+        letters = box(replace(content, sub="", sup="", over=""), size)
+        top = base + 1j * (letters.height + OVER * em)
+        width = max(letters.width, 0.45 * em)
+        stroke = Stroke(0.13)
+        if content.over == "segment":
+            return self.items((Line(top, top + box(replace(content, over=""), size).width, stroke),), height)
+        start = top + 0.05 * em
+        return self.items((Arrow(start, start + width, stroke, 0.28 * em),), height)
+
+    def text(self, content: Content) -> str:
+        """What a label says as the content of a text element."""
+        shown, drop = [], 0.0
+        for run in Runs(self.language).content(content):
+            # A shift counts in the font size of the run that it moves.
+            shift = (run.drop - drop) / run.size
+            attributes = f' dx="{decimal(-run.back)}em"' if run.back else ""
+            attributes += f' dy="{decimal(shift)}em"' if shift else ""
+            names = ("i " if run.italic else "") + ("x" if run.size < 1 else "")
+            attributes += f' class="{names.strip()}"' if names else ""
+            text = escape(run.text)
+            shown.append(f"<tspan{attributes}>{text}</tspan>" if attributes else text)
+            drop = run.drop
+        return "".join(shown)
+
+
+class Runs(setting.Setter[tuple[Run, ...]]):
+    """Formulas as labels have them: in one line, indices beside their letters."""
+
+    linear = True
+
+    def text(self, text: str) -> tuple[Run, ...]:
+        return (Run(text),) if text else ()
+
+    def part(self, part: setting.Part) -> tuple[Run, ...]:
+        of, text = self.part, self.text
+        match part:
+            case Symbol():
+                return tuple(_symbol(part))
+            case setting.Written():
+                return text(part.text(setting.NARROW))
+            case setting.Sign():
+                return text(part.text)
+            case setting.Row(parts):
+                return tuple(run for one in parts for run in of(one))
+            case setting.Raised(base, exponent):
+                return (*of(base), *_raised(of(exponent)))
+            case setting.Quotient(top, bottom):
+                return (*text("("), *of(top), *text(")/("), *of(bottom), *text(")"))
+            case setting.Radical(inner):
+                return (*text("√"), *of(inner))
+            case setting.Fence(left, inner, right):
+                return (*text(left), *of(inner), *text(right))
+            case setting.Applied(name, exponent, to):
+                return (*text(name), *(_raised(of(exponent)) if exponent else ()), *of(to))
+            case setting.Grid(rows):
+                lines = (_parted([of(entry) for entry in row], "; ") for row in rows)
+                return _parted(list(lines), " | ")
+            case setting.Note(note):
+                return text(f"  ({note})")
+
+
+def _parted(parts: Sequence[tuple[Run, ...]], mark: str) -> tuple[Run, ...]:
+    return tuple(run for index, part in enumerate(parts) for run in ((Run(mark), *part) if index else part))
+
+
+def _raised(runs: Iterable[Run]) -> Iterator[Run]:
+    return (replace(run, size=SCRIPT, drop=SUPER) for run in runs)
+
+
+def _symbol(node: Symbol) -> Iterator[Run]:
+    for letters, digits in runs(node.base):
+        yield Run(letters, italic=any(map(str.isalpha, letters)))
+        yield from _script(digits, SUB)
+    yield from _scripts("".join(letters + digits for letters, digits in numbered(node.sub)), node.sup)
+
+
+def _scripts(below: str, above: str) -> Iterator[Run]:
+    """An index and an exponent over one another: the narrower first, then the other from where it began."""
+    wide_below, wide_above = (box(text, 1.0).width / POINT for text in (below, above))
+    first, second = _script(below, SUB), _script(above, SUPER)
+    if wide_below > wide_above:
+        first, second = second, first
+    yield from first
+    yield from (replace(run, back=min(wide_below, wide_above)) for run in second)
+
+
+def _script(text: str, drop: float) -> Iterator[Run]:
+    if text:
+        yield Run(text, size=SCRIPT, drop=drop)
+
+
+# --- formulas as MathML Core ----------------------------------------------------------------------
+# The part of MathML that every browser sets by itself.
+# Attributes hold no style, since the page's security policy lets none in; what it looks like is in the frame's CSS.
+
+WHITE: Mapping[Role, tuple[str, str]] = {"sum": (" ", " "), "product": (" ", " "), "bound": ("", " ")}
+"""Before and behind a sign; no page shows it, but text that is copied has it."""
+
+
+def escape(text: str) -> str:
+    """A text that reads back as typed, in an element or in an attribute in double quotes."""
+    return escaped(text, quote=True)
+
+
+def row(*parts: str) -> str:
+    """Several elements as one."""
+    return f"<mrow>{''.join(parts)}</mrow>"
+
+
+class MathmlFormulas(Source):
+    """Expressions as MathML, in one language."""
+
+    BELOW = "<msub><mrow>%s</mrow>%s</msub>"
+    RAISED = "<msup><mrow>%s</mrow><mrow>%s</mrow></msup>"
+    POWER = "<msup>%s<mrow>%s</mrow></msup>"
+    QUOTIENT, RADICAL = "<mfrac><mrow>%s</mrow><mrow>%s</mrow></mfrac>", "<msqrt>%s</msqrt>"
+    ENTRY, LINE = "</mtd><mtd>", "</mtd></mtr><mtr><mtd>"
+    CALL = "%s<mo>&#x2061;</mo>%s"
+    APPLIED = '%s<mo>&#x2061;</mo><mrow><mspace width="0.17em"/>%s</mrow>'
+    NOTE = '<mspace width="1em"/><mtext>%s</mtext>'
+
+    def text(self, text: str) -> str:
+        return escape(text)
+
+    def upright(self, letters: str) -> str:
+        return f"<mtext>{escape(letters)}</mtext>"
+
+    def inline(self, mathematics: str) -> str:
+        return f"<math>{mathematics}</math>"
+
+    def displayed(self, mathematics: str) -> str:
+        """A piece of a displayed formula, its fractions in full size."""
+        return f'<math displaystyle="true">{mathematics}</math>'
+
+    def number(self, number: Written) -> str:
+        digits = f"<mn>{escape(number.digits)}</mn>"
+        gap = NARROW if number.spaced else ""
+        return row(digits, f"<mtext>{gap}{escape(number.unit)}</mtext>") if number.unit else digits
+
+    def sign(self, sign: Sign) -> str:
+        match sign.role:
+            case "slash":
+                return f"<mo>{sign.of}</mo>"
+            case "separator":
+                return f'<mo separator="true">{sign.of}</mo>'
+            case "prefix":
+                return f'<mo form="prefix">{sign.of}</mo>'
+        before, behind = WHITE.get(sign.role, ("", ""))
+        return f'{before}<mo form="infix">{sign.of}</mo>{behind}'
+
+    def function(self, name: str) -> str:
+        return f'<mi mathvariant="normal">{escape(name)}</mi>'
+
+    def fence(self, fence: Fence) -> str:
+        """What stands in parentheses, which are as high as it is."""
+        inner = self.part(fence.of)
+        match fence.left:
+            case "":
+                return row(inner)
+            case "[":
+                inner = f"<mtable><mtr><mtd>{inner}</mtd></mtr></mtable>"
+        # Browsers set white beside parentheses that may be stretched, even where they need not be.
+        still = ' stretchy="false"' if fence.left == "(" and not is_tall(fence.of) else ""
+        opening, closing = (
+            f'<mo form="prefix"{still}>{fence.left}</mo>',
+            f'<mo form="postfix"{still}>{fence.right}</mo>',
+        )
+        enclosed = row(opening, inner, closing)
+        return row(enclosed) if fence.left == "(" else enclosed
+
+    def symbol(self, node: Symbol) -> str:
+        letters, above = parted(node)
+        base = self.lowered(runs(letters), _italic)
+        if node.over == "vector":
+            base = f'<mover accent="true">{row(base)}<mo stretchy="true">→</mo></mover>'
+        marked = _scripted(base, self.lowered(numbered(node.sub), self.upright), self.above(above))
+        return f'<mrow class="bar">{marked}</mrow>' if node.over == "segment" else marked
+
+    def above(self, text: str) -> str:
+        letters = text.lstrip(PRIMES)
+        primes = text[: len(text) - len(letters)]
+        return (f"<mo>{primes}</mo>" if primes else "") + (self.upright(letters) if letters else "")
+
+    # --- lines
+
+    def broken(self, node: Expression) -> list[str]:
+        """A formula in a line in the parts between which it may break: before "=", between the terms of a sum."""
+        if isinstance(node, Sum):
+            return [self.part(piece).lstrip() for piece in pieces(laid(node, self.language))]
+        first, *others = sides(node, self.language)
+        return [self.part(first), *(self.part(Row((EQUALS, side))) for side in others)]
+
+    def row(self, node: Expression) -> tuple[str, list[str]]:
+        """A displayed row: what stands left of its first "=", and the pieces between which the rest may break.
+
+        A row without a relation has nothing on its left.
+        """
+        first, *others = ([self.part(piece).lstrip() for piece in side] for side in displayed(node, self.language))
+        equals = self.part(EQUALS)
+        rest = [equals * (index == 0) + piece for side in others for index, piece in enumerate(side)]
+        return ("".join(first), rest) if rest else ("", first)
+
+    def columns(self, equation: VectorEquation) -> list[tuple[str, list[str]]]:
+        """Each column of a vector equation: its term, and below it what is known of it in the equation's rows."""
+        return [
+            (self.leading(one.signs) + self.part(one.term), list(map(self.known, one.known)))
+            for one in columns(equation)
+        ]
+
+    def leading(self, signs: tuple[Sign, ...]) -> str:
+        """What stands before a term in its column: a minus alone is that of the term."""
+        form = "prefix" if [sign.of for sign in signs] == [NEGATIVE.of] else "infix"
+        return "".join(f'<mo form="{form}">{sign.of}</mo>' for sign in signs)
+
+
+def _scripted(base: str, below: str, above: str) -> str:
+    if below and above:
+        return f"<msubsup>{row(base)}{row(below)}{row(above)}</msubsup>"
+    if below:
+        return f"<msub>{row(base)}{row(below)}</msub>"
+    return f"<msup>{row(base)}{row(above)}</msup>" if above else base
+
+
+def _italic(text: str) -> str:
+    return "".join(f"<mi>{escape(char)}</mi>" if char.isalpha() else f"<mtext>{escape(char)}</mtext>" for char in text)

@@ -1,0 +1,429 @@
+"""Document → one page for a browser, which needs no other file and loads none.
+
+The frame `templates/frames/html/` holds the looks and the few scripts; this module puts the parts together and
+states, by their hashes, which styles and scripts the page may use: nothing else runs on it, whatever it says.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from reportgen import report as tree
+from reportgen.base.errors import TypesetterError
+from reportgen.base.words import templates
+from reportgen.drawing import Scene
+from reportgen.formula import Expression, VectorEquation
+from reportgen.formula.setting import NARROW, written
+from reportgen.page.elements import MathmlFormulas, Painter, Pens, escape
+
+if TYPE_CHECKING:
+    from jinja2 import Environment, Template
+
+
+STYLES, SCRIPTS = ("page.css",), ("page.js",)
+"""Files of the frame that every page has."""
+
+
+@dataclass(frozen=True)
+class Report:
+    """The report as elements, with the style sheet's rules for its pens and papers."""
+
+    body: str
+    rules: str
+
+
+@dataclass(frozen=True)
+class Panel:
+    """What moves on a page: its elements, their rules, the samples as JSON; the frame's files that serve it."""
+
+    body: str
+    rules: str
+    data: str
+    styles: Sequence[str] = ("moving.css",)
+    scripts: Sequence[str] = ("moving.js",)
+
+
+@dataclass(frozen=True)
+class Live:
+    """What a page has that is renewed while it is read: words of its own (`live` in `words.yaml`), its editions."""
+
+    words: Mapping[str, str]
+    moving: int
+    report: int
+    scripts: Sequence[str] = ("live.js",)
+    styles: Sequence[str] = ("live.css",)
+
+
+def report(document: tree.Document) -> Report:
+    """The elements of a document; raises `TypesetterError` for a formula that cannot be set."""
+    pens = Pens()
+    blocks = Blocks(document, pens)
+    body = blocks.write(document.blocks)
+    papers = (
+        f"@page {name}{{size:{width:g}mm {height:g}mm;margin:12mm}}.{name}{{page:{name}}}"
+        for name, (width, height) in blocks.papers.items()
+    )
+    return Report(body, "\n".join((pens.rules(), *papers)))
+
+
+def write(
+    document: tree.Document,
+    words: Mapping[str, Any],
+    panel: Panel | None = None,
+    live: Live | None = None,
+    written: Report | None = None,
+) -> str:
+    """The whole page; `words` are those of its buttons (`page` in `words.yaml`).
+
+    Raises `TypesetterError` if a file of the frame is missing.
+    """
+    written = written or report(document)
+    parts = [part for part in (panel, live) if part is not None]
+    styles = [read(name) for name in (*STYLES, *(name for part in parts for name in part.styles))]
+    rules = {"moving": panel.rules if panel else "", "report": written.rules}
+    # Rules that change while the page is read are the script's to put in.
+    styles += [] if live else rules.values()
+    scripts = [read(name) for name in (*SCRIPTS, *(name for part in parts for name in part.scripts))]
+    style, script = "\n".join(styles), "\n".join(scripts)
+    policy = [
+        "default-src 'none'",
+        f"script-src {_hash(script)}",
+        f"style-src {_hash(style)}",
+        "img-src data:",
+        *(["connect-src 'self'"] if live else []),
+        "base-uri 'none'",
+        "form-action 'none'",
+    ]
+    return template("page.html.j2").render(
+        language=document.language,
+        title=document.title,
+        author=document.author,
+        policy="; ".join(policy),
+        style=style,
+        script=script,
+        words=words,
+        panel=panel,
+        samples=panel.data if panel else "",
+        live=live,
+        editions=data(
+            {"moving": live.moving, "report": live.report, "rules": rules, "words": live.words} if live else {}
+        ),
+        body=written.body,
+    )
+
+
+def template(name: str) -> Template:
+    """A template of the frame; raises `TypesetterError` if it is missing."""
+    read(name)
+    return _environment().get_template(name)
+
+
+@cache
+def _environment() -> Environment:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    return Environment(
+        loader=FileSystemLoader(templates() / "frames" / "html"),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=StrictUndefined,
+    )
+
+
+def read(name: str) -> str:
+    """A file of the frame: from the installed package, or beside it in a checkout."""
+    path = templates() / "frames" / "html" / name
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise TypesetterError(f"{path}: {error.strerror}") from error
+
+
+def data(content: Mapping[str, Any]) -> str:
+    """Data as the content of a script element, which no text in it can end."""
+    return json.dumps(content, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+
+
+def _hash(text: str) -> str:
+    """A source expression of a security policy that allows this text alone."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
+
+
+# --- blocks of a document as elements of a page ---------------------------------------------------
+# Sections, texts, formulas, tables, figures and what leads to them.
+
+CONTENTS_LEVEL = 3
+"""The deepest level of heading that the contents list."""
+BREAK = "<wbr>"
+"""Between two pieces of a formula: a line may end there."""
+CLOSING = re.compile(r"[.,;:!?)\]”]+")
+"""Marks with which no line begins."""
+ALIGNS = {"left": "l", "center": "c", "right": "r"}
+"""The classes of cells."""
+
+
+class Blocks:
+    """Writes the blocks of one document; its drawings use the page's pens."""
+
+    def __init__(self, document: tree.Document, pens: Pens) -> None:
+        self.language, self.words = document.language, document.words
+        self.formulas = MathmlFormulas(document.language)
+        self.painter = Painter(document.language, pens)
+        self.papers: dict[str, tuple[float, float]] = {}
+        """Paper sizes (mm) of plates by the names that the style sheet has for them."""
+        self.below = int(any(isinstance(block, tree.Cover) for block in document.blocks))
+        """The title of a cover stands above all parts."""
+        sections = [block for block in document.blocks if isinstance(block, tree.Section)]
+        self.sections = [section for section in sections if section.level <= CONTENTS_LEVEL]
+        self._places = {id(section): f"s-{index}" for index, section in enumerate(sections)}
+
+    def write(self, blocks: Sequence[tree.Block], room: float = tree.TEXT_WIDTH) -> str:
+        """The blocks in order; a run-in heading stands at the head of the paragraph behind it."""
+        lines: list[str] = []
+        run_in = ""
+        for block, following in pairwise((*blocks, None)):
+            match block:
+                case None:
+                    pass
+                case tree.Section(level=level) if level > CONTENTS_LEVEL:
+                    run_in = self.run_in(block)
+                    if not isinstance(following, tree.Paragraph):
+                        lines.append(f"<p>{run_in.rstrip()}</p>")
+                        run_in = ""
+                case tree.Paragraph(inlines, align):
+                    lines.append(f"<p{_class(align)}>{run_in}{self.inlines(inlines)}</p>")
+                    run_in = ""
+                case _:
+                    lines.append(self.block(block, room))
+        return "\n".join(filter(None, lines))
+
+    def block(self, block: tree.Block, room: float) -> str:
+        match block:
+            case tree.Section(level, title, _, _, number):
+                name = f"h{level + self.below}"
+                return f'<{name} id="{self.place(block)}">{self.titled(number, title)}</{name}>'
+            case tree.List():
+                return self.items(block, room)
+            case tree.Equation():
+                return self.equation(block, room)
+            case tree.Table():
+                return self.table(block)
+            case tree.Figure(scenes):
+                rows = "".join(self.scene(scene, block) for scene in scenes)
+                return self.figure(block, f'<div class="scenes">{rows}</div>')
+            case tree.Plate(scene, paper):
+                name = f"paper-{paper[0]:g}x{paper[1]:g}".replace(".", "_")
+                self.papers[name] = paper
+                return self.figure(block, f'<div class="scenes">{self.scene(scene, block)}</div>', f"plate {name}")
+            case tree.Cover():
+                return self.cover(block)
+            case tree.Contents(title):
+                return self.contents(title)
+            case tree.BlankLine(label):
+                return f'<p class="blank">{escape(label)}</p>'
+            case _:
+                return ""
+
+    def place(self, section: tree.Section) -> str:
+        """The anchor of a section."""
+        return anchor(section.key) if section.key else self._places[id(section)]
+
+    def titled(self, number: str, title: tree.Inlines) -> str:
+        shown = f'<span class="n">{escape(number)}</span> ' if number else ""
+        return shown + self.inlines(title)
+
+    def run_in(self, section: tree.Section) -> str:
+        return f'<strong id="{self.place(section)}">{self.titled(section.number, section.title)}</strong> '
+
+    def contents(self, title: str) -> str:
+        """The table of contents, which folds; sections hang below their parts."""
+        lines = []
+        depth = 0
+        for section in self.sections:
+            while depth > section.level:
+                lines.append("</li></ol>")
+                depth -= 1
+            if depth == section.level:
+                lines.append("</li>")
+            while depth < section.level:
+                lines.append("<ol>" if depth == section.level - 1 else "<ol><li>")
+                depth += 1
+            shown = self.titled(section.number, section.title)
+            lines.append(f'<li><a href="#{self.place(section)}">{shown}</a>')
+        lines.append("</li></ol>" * depth)
+        shown = escape(title)
+        return (
+            f'<nav class="contents" aria-label="{shown}"><details open><summary>{shown}</summary>'
+            f"{''.join(lines)}</details></nav>"
+        )
+
+    def cover(self, cover: tree.Cover) -> str:
+        lines = [f'<p class="institution">{escape(line)}</p>' for line in cover.institution]
+        lines.append(f"<h1>{'<br>'.join(map(escape, cover.title))}</h1>")
+        lines += [f'<p class="subtitle">{escape(line)}</p>' for line in cover.subtitle]
+        fields = (
+            f"<div><dt>{escape(label)}:</dt><dd>{escape(value) if value else _DOTS}</dd></div>"
+            for label, value in cover.fields
+        )
+        lines += [f"<dl>{''.join(fields)}</dl>", f'<p class="place">{escape(cover.place_and_date)}</p>']
+        return f'<header class="cover">{"".join(lines)}</header>'
+
+    # --- inlines ----------------------------------------------------------------------------------
+
+    def inlines(self, inlines: tree.Inlines) -> str:
+        """Inlines in a row; a mark stays with the formula that it stands at, where a browser would part them."""
+        shown: list[str] = []
+        behind_formula = False
+        for inline in inlines:
+            text = inline.text if isinstance(inline, tree.Text) else ""
+            if behind_formula and (marks := CLOSING.match(text)):
+                pieces, stroke, last = shown.pop().rpartition(BREAK)
+                shown.append(f'{pieces}{stroke}<span class="nb">{last}{escape(marks[0])}</span>')
+                inline = tree.Text(text[marks.end() :])
+            behind_formula = isinstance(inline, tree.InlineMath)
+            if behind_formula and shown and shown[-1].endswith("("):
+                first, stroke, pieces = self.inline(inline).partition(BREAK)
+                shown[-1] = shown[-1].removesuffix("(")
+                shown.append(f'<span class="nb">({first}</span>{stroke}{pieces}')
+            else:
+                shown.append(self.inline(inline))
+        return "".join(shown)
+
+    def inline(self, inline: tree.Inline) -> str:
+        match inline:
+            case tree.Text(text):
+                parts = tree.UNIT.split(text)
+                return "".join(
+                    f'<span class="nb">{escape(part)}</span>' if index % 2 else escape(part)
+                    for index, part in enumerate(parts)
+                )
+            case tree.Emph(of):
+                return f"<em>{self.inlines(of)}</em>"
+            case tree.Strong(of):
+                return f"<strong>{self.inlines(of)}</strong>"
+            case tree.InlineMath(expression, True):
+                return self.formulas.content(expression, slashed=True)
+            case tree.InlineMath(expression):
+                return BREAK.join(map(self.formulas.inline, self.formulas.broken(expression)))
+            case tree.Value(number):
+                return f'<span class="nb">{escape(written(number, self.language).text(NARROW))}</span>'
+            case tree.Reference(key, text):
+                return f'<a href="#{anchor(key)}">{escape(text)}</a>'
+            case tree.LineBreak():
+                return "<br>"
+
+    # --- formulas, lists and tables -----------------------------------------------------------------
+
+    def items(self, block: tree.List, room: float) -> str:
+        name = "ol" if block.ordered else "ul"
+        start = f' start="{block.start}"' if block.ordered and block.start != 1 else ""
+        lines = "".join(f"<li>{self.write(item, room)}</li>" for item in block.items)
+        return f"<{name}{start}>{lines}</{name}>"
+
+    def equation(self, equation: tree.Equation, room: float) -> str:
+        """Rows that are set alike in one block each; the number beside the last."""
+        groups = "".join(map(self.group, tree.in_groups(equation.rows, room)))
+        number = f'<span class="number">({escape(equation.number)})</span>' if equation.number else ""
+        return f'<div class="equation"{_id(equation.key)}><div class="rows">{groups}</div>{number}</div>'
+
+    def group(self, rows: Sequence[Expression]) -> str:
+        first = rows[0]
+        if isinstance(first, VectorEquation):
+            return self.vector_equation(first)
+        lines = []
+        for one in rows:
+            left, rest = self.formulas.row(one)
+            pieces = BREAK.join(map(self.formulas.displayed, rest))
+            lead = f'<span class="left">{self.formulas.displayed(left)}</span> ' if left else ""
+            wide = "" if left else ' class="whole"'
+            lines.append(f"<div{wide}>{lead}<span>{pieces}</span></div>")
+        return f'<div class="aligned">{"".join(lines)}</div>'
+
+    def vector_equation(self, equation: VectorEquation) -> str:
+        """The terms side by side, below each what is known of it."""
+        columns = self.formulas.columns(equation)
+        terms = "".join(f"<td>{self.formulas.displayed(term)}</td>" for term, _ in columns)
+        lines = [f"<tr><td></td>{terms}</tr>"]
+        for index, name in enumerate(equation.rows):
+            entries = "".join(f"<td>{known[index]}</td>" for _, known in columns)
+            lines.append(f'<tr><th scope="row">{escape(name)}</th>{entries}</tr>')
+        return f'<div class="scroll"><table class="vector">{"".join(lines)}</table></div>'
+
+    def table(self, table: tree.Table) -> str:
+        caption = self.caption(self.words.table, table)
+        shown = f"<caption>{caption}</caption>" if caption else ""
+        aligns = [ALIGNS[column.align] for column in table.columns]
+        head = "".join(f"<tr>{''.join(self.cells(row, aligns, 'th'))}</tr>" for row in table.head)
+        rows = "\n".join(f"<tr>{''.join(self.cells(row, aligns, 'td'))}</tr>" for row in table.rows)
+        look = "ruled framed" if table.framed else "ruled"
+        body = f"{f'<thead>{head}</thead>' if head else ''}<tbody>{rows}</tbody>"
+        return f'<div class="scroll tabled"{_id(table.key)}><table class="{look}">{shown}{body}</table></div>'
+
+    def cells(self, row: Sequence[tree.Cell], aligns: Sequence[str], name: str) -> Iterator[str]:
+        column = 0
+        for cell in row:
+            span = f' colspan="{cell.span}"' if cell.span > 1 else ""
+            side = "c" if cell.span > 1 or name == "th" else aligns[column]
+            # A head without words is the head of nothing.
+            if name == "th" and cell.inlines:
+                scope = "colgroup" if cell.span > 1 else "col"
+                yield f'<th class="{side}"{span} scope="{scope}">{self.named(cell.inlines)}</th>'
+            else:
+                yield f'<td class="{side}"{span}>{self.inlines(cell.inlines)}</td>'
+            column += cell.span
+
+    def named(self, inlines: tree.Inlines) -> str:
+        """Inlines that say in letters, too, what they are if they are a formula alone: a cell needs a name."""
+        shown = self.inlines(inlines)
+        if any(not isinstance(inline, tree.InlineMath) for inline in inlines):
+            return shown
+        return shown.replace("<math>", f'<math aria-label="{escape(tree.plain(inlines, self.language))}">', 1)
+
+    # --- figures ------------------------------------------------------------------------------------
+
+    def figure(self, block: tree.Figure | tree.Plate, drawings: str, name: str = "") -> str:
+        caption = self.again(block) if isinstance(block, tree.Plate) and block.continues else None
+        caption = self.caption(self.words.figure, block) if caption is None else caption
+        shown = f"<figcaption>{caption}</figcaption>" if caption else ""
+        return f'<figure{_id(block.key)}{_class(name)}><div class="scroll">{drawings}</div>{shown}</figure>'
+
+    def scene(self, scene: Scene, block: tree.Figure | tree.Plate) -> str:
+        told = tree.plain(block.caption, self.language)
+        name = f"{self.words.figure} {block.number}. {told} {scene.title}".strip()
+        title = f"<p>{escape(scene.title)}</p>" if scene.title else ""
+        return f"<div>{self.painter.scene(scene, name)}{title}</div>"
+
+    def caption(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
+        """Word, number and words of a caption; nothing for a block that has none."""
+        if not (block.number or block.caption):
+            return ""
+        return f"<b>{escape(word)} {escape(block.number)}.</b> {self.inlines(block.caption)}"
+
+    def again(self, block: tree.Plate) -> str:
+        """The number of a figure that goes on from the plate before."""
+        return f"<b>{escape(self.words.figure)} {escape(block.number)}</b> ({escape(self.words.continued)})"
+
+
+_DOTS = '<span class="dots"></span>'
+
+
+def anchor(key: str) -> str:
+    """The anchor of a block that is referred to by its key."""
+    return escape(f"k-{key}")
+
+
+def _id(key: str) -> str:
+    return f' id="{anchor(key)}"' if key else ""
+
+
+def _class(name: str) -> str:
+    return f' class="{name}"' if name else ""

@@ -1,0 +1,288 @@
+"""The machine in motion as elements of a page, and its samples as compact data.
+
+Everything that moves is drawn here once, about its own origin, and named by its number (`data-i`); the data say for
+each number which tracks it follows.  The script of the frame does nothing but read tracks between two samples.
+"""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from reportgen.base.units import Language, write
+from reportgen.drawing import Content, Label
+from reportgen.drawing.film import LAYERS, Carried, Chart, Film, MovingItem, Name, Stage, Still, Track, Vector
+from reportgen.drawing.geometry import frame
+from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, decimal
+from reportgen.formula import Symbol
+from reportgen.formula.vocabulary import KINDS
+from reportgen.page.elements import MathmlFormulas, Painter, Pens
+from reportgen.page.html import Panel, data, template
+
+SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
+"""Of the motion shown: shares of its usual one."""
+MACHINE, PLAN = (120.0, 110.0), (75.0, 75.0)
+"""What a machine and a plan take of a screen, about (mm): letters and arrows of larger ones grow as those shrink."""
+MOST = 4.0
+"""They never grow more than so many times."""
+HIT = 4.0
+"""How near (mm) a pointer must come to a point."""
+HEADS = ("x (m)", "y (m)", "v_x (m/s)", "v_y (m/s)", "v (m/s)", "a_x (m/s²)", "a_y (m/s²)", "a (m/s²)")
+"""Heads of the table of a point's motion, behind that of the driver's way."""
+
+
+def panel(film: Film, language: Language, words: Mapping[str, Any]) -> Panel:
+    """The panel of a machine; `words` are those of pages (`page` in `words.yaml`)."""
+    return _Writer(film, language, words).panel()
+
+
+class Tracks:
+    """All tracks of a page, each once: numbers of its parts, and their values one behind the other."""
+
+    def __init__(self) -> None:
+        self._numbers: dict[tuple[bytes, ...], int] = {}
+        self.lengths: list[int] = []
+        self._values: list[bytes] = []
+
+    def number(self, track: Track) -> int:
+        """The number of a real track; of a complex one that of its first part, the second follows."""
+        values = track.values
+        parts = (values.real, values.imag) if np.iscomplexobj(values) else (values,)
+        # A negative zero is nothing else than zero.
+        packed = tuple((np.asarray(part, dtype="<f4") + np.float32(0)).tobytes() for part in parts)
+        if packed not in self._numbers:
+            self._numbers[packed] = len(self.lengths)
+            self.lengths += [part.size for part in parts]
+            self._values += packed
+        return self._numbers[packed]
+
+    def packed(self) -> str:
+        """All values as numbers of four bytes, in letters."""
+        return base64.b64encode(b"".join(self._values)).decode()
+
+
+@dataclass(frozen=True, slots=True)
+class _Drawn:
+    """A stage as the frame prints it; lengths are mm, in texts as they stand in attributes."""
+
+    key: str
+    title: str
+    width: str
+    height: str
+    box: str
+    body: str
+    notes: str
+    scales: tuple[str, ...]
+    spots: tuple[str, ...]
+    reach: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Charted:
+    """A chart as the frame prints it."""
+
+    title: str
+    width: str
+    height: str
+    body: str
+    symbols: tuple[str, ...]
+
+
+class _Writer:
+    def __init__(self, film: Film, language: Language, words: Mapping[str, Any]) -> None:
+        self.film, self.language, self.words = film, language, words
+        self.pens, self.tracks = Pens("m"), Tracks()
+        self.painter, self.formulas = Painter(language, self.pens), MathmlFormulas(language)
+        self.items: list[dict[str, Any]] = []
+        """What each numbered element follows."""
+        self.grown = 1.0
+        """How much larger letters, arrowheads and pens of arrows are than in figures."""
+
+    def panel(self) -> Panel:
+        film, formula = self.film, self.formulas.content
+        machine, *plans = film.stages
+        body = template("moving.html.j2").render(
+            words=self.words,
+            film=film,
+            speeds=[(speed, write(speed, None, self.language)) for speed in SPEEDS],
+            shown_layer=LAYERS[0],
+            machine=self.stage(machine, MACHINE),
+            plans=[self.stage(stage, PLAN) for stage in plans],
+            rates=[
+                ("v", formula(Symbol("v")), KINDS["velocity"].unit),
+                ("a", formula(Symbol("a")), KINDS["acceleration"].unit),
+            ],
+            numbers=[(formula(value.symbol), value.unit) for value in film.values],
+            charts=list(map(self.chart, film.charts)),
+            accuracy=self.accuracy(),
+        )
+        return Panel(body, self.pens.rules(), data(self.data()))
+
+    def data(self) -> Mapping[str, Any]:
+        """What the script reads; numbers are those of tracks."""
+        film, words, number = self.film, self.words, self.tracks.number
+        return {
+            "knots": [float(f"{knot:.8g}") for knot in film.knots],
+            "turns": film.turns,
+            "span": film.span,
+            "language": self.language,
+            "positions": [[label, float(f"{angle:.9g}")] for label, angle in film.positions],
+            "shown": film.shown,
+            "items": self.items,
+            "spots": [
+                {
+                    "name": spot.name,
+                    "at": number(spot.on_stage),
+                    "p": number(spot.place),
+                    "v": number(spot.velocity),
+                    "a": number(spot.acceleration),
+                }
+                for spot in film.stages[0].spots
+            ],
+            "scales": {
+                stage.key: {"at": number(stage.scales.at), "times": stage.scales.times}
+                for stage in film.stages
+                if stage.scales
+            },
+            "charts": list(map(self.axes, film.charts)),
+            "values": [[number(value.values), value.decimals] for value in film.values],
+            "heads": [f"{words['way']} (mm)" if film.span else f"{words['angle']} (°)", *HEADS],
+            "words": {key: words[key] for key in ("play", "pause", "keep", "release", "copied")},
+            "lengths": self.tracks.lengths,
+            "tracks": self.tracks.packed(),
+        }
+
+    def accuracy(self) -> str:
+        """What drawing straight lines between samples costs, in words."""
+        errors = self.film.errors
+        shown = {
+            "count": len(self.film.knots) - 1,
+            "place": rounded_up(errors.place, self.language),
+            "crank": rounded_up(100 * errors.place / errors.crank, self.language),
+            "share": rounded_up(100 * errors.share, self.language),
+        }
+        return str(self.words["accuracy"].format(**shown))
+
+    # --- drawings
+
+    def stage(self, stage: Stage, room: tuple[float, float]) -> _Drawn:
+        """A drawing in the box of all that it ever shows, about the origin of its places, y downwards."""
+        size = stage.high - stage.low
+        self.grown = min(max(size.real / room[0], size.imag / room[1], 1.0), MOST)
+        width, height = decimal(size.real), decimal(size.imag)
+        return _Drawn(
+            key=stage.key,
+            title=stage.title,
+            width=width,
+            height=height,
+            box=f"{decimal(stage.low.real)} {decimal(-stage.high.imag)} {width} {height}",
+            body="".join(map(self.item, stage.items)),
+            notes=", ".join(map(self.formulas.content, stage.notes)),
+            scales=tuple(map(self.formulas.content, stage.scales.printed)) if stage.scales else (),
+            spots=tuple(spot.name for spot in stage.spots),
+            reach=decimal(HIT * self.grown),
+        )
+
+    def item(self, item: MovingItem) -> str:
+        """The element of an item; if it moves it gets a number, and what it follows goes into the data."""
+        match item:
+            case Still(items):
+                return self.element(self.painter.items(items), item.layer)
+            case Carried(items, at, angle):
+                follows = {"at": self.tracks.number(at)}
+                if angle is not None:
+                    follows["turn"] = self.tracks.number(angle)
+                return self.element(self.painter.items(items), item.layer, follows)
+            case Vector():
+                return self.vector(item)
+            case Name(content, at, neighbours, gap):
+                return self.element(
+                    self.label(content, LABEL),
+                    item.layer,
+                    {
+                        "label": self.tracks.number(at),
+                        "off": list(map(self.tracks.number, neighbours)),
+                        "gap": round(gap * self.grown, 3),
+                        "size": self.half_size(content, LABEL),
+                    },
+                )
+
+    def element(self, body: str, layer: str, follows: Mapping[str, Any] | None = None) -> str:
+        """A group that may move, and that may be switched."""
+        attributes = ""
+        if follows is not None:
+            attributes += f' data-i="{len(self.items)}"'
+            self.items.append(dict(follows))
+        if layer:
+            attributes += f' data-of-layer="{layer}"' + (" hidden" if layer != LAYERS[0] else "")
+        return f"<g{attributes}>{body}</g>" if body else ""
+
+    def vector(self, item: Vector) -> str:
+        follows: dict[str, Any] = {"from": self.tracks.number(item.start), "to": self.tracks.number(item.end)}
+        stroke = item.stroke
+        dash = tuple(round(part * self.grown, 3) for part in stroke.dash)
+        parts = (
+            f'<path class="{self.pens.name(replace(stroke, width=round(stroke.width * self.grown, 3), dash=dash))}"/>'
+        )
+        if item.head:
+            follows |= {"head": round(item.head * self.grown, 3), "slender": HEAD_SLENDERNESS}
+            parts += f'<path class="{self.pens.name(None, stroke.colour)}"/>'
+        if item.beyond:
+            follows["beyond"] = item.beyond
+        if item.name:
+            follows["name"] = item.name
+        if item.label is not None:
+            follows["size"] = self.half_size(item.label, SMALL)
+            parts += f"<g>{self.label(item.label, SMALL)}</g>"
+        return self.element(parts, item.layer, follows)
+
+    def label(self, content: Content, size: float) -> str:
+        return self.painter.label(Label(0j, content, size=size * self.grown))
+
+    def half_size(self, content: Content, size: float) -> list[float]:
+        """Half the width and height of a label (mm)."""
+        _, half = frame(Label(0j, content, size=size * self.grown))
+        return [round(half.real, 2), round(half.imag, 2)]
+
+    # --- curves
+
+    def chart(self, chart: Chart) -> _Charted:
+        scene = chart.plotted.scene
+        return _Charted(
+            chart.title,
+            decimal(scene.width),
+            decimal(scene.height),
+            self.painter.items(scene.items, scene.height),
+            tuple(self.formulas.content(curve.label) for curve in chart.curves),
+        )
+
+    def axes(self, chart: Chart) -> Mapping[str, Any]:
+        """The box of a chart's axes (mm, y downwards), what it stands for, and the tracks of its curves."""
+        drawn = chart.plotted
+        return {
+            "box": list(_rounded(_turned_over(drawn.low, drawn.high, drawn.scene.height))),
+            "x": list(drawn.x),
+            "y": list(drawn.y),
+            "curves": [self.tracks.number(curve.values) for curve in chart.curves],
+        }
+
+
+def rounded_up(value: float, language: Language, figures: int = 2) -> str:
+    """A bound as printed: so many figures, never less than the value."""
+    if value <= 0:
+        return write(0.0, None, language)
+    step = 10.0 ** (math.floor(math.log10(value)) - figures + 1)
+    return write(float(f"{math.ceil(value / step * (1 - 1e-12)) * step:.{figures}g}"), None, language)
+
+
+def _turned_over(low: complex, high: complex, height: float) -> tuple[float, ...]:
+    return low.real, height - low.imag, high.real, height - high.imag
+
+
+def _rounded(values: tuple[float, ...]) -> Iterator[float]:
+    return (round(value, 3) for value in values)

@@ -1,0 +1,431 @@
+"""The machine in motion, for a page: its samples by the solver, and what is drawn and told of them.
+
+A turn is sampled at 360 even angles, at the numbered positions, and on both sides of every jump of a load.  Plans
+have the corners of the report's plans, from the same definitions at the samples, so that at a numbered position both
+are one.  Motion repeats from turn to turn; forces go on through the cycle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from reportgen.base.units import nice_up, significant_decimals
+from reportgen.drawing import Circle, Content, Stroke, style
+from reportgen.drawing.charts import Plotted
+from reportgen.drawing.film import (
+    LAYERS,
+    Carried,
+    Chart,
+    Curve,
+    Errors,
+    Film,
+    MovingItem,
+    Name,
+    Scales,
+    Spot,
+    Stage,
+    Track,
+    Value,
+    Vector,
+    extent,
+    linkage_items,
+    path_items,
+    plan_items,
+)
+from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
+from reportgen.formula.plain import formula
+from reportgen.formula.vocabulary import KINDS
+from reportgen.machine.analysis import FULL_TURN, Analysis, Machine, analyse, breaks, motion_at
+from reportgen.machine.forces import Load
+from reportgen.machine.motion import Motion
+from reportgen.plans import enter_plans
+from reportgen.plans.loads import Polygon
+from reportgen.plans.motion import What, centre_symbol
+from reportgen.report.case import Calculation
+from reportgen.report.curves import axis, curves_of_motion, over_a_turn, over_the_cycle, torque_chart
+from reportgen.report.figures import MM, drawing_scale, looks, short
+from reportgen.report.plans import POLE, force_construction, motion_construction
+from reportgen.report.report import Report
+
+SAMPLES = 360
+"""Even samples of a turn."""
+SAME = 1e-7
+"""Samples nearer than this (rad) are one."""
+BESIDE = 2e-5
+"""How far from a jump of a load (rad) its two sides are sampled."""
+JUMP = 1e-3
+"""A load that changes there by a smaller share of its greatest value does not jump."""
+ARROW = 34.0
+"""The longest arrow of a force or a rate on the machine at most (mm)."""
+FAR = 2.5
+"""A centre farther off than so many diagonals of the drawing is not drawn."""
+DIGITS, MOST_DECIMALS = 5, 5
+STILL = Track(np.zeros(1, complex))
+"""The pole of a plan."""
+
+
+def film(case: Calculation) -> Film:
+    """All that moves on the page of a case."""
+    return _Samples(case.drawn).film()
+
+
+@dataclass(frozen=True)
+class _Samples:
+    """A case at the samples of its cycle."""
+
+    case: Calculation
+
+    @property
+    def machine(self) -> Machine:
+        return self.case.analysis.machine
+
+    @cached_property
+    def knots(self) -> np.ndarray:
+        """The samples of one turn (rad), from 0 to a whole turn."""
+        machine = self.machine
+        own = np.mod(machine.cycle_angles[: machine.count], FULL_TURN * (1 + SAME))
+        wanted = np.concatenate((own, self._jumps()))
+        grid = np.linspace(0.0, FULL_TURN, SAMPLES + 1)
+        near = np.abs(grid[:, None] - wanted).min(axis=1) <= SAME
+        # The ends stay where they are; a position there is one of them.
+        near[[0, -1]] = False
+        found = np.sort(np.concatenate((grid[~near], wanted)))
+        return found[np.concatenate(([True], np.diff(found) > SAME))]
+
+    def _jumps(self) -> np.ndarray:
+        """Both sides of the angles of a turn at which a load jumps, as the friction of a slider that turns back."""
+        corners = breaks(self.machine)
+        if not corners.size:
+            return corners
+        sides = [analyse(self.machine, corners + side * BESIDE) for side in (-1.0, 1.0)]
+        jumping = np.zeros(corners.shape, dtype=bool)
+        for before, after in zip(sides[0].applied, sides[1].applied, strict=True):
+            for one, other in ((before.force, after.force), (before.couple, after.couple)):
+                jumping |= np.abs(one - other) > JUMP * max(float(np.nanmax(np.abs(one))), 1e-300)
+        return np.mod(np.concatenate((corners[jumping] - BESIDE, corners[jumping] + BESIDE)), FULL_TURN)
+
+    @cached_property
+    def angles(self) -> np.ndarray:
+        """The cycle angles of all samples: those of a turn, turn after turn, to the end of the last."""
+        turns = np.arange(self.machine.turns)[:, None] * FULL_TURN
+        return np.append((turns + self.knots[:-1]).ravel(), self.machine.turns * FULL_TURN)
+
+    @cached_property
+    def analysis(self) -> Analysis:
+        return analyse(self.machine, self.angles)
+
+    @cached_property
+    def report(self) -> Report:
+        """The report, whose curves have these samples."""
+        return Report(self.case, samples=self.analysis)
+
+    @cached_property
+    def corners(self) -> dict[str, np.ndarray]:
+        """The corners of all plans at the samples, and the scales of force plans, by id."""
+        worked = [self._sample(k) + 1 for k in self.case.assignment.worked_positions]
+        sheet, _ = enter_plans(self.analysis, worked)
+        drawn = ids.plan_point, ids.force_corner, ids.force_scale, ids.centre
+        return {id: sheet.value(id) for id in sheet.families if any(id in name for name in drawn)}
+
+    def _sample(self, k: int) -> int:
+        """The sample that is the numbered position `k`."""
+        return int(np.abs(self.angles - self.machine.cycle_angles[k - 1]).argmin())
+
+    def film(self) -> Film:
+        machine, report = self.machine, self.report
+        stages = tuple(self.stages())
+        layers = {item.layer for item in stages[0].items}
+        return Film(
+            knots=np.degrees(self.knots),
+            turns=machine.turns,
+            span=machine.span * MM,
+            positions=tuple(
+                (str(machine.position(k + 1)), float(angle)) for k, angle in enumerate(np.degrees(machine.cycle_angles))
+            ),
+            shown=self.case.assignment.worked_positions[0] - 1,
+            stages=stages,
+            charts=tuple(self.charts()),
+            values=tuple(self.values()),
+            errors=self.errors(drawing_scale(report)),
+            layers=tuple(layer for layer in LAYERS if layer in layers),
+        )
+
+    def turn(self, values: np.ndarray) -> Track:
+        """What repeats from turn to turn: its first one."""
+        return Track(values[: self.knots.size] if values.size > 1 else values)
+
+    # --- drawings
+
+    def stages(self) -> Iterator[Stage]:
+        report, words = self.report, self.report.words["page"]
+        yield self.mechanism()
+        names: tuple[tuple[What, str], ...] = (("v", "velocity_plan"), ("a", "acceleration_plan"))
+        for what, name in names:
+            items = self._plan_of_motion(what)
+            yield Stage(what, words[name], tuple(items), *extent(items), (self._scale(ids.scale(what)),))
+        titles = {group.polygon.name: f"{group.i}, {group.j}" for group in report.groups if group.polygon is not None}
+        for polygon in self.case.polygons:
+            of = titles.get(polygon.name)
+            yield self._plan_of_forces(polygon, words["force_plan"].format(name=of) if of else words["driver_plan"])
+
+    def mechanism(self) -> Stage:
+        """The machine itself, true to shape."""
+        report, motion = self.report, self._one_turn
+        linkage, scale = self.machine.linkage, drawing_scale(report)
+        look = looks(report, scale)
+        shown = self._sample(self.case.assignment.worked_positions[0]) % (self.knots.size - 1)
+        items = linkage_items(linkage, motion, shown, scale, look)
+        low, high = extent(items)
+        names = self.machine.paths or tuple(n for n in motion.points if n not in linkage.ground)
+        items = path_items(linkage, motion, names, scale) + items
+        scales: list[Content] = list(look.notes)
+        for base, rate, layer in (("v", "v", "velocities"), ("a", "a", "accelerations")):
+            items += self._rates(base, rate, layer, scale)
+        items += self._centres(scale, low, high)
+        forces, per = self._forces(scale)
+        items += forces
+        if per:
+            scales.append(Chain((Symbol("μ", "P"), short(Number(per, 6, KINDS["force scale"].unit)))))
+        spots = tuple(
+            Spot(
+                name,
+                Track(motion.points[name].p * scale),
+                Track(motion.points[name].p),
+                Track(motion.points[name].v),
+                Track(motion.points[name].a),
+            )
+            for name in motion.points
+            if name not in linkage.ground
+        )
+        return Stage(
+            "machine",
+            report.words["page"]["machine"],
+            items=tuple(items),
+            low=low,
+            high=high,
+            notes=tuple(scales),
+            spots=spots,
+        )
+
+    @cached_property
+    def _one_turn(self) -> Motion:
+        """The motion at the samples of one turn."""
+        return motion_at(self.machine, self.knots)
+
+    def _rates(self, base: str, rate: str, layer: str, scale: float) -> list[MovingItem]:
+        """The velocities or accelerations of the points as arrows at them, the longest as long as it may be."""
+        points = {n: p for n, p in self._one_turn.points.items() if n not in self.machine.linkage.ground}
+        greatest = max(float(np.nanmax(np.abs(getattr(p, rate)))) for p in points.values())
+        if not greatest:
+            return []
+        per = ARROW / greatest
+        return [
+            Vector(
+                Track(p.p * scale),
+                Track(p.p * scale + getattr(p, rate) * per),
+                style.RELATIVE if base == "v" else style.FOUND,
+                label=Symbol(base, name, over="vector"),
+                name=ids.POINT_RATE[base](name),
+                layer=layer,
+            )
+            for name, p in points.items()
+        ]
+
+    def _centres(self, scale: float, low: complex, high: complex) -> list[MovingItem]:
+        """Instant centres with the normals that meet in them, where they are near enough to be drawn."""
+        items: list[MovingItem] = []
+        middle, reach = (low + high) / 2, FAR * abs(high - low)
+        for link in self.report.plane_links:
+            with np.errstate(invalid="ignore"):
+                at = self.corners[ids.centre(link.link)][: self.knots.size] * scale
+            at = np.where(np.abs(at - middle) < reach, at, complex(np.nan, np.nan))
+            centre = Track(at)
+            for name in (link.base, link.point):
+                start = Track(self._one_turn.points[name].p * scale)
+                items.append(Vector(start, centre, style.NORMAL, 0.0, layer="centres"))
+            mark = Circle(0j, 0.55, Stroke(0.2, style.RED), style.PAPER)
+            items.append(Carried((mark,), centre, layer="centres"))
+            items.append(Name(centre_symbol(link.link), centre, (), 1.0, "centres"))
+        return items
+
+    def _forces(self, scale: float) -> tuple[list[MovingItem], float]:
+        """All forces as arrows where they act, and their scale (N/mm); reactions each once."""
+        found = self.analysis
+        arrows: list[tuple[str, str, np.ndarray, np.ndarray]] = []
+        groups: tuple[tuple[str, Sequence[Load]], ...] = (
+            ("loads", found.applied),
+            ("inertia", found.inertia),
+            ("weights", found.weights),
+        )
+        for layer, loads in groups:
+            arrows += [(layer, load.name, load.force, load.point) for load in loads]
+        for name, reaction in found.forces.reactions.items():
+            if found.loads and not any(_pair(name) == _pair(other) for _, other, *_ in arrows):
+                arrows.append(("reactions", name, reaction.force, reaction.point))
+        sizes = {name: np.abs(force) for _, name, force, _ in arrows}
+        greatest = max((float(np.nanmax(size, initial=0.0)) for size in sizes.values()), default=0.0)
+        if not greatest:
+            return [], 0.0
+        per = nice_up(greatest / ARROW)
+        return [
+            Vector(
+                Track(at * scale),
+                Track(at * scale + force / per),
+                style.REACTION if layer == "reactions" else style.ACTIVE,
+                label=self._force_symbol(name),
+                name=name,
+                layer=layer,
+            )
+            for layer, name, force, at in arrows
+            if np.nanmax(sizes[name], initial=0.0) > 1e-9 * greatest
+        ], per
+
+    def _force_symbol(self, name: str) -> Symbol:
+        entered = ids.vector(name) in self.report.ledger
+        return self.report.force_vector(name) if entered else vocabulary.vector(vocabulary.symbol(ids.of_force(name)))
+
+    def _plan_of_motion(self, what: What) -> list[MovingItem]:
+        """The plan of velocities or accelerations."""
+        plan = motion_construction(self.report, what)
+        tracks = {id: self.turn(_places(self.corners[id])) for id in plan.corners if id != POLE}
+        return plan_items(plan, {POLE: STILL, **tracks})
+
+    def _plan_of_forces(self, polygon: Polygon, title: str) -> Stage:
+        """A force plan, at each sample at the scale that the report would draw it to.
+
+        Forces of combustion are many times those of the other strokes: at one scale those would be points.
+        """
+        id, plan = ids.force_scale(polygon.name), force_construction(self.report, polygon)
+        places = {corner: _places(self.corners[corner]) for corner in plan.corners}
+        own = np.broadcast_to(self.corners[id], self.angles.shape)
+        each, at = np.unique(own, return_inverse=True)
+        coarsest = float(each[-1])
+        items = plan_items(plan, {corner: Track(place * (own / coarsest)) for corner, place in places.items()})
+        low, high = extent(plan_items(plan, {corner: Track(place) for corner, place in places.items()}))
+        scales = Scales(
+            tuple(self._printed(id, float(one)) for one in each),
+            tuple(coarsest / float(one) for one in each),
+            Track(at.astype(float)),
+        )
+        return Stage(f"R{polygon.name}", title, tuple(items), low, high, scales=scales)
+
+    def _scale(self, id: str) -> Chain:
+        return self._printed(id, float(self.report.ledger[id].at(None)))
+
+    def _printed(self, id: str, scale: float) -> Chain:
+        """A scale with the figures of its kind: no decimals are chosen for drawings."""
+        how = self.report.ledger[id].how
+        value = float(f"{scale / how.scale:.{how.digits}g}")
+        return Chain((self.report.ledger.symbol(id), Number(value, None, how.unit)))
+
+    # --- curves and numbers
+
+    def charts(self) -> Iterator[Chart]:
+        report = self.report
+        for curves, title in curves_of_motion(report):
+            tracks = tuple(Curve(symbol, self.turn(values)) for symbol, values in curves)
+            yield _chart(report, over_a_turn(report, curves, title, half=True), tracks, title)
+        if not report.has_forces:
+            return
+        torque = torque_chart(report, half=True)
+        shown = report.balance_symbol()
+        yield Chart(_told(report, shown), torque, (Curve(shown, Track(self.analysis.torque)),))
+        if gases := self.analysis.gas:
+            unit = KINDS["pressure"].scale
+            pressures = [(Symbol("p", str(gas.piston.link)), gas.pressure / unit) for gas in gases.values()]
+            title = axis(Symbol("p"), "pressure")
+            tracks = tuple(Curve(symbol, Track(values)) for symbol, values in pressures)
+            yield _chart(report, over_the_cycle(report, pressures, title, half=True), tracks, title)
+
+    def values(self) -> Iterator[Value]:
+        """Positions, speeds and accelerations of points by their sizes, rotations, forces and what balances them."""
+        motion, found, ledger = self._one_turn, self.analysis, self.report.ledger
+        moving = [name for name in motion.points if name not in self.machine.linkage.ground]
+        for base, kind in (("v", "velocity"), ("a", "acceleration")):
+            for name in moving:
+                yield _value(Symbol(base, name), kind, np.abs(getattr(motion.points[name], base)))
+        for base, attribute, kind in (("ω", "omega", "angular velocity"), ("ε", "epsilon", "angular acceleration")):
+            for link in self.machine.linkage.links:
+                rates = getattr(motion.links[link], attribute)
+                if np.nanmax(np.abs(rates)) > 0:
+                    yield _value(Symbol(base, str(link)), kind, rates)
+        if not found.loads:
+            return
+        for gas in found.gas.values():
+            yield _value(Symbol("p", str(gas.piston.link)), "pressure", gas.pressure)
+        for load in found.applied:
+            if np.nanmax(np.abs(load.force)) > 0:
+                yield _value(_scalar(self._force_symbol(load.name)), "force", np.abs(load.force))
+        shown: set[tuple[str, ...]] = set()
+        for name, reaction in found.forces.reactions.items():
+            if _pair(name) not in shown:
+                shown.add(_pair(name))
+                yield _value(_scalar(self._force_symbol(name)), "force", np.abs(reaction.force))
+        yield _value(self.report.balance_symbol(), ledger["M.eq"].kind, found.torque)
+
+    # --- what interpolation costs
+
+    def errors(self, scale: float) -> Errors:
+        """The error of straight lines between samples.
+
+        Of places it is bounded by h²/8 times the greatest second derivative by the driver's angle, which is the
+        acceleration over ω²; of rates and forces it is what the middles between samples show, jumps left out.
+        """
+        middles = (self.angles[1:] + self.angles[:-1]) / 2
+        steps = np.diff(self.angles)
+        wide = steps > 4 * BESIDE
+        between, at = analyse(self.machine, middles), self.analysis
+        rate = FULL_TURN * self.machine.speed / (self.machine.way / self.machine.turns)
+        bound = 0.0
+        for name, moved in at.motion.points.items():
+            here = np.abs(np.concatenate((moved.a, between.motion.points[name].a)))
+            bound = max(bound, float(np.nanmax(here)) / rate**2 * float(steps.max()) ** 2 / 8)
+        pairs = [
+            (getattr(at.motion.points[name], what), getattr(moved, what))
+            for name, moved in between.motion.points.items()
+            for what in ("v", "a")
+        ]
+        pairs += [(at.forces.reactions[name].force, one.force) for name, one in between.forces.reactions.items()]
+        share = 0.0
+        for samples, true in pairs:
+            greatest = float(np.nanmax(np.abs(samples)))
+            if greatest > 0:
+                off = np.abs((samples[1:] + samples[:-1]) / 2 - true)[wide]
+                share = max(share, float(np.nanmax(off)) / greatest)
+        crank = self.machine.drawn * MM or self.machine.span * scale or 1.0
+        return Errors(bound * scale, crank, share)
+
+
+def _places(corner: np.ndarray) -> np.ndarray:
+    """A corner of a plan in mm; one that stays at 0 is a place, too."""
+    return np.asarray(corner * MM, dtype=np.complex128)
+
+
+def _chart(report: Report, plotted: Plotted, curves: tuple[Curve, ...], title: Chain) -> Chart:
+    return Chart(", ".join(_told(report, curve.label) for curve in curves), plotted, curves)
+
+
+def _told(report: Report, shown: Content) -> str:
+    return shown if isinstance(shown, str) else formula(shown, report.assignment.language)
+
+
+def _value(symbol: Symbol, kind: str, values: np.ndarray) -> Value:
+    how = KINDS[kind]
+    shown = values / how.scale
+    greatest = float(np.nanmax(np.abs(shown), initial=0.0))
+    decimals = min(max(significant_decimals(greatest, DIGITS), 0), MOST_DECIMALS)
+    return Value(symbol, how.unit, Track(shown), decimals)
+
+
+def _scalar(symbol: Symbol) -> Symbol:
+    return Symbol(symbol.base, symbol.sub, symbol.sup)
+
+
+def _pair(name: str) -> tuple[str, ...]:
+    """The two links of a reaction, whichever acts on the other; a load is its own."""
+    found = ids.reaction_force.read(name)
+    return tuple(sorted(ids.linked(found["joint"]))) if found else (name,)

@@ -1,0 +1,284 @@
+"""Analysis → Ledger: enters everything in the order in which a report derives it, then chooses decimals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.formula import PI, Expression, Number, Ref, Symbol, call, circle_line, ids, sqrt, total
+from reportgen.formula import size as size_of
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.sheet import ZERO, Sheet, is_short
+from reportgen.formula.vocabulary import Chapter
+from reportgen.machine import Crank, Linkage, flywheel
+from reportgen.machine.analysis import FULL_TURN, Analysis, no_formulas
+from reportgen.machine.loads import TableLaw
+from reportgen.plans.decimals import choose_decimals
+from reportgen.plans.forces import enter_forces
+from reportgen.plans.groups import enter_kinematics
+from reportgen.plans.loads import Polygon
+
+SAME = (("M.eq", "M.vw", "M.least", "M.greatest"), ("M.mean", "M.energy"))
+"""Quantities that are one: both torques and the extremes of their curve, the mean by the curve and by the work."""
+TERMS = 4
+"""More terms than these are no longer one line of a page."""
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """What stands of an analysis: its ledger, the force plans that are laid out in it, and its flywheel if it has one.
+
+    There is a plan for each group, the driver's is the last; none without loads.
+    """
+
+    ledger: Ledger
+    polygons: tuple[Polygon, ...] = ()
+    flywheel: flywheel.Flywheel | None = None
+
+
+def write_ledger(
+    analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = (), printed: bool = True
+) -> Written:
+    """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
+
+    The plans of the `worked` positions fill their paper, of all positions if none is named.  For numbers that are
+    drawn and not `printed` no decimals are chosen.
+    """
+    machine = analysis.machine
+    q, polygons = enter_plans(analysis, worked, machine.formulas)
+    regulated: flywheel.Flywheel | None = None
+    if analysis.loads:
+        with q.within(Chapter.cycle):
+            _cycle(q, analysis)
+            if machine.unevenness is not None:
+                regulated = flywheel.flywheel(machine, machine.unevenness)
+                _flywheel(q, analysis, regulated)
+    checks = {id for id in q.families if any(id in name for name in ids.CENTRES)}
+    decimals: Mapping[str, int | None] = dict.fromkeys(q.families)
+    cancellations: tuple[str, ...] = ()
+    if printed:
+        decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
+    ledger = Ledger(
+        families=q.families,
+        decimals=decimals,
+        positions=machine.positions,
+        cancellations=cancellations,
+        units=units or {},
+        lines=q.lines,
+    )
+    return Written(ledger, polygons, regulated)
+
+
+def enter_plans(
+    analysis: Analysis, worked: Sequence[int] = (), formulas: Callable[[Sheet], None] = no_formulas
+) -> tuple[Sheet, tuple[Polygon, ...]]:
+    """The sheet of an analysis at whatever positions it has: given data, plans, `formulas`, forces; its force plans.
+
+    The plans of the `worked` positions, counted from 1, fill their paper.
+    """
+    machine = analysis.machine
+    q = Sheet(len(analysis.cycle_angle))
+    if machine.span:
+        q.give("s.1", machine.angles(analysis.cycle_angle), exact=False)
+    else:
+        q.give("phi.1", machine.angles(analysis.cycle_angle))
+    q.extend(machine.sheet)
+    enter_kinematics(q, machine.linkage, machine.turn, worked)
+    with q.within(Chapter.formulas):
+        formulas(q)
+    if not analysis.loads:
+        return q, ()
+    _masses(q, analysis)
+    _gas(q, analysis)
+    _applied(q, analysis)
+    applied = {one.name: (one.link, one.point, one.direction) for one in machine.applied}
+    torques = {one.name: one.link for one in machine.torques}
+    return q, enter_forces(q, machine.linkage, machine.turn, applied, torques)
+
+
+def _masses(q: Sheet, analysis: Analysis) -> None:
+    """Mass m = G/g where the weight is given, weight G = m g where the mass is."""
+    for body in analysis.machine.linkage.inertias:
+        weight, mass = ids.weight(body.link), ids.mass(body.link)
+        if body.mass > 0 and weight in q and mass not in q:
+            q.define(mass, q[weight] / q["g"])
+        elif mass in q and weight not in q:
+            q.define(weight, q[mass] * q["g"])
+
+
+def _gas(q: Sheet, analysis: Analysis) -> None:
+    """s/H and pressure read from the diagram, gas force P = p F."""
+    machine = analysis.machine
+    for name, state in analysis.gas.items():
+        if name in analysis.machine.idle:
+            continue
+        link, stroke = state.piston.link, state.piston.stroke
+        _way(q, machine.linkage, link, state.fraction * stroke, stroke)
+        p = q.give(ids.pressure(link), state.pressure, exact=False)
+        q.define(name, p * q["F"])
+
+
+def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
+    """A slider's way from its dead centre, measured on the drawing; there crank and rod lie in one line."""
+    driver, id = linkage.driver, ids.displacement(link)
+    dyad = next((one for one in linkage.dyads if one.kind == "RRP" and one.links[1] == link), None)
+    if dyad is not None and isinstance(driver, Crank) and ids.length(driver.centre, dyad.start) in q:
+        on_paper = q.find(ids.laid_line(driver.centre, dyad.start)) or q[ids.drawn(driver.centre, dyad.start)]
+        crank, rod = q["drawing"] * on_paper, q["drawing"] * q[ids.laid_line(dyad.start, dyad.middle)]
+        for reach in (rod + crank, rod - crank):
+            line = q[ids.guide_place(link)], q[ids.guide(link)], float(dyad.sign)
+            stop = circle_line(q[ids.place(driver.centre)], reach, *line)
+            way = abs((q[ids.place(dyad.middle)] - stop) * (q["mu.l"] / q["drawing"]))
+            found = evaluate(way, {name: family.values for name, family in q.families.items()})
+            if np.allclose(found, values, rtol=0, atol=ZERO * stroke):
+                q.define(id, way, scale=stroke)
+                return
+    drawn = q.give(
+        ids.displacement_on_paper(link), values / q.si("mu.l"), Symbol("s"), "ratio", exact=False, hidden=True
+    )
+    q.define(id, abs(q["mu.l"] * drawn), scale=stroke)
+
+
+def _applied(q: Sheet, analysis: Analysis) -> None:
+    """Forces other than of gas, positive along their own direction, and torques, anticlockwise positive."""
+    loads = {load.name: load for load in analysis.applied}
+    for force in analysis.machine.applied:
+        if force.name not in q:
+            link, size = force.link, np.real(np.conj(force.direction) * loads[force.name].force)
+            if isinstance(force.law, TableLaw):
+                course = force.law.course
+                way = course.fraction(analysis.motion) * course.stroke
+                _way(q, analysis.machine.linkage, link, way, course.stroke)
+            q.give(force.name, size, exact=is_short(size))
+    for torque in analysis.machine.torques:
+        size = loads[torque.name].couple
+        q.give(torque.name, size, Symbol("M", str(torque.link)), exact=is_short(size))
+
+
+def _cycle(q: Sheet, analysis: Analysis) -> None:
+    """Mean, extremes, power and energy of the cycle."""
+    summary, machine = analysis.summary, analysis.machine
+    size, possible = float(np.nanmax(np.abs(analysis.torque))), flywheel.possible(analysis, analysis.loads)
+    if size < ZERO * possible:
+        # All of it is rounding, as where a guide takes the whole load.
+        size = possible
+    # A sliding driver is balanced by a force, and its way takes the place of the angle.
+    letter, kind = ("P", "force") if machine.span else ("M", "torque")
+    rate = q[ids.velocity(machine.linkage.driver.pin)] if machine.span else q["omega.1"]
+    way = q["span"] if machine.span else 2.0 * machine.turns * PI
+    q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size)
+    nothing = abs(float(np.nanmean(q.value("M.eq")))) < ZERO * size
+    mean_of_positions = call("mean", q["M.eq"])
+    q.define("M.mean.positions", mean_of_positions, Symbol(letter, "N"), kind, scale=size if nothing else 0.0)
+    mean = q.give("M.mean", _without_dust(summary.mean_torque, size), Symbol(letter, "m"), kind, exact=False)
+    (_, least), (_, greatest) = summary.extremes
+    q.give("M.least", least, Symbol(letter, "min"), kind, exact=False, scale=size)
+    q.give("M.greatest", greatest, Symbol(letter, "max"), kind, exact=False, scale=size)
+    work = q.give("W", _without_dust(summary.work, size * machine.way), exact=False)
+    q.define("power", size_of(mean) * rate)
+    q.define("M.energy", work / way, Symbol(letter, "W"), kind)
+
+
+def _without_dust(value: float, size: float) -> float:
+    """A mean that is nothing beside what it is the mean of is 0."""
+    return 0.0 if abs(value) < ZERO * size else value
+
+
+# --- the flywheel -----------------------------------------------------------------------------------
+
+
+def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.Flywheel) -> None:
+    """Enter the flywheel of a machine; δ is `unevenness`.
+
+    What is integrated over the cycle is what the trapezoid rule makes of the positions, and the rest of the integral.
+    Ids: `J.r` reduced inertia (only where a moving link has mass), `M.r` reduced torque, `A.excess` excess work,
+    `omega.of` the regulated speed at each position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`,
+    `A.lower`, and `J.d` the flywheel.
+    """
+    machine = analysis.machine
+    at = np.searchsorted(regulated.angle, machine.cycle_angles - 1e-9)
+    inertia = _reduced(q, machine.linkage)
+    if inertia is not None:
+        J_r: Expression = q.define("J.r", inertia, Symbol("J", "tt"))
+    else:
+        J_r = Number(0.0)
+    largest, δ, ω1 = float(np.abs(regulated.torque).max()), q["unevenness"], q["omega.1"]
+    on_lever = [
+        q[ids.lever_moment(load.name)]
+        for load in (*analysis.weights, *analysis.applied)
+        if ids.lever_moment(load.name) in q
+    ]
+    ways = np.diff(np.append(machine.cycle_angles, machine.turns * FULL_TURN))
+    steps = q.give("steps", ways, Symbol("φ"), "ratio", hidden=True)
+    torque = machine.turn * total(on_lever) if on_lever else Number(0.0)
+    M_r = _with_rest(
+        q, "M.r", values=regulated.torque[at], by_rule=torque, symbol=Symbol("M", "tt"), kind="torque", scale=largest
+    )
+    _with_rest(
+        q, "M.c", values=regulated.constant, by_rule=-call("level", M_r, steps), symbol="", kind="torque", scale=largest
+    )
+    most = float(np.abs(regulated.work).max())
+    A = _with_rest(
+        q,
+        "A.excess",
+        values=regulated.work[at],
+        by_rule=call("excess", M_r, steps),
+        symbol="A",
+        kind="work",
+        scale=most,
+    )
+    most_energy, least_energy = (
+        A - q.define(ids.bound_of_speed(name), ω1 * (1 + side * δ / 2)) ** 2 * J_r / 2
+        for name, side in (("max", 1), ("min", -1))
+    )
+    a = _with_rest(q, "A.upper", regulated.upper, call("highest", most_energy), "a", "work")
+    b = _with_rest(q, "A.lower", regulated.lower, call("lowest", least_energy), "b", "work")
+    J_d = q.define("J.d", (a - b) / (δ * ω1**2))
+    if regulated.moment > 0:
+        energy = q["omega.max"] ** 2 * J_d / 2 - a + A
+        _with_rest(q, "omega.of", regulated.speed[at], sqrt(2 * energy / (J_d + J_r)), "ω")
+
+
+def _with_rest(
+    q: Sheet,
+    id: str,
+    values: np.ndarray | float,
+    by_rule: Expression,
+    symbol: Symbol | str,
+    kind: str = "",
+    scale: float = 0.0,
+) -> Ref:
+    """Enter what is integrated: it follows what stands in a rule for the positions, by which it is nearly found."""
+    found = q.construct(ids.rule(id), by_rule)
+    rest = q.give(ids.rest(id), np.asarray(values) - q.value(found), Symbol(id), "ratio", hidden=True)
+    return q.define(id, call("re", found + rest), symbol, kind, scale=scale)
+
+
+def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:
+    """J_r = Σ m v_S²/ω₁² + J ω²/ω₁² over the links that move so; None where no link with mass moves.
+
+    Where that is too long for a line, each link's part of it is entered as `J.r.` and its number.
+    """
+    ω1 = q["omega.1"]
+    parts: dict[int, list[Expression]] = {}
+    for body in linkage.inertias:
+        link, centre, rotation = body.link, ids.velocity(body.centre), ids.angular_velocity(body.link)
+        own: list[Expression] = []
+        if body.mass > 0 and centre in q:
+            own.append(q[ids.mass(link)] * q[centre] ** 2)
+        if body.moment > 0 and rotation in q:
+            own.append(q[ids.inertia(link)] * q[rotation] ** 2)
+        if own:
+            parts[link] = own
+    terms = [term for own in parts.values() for term in own]
+    if not terms:
+        return None
+    if len(terms) <= TERMS or len(parts) == 1:
+        return total(terms) / ω1**2
+    each = [
+        q.define(ids.reduced_inertia(link), total(own) / ω1**2, Symbol("J", f"tt{link}")) for link, own in parts.items()
+    ]
+    return total(each)

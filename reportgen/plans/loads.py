@@ -1,0 +1,348 @@
+"""Loads as the ledger knows them: weights, inertia, applied forces and couples, reactions of later groups.
+
+For a load X: `F.X` is its vector, the size has the id X itself (`P3`, `G2`, `Pqt2`; `R.42` for a reaction
+R42), `couple.X` its couple if it has one, `h.X.D` its signed arm about a point D in metres on paper.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from reportgen.formula import Expression, Number, Ref, Sum, Symbol, call, cross, heading, ids, quotient, sign
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.sheet import Sheet
+from reportgen.formula.vocabulary import segment
+from reportgen.machine import DRIVER, GROUND, Crank, Guide, Inertia
+from reportgen.plans.motion import NOWHERE, Sizes, longest
+from reportgen.plans.scales import LEAST_FORCES, extents, own_scales
+from reportgen.plans.sides import Scheme, image
+
+FAINT = 1e-12
+"""A reaction below this share of the loads is rounding and has no line of action."""
+
+Applied = Mapping[str, tuple[int, str, complex]]
+"""Applied forces: id → (link, point, unit vector of the positive sense, constant or per position)."""
+
+
+class Origin(IntEnum):
+    """Where a load comes from, in the order in which a link's loads are laid in its plan."""
+
+    reaction = 0
+    inertia = 1
+    applied = 2
+    weight = 3
+
+
+@dataclass(frozen=True, slots=True)
+class LoadOn:
+    """A load: its name, its link, the point it acts at ("" for a couple alone), its size, what its arm is called."""
+
+    name: str
+    link: int
+    point: str
+    size: Ref
+    origin: Origin
+    letters: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Statics:
+    """Sheet `q`, linkage and loads while reactions are entered group by group."""
+
+    q: Sheet
+    scheme: Scheme
+    turn: int
+    sizes: Sizes
+    loads: tuple[LoadOn, ...] = ()
+
+    @property
+    def force(self) -> float:
+        """The largest load (N): a billionth of it is nothing."""
+        sizes = (np.abs(self.q.value(load.size)) for load in self.loads if load.point)
+        return max((float(size[np.isfinite(size)].max(initial=0.0)) for size in sizes), default=0.0)
+
+    @property
+    def span(self) -> float:
+        """The size on paper of what arms are compared with: the drawn crank."""
+        driver = self.scheme.linkage.driver
+        if isinstance(driver, Crank):
+            return self.q.si(ids.drawn(driver.centre, driver.pin))
+        return longest(self.scheme.linkage) / self.q.si("mu.l")
+
+    @property
+    def torque(self) -> float:
+        """The moment of the largest load at the crank (N·m)."""
+        driver = self.scheme.linkage.driver
+        return self.force * (driver.length if isinstance(driver, Crank) else longest(self.scheme.linkage))
+
+    def on(self, link: int) -> tuple[LoadOn, ...]:
+        """The loads of a link."""
+        return tuple(load for load in self.loads if load.link == link)
+
+    def image(self, what: str, name: str) -> Expression:
+        """A point's image on a plan, 0 for a fixed one."""
+        return NOWHERE if self.scheme.still(name) else self.q[ids.plan_point(what, image(name))]
+
+    def vector(self, load: LoadOn) -> Ref:
+        return self.q[ids.vector(load.name)]
+
+    def couple(self, load: LoadOn) -> Ref | None:
+        """A load's couple, None if it has none."""
+        return self.q.find(ids.couple(load.name))
+
+    def beside(self, load: LoadOn, divisor: Expression) -> Expression:
+        """How far (m) a load is moved to its side for its couple, h = M/F, signed as the couple."""
+        laid, couple = self.q.find(ids.beside(load.name)), self.couple(load)
+        return laid or (Number(0.0) if couple is None else quotient(couple, divisor))
+
+
+def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) -> tuple[LoadOn, ...]:
+    """Enter vectors of weights, inertia forces and applied forces; ids `G2`, `m.2` and those of `applied` exist.
+
+    Inertia forces and couples follow from `m.k`, `J.k` and the acceleration plan: F = −m a_S, couple −J ε;
+    both together are one force at arm h = M/F.  Loads of a link without mass are absent.  `torques` maps
+    the id of a signed torque to its link.
+    """
+    q, linkage, loads = statics.q, statics.scheme.linkage, []
+    for body in linkage.inertias:
+        link, centre, name = body.link, body.centre, ids.weight(body.link)
+        if body.mass > 0:
+            down = linkage.gravity / abs(linkage.gravity) if linkage.gravity else -1j
+            downwards = q.give(ids.down(link), complex(down), "g", "ratio")
+            q.construct(ids.vector(name), q[name] * downwards, of=name)
+            loads.append(LoadOn(name, link, centre, q[name], Origin.weight, name))
+        still_driver = link == DRIVER and isinstance(linkage.driver, Crank) and centre == linkage.driver.centre
+        if (body.mass > 0 or body.moment > 0) and not still_driver:
+            loads.append(_inertia(statics, body))
+    for name, (link, place, sense) in applied.items():
+        # The machine has entered the sense of a force along a guide that is given by its angle.
+        positive = q.find(ids.sense(name)) or q.give(ids.sense(name), np.asarray(sense, dtype=complex), name, "ratio")
+        q.construct(ids.vector(name), q[name] * positive, of=name)
+        loads.append(LoadOn(name, link, place, q[name], Origin.applied, name))
+    loads += [LoadOn(name, link, "", q[name], Origin.applied) for name, link in torques.items()]
+    return tuple(sorted(loads, key=lambda load: (load.link, load.origin)))
+
+
+def _inertia(statics: Statics, body: Inertia) -> LoadOn:
+    """P_qt = m a_S against a_S, and M_qt = J ε against ε."""
+    q, link, centre = statics.q, body.link, body.centre
+    name = ids.inertia_force(link)
+    nothing = statics.scheme.still(centre) or body.mass <= 0
+    size = 0.0 if nothing else q[ids.mass(link)] * q[ids.acceleration(centre)]
+    force = q.define(name, size, scale=body.mass * statics.sizes.acceleration)
+    vector = Number(0.0) if nothing else -(q[ids.mass(link)] * q["mu.a"] * statics.image("a", centre))
+    q.construct(ids.vector(name), vector, of=name)
+    if ids.signed("eps", link) in q and body.moment > 0:
+        J = q[ids.inertia(link)]
+        couple = q.define(
+            ids.inertia_couple(link),
+            J * q[ids.angular_acceleration(link)],
+            scale=body.moment * statics.sizes.rotation**2,
+        )
+        turning = q.construct(ids.couple(name), -(J * q[ids.signed("eps", link)]), of=couple.id)
+        if not nothing:
+            # M/P, written out of mass and acceleration: a quotient of two products has more figures than they print.
+            written = J * q[ids.angular_acceleration(link)] / (q[ids.mass(link)] * q[ids.acceleration(centre)])
+            e = q.define(ids.inertia_offset(link), couple / force, scale=1e-3, written=written)
+            q.construct(ids.beside(name), quotient(turning, force), of=e.id)
+            _centre_of_percussion(statics, link, centre)
+    return LoadOn(name, link, centre, force, Origin.inertia, name)
+
+
+def _centre_of_percussion(statics: Statics, link: int, centre: str) -> None:
+    """Its distance from the mass centre, l_SK = J/(m l_AS), on a link that turns about a pin A."""
+    q = statics.q
+    ends = {
+        moved: end
+        for dyad in statics.scheme.linkage.dyads
+        for moved, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)
+    }
+    start = ends.get(link)
+    arm = ids.length(start, centre)
+    if isinstance(start, str) and arm in q and q.si(arm) > 0:
+        q.define(ids.percussion(centre, link), q[ids.inertia(link)] / (q[ids.mass(link)] * q[arm]))
+
+
+def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn, ...]:
+    """Enter the reactions of later groups on these links as loads, R42 = −R24, in the order of assembly."""
+    q, loads = statics.q, []
+    for dyad in statics.scheme.linkage.dyads:
+        for link, outer in zip(dyad.links, (dyad.start, dyad.end), strict=True):
+            carrier = outer.link if isinstance(outer, Guide) else statics.scheme.owner[outer]
+            if carrier == GROUND or carrier not in links:
+                continue
+            here, there = ids.joint(link, carrier), ids.joint(carrier, link)
+            place = outer if isinstance(outer, str) else dyad.middle
+            loads.append(opposite(q, here, there, carrier, place))
+            if ids.reaction_couple(there) in q:
+                q.construct(ids.couple(ids.reaction_force(here)), q[ids.reaction_couple(there)])
+    return tuple(loads)
+
+
+def opposite(q: Sheet, here: str, there: str, link: int, point: str) -> LoadOn:
+    """Enter a reaction as that of the other link turned round: R42 = −R24."""
+    size = q.define(ids.reaction(here), q[ids.reaction(there)], scale=q.families[ids.reaction(there)].scale)
+    q.construct(ids.vector(ids.reaction_force(here)), -q[ids.vector(ids.reaction_force(there))], of=size.id)
+    return LoadOn(ids.reaction_force(here), link, point, size, Origin.reaction, here)
+
+
+# --- moments --------------------------------------------------------------------------------------
+
+
+def _divisor(statics: Statics, load: LoadOn) -> Expression:
+    """A load's size; that of a reaction is 0 where it is but rounding."""
+    if load.origin is Origin.reaction and statics.couple(load) is not None:
+        return above(load.size, FAINT * statics.force)
+    return load.size
+
+
+def above(size: Ref, floor: float) -> Expression:
+    """A size, 0 where it does not exceed `floor`."""
+    return size * sign(call("max", 0.0, size - floor))
+
+
+def arm(statics: Statics, load: LoadOn, centre: str) -> Ref:
+    """The signed arm, measured on the drawing, of a load about a point: h = M/(F μ_l), its couple included."""
+    q, couple = statics.q, statics.couple(load)
+    moment = cross(q[ids.place(load.point)] - q[ids.place(centre)], statics.vector(load))
+    divisor = _divisor(statics, load)
+    drawn: Expression = quotient(moment, divisor) / q["drawing"]
+    if couple is not None:
+        drawn = drawn + statics.beside(load, divisor) / q["mu.l"]
+    id, letters = ids.arm(load.name, centre), Symbol("h", load.letters)
+    return q.define(id, drawn, letters, arm=True, of=load.name, about=centre, scale=statics.span)
+
+
+def moments(statics: Statics, loads: Iterable[LoadOn], centre: str) -> Expression | None:
+    """Moments about a point as printed: (ΣF·h)·μ_l, and couples; None if there are none."""
+    terms: list[Expression] = []
+    couples: list[Expression] = []
+    for load in loads:
+        couple = statics.couple(load)
+        if not load.point:
+            couples.append(load.size)
+        elif load.point != centre or couple is not None:
+            terms.append(load.size * arm(statics, load, centre))
+            if couple is not None:
+                couples.append(lone_couple(statics, load))
+    if not terms:
+        return Sum(tuple(couples)) if couples else None
+    turned = Sum(tuple(terms)) * statics.q["mu.l"]
+    return Sum((turned, *couples)) if couples else turned
+
+
+def lone_couple(statics: Statics, load: LoadOn) -> Expression:
+    """The couple of a load at positions where its force is nothing; left out of a line elsewhere."""
+    q, id, couple = statics.q, ids.lone_couple(load.name), statics.couple(load)
+    assert couple is not None
+    if id not in q:
+        letters = load.letters.removeprefix("P")
+        alone = call("if_zero", _divisor(statics, load), couple)
+        q.define(id, alone, Symbol("M", letters), "torque", optional=True)
+    return Sum((q[id],))  # a term of its own, so that it can be left out
+
+
+# --- force plans ----------------------------------------------------------------------------------
+# Vertices head to tail, a scale for each position, forces read between vertices.
+
+LETTERS = "efghijklmqrtuvwxyzabcd"
+"""Vertices of a force plan in the order of drawing; n is where the unknown edges meet."""
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """One force of a polygon, from vertex to vertex; `unknown` edges are found by closing it.
+
+    `link` is the link it acts on.
+    """
+
+    name: str
+    start: str
+    end: str
+    unknown: bool = False
+    link: int = 0
+
+    @property
+    def is_reaction(self) -> bool:
+        return self.name in ids.reaction_force
+
+    @property
+    def part(self) -> str:
+        """The component of a reaction, n or t, "" for a whole force."""
+        found = ids.reaction_force.read(self.name)
+        return found["part"] if found else ""
+
+
+@dataclass(frozen=True, slots=True)
+class Polygon:
+    """A group's force plan: its edges head to tail and the joints read from it.
+
+    `reads` are further vectors read between vertices, e.g. the reaction in the inner joint.
+    """
+
+    name: str
+    edges: tuple[Edge, ...]
+    reads: tuple[Edge, ...] = ()
+
+    @property
+    def carried(self) -> tuple[Edge, ...]:
+        """The reactions that groups solved before have left on these links."""
+        return tuple(edge for edge in self.edges if edge.is_reaction and not edge.unknown and not edge.part)
+
+
+class Path:
+    """The known forces of a plan laid head to tail from vertex e."""
+
+    def __init__(self, q: Sheet) -> None:
+        self._q = q
+        self._letters = iter(LETTERS)
+        self.first = self.last = next(self._letters)
+        self.corners: dict[str, Expression] = {self.first: Number(0.0)}
+        self.edges: list[Edge] = []
+
+    def lay(self, name: str, link: int) -> None:
+        """Lay the force `F.name` on from the last vertex."""
+        letter = next(self._letters)
+        self.corners[letter] = self.corners[self.last] + self._q[ids.vector(name)]
+        self.edges.append(Edge(name, self.last, letter, link=link))
+        self.last = letter
+
+
+Closing = Callable[[Mapping[str, Expression], Expression], Expression]
+"""Where the unknown edges meet, from the vertices of the known ones and the scale that they are drawn at."""
+
+
+def force_plan(statics: Statics, name: str, title: str, path: Path, closing: Closing | None = None) -> None:
+    """Choose μ_R for each position so that its plan fills its space; lay the known forces and close the plan at n.
+
+    Enters their drawn lengths and, on paper, the forces as they are laid (`laid.23.P3`) and the vertices.
+    """
+    q = statics.q
+    corners = path.corners | ({} if closing is None else {"n": closing(path.corners, Number(1.0))})
+    values = {id: family.values for id, family in q.families.items()}
+    sizes = extents([np.asarray(evaluate(corner, values)) for corner in corners.values()], q.positions)
+    μ = q.give(ids.force_scale(name), own_scales(sizes, LEAST_FORCES), Symbol("μ", title))
+    vertices: dict[str, Expression] = {path.first: q.construct(ids.force_corner(name, path.first), Number(0.0))}
+    for edge in path.edges:
+        laid = q.construct(ids.laid_force(name, edge.name), q[ids.vector(edge.name)] / μ)
+        letters = segment(edge.start, edge.end)
+        q.define(ids.force_segment(name, edge.name), abs(laid), letters, scale=LEAST_FORCES, of=ids.vector(edge.name))
+        vertices[edge.end] = q.construct(ids.force_corner(name, edge.end), vertices[edge.start] + laid)
+    if closing is not None:
+        q.construct(ids.force_corner(name, "n"), closing(vertices, μ))
+
+
+def read(statics: Statics, plan: str, name: str, symbol: Symbol, id: str, start: str, end: str) -> None:
+    """A force read from a plan between two vertices: its segment, its size, its vector and its direction."""
+    q, scale = statics.q, statics.force
+    μ, along = q[ids.force_scale(plan)], q[ids.force_corner(plan, end)] - q[ids.force_corner(plan, start)]
+    drawn = q.define(
+        ids.force_segment(plan, name), abs(along), segment(start, end), scale=LEAST_FORCES, of=ids.vector(name)
+    )
+    q.define(id, μ * drawn, symbol, scale=scale)
+    vector = q.construct(ids.vector(name), μ * along, of=id)
+    q.define(ids.force_direction(name), heading(vector), Symbol("α", symbol.sub), scale=1.0, of=id)

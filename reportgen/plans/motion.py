@@ -1,0 +1,394 @@
+"""A linkage while its kinematics is entered: the sheet, every link placed so far, and the driver placed first.
+
+The driver is a crank at constant ω₁ or a slide at constant speed; it fixes the scales of the plans.
+"""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from reportgen.base.units import nice_up
+from reportgen.formula import Expression, Number, Ref, Symbol, arg, call, cis, cos, heading, ids, meet, quotient, turned
+from reportgen.formula.sheet import Sheet, is_short
+from reportgen.formula.vocabulary import drawn_length, on_plan, point, segment
+from reportgen.machine import DRIVER, GROUND, Crank, Guide, Linkage, SlidingDriver
+from reportgen.plans.scales import LEAST_MOTION, PER_MM, SHEET_BOXES, common_scale, extents
+from reportgen.plans.sides import Scheme, Side, image, sides
+
+What = Literal["v", "a"]
+POLES: dict[str, str] = {"v": "p", "a": "π"}
+NOWHERE = Number(0.0)
+ROTATION = {"v": ("omega", 1), "a": ("eps", 2)}
+"""The id of a link's rotation, and the power of 1/s that it is counted in."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """What counts as one of each kind: a billionth of it is nothing."""
+
+    velocity: float
+    acceleration: float
+    rotation: float
+
+    def of(self, what: What) -> float:
+        return self.velocity if what == "v" else self.acceleration
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedLink:
+    """A link that is placed: the point its frame starts at, its unit axis, and how its points move.
+
+    With a second point `tip`, images follow by similarity; else by `omega` and `eps`, its signed angular
+    velocity and acceleration; where these are None the link only shifts.
+    """
+
+    origin: str
+    axis: Ref | None
+    tip: str = ""
+    omega: Expression | None = None
+    eps: Expression | None = None
+
+
+@dataclass
+class Kinematics:
+    """Sheet `q`, linkage and placed links while a linkage is entered link by link."""
+
+    q: Sheet
+    scheme: Scheme
+    turn: int
+    sizes: Sizes
+    links: dict[int, PlacedLink] = field(default_factory=dict)
+    vertices: dict[What, list[Ref]] = field(default_factory=lambda: {"v": [], "a": []})
+    """All points of the plans."""
+
+    @property
+    def arm_length(self) -> Ref:
+        """The length of the crank."""
+        driver = self.scheme.linkage.driver
+        assert isinstance(driver, Crank)
+        return self.q[ids.length(driver.centre, driver.pin)]
+
+    # --- points and their images
+
+    def place(self, name: str) -> Ref:
+        """A point of the mechanism."""
+        return self.q[ids.place(name)]
+
+    def is_fixed(self, name: str) -> bool:
+        return self.scheme.owner.get(name) == GROUND
+
+    def image(self, what: What, name: str) -> Expression:
+        """A point on a plan: 0, the pole, for one fixed to the ground."""
+        return NOWHERE if self.is_fixed(name) else self.q[ids.plan_point(what, image(name))]
+
+    def vertex(self, what: What, name: str, place: Expression) -> Ref:
+        """Enter a point of a plan (m on paper)."""
+        self.vertices[what].append(self.q.construct(ids.plan_point(what, name), place))
+        return self.vertices[what][-1]
+
+    def letter(self, what: What, name: str) -> Symbol:
+        """A point's letter on a plan, that of the pole for one fixed to the ground."""
+        return Symbol(POLES[what]) if self.is_fixed(name) else on_plan(name, what == "a")
+
+    def image_at(self, what: What, link: int, arm: Expression) -> Expression:
+        """The image of the point of a link that lies at `arm` from the origin of its frame."""
+        q, placed = self.q, self.links[link]
+        base = self.image(what, placed.origin)
+        if link == DRIVER and placed.omega is not None:
+            drawn = arm * (q[ids.segment(what, "p", image(self.scheme.linkage.driver.pin))] / self.arm_length)
+            return self.turn * turned(drawn) if what == "v" else -drawn
+        if placed.tip:
+            ratio = arm / (self.place(placed.tip) - self.place(placed.origin))
+            return base + ratio * (self.image(what, placed.tip) - base)
+        if placed.omega is None:
+            return base
+        if what == "v":
+            return base + turned(arm) * placed.omega / q["mu.v"]
+        inward = -(arm * placed.omega**2)
+        if placed.eps is not None:
+            return base + (turned(arm) * placed.eps + inward) / q["mu.a"]
+        return base + inward / q["mu.a"]
+
+    def absolute(self, what: What, name: str) -> None:
+        """The segment from the pole to a point's image, and the velocity or acceleration it stands for."""
+        q, point = self.q, image(name)
+        on_paper = ids.segment(what, "p", point)
+        if on_paper not in q:
+            self.segment(on_paper, POLES[what], on_plan(name, what == "a"), self.image(what, name), what)
+        q.define(ids.POINT_RATE[what](name), q[ids.scale(what)] * q[on_paper], scale=self.sizes.of(what))
+        self.direction(what, name)
+
+    def direction(self, what: What, name: str) -> None:
+        """The angle of a point's velocity or acceleration from +x."""
+        vector = self.q[ids.plan_point(what, image(name))]
+        self.q.define(ids.direction(what, name), heading(vector), scale=1.0, of=ids.POINT_RATE[what](name))
+
+    # --- sizes on paper
+
+    def paper(self, what: What) -> float:
+        """The size of a plan on paper (m)."""
+        return self.sizes.of(what) / self.q.si(ids.scale(what))
+
+    def span(self) -> float:
+        """The size of the mechanism as it is drawn (m)."""
+        return longest(self.scheme.linkage) / self.q.si("mu.l")
+
+    def segment(self, id: str, first: Symbol | str, second: Symbol | str, along: Expression, what: What) -> Ref:
+        """A segment measured on a plan."""
+        return self.q.define(id, abs(along), segment(first, second), scale=self.paper(what))
+
+    def constant(self, id: str, value: complex) -> Ref:
+        """A constant point or direction as a quantity, entered once."""
+        return self.q[id] if id in self.q else self.q.give(id, complex(value), Symbol(id), "ratio")
+
+    def length(self, start: str, end: str, value: float) -> Ref:
+        """A link's length, entered as given unless the machine has done so."""
+        id = ids.length(start, end)
+        return self.q[id] if id in self.q else self.q.give(id, value, exact=is_short(value))
+
+    def drawn(self, start: str, end: str) -> Expression:
+        """Enter a length as it is drawn; gives the length (m) that the drawing then shows."""
+        q, on_paper = self.q, self.q[ids.length(start, end)] / self.q["mu.l"]
+        drawn = q.define(ids.drawn(start, end), on_paper, drawn_length(start, end))
+        return q["drawing"] * q.construct(ids.laid_line(start, end), on_paper, of=drawn.id)
+
+    # --- links
+
+    def axis(self, link: int) -> Expression:
+        """The unit vector along the real axis of a link's frame."""
+        if link == GROUND:
+            return Number(1.0)
+        axis = self.links[link].axis
+        assert axis is not None, f"nothing is carried by link {link}"
+        return axis
+
+    def guide(self, slider: int, guide: Guide) -> tuple[Ref, Ref]:
+        """A guide's point and direction, carried along by its link."""
+        at, along = ids.guide_place(slider), ids.guide(slider)
+        if guide.link == GROUND:
+            return self.constant(at, guide.at), self.constant(along, cmath.exp(1j * guide.angle))
+        axis = self.axis(guide.link)
+        own_place = self.constant(ids.guide_place_on_link(slider), guide.at)
+        own_direction = self.constant(ids.guide_on_link(slider), cmath.exp(1j * guide.angle))
+        start = self.place(self.links[guide.link].origin)
+        return self.q.construct(at, start + own_place * axis), self.q.construct(along, own_direction * axis)
+
+    def share_rotation(self, what: What, link: int) -> None:
+        """Enter ω or ε of a link that turns with another one as that of the other."""
+        q, other = self.q, self.scheme.spins[link]
+        rate, order = ROTATION[what]
+        rotation = ids.LINK_RATE[rate]
+        if other == link or rotation(other) not in q:
+            return
+        size = self.sizes.rotation**order
+        signed = self.omega(other) if what == "v" else q[ids.signed(rate, other)]
+        q.define(rotation(link), q[rotation(other)], scale=size)
+        q.define(ids.signed(rate, link), signed, scale=size, of=rotation(link))
+
+    def omega(self, link: int) -> Expression:
+        """The signed angular velocity of a link that turns."""
+        if link == DRIVER:
+            return self.q["omega.1"] if self.turn > 0 else -self.q["omega.1"]
+        return Ref(ids.signed("omega", link))
+
+    def put(self, link: int, origin: str, axis: Ref | None, tip: str = "") -> None:
+        """Place a link; how its points move follows from what it turns with."""
+        source = self.scheme.spins[link]
+        omega = self.omega(link) if source else None
+        eps = Ref(ids.signed("eps", link)) if source not in (0, DRIVER) else None
+        self.links[link] = PlacedLink(origin, axis, tip, omega, eps)
+
+
+def longest(linkage: Linkage) -> float:
+    """The longest length of a linkage (m): of a rod, or between fixed points."""
+    fixed = list(linkage.ground.values())
+    spans = [abs(p - q) for p in fixed for q in fixed]
+    rods = [length for dyad in linkage.dyads for length in dyad.lengths]
+    return max((*rods, *spans, *(abs(place.local) for place in linkage.points)), default=0.0) or 1.0
+
+
+def natural_sizes(q: Sheet, linkage: Linkage) -> Sizes:
+    """Velocity, acceleration and rotation that are natural to a linkage: those of its driver's pin."""
+    driver = linkage.driver
+    if isinstance(driver, Crank):
+        omega = q.si("omega.1")
+        return Sizes(omega * driver.length, omega**2 * driver.length, omega)
+    speed, size = float(np.abs(q.value(ids.velocity(driver.pin))).max()), longest(linkage)
+    return Sizes(speed, speed**2 / size, speed / size)
+
+
+DRAWN = 0.05
+"""Drawn length of the crank (m on paper) when the machine does not say."""
+LONGEST_DRAWN = 0.08
+"""A sliding driver's mechanism is drawn with its longest length no longer than this (m on paper)."""
+
+
+def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[str, float | None]) -> Kinematics:
+    """v_A = ω₁ l, a_A = ω₁² l; without chosen `scales` μ_v = ω₁ μ_l, μ_a = ω₁² μ_l, and pa, πa′ are the drawn crank."""
+    centre, pin = driver.centre, driver.pin
+    k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
+    φ1, ω1, length = q["phi.1"], q["omega.1"], k.length(centre, pin, driver.length)
+    if ids.drawn(centre, pin) not in q:
+        q.give(ids.drawn(centre, pin), DRAWN, drawn_length(centre, pin))
+    drawn = q[ids.drawn(centre, pin)]
+    exact = q.families[drawn.id].exact
+    μ_l = q.define("mu.l", length / drawn)
+    # What one length on paper is: the drawn crank says it, whatever is written down for μ_l.
+    q.construct("drawing", length / drawn)
+    q.construct(ids.place(pin), k.place(centre) + length * cis(φ1))
+    further = [place for place in scheme.linkage.points if place.link == DRIVER]
+    for place in further:
+        k.length(centre, place.name, abs(place.local))
+        reach = k.drawn(centre, place.name)
+        q.construct(ids.place(place.name), k.place(centre) + reach * cis(φ1 + cmath.phase(place.local)))
+
+    q.define(ids.velocity(pin), ω1 * length)
+    q.define(ids.acceleration(pin), ω1**2 * length)
+    plans: tuple[tuple[What, Expression], ...] = ("v", ω1 * μ_l), ("a", ω1**2 * μ_l)
+    for what, by_crank in plans:
+        letters, chosen = segment(POLES[what], on_plan(pin, what == "a")), scales.get(what)
+        if chosen is None:
+            q.define(ids.segment(what, "p", image(pin)), drawn, letters, exact=exact)
+            q.define(ids.scale(what), by_crank)
+        else:
+            q.define(
+                ids.segment(what, "p", image(pin)),
+                q[ids.POINT_RATE[what](pin)] / q.give(ids.scale(what), chosen),
+                letters,
+            )
+    μ_v, μ_a = q["mu.v"], q["mu.a"]
+
+    k.put(DRIVER, centre, None)
+    for name in (pin, *(place.name for place in further)):
+        arm = k.place(name) - k.place(centre)
+        k.vertex("v", image(name), k.image_at("v", DRIVER, arm))
+        k.vertex("a", image(name), k.image_at("a", DRIVER, arm))
+        if name != pin:
+            own = q[ids.length(centre, name)]
+            v, a = q.define(ids.velocity(name), ω1 * own), q.define(ids.acceleration(name), ω1**2 * own)
+            q.define(ids.segment("v", "p", image(name)), v / μ_v, segment("p", on_plan(name)))
+            q.define(ids.segment("a", "p", image(name)), a / μ_a, segment("π", on_plan(name, True)))
+    ends = (end for dyad in scheme.linkage.dyads for end in (dyad.start, dyad.end))
+    carries = any(getattr(end, "link", None) == DRIVER for end in ends)
+    k.put(DRIVER, centre, q.construct("axis.1", cis(φ1)) if carries else None)
+    return k
+
+
+def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: Mapping[str, float | None]) -> Kinematics:
+    """The pin moves along its guide at constant v_A, a_A = 0; `scales` are μ_v and μ_a, none for a trial.
+
+    Expects the driver's coordinate `s.1` and the size of its speed, `v.` and the pin's name.
+    """
+    pin, size = driver.pin, longest(scheme.linkage)
+    k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
+    if "mu.l" not in q:
+        q.give("mu.l", nice_up(size / LONGEST_DRAWN / 1e3) * 1e3)
+    q.construct("drawing", q["mu.l"])
+    along = k.constant("guide.1", cmath.exp(1j * driver.guide.angle))
+    at = k.constant("guide.1.at", driver.guide.at)
+    q.construct(ids.place(pin), at + q["s.1"] * along)
+    μ_v = q.give("mu.v", scales.get("v") or PER_MM)
+    q.give("mu.a", scales.get("a") or PER_MM)
+    drawn = q.define(ids.segment("v", "p", image(pin)), q[ids.velocity(pin)] / μ_v, segment("p", on_plan(pin)))
+    k.vertex("v", image(pin), turn * drawn * along)
+    q.give(ids.acceleration(pin), 0.0)
+    q.define(ids.segment("a", "p", image(pin)), 0.0, segment("π", on_plan(pin, True)))
+    k.vertex("a", image(pin), Number(0.0) * along)
+    k.put(DRIVER, pin, along)
+    return k
+
+
+def chosen_scale(trial: Kinematics, what: What, worked: Sequence[int]) -> float | None:
+    """The scale of all plans (SI), from a trial; None if the crank's gives the worked ones their size already."""
+    q, μ = trial.q, trial.q.si(ids.scale(what))
+    sizes = extents([np.zeros(1), *map(q.value, trial.vertices[what])], q.positions) * μ
+    shown = sizes[:, [k - 1 for k in worked]] if worked else sizes
+    least = np.nanmin(shown.max(axis=0), initial=np.inf) / μ
+    if isinstance(trial.scheme.linkage.driver, Crank) and least >= LEAST_MOTION:
+        return None
+    return common_scale(sizes, worked, LEAST_MOTION)
+
+
+# --- instant centres of velocity ------------------------------------------------------------------
+# And what they and the projections on a link say of its motion.
+# For each link k with two moving points B (its base) and C: `ic.k` the centre P, where the normals to both velocities
+# meet; `ic.seg.k.B`, `ic.seg.k.C` its distances as drawn, nan where they are too short to measure or P lies off every
+# sheet that holds the mechanism; `ic.omega.k` = v_B/(μ_l·PB), `ic.v.k` = v_B·PC/PB; `ic.angle.k.B`, `ic.angle.k.C`
+# the angles between the velocities and BC, `ic.along.k.B` = v_B cos ψ_B, `ic.along.k.C` = v_C cos ψ_C.
+
+NEAREST = 0.002
+"""The shortest distance of a centre from the base (m on paper) that is measured: a shorter one has no exact length."""
+FARTHEST = 0.4
+"""No sheet holds a longer distance (m on paper)."""
+
+
+def links_in_plane_motion(scheme: Scheme) -> tuple[Side, ...]:
+    """The links with two points whose velocities are drawn, each as one point turning about another."""
+    both = (side for dyad in scheme.linkage.dyads for side in sides(scheme, dyad))
+    return tuple(side for side in both if side.turns and not side.still)
+
+
+def centre_symbol(link: int) -> Symbol:
+    """P with the link's number."""
+    return Symbol("P", str(link))
+
+
+def enter_centres(k: Kinematics) -> None:
+    """Enter the centres of all links in plane motion and the checks by them."""
+    for turn in links_in_plane_motion(k.scheme):
+        _enter_centre(k, turn)
+
+
+def _enter_centre(k: Kinematics, turn: Side) -> None:
+    q, link, base, end, sizes = k.q, turn.link, turn.base, turn.point, k.sizes
+    normals = k.place(base), _normal(k, base), k.place(end), _normal(k, end)
+    centre, μ_l = q.construct(ids.centre(link), meet(*normals)), q["mu.l"]
+
+    reach = q.give(ids.centre_reach(link), _reach(k, q.value(centre)), Symbol("reach"), "ratio", hidden=True)
+
+    def distance(name: str, nearest: float) -> Expression:
+        within = call("within", abs(k.place(name) - centre) / q["drawing"], nearest, reach)
+        return q.define(
+            ids.centre_distance(link, name), within, segment(centre_symbol(link), point(name)), scale=k.span()
+        )
+
+    PB, PC, v = distance(base, NEAREST), distance(end, 0.0), q[ids.velocity(base)]
+    q.define(ids.centre_omega(link), v / (μ_l * PB), scale=sizes.rotation)
+    q.define(ids.centre_velocity(link), v * (PC / PB), Symbol("v", end), scale=sizes.velocity)
+    for name in (base, end):
+        to_link = abs(arg(quotient(k.image("v", name), q[ids.rod(link)])))
+        q.define(ids.rod_angle(link, name), to_link, scale=1.0)
+    for name in (base, end):
+        along = q[ids.velocity(name)] * cos(q[ids.rod_angle(link, name)])
+        q.define(ids.projection(link, name), along, scale=sizes.velocity)
+
+
+def _reach(k: Kinematics, centre: np.ndarray) -> np.ndarray:
+    """How far a centre may lie (m on paper) at each position: 0 where no sheet holds it and the mechanism."""
+    q = k.q
+    points = [family.values for id, family in q.families.items() if id in ids.place]
+    sizes = extents([*points, centre], q.positions) / q.si("mu.l")
+    fits = [(sizes <= np.array(box)[:, None]).all(axis=0) for box in SHEET_BOXES]
+    return np.where(np.any(fits, axis=0), FARTHEST, 0.0)
+
+
+def _normal(k: Kinematics, name: str) -> Expression:
+    """A direction square to a point's velocity: by what leads it, so also where it stands still, else by the plan."""
+    scheme, driver = k.scheme, k.scheme.linkage.driver
+    owner = scheme.owner.get(name)
+    if owner == DRIVER:
+        if isinstance(driver, Crank):
+            return k.place(name) - k.place(driver.centre)
+        return turned(k.q["guide.1"])
+    for side in (side for dyad in scheme.linkage.dyads for side in sides(scheme, dyad) if side.still):
+        if side.turns:
+            if side.point == name or side.link == owner:
+                return k.place(name) - k.place(side.base)
+        elif side.point == name or (side.carrier is not None and side.along == ids.guide(owner)):
+            return turned(k.q[side.along])
+    return turned(k.q[ids.plan_point("v", image(name))])

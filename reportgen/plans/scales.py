@@ -1,0 +1,62 @@
+"""Round scales of plans: worked ones fill their space, the largest of all positions still has a sheet of paper.
+
+Sizes are widths and heights of plans in the unit of what they show, boxes are metres of paper.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from reportgen.base.units import nice_down, nice_up
+
+TEXT_BOX = (0.145, 0.190)
+"""What a plan may fill on a page of text (m), its labels apart."""
+SHEET_BOXES = (0.360, 0.210), (0.235, 0.335)
+"""What a plan may fill on an A3 sheet (m), lying or standing."""
+LEAST_MOTION, LEAST_FORCES = 0.060, 0.100
+"""A worked plan of velocities or accelerations, and one of forces, is drawn at least so wide or high (m)."""
+NOTHING = 1e-6
+"""A plan below this share of the largest one is that of an unloaded position."""
+PER_MM = 1e3
+"""Scales are round in the unit in which they are printed, per mm of paper."""
+
+
+def extents(points: Iterable[np.ndarray], positions: int) -> np.ndarray:
+    """Width and height [2, N] of the boxes around points of a plan; nan where the mechanism has no position."""
+    places = np.array([np.broadcast_to(point, (positions,)) for point in points])
+    return np.array([np.ptp(places.real, axis=0), np.ptp(places.imag, axis=0)])
+
+
+def fitting(sizes: np.ndarray, box: tuple[float, float]) -> float:
+    """The smallest round scale with which all plans of the `sizes` [2, K] (SI) fit the box (m); 0 without any."""
+    needed = float(np.max(sizes / np.array(box)[:, None], initial=0.0))
+    return nice_up(needed / PER_MM) * PER_MM if needed > 0 else 0.0
+
+
+def filling(sizes: np.ndarray, least: float) -> float:
+    """The largest round scale that draws each plan of the `sizes` [2, K] (SI) at least so long (m); 0 without any."""
+    smallest = float(np.min(sizes.max(axis=0, initial=0.0), initial=np.inf))
+    return nice_down(smallest / least / PER_MM) * PER_MM if 0 < smallest < np.inf else 0.0
+
+
+def common_scale(sizes: np.ndarray, worked: Sequence[int], least: float) -> float:
+    """One scale for plans at all positions [2, N]: the worked ones (from 1) at least so long if they fit their page."""
+    chosen = sizes[:, [k - 1 for k in worked]] if worked else sizes
+    shown, every = (part[:, np.isfinite(part).all(axis=0) & (part.max(axis=0) > 0)] for part in (chosen, sizes))
+    on_sheet = min(fitting(every, box) for box in SHEET_BOXES)
+    return max(filling(shown, least), fitting(shown, TEXT_BOX), on_sheet) or PER_MM
+
+
+def own_scales(sizes: np.ndarray, least: float) -> np.ndarray:
+    """A scale for the plan of each position [N]: it is at least so long, or fits a page of text just so.
+
+    The largest of them therefore serves all plans together.  A position without forces takes that one.
+    """
+    known = np.isfinite(sizes).all(axis=0) & (sizes.max(axis=0) > NOTHING * np.nanmax(sizes, initial=0.0))
+    scales = [
+        max(filling(one[:, None], least), fitting(one[:, None], TEXT_BOX)) if there else 0.0
+        for one, there in zip(sizes.T, known, strict=True)
+    ]
+    return np.array([scale or max(scales) or PER_MM for scale in scales])

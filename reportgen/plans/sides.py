@@ -1,0 +1,212 @@
+"""What each side of a group's vector equation says, from the dyad kind alone.
+
+Every group of class II is solved by writing the motion of one point M in two ways:
+
+* M turns about a known point P of its link: v_M = v_P + v_MP, v_MP ⊥ PM;
+  a_M = a_P + aⁿ_MP + aᵗ_MP.
+* M slides over a known point G in a known direction d: v_M = v_G + v_MG, v_MG ∥ d;
+  a_M = a_G + aᵏ_MG + aʳ_MG with aᵏ = 2ω v_MG where the guide turns.
+
+==== ================================= =========================================
+kind first side                        second side
+==== ================================= =========================================
+RRR  Q turns about P on link i         Q turns about T on link j
+RRP  Q turns about P on link i         Q slides over the guide's point under it
+RPR  P's point of j slides over P      it turns about T on link j
+PRP  Q slides over the first guide     Q slides over the second guide
+RPP  P's point of j slides over P      it slides over the guide's link
+==== ================================= =========================================
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+
+from reportgen.formula import ids
+from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage, owners
+
+
+def image(name: str) -> str:
+    """A point's letter on a plan: S2 → s2."""
+    return name.lower()
+
+
+def under(name: str, link: int, taken: Collection[str]) -> str:
+    """The name of the point of a link that lies under a pin now: B on link 3 → B3, B′3 where B3 is taken."""
+    plain = f"{name}{link}"
+    return f"{name}′{link}" if plain in taken else plain
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """One of the two ways in which the motion of a `point` is written: with its `base`, and relative to it.
+
+    Either both lie on `link` and the point turns about the base, or it slides over the base along the direction
+    `along` (an id).  `still` when the base is fixed to the ground; `shown` is the base as vectors name it: B2 for
+    the pin B as a point of block 2.
+    """
+
+    point: str
+    base: str
+    still: bool
+    shown: str
+    link: int = 0
+    measured: bool = False
+    """Whether the distance of a turning point from its base changes and is measured on the drawing."""
+    along: str = ""
+    turning: int = 0
+    """The link whose turning gives a sliding point its Coriolis acceleration, 0 if nothing turns."""
+    carrier: int | None = None
+    """The link that has the guide when the base is that link's point under `point`, None when the base is a pin."""
+
+    @property
+    def turns(self) -> bool:
+        return not self.along
+
+    @property
+    def way(self) -> str:
+        """How the point moves relative to its base: it "turns", or slides along a "guide" or a "slot"."""
+        return "turns" if self.turns else "guide" if self.guided else "slot"
+
+    @property
+    def state(self) -> str:
+        """Whether the base is at rest: "still" or "moving"."""
+        return "still" if self.still else "moving"
+
+    @property
+    def guided(self) -> bool:
+        """Whether the base is the guide's own point, not a pin."""
+        return self.carrier is not None
+
+    @property
+    def relative(self) -> str:
+        """The point relative to its base as ids name it."""
+        return f"{self.point}{self.base}"
+
+    @property
+    def pair(self) -> str:
+        """The same as vectors name it."""
+        return f"{self.point}{self.shown}"
+
+    @property
+    def rod(self) -> str:
+        """What a turning point turns with."""
+        return f"{self.base}{self.point}"
+
+    @property
+    def part(self) -> str:
+        """The letter of the relative acceleration that velocities give, n or k, "" where there is none."""
+        return "n" if self.turns else "k" if self.turning else ""
+
+    @property
+    def sought(self) -> str:
+        """The letter of the one that is sought, t or r; "" where the point's own acceleration stands for it."""
+        return "t" if self.turns else "r" if self.turning or not self.still else ""
+
+    # --- ids
+
+    @property
+    def velocity(self) -> str:
+        """The relative velocity."""
+        return ids.velocity(self.relative)
+
+    @property
+    def known(self) -> str:
+        """The segment of the relative acceleration that velocities give."""
+        return ids.relative_segment(self.part, self.relative)
+
+    @property
+    def omega(self) -> str:
+        return ids.angular_velocity(self.turning)
+
+
+@dataclass(frozen=True, slots=True)
+class Scheme:
+    """A linkage seen as links that turn or only shift."""
+
+    linkage: Linkage
+    owner: Mapping[str, int]
+    spins: Mapping[int, int]
+    """For each link the link whose angular velocity it shares: itself if it turns freely, 0 if it never turns."""
+
+    def still(self, name: str) -> bool:
+        return self.owner[name] == GROUND
+
+
+def scheme(linkage: Linkage) -> Scheme:
+    """Which links turn, and with which others; raises `ValueError` for two points of one name."""
+    spins = {GROUND: 0, DRIVER: DRIVER if isinstance(linkage.driver, Crank) else 0}
+    for dyad in linkage.dyads:
+        i, j = dyad.links
+        first, second = (
+            link if isinstance(end, str) else spins[end.link]
+            for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)
+        )
+        # A slide between the two links makes them turn with one angular velocity.
+        spins |= {i: second if dyad.kind in {"RPR", "RPP"} else first, j: second}
+    return Scheme(linkage, owners(linkage), spins)
+
+
+def sides(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:
+    """The two sides of a group's vector equations."""
+    return SIDES[dyad.kind](plan, dyad)
+
+
+def _turn(plan: Scheme, point: str, base: str | Guide, link: int, measured: bool = False) -> Side:
+    assert isinstance(base, str)
+    return Side(point, base, plan.still(base), base, link, measured)
+
+
+def _on_guide(plan: Scheme, point: str, guide: str | Guide, slider: int, *others: str) -> Side:
+    """A point that slides over its guide's link; `others` are names already taken in the group."""
+    assert isinstance(guide, Guide)
+    base = under(point, guide.link, {*plan.owner, *others})
+    on = guide.link
+    return Side(point, base, on == GROUND, base, along=ids.guide(slider), turning=plan.spins[on], carrier=on)
+
+
+def _over_pin(plan: Scheme, dyad: Dyad, point: str) -> Side:
+    """The point of link j under the outer pin P slides over P."""
+    assert isinstance(dyad.start, str)
+    i, j = dyad.links
+    pin = dyad.start
+    shown = pin if pin[-1].isdigit() else f"{pin}{i}"
+    return Side(point, pin, plan.still(pin), shown, along=ids.slot(j), turning=plan.spins[j])
+
+
+def _rrr(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:
+    i, j = dyad.links
+    return _turn(plan, dyad.middle, dyad.start, i), _turn(plan, dyad.middle, dyad.end, j)
+
+
+def _rrp(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:
+    i, j = dyad.links
+    return _turn(plan, dyad.middle, dyad.start, i), _on_guide(plan, dyad.middle, dyad.end, j)
+
+
+def _rpr(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:
+    j = dyad.links[1]
+    return _over_pin(plan, dyad, dyad.middle), _turn(plan, dyad.middle, dyad.end, j, measured=True)
+
+
+def _prp(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:
+    i, j = dyad.links
+    first = _on_guide(plan, dyad.middle, dyad.start, i)
+    return first, _on_guide(plan, dyad.middle, dyad.end, j, first.base)
+
+
+def _rpp(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:
+    assert isinstance(dyad.start, str)
+    j = dyad.links[1]
+    point = under(dyad.start, j, plan.owner)
+    return _over_pin(plan, dyad, point), _on_guide(plan, point, dyad.end, j)
+
+
+SIDES: Mapping[DyadKind, Callable[[Scheme, Dyad], tuple[Side, Side]]] = {
+    "RRR": _rrr,
+    "RRP": _rrp,
+    "RPR": _rpr,
+    "PRP": _prp,
+    "RPP": _rpp,
+}

@@ -1,0 +1,434 @@
+"""The document as data: blocks and inlines that every writer renders and none computes.
+
+All texts are plain strings exactly as they shall appear; writers escape.  Lengths are millimetres.
+`key` names a block for references and is unique in the document; `number` is filled in by
+`document.numbering` and printed by the writers as it stands, so all writers number alike.
+
+Its plain text, in order, is what snapshots compare and what a text-only reader sees: symbols are written
+base_sub^sup, numbers as printed in the document's language, drawings by their captions.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import groupby
+from typing import Literal
+
+from reportgen.base.units import Language
+from reportgen.drawing import Scene
+from reportgen.drawing.geometry import box
+from reportgen.formula import Expression, Number, VectorEquation
+from reportgen.formula.plain import formula, quantity
+
+# --- inlines --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Emph:
+    of: tuple[Inline, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Strong:
+    of: tuple[Inline, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class InlineMath:
+    """A symbol or a short formula inside a line; `slashed` fractions keep the height of the line: 3 l/2."""
+
+    expression: Expression
+    slashed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """A number with its unit inside a line or a table cell."""
+
+    number: Number
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """The number of the block called `key`, linked; `text` is filled in by numbering."""
+
+    key: str
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class LineBreak:
+    pass
+
+
+Inline = Text | Emph | Strong | InlineMath | Value | Reference | LineBreak
+Inlines = tuple[Inline, ...]
+
+# --- blocks ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A heading; level 1 is a part of the report, 4 is a run-in heading.
+
+    `numbered=False` is for foreword, conclusion and the like: listed in the contents, not counted.
+    """
+
+    level: int
+    title: Inlines
+    key: str = ""
+    numbered: bool = True
+    number: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Paragraph:
+    inlines: Inlines
+    align: Literal["", "center", "right"] = ""
+
+
+@dataclass(frozen=True, slots=True)
+class List:
+    """Items are blocks; `ordered` counts from `start`."""
+
+    items: tuple[tuple[Block, ...], ...]
+    ordered: bool = False
+    start: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Equation:
+    """One or more displayed lines; each row is one expression.
+
+    With a `key` the group is numbered, once, on its last row.  A row too wide for the text block is
+    broken by the writers before an "=" of its chain, aligned after the first.
+    """
+
+    rows: tuple[Expression, ...]
+    key: str = ""
+    number: str = ""
+
+
+TEXT_WIDTH = 160.0
+"""What of an A4 page text takes across (mm)."""
+FIRST_COLUMN = 16.0
+"""The column of a table that names the positions (mm)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    width: float
+    align: Literal["left", "center", "right"] = "center"
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    inlines: Inlines = ()
+    span: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A ruled table; where it continues on the next page, its number and its `head` rows repeat.
+
+    A cell spans columns only.  One that is `framed` has a frame around its head and rows, as a boxed answer has.
+    """
+
+    columns: tuple[Column, ...]
+    head: tuple[tuple[Cell, ...], ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    caption: Inlines = ()
+    key: str = ""
+    number: str = ""
+    framed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """One scene, or several side by side in rows as they fit, with one caption, in true size.
+
+    Where the page has no room for it, the text runs on to the end of the page before it.
+    """
+
+    scenes: tuple[Scene, ...]
+    caption: Inlines = ()
+    key: str = ""
+    number: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Plate:
+    """A figure on a page of its own paper size (mm), for what the A4 text block cannot hold in true size.
+
+    With `continues` it is a further page of the figure before it, whose number it shares.
+    """
+
+    scene: Scene
+    paper: tuple[float, float]
+    caption: Inlines = ()
+    key: str = ""
+    number: str = ""
+    continues: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Cover:
+    """The title page: institution lines on top, title lines in the middle, labelled fields, place and date."""
+
+    institution: tuple[str, ...]
+    title: tuple[str, ...]
+    subtitle: tuple[str, ...]
+    fields: tuple[tuple[str, str], ...]
+    """(label, value); an empty value prints a dotted line to fill in."""
+    place_and_date: str
+
+
+@dataclass(frozen=True, slots=True)
+class Contents:
+    """The table of contents (levels 1 to 3) with true page numbers."""
+
+    title: str
+
+
+@dataclass(frozen=True, slots=True)
+class BlankLine:
+    """A dotted line to write on."""
+
+    label: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PageBreak:
+    pass
+
+
+Block = Section | Paragraph | List | Equation | Table | Figure | Plate | Cover | Contents | BlankLine | PageBreak
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """The few words writers themselves print, in the report's language."""
+
+    figure: str
+    table: str
+    contents: str
+    page: str
+    continued: str
+    """Stands behind the number of a table or figure that goes on from the page before."""
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """A finished report: its blocks in order and what every page carries."""
+
+    language: Language
+    title: str
+    author: str
+    header: tuple[str, str]
+    """Left and right text of the running header (not on the cover)."""
+    footer: tuple[str, str]
+    """Left text of the running footer, and the word before the page number."""
+    words: Words
+    blocks: tuple[Block, ...] = field(default=())
+
+
+def text_of(document: Document) -> str:
+    """All text of a document, a line for each heading, paragraph, row and formula."""
+    return "\n".join(line for block in document.blocks for line in lines_of(block, document)) + "\n"
+
+
+def lines_of(block: Block, document: Document) -> Iterator[str]:
+    """The lines of one block, in the words and the language of its document."""
+    language, words = document.language, document.words
+    match block:
+        case Section(_, title, number=number):
+            yield f"{number} {plain(title, language)}".strip()
+        case Paragraph(inlines):
+            yield plain(inlines, language)
+        case List(items, ordered, start):
+            for index, item in enumerate(items):
+                mark = f"{start + index}." if ordered else "•"
+                for i, line in enumerate(line for inner in item for line in lines_of(inner, document)):
+                    yield f"{mark} {line}" if i == 0 else f"{' ' * len(mark)} {line}"
+        case Equation(rows, number=number):
+            for row in rows:
+                yield formula(row, language) + (f"  ({number})" if number and row is rows[-1] else "")
+        case Table(_, head, rows):
+            yield from _caption(block, words, language)
+            for cells in (*head, *rows):
+                yield _row(cells, language)
+        case Plate(continues=True):
+            yield f"{words.figure} {block.number} ({words.continued})"
+        case Figure() | Plate():
+            yield from _caption(block, words, language)
+        case Cover(institution, title_lines, subtitle, fields, place_and_date):
+            yield from (*institution, *title_lines, *subtitle)
+            yield from (f"{label}: {value or '…'}" for label, value in fields)
+            yield place_and_date
+        case Contents(heading):
+            yield heading
+        case BlankLine(label):
+            yield f"{label} …".strip()
+        case PageBreak():
+            pass
+
+
+def _caption(block: Table | Figure | Plate, words: Words, language: Language) -> Iterator[str]:
+    if block.number or block.caption:
+        word = words.table if isinstance(block, Table) else words.figure
+        yield f"{word} {block.number}. {plain(block.caption, language)}".strip()
+
+
+def _row(cells: tuple[Cell, ...], language: Language) -> str:
+    return " | ".join(plain(cell.inlines, language) for cell in cells)
+
+
+def listed(parts: Iterable[Inline]) -> Inlines:
+    """Inlines side by side with commas."""
+    return tuple(one for index, part in enumerate(parts) for one in ((Text(", "), part) if index else (part,)))
+
+
+def plain(inlines: Inlines, language: Language) -> str:
+    """The text of inlines in one line."""
+    result = []
+    for inline in inlines:
+        match inline:
+            case Text(text) | Reference(text=text):
+                result.append(text)
+            case Emph(of) | Strong(of):
+                result.append(plain(of, language))
+            case InlineMath(expression):
+                result.append(formula(expression, language))
+            case Value(number):
+                result.append(quantity(number, language))
+            case LineBreak():
+                result.append(" ")
+    return "".join(result)
+
+
+# --- decisions that all writers share -------------------------------------------------------------
+# How formulas are put together, and what breaks must not separate.
+
+TEXT_WIDTH = 160.0
+"""Of the A4 text block, mm."""
+SCENE_GAP = 4.0
+"""Between scenes side by side, mm."""
+ABREAST = 8.0
+"""Between two short rows of an equation side by side, mm."""
+TEXT_SIZE = 12.0
+"""Of running text and formulas, points."""
+WHOLE_TABLE = 12
+"""A table with no more rows than this is kept on one page."""
+TOGETHER = 3
+"""A longer table has at least this many rows on each of its pages."""
+UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
+"""A unit with a slash inside a text."""
+
+TITLE = 5.0
+"""What the titles of a row of scenes take below it (mm)."""
+LONG_FIGURE = 110.0
+"""A figure of several rows that is higher than this (mm) may break between them; its caption then comes first."""
+
+# --- equations --------------------------------------------------------------------------------------
+
+
+def in_groups(rows: Sequence[Expression], room: float) -> list[tuple[Expression, ...]]:
+    """The rows of an equation in groups that are set alike: vector equations alone, runs of short rows, others.
+
+    Of short rows two have `room` (mm) side by side; one alone stays with the rows beside it.
+    """
+    groups = [list(run) for _, run in groupby(rows, lambda row: isinstance(row, VectorEquation))]
+    found: list[tuple[Expression, ...]] = []
+    for group in groups:
+        if isinstance(group[0], VectorEquation):
+            found += ((row,) for row in group)
+            continue
+        aligned: list[Expression] = []
+        for short, run in groupby(group, lambda row: _is_short(row, room)):
+            members = tuple(run)
+            if not short or len(members) == 1:
+                aligned += members
+                continue
+            found += [tuple(aligned)] if aligned else []
+            found.append(members)
+            aligned = []
+        found += [tuple(aligned)] if aligned else []
+    return found
+
+
+def lines(rows: Sequence[Expression], room: float) -> int:
+    """How many lines the rows of an equation take, short ones two abreast."""
+    groups = in_groups(rows, room)
+    return sum(-(-len(one) // 2) if all(_is_short(row, room) for row in one) else len(one) for one in groups)
+
+
+def _is_short(row: Expression, room: float) -> bool:
+    return 2 * _width(row) + ABREAST <= room
+
+
+def _width(row: Expression) -> float:
+    """About what a displayed row takes across (mm)."""
+    return box(row, TEXT_SIZE, displayed=True).width
+
+
+# --- blocks ---------------------------------------------------------------------------------------
+
+
+def leads(block: Block, following: Block | None, language: Language) -> bool:
+    """Whether a block must stay with the next one: a text that ends in a colon or whose sentence goes on there.
+
+    A vector equation stays with the text that says how it is solved, and any equation with a table that sums it up.
+    """
+    if following is None or isinstance(following, (PageBreak, Plate)):
+        return False
+    match block:
+        case List(items=(*_, (*_, Paragraph(inlines)))):
+            return isinstance(following, Equation) and plain(inlines, language).endswith(":")
+        case Equation(rows=(VectorEquation(), *_)) if isinstance(following, Paragraph):
+            return leads(following, block, language)
+        case Equation():
+            return isinstance(following, Table)
+        case Paragraph(inlines):
+            text = plain(inlines, language).rstrip()
+            goes_on = isinstance(following, (Equation, List, Table))
+            return text.endswith(":") or (goes_on and not text.endswith((".", "!", "?", "…")))
+        case _:
+            return False
+
+
+def parted(block: List) -> tuple[List, ...]:
+    """A list as two lists: the items before the last, if there are any, and the last item."""
+    last = replace(block, items=block.items[-1:], start=block.start + len(block.items) - 1)
+    return (replace(block, items=block.items[:-1]), last) if block.items[:-1] else (last,)
+
+
+def height(rows: Sequence[Sequence[Scene]]) -> float:
+    """Of a figure's rows with their titles and the white between them (mm)."""
+    titles = sum(TITLE for row in rows if any(scene.title for scene in row))
+    return sum(max(scene.height for scene in row) for row in rows) + titles + SCENE_GAP * (len(rows) - 1)
+
+
+def breaks(rows: Sequence[Sequence[Scene]]) -> bool:
+    """Whether a figure's rows may stand on more than one page."""
+    return len(rows) > 1 and height(rows) > LONG_FIGURE
+
+
+def in_rows(scenes: Sequence[Scene]) -> list[list[Scene]]:
+    """Scenes in rows, in order, each row as full as the text block allows."""
+    rows: list[list[Scene]] = []
+    used = 0.0
+    for scene in scenes:
+        if rows and used + SCENE_GAP + scene.width <= TEXT_WIDTH:
+            rows[-1].append(scene)
+            used += SCENE_GAP + scene.width
+        else:
+            rows.append([scene])
+            used = scene.width
+    return rows

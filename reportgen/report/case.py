@@ -1,0 +1,346 @@
+"""What an assignment comes to, whatever kind of work it is: the one thing that every output is made of.
+
+Whoever makes files, marks or draws a class asks a `Case` and nothing else, and never which kind of case it is.  A
+machine is one implementation (`reportgen.cases`), an exercise of plane motion another; a further kind of work is one
+more and changes nobody else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, Self, get_args
+
+import numpy as np
+
+from reportgen import catalogue
+from reportgen.assignment import Assignment
+from reportgen.base.errors import NotOfferedError
+from reportgen.base.units import Language
+from reportgen.base.words import load_words, search_path, word
+from reportgen.base.words import title as kind_title
+from reportgen.drawing.film import Film
+from reportgen.drawing.sheet import Sheet
+from reportgen.formula import Symbol
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.sheet import Family
+from reportgen.formula.vocabulary import Chapter
+from reportgen.report import Document
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from reportgen.formula.ledger import Ledger
+    from reportgen.machine.analysis import Analysis
+    from reportgen.machine.flywheel import Flywheel
+    from reportgen.plans import Written
+    from reportgen.plans.loads import Polygon
+
+
+@dataclass(frozen=True, slots=True)
+class Pitfalls:
+    """What of an assignment is easily taken for something else; marking looks for it.
+
+    `applied` are the given loads by name, `loads` all of them, each of which may be forgotten or reversed.  `readings`
+    are for a quantity that is read from a diagram the values [N] that it has when it is read wrongly, with the
+    mistake's name.  `whole` is for a length from one end of a rod the length of the whole rod, by ids.
+    """
+
+    applied: frozenset[str] = frozenset()
+    loads: tuple[str, ...] = ()
+    readings: Mapping[str, Sequence[tuple[str, np.ndarray]]] = field(default_factory=dict)
+    whole: Mapping[str, str] = field(default_factory=dict)
+
+
+class Case(Protocol):
+    """An assignment opened once; each part is computed when it is first asked for.
+
+    Making a part raises `TemplateError` for a fault in the words, and `NotOfferedError` for what this kind has not.
+    """
+
+    @property
+    def assignment(self) -> Assignment: ...
+
+    @property
+    def words(self) -> Mapping[str, Any]:
+        """The short words of its language, kind and school."""
+
+    @property
+    def title(self) -> str:
+        """What its kind is called, in its language."""
+
+    @property
+    def ledger(self) -> Ledger:
+        """Every number by its id."""
+
+    @property
+    def families(self) -> Mapping[str, Family]:
+        """What is worked out at its positions, before decimals are chosen."""
+
+    @property
+    def positions_of_a_turn(self) -> int:
+        """After so many positions motion repeats."""
+
+    @property
+    def speed(self) -> float | None:
+        """Of its driver (rad/s or m/s); None where nothing drives it."""
+
+    @property
+    def balance(self) -> np.ndarray | None:
+        """The torque or force on the driver that balances the loads [N]; None without loads."""
+
+    @property
+    def pitfalls(self) -> Pitfalls:
+        """What marking looks for beside the mistakes that any formula may have."""
+
+    def fault(self) -> str:
+        """The code of a fault that shows only in the results, "" if they are sound; variants are judged by it."""
+
+    def document(self) -> Document:
+        """The finished, numbered report."""
+
+    def key(self) -> Key:
+        """The answer key, from the ledger that the report prints."""
+
+    def task(self, key: Key, by_section: bool = False) -> Document:
+        """What a student is handed, from the given data to the empty answer sheet of `key`; no answer is in it.
+
+        `by_section` puts each section of the sheet on pages of its own, headed by whose it is.
+        """
+
+    def results(self) -> dict[str, Any]:
+        """The contract's JSON object: an entry a position, null where it cannot be reached."""
+
+    def film(self) -> Film | None:
+        """What moves on its page, if anything does."""
+
+    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[Sheet]:
+        """Its drawing sheets; raises `SheetError` where there is nothing to draw or a plate is too large."""
+
+
+# --- an assignment opened once with its words -----------------------------------------------------
+# And a machine with all that is computed of it.
+
+
+@dataclass(frozen=True)
+class Opened:
+    """An assignment with its words; each part is computed when it is first asked for."""
+
+    assignment: Assignment
+
+    @property
+    def places(self) -> tuple[Path, ...]:
+        """Where the words of this language, machine and school are looked for."""
+        assignment = self.assignment
+        return search_path(assignment.language, assignment.kind, assignment.report.school or "")
+
+    @cached_property
+    def words(self) -> Mapping[str, Any]:
+        """The short words of `words.yaml`.  Raises `TemplateError`."""
+        return load_words(self.places)
+
+    @property
+    def course(self) -> str:
+        """The course as the assignment names it; by its standard name, whatever the language, in the case's own."""
+        standard: str = self.words["cover"]["course"]
+        names = {load_words(search_path(language))["cover"]["course"] for language in get_args(Language)}
+        given = self.assignment.report.course
+        return given if given and given not in names else standard
+
+    @property
+    def title(self) -> str:
+        """The machine's name in the assignment's language."""
+        return kind_title(self.assignment.kind, self.assignment.language)
+
+    @property
+    def variant_line(self) -> str:
+        """The variant as headers name it."""
+        variant = self.assignment.variant
+        return str(self.words["variant"].format(variant=variant)) if variant else ""
+
+
+@dataclass(frozen=True)
+class Calculation(Opened):
+    """A machine: its assignment with all that is computed of it."""
+
+    found: tuple[Analysis, Written] | None = field(default=None, compare=False, repr=False)
+    """What is known already of a calculation whose drawings alone are others."""
+
+    @cached_property
+    def analysis(self) -> Analysis:
+        """Everything computed, as arrays over the positions.
+
+        Raises `NotOfferedError` for a kind that is no machine.
+        """
+        from reportgen.machine.analysis import analyse
+
+        if self.found is not None:
+            return self.found[0]
+        kind, language = self.assignment.kind, self.assignment.language
+        machine = getattr(catalogue.module(kind), "machine", None)
+        if machine is None:
+            raise NotOfferedError(word("no_machine", language, kind=kind))
+        return analyse(machine(self.assignment))
+
+    @cached_property
+    def written(self) -> Written:
+        """Every number with the force plans, in the symbols and units of the assignment's language."""
+        return self._write(printed=True) if self.found is None else self.found[1]
+
+    def _write(self, printed: bool) -> Written:
+        from reportgen.plans import write_ledger
+
+        written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions, printed)
+        return replace(written, ledger=written.ledger.in_language(self.words["symbols"]))
+
+    @property
+    def ledger(self) -> Ledger:
+        """Every number by its id."""
+        return self.written.ledger
+
+    @property
+    def polygons(self) -> tuple[Polygon, ...]:
+        """The force plans: one for each group, the driver's last; none without loads."""
+        return self.written.polygons
+
+    @property
+    def flywheel(self) -> Flywheel | None:
+        """The flywheel, if the assignment asks for one."""
+        return self.written.flywheel
+
+    @cached_property
+    def drawn(self) -> Self:
+        """The same for drawings alone: sooner there, as no decimals are chosen for its numbers."""
+        if "written" in vars(self):
+            return self
+        return replace(self, found=(self.analysis, self._write(printed=False)))
+
+    def redrawn(self, scales: Mapping[str, float | np.ndarray]) -> Self:
+        """The same with drawings to other scales (SI, by id), one or [N]."""
+        written = replace(self.written, ledger=self.ledger.redrawn(scales))
+        return replace(self, found=(self.analysis, written))
+
+
+# --- the answer key of an assignment, as data -----------------------------------------------------
+# Its rows are the ledger's own families, so key, report and marker agree.
+
+
+class Role(StrEnum):
+    """What a row is to the student: printed on the task, to be worked out, or a scale of his or her own choice."""
+
+    given = "given"
+    asked = "asked"
+    scale = "scale"
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One quantity over the positions, in its printed unit.
+
+    `values` [N] have the sign that is printed; NaN where the quantity does not exist (the direction of a
+    vector of no length).  A `single` quantity has one value for all positions (N = 1).  `drawn` and
+    `computed` [N] are the half widths of the two bands.  `positions` are the numbers (from 1) at which
+    the answer sheet asks for it, empty if it does not; (0,) for a single quantity.  `sense` [N] says the
+    direction in words where the value has one, else "".
+    """
+
+    id: str
+    part: Chapter
+    role: Role
+    symbol: Symbol
+    kind: str
+    unit: str
+    decimals: int | None
+    values: np.ndarray
+    drawn: np.ndarray
+    computed: np.ndarray
+    positions: tuple[int, ...]
+    sense: tuple[str, ...]
+    size: str = ""
+    """The id of the size of a signed rotation."""
+    what: str = ""
+    """What it is in words: normal acceleration of B about A."""
+    positive: str = ""
+    """Which sense counts as positive, in words; "" where there is none, or where the general rule says it."""
+    open_sense: bool = False
+    """Whether its sign is not judged, because the papers do not say which sense is positive."""
+
+    @property
+    def single(self) -> bool:
+        return len(self.values) == 1
+
+    @property
+    def described(self) -> str:
+        """What it is and which sense of it counts as positive, as it stands beside the row."""
+        return capitalised("; ".join(filter(None, (self.what, self.positive))))
+
+    def has(self, position: int) -> bool:
+        """Whether the quantity has a value at a position: from 1, or 0 for a single value."""
+        return self.single == (position == 0)
+
+    def at(self, position: int) -> int:
+        """The index of a position (from 1, 0 for a single value) in `values`."""
+        return 0 if self.single else position - 1
+
+
+@dataclass(frozen=True)
+class Key:
+    """All rows of an assignment; `labels` [N] are what its positions are called, `students` fields of its student.
+
+    Of very many positions only those in `printed` stand in the document.
+    """
+
+    id: str
+    kind: str
+    variant: str
+    language: Language
+    student: Mapping[str, str]
+    labels: tuple[str, ...]
+    rows: tuple[Row, ...]
+    printed: tuple[int, ...] = ()
+
+    def label(self, position: int) -> str:
+        """What a position (from 1) is called; "" for 0, the one of single values."""
+        return self.labels[position - 1] if position else ""
+
+    def find(self, id: str) -> Row | None:
+        """The row of a quantity, or of the signed rotation whose size it is; None if there is none."""
+        return self._by_id.get(id)
+
+    def row(self, id: str) -> Row:
+        """The row of a quantity.  Raises `KeyError` if there is none."""
+        return self._by_id[id]
+
+    @cached_property
+    def _by_id(self) -> Mapping[str, Row]:
+        return {row.size: row for row in self.rows} | {row.id: row for row in self.rows}
+
+    @property
+    def asked(self) -> tuple[Row, ...]:
+        """The rows of the answer sheet, in order."""
+        return tuple(row for row in self.rows if row.positions)
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """The positions that a key has: those of the cycle by their labels, `count` of them in a turn.
+
+    Those in `worked` are written out in full; of very many only those in `printed` stand in the document.
+    """
+
+    labels: tuple[str, ...]
+    count: int
+    worked: tuple[int, ...]
+    printed: tuple[int, ...] = ()
+
+
+INSTANT = Span(("1",), 1, (1,))
+"""The one position of an exercise."""
+
+
+def capitalised(text: str) -> str:
+    """A phrase as it stands at the head of a row."""
+    return text[:1].upper() + text[1:]

@@ -1,0 +1,236 @@
+"""What single chapters name: the lines that they set out, and the keys of the words that fit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
+
+from reportgen.catalogue.given_loads import ByOrdinates
+from reportgen.formula import Number, Symbol, ids, vocabulary, walk
+from reportgen.formula.vocabulary import on_plan
+from reportgen.machine.loads import Applied
+from reportgen.report import Block, Cell, Column, Inline, InlineMath, Inlines, Paragraph, Table, Text, Value, listed
+from reportgen.report.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
+from reportgen.report.report import Report
+
+UNIFORM = Number(12.0)
+"""What m l² of a uniform rod is divided by."""
+
+
+def variant_words(report: Report) -> str:
+    """The variant in a sentence, with words for one that is not numbered."""
+    numbered, assigned = report.words["variant_words"]
+    return str(numbered).format(variant=report.variant) if report.variant else str(assigned)
+
+
+def attached(report: Report) -> str:
+    """A further sentence on the drawing sheets that are handed in with the report, if there are any."""
+    size = report.assignment.report.sheets
+    return f" {report.words['attached']}".format(size=size) if size else ""
+
+
+def signature(report: Report) -> tuple[Block, ...]:
+    """Place, date and name under the foreword; without a name the label stands over a line to sign."""
+    student = f"{report.words['cover']['student']}: {report.assignment.report.student.name or '…' * 20}"
+    return tuple(Paragraph((Text(line),), "right") for line in (report.place_and_date, student))
+
+
+def started(report: Report) -> str:
+    """The key of the words for where position 1 is: the kind's own place, or a given angle of the crank."""
+    return "natural" if report.assignment.positions.start is None else "given"
+
+
+def begins_at(report: Report) -> str:
+    """Where the first position is: at the "dead_centre" of the first slider, or wherever it is "given"."""
+    return "dead_centre" if report.machine.sliders and report.machine.sliders[0].phase == 0 else "given"
+
+
+def has_chosen_scale(report: Report) -> bool:
+    """Whether the length scale is chosen, rather than a drawn length."""
+    return "scale" in report.ledger
+
+
+def tabled_forces(report: Report) -> tuple[Applied, ...]:
+    """The working forces that are given by a table."""
+    return () if "P.given" in report.ledger else report.machine.applied
+
+
+def diagram_words(report: Report) -> str:
+    """The key of the words for the indicator diagram, which may be given by measured heights."""
+    return "ordinates" if isinstance(report.assignment.indicator, ByOrdinates) else "indicator"
+
+
+def gas_forces(report: Report) -> list[str]:
+    """The forces of the gas on the pistons."""
+    return report.known(piston.name for piston in report.pistons)
+
+
+def without_mass(report: Report) -> list[str]:
+    """The links whose mass is not given."""
+    links = sorted({1, *(link for group in report.groups for link in (group.i, group.j))})
+    return [str(link) for link in links if ids.mass(link) not in report.mass_lines]
+
+
+def uniform_rods(report: Report) -> list[str]:
+    """The links whose moment of inertia is that of a uniform rod, J = m l²/12, for want of a given one."""
+    moments = {
+        link: report.ledger[id].definition for link in report.bodies if (id := ids.inertia(link)) in report.ledger
+    }
+    return [link for link, formula in moments.items() if formula is not None and UNIFORM in walk(formula)]
+
+
+def driver_joints(report: Report) -> list[str]:
+    """The digits of what is read from the driver's force plan: a reaction, of a sliding one its balance too."""
+    return ["01", "cb"] if report.machine.span else ["01"]
+
+
+def driver_reactions(report: Report) -> list[str]:
+    return [ids.reaction(digits) for digits in driver_joints(report)]
+
+
+def mean_lines(report: Report) -> list[str]:
+    """The balance over the cycle: its mean, its ends, the power."""
+    return ["M.mean", "M.least", "M.greatest", "power"]
+
+
+def work_lines(report: Report) -> list[str]:
+    """The work of the loads over the cycle, and the mean that gives it back."""
+    return ["W", "M.energy"]
+
+
+def crank_lines(report: Report) -> list[str]:
+    return [*report.crank_arms, "M.eq"]
+
+
+def shares_pins(report: Report) -> bool:
+    """Whether several groups hang on one pin of the crank."""
+    return len(report.joined) > len(report.crank_pins)
+
+
+def lever_couples(report: Report) -> list[str]:
+    """What torques, which have no arm, contribute to the balance by virtual work."""
+    return report.known(ids.lever_moment(torque.name) for torque in report.machine.torques)
+
+
+def inertia_parts(report: Report) -> list[str]:
+    """The shares of the links in the reduced moment of inertia, and their sum."""
+    return report.known([*(ids.reduced_inertia(link) for link in report.machine.linkage.links), "J.r"])
+
+
+def energy_bounds(report: Report) -> list[str]:
+    """Where the tangents of Wittenbauer's diagram meet its axis."""
+    return ["A.upper", "A.lower"]
+
+
+def stores(report: Report) -> str:
+    """What stores the excess work: the "links" with the flywheel, or the flywheel "alone"."""
+    return "links" if report.has_reduced_inertia else "alone"
+
+
+def speed_limits(report: Report) -> list[str]:
+    uneven = ["unevenness"] if "unevenness" in report.computed else []
+    return [*uneven, "omega.max", "omega.min"]
+
+
+# --- the page of results at the front of a report, and its list of symbols ------------------------
+BESIDE = 2
+"""Sets of columns side by side."""
+SET = (24.0, 34.0, 22.0)
+"""Columns of one set (mm): the quantity, its greatest value, the positions."""
+EXAMPLES = 3
+"""Symbols of one kind that stand for all of it."""
+MOST_PLACES = 12
+"""Letters that a list of positions may have in its column."""
+
+# --- the page of results
+
+
+def extremes(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The greatest sizes of velocities, accelerations and reactions with their positions, in sets side by side."""
+    found = list(_extremes(report))
+    height = -(-len(found) // BESIDE)
+    cells = [tuple(Cell(part) for part in _row(one)) for one in found]
+    cells += [(Cell(),) * len(SET)] * (BESIDE * height - len(cells))
+    body = (tuple(cell for line in cells[start::height] for cell in line) for start in range(height))
+    titles = tuple(Cell((Text(title),)) for title in head) * BESIDE
+    return Table(tuple(map(Column, SET)) * BESIDE, (titles,), tuple(body), report.prose.inlines(caption), key)
+
+
+def _extremes(report: Report) -> Iterator[Peak]:
+    """Of points in translation, else of all that a plan seeks; then of links, then of joints."""
+    for what, rotation in (("v", "omega"), ("a", "eps")):
+        points = slider_rates(report, what) or report.known(ids.POINT_RATE[what](group.M) for group in report.groups)
+        yield from each_peak(report, [*points, *turning_rates(report, rotation)], report.positions)
+    yield from each_peak(report, reaction_ids(report), report.all_positions)
+
+
+def _row(one: Peak) -> tuple[Inlines, Inlines, Inlines]:
+    places = one.at if len(one.at) <= MOST_PLACES else f"{one.at.split(',')[0]}, …"
+    return one.symbols, (one.value,), (Text(places),)
+
+
+def main_figures(report: Report) -> Iterator[Sequence[object]]:
+    """The scales, how far the balancing torque goes, its mean and power, the flywheel: words, symbol, value, place."""
+    ledger = report.ledger
+    for one, name in report.words["main_figures"].items():
+        id = of_kind(report, one)
+        if id:
+            yield name, ledger.symbol(id), Value(ledger.number(id)), extreme_place(report, id)
+
+
+def of_kind(report: Report, name: str) -> str:
+    """The id of a quantity that is named so, or with its kind as in `M.eq:torque`; "" for one that is not there."""
+    return next((id for id, one in report.ledger.families.items() if name in (id, f"{id}:{one.kind}")), "")
+
+
+def extreme_place(report: Report, id: str) -> Inlines:
+    """Where over the cycle `M.least` or `M.greatest` is: the crank's turn from position 1, a sliding driver's way."""
+    if id not in ("M.least", "M.greatest"):
+        return ()
+    (low, _), (high, _) = report.analysis.summary.extremes
+    angle, span = low if id == "M.least" else high, report.machine.span
+    if span:
+        return InlineMath(Symbol("s")), Text(" = "), Value(Number(angle / (2 * math.pi) * span * 1e3, 1, "mm"))
+    return InlineMath(Symbol("φ")), Text(" = "), Value(Number(math.degrees(angle), 1, "°"))
+
+
+# --- the list of symbols
+
+
+def symbols(report: Report) -> Iterator[Sequence[object]]:
+    """The kinds of quantities that this report has: some of their symbols, the meaning, the unit."""
+    for name, alike in symbol_kinds(report).items():
+        shown = tuple(dict.fromkeys(report.ledger.symbol(id) for id in alike))
+        units = dict.fromkeys(_unit(report, id) for id in alike)
+        yield _some(shown), name, ", ".join(unit or "–" for unit in units)
+
+
+def _unit(report: Report, id: str) -> str:
+    unit = report.ledger[id].how.unit
+    return report.ledger.units.get(unit, unit)
+
+
+def _some(shown: Sequence[Symbol]) -> Inlines:
+    first: list[Inline] = [InlineMath(one) for one in shown[:EXAMPLES]]
+    return listed([*first, Text("…")] if len(shown) > EXAMPLES else first)
+
+
+def symbol_kinds(report: Report) -> Mapping[str, list[str]]:
+    """The ids of the report's quantities under the meaning that `words.yaml` gives to their kind.
+
+    A quantity that no kind fits is explained where it stands.
+    """
+    meanings: Mapping[str, str] = report.words["meanings"]
+    kinds: dict[str, list[str]] = {name: [] for name in meanings.values()}
+    for id, family in report.ledger.families.items():
+        if not (family.hidden or family.is_plane):
+            for name in islice(vocabulary.words_of(meanings, id, family.kind, family.symbol), 1):
+                kinds[name].append(id)
+    return {name: alike for name, alike in kinds.items() if alike}
+
+
+def images(report: Report) -> Inlines:
+    """The images of the crank pin on the plans, for the conventions: a and a′."""
+    pin = report.driver.pin
+    return listed([InlineMath(on_plan(pin)), InlineMath(on_plan(pin, prime=True))])

@@ -1,0 +1,356 @@
+"""What a table shows, for the sentences after it: where a quantity is greatest, where it is zero, and why.
+
+Everything is read from the numbers as they are printed, so that a sentence and its table cannot disagree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reportgen.formula import ids
+from reportgen.machine import DRIVER, GROUND
+from reportgen.report import InlineMath, Inlines, Text, Value, listed
+from reportgen.report.phrases import say
+from reportgen.report.report import Report
+
+RUN = 3
+"""So many positions in a row are written as from – to."""
+STILL = 1e-9
+"""A velocity below this share of its greatest value is zero."""
+
+
+@dataclass(frozen=True, slots=True)
+class Peak:
+    """Quantities that go alike over positions: their greatest size and where that is, where they are zero.
+
+    `at` and `zero` are the labels of positions, "" for none; `many` and `zeros` count them, `where` and `zero_where`
+    have the words for them.  `level` says that the size is the same everywhere, `turns` that the sign changes at every
+    position where the quantity is zero.
+    """
+
+    ids: tuple[str, ...]
+    symbols: Inlines
+    value: Value
+    at: str
+    many: int
+    zero: str
+    zeros: int
+    level: bool
+    turns: bool
+    places: tuple[int, ...]
+    where: str
+    zero_where: str
+
+    @property
+    def place(self) -> str:
+        """Where it is greatest, with a space before the words; "" where it is the same everywhere."""
+        return "" if self.level else f" {self.where}"
+
+
+def worked_at(report: Report) -> str:
+    """Where a report works all out in full."""
+    return where(report, report.assignment.worked_positions)
+
+
+def shown(report: Report, id: str, positions: Iterable[int]) -> np.ndarray:
+    """The values of a quantity as printed [N], nan where it does not exist."""
+    return np.array([report.ledger.number(id, k).shown for k in positions])
+
+
+def labels(report: Report, positions: Sequence[int]) -> str:
+    """Positions as a reader lists them: 2, 4 and 6–8."""
+    runs: list[list[int]] = []
+    for k in positions:
+        if runs and k == runs[-1][-1] + 1:
+            runs[-1].append(k)
+        else:
+            runs.append([k])
+    name, parts = report.machine.position, []
+    for run in runs:
+        parts += [f"{name(run[0])}–{name(run[-1])}"] if len(run) >= RUN else [str(name(k)) for k in run]
+    *others, last = parts or [""]
+    return f"{', '.join(others)} {report.words['and']} {last}" if others else last
+
+
+def where(report: Report, positions: Sequence[int]) -> str:
+    """Positions with the words for one of them or for several: at positions 2, 4 and 6–8."""
+    one, many = report.words["at"]
+    return str(one if len(positions) == 1 else many).format(labels(report, positions))
+
+
+def peak(report: Report, id: str, positions: Sequence[int]) -> Peak | None:
+    """How a quantity goes over positions; None where it is nothing at all of them."""
+    values = shown(report, id, positions)
+    sizes = np.abs(values)
+    if not np.nanmax(sizes, initial=0.0) > 0:
+        return None
+    top = np.nanmax(sizes)
+    greatest = [k for k, size in zip(positions, sizes, strict=True) if size == top]
+    nothing = [index for index, size in enumerate(sizes) if size == 0]
+    zeros = [positions[index] for index in nothing]
+    around = [(values[index - 1], values[(index + 1) % len(values)]) for index in nothing]
+    return Peak(
+        ids=(id,),
+        symbols=(InlineMath(report.ledger.symbol(id)),),
+        value=Value(report.ledger.number(id, greatest[0], size=True)),
+        at=labels(report, greatest),
+        many=len(greatest),
+        zero=labels(report, zeros),
+        zeros=len(zeros),
+        level=len(greatest) == len(positions),
+        turns=all(before * after < 0 for before, after in around),
+        places=tuple(greatest),
+        where=where(report, greatest),
+        zero_where=where(report, zeros),
+    )
+
+
+def peaks(report: Report, quantities: Iterable[str], cycle: bool = False) -> list[Peak]:
+    """How quantities go over one turn, or over the cycle, those that go alike together; nothing is left out."""
+    positions = report.all_positions if cycle else report.positions
+    alike: dict[tuple[object, ...], list[Peak]] = {}
+    for one in each_peak(report, quantities, positions):
+        alike.setdefault((one.value.number.shown, one.at, one.zero, one.turns), []).append(one)
+    return [_joined(report, some) for some in alike.values()]
+
+
+def each_peak(report: Report, quantities: Iterable[str], positions: Sequence[int]) -> list[Peak]:
+    """How each quantity goes over positions; those that are nothing are left out."""
+    found = (peak(report, id, positions) for id in report.known(quantities))
+    return [one for one in found if one is not None]
+
+
+def _joined(report: Report, alike: Sequence[Peak]) -> Peak:
+    """Peaks that are alike as one, with the symbols of all."""
+    symbols = [one.symbols[0] for one in alike]
+    shown: Inlines = listed(symbols[:-1])
+    if shown:
+        shown = (*shown, Text(f" {report.words['and']} "))
+    return replace(alike[0], ids=tuple(id for one in alike for id in one.ids), symbols=(*shown, symbols[-1]))
+
+
+# --- motion
+
+
+@dataclass(frozen=True, slots=True)
+class Slider:
+    """A link that slides along a fixed guide, and the pin that moves with it."""
+
+    link: int
+    pin: str
+
+
+def sliders(report: Report) -> tuple[Slider, ...]:
+    """What slides along fixed guides, a sliding driver apart."""
+    slides = report.analysis.motion.slides
+    both = ((link, group.Q) for group in report.groups for link in (group.i, group.j))
+    return tuple(Slider(link, pin) for link, pin in both if (GROUND, link) in slides)
+
+
+def slider_rates(report: Report, what: str) -> list[str]:
+    """The ids of the velocities ("v") or accelerations ("a") of what slides along fixed guides."""
+    return report.known(ids.POINT_RATE[what](slider.pin) for slider in sliders(report))
+
+
+def turning_rates(report: Report, what: str) -> list[str]:
+    """The ids of the angular velocities ("omega") or accelerations ("eps") of links, each motion once.
+
+    Of links that turn alike, as a block and the lever it slides on, the last is named.
+    """
+    seen: dict[tuple[float, ...], str] = {}
+    for link in report.machine.linkage.links:
+        id = ids.signed(what, link)
+        if link != DRIVER and id in report.ledger:
+            seen[tuple(report.ledger[id].values)] = id
+    return list(seen.values())
+
+
+def reverses(report: Report, rate: Peak) -> bool:
+    """Whether a slider runs the other way after each position at which its velocity is zero."""
+    return all(_reverses(report, slider.link) for slider in sliders(report) if ids.velocity(slider.pin) in rate.ids)
+
+
+def _reverses(report: Report, link: int) -> bool:
+    along = report.analysis.motion.slides[GROUND, link].v[: report.count]
+    still = np.abs(along) < STILL * np.abs(along).max()
+    return all(along[k - 1] * along[(k + 1) % len(along)] < 0 for k in np.flatnonzero(still))
+
+
+def at_rest(report: Report, rate: Peak) -> bool:
+    """Whether the point whose acceleration this is stands still wherever the acceleration is greatest."""
+    velocities = [ids.velocity(found["point"]) for id in rate.ids if (found := ids.acceleration.read(id))]
+    return all(bool(np.all(shown(report, id, rate.places) == 0)) for id in velocities)
+
+
+# --- loads and forces
+
+
+def load_ids(report: Report) -> list[str]:
+    """The forces and torques applied to the machine, the gas on its pistons among them."""
+    return report.known(load.name for load in report.loads)
+
+
+def inertia_forces(report: Report) -> list[str]:
+    """The inertia forces of all links."""
+    return report.known(ids.inertia_force(link) for link in report.bodies)
+
+
+def reaction_ids(report: Report) -> list[str]:
+    """The reactions in all joints, each pair once."""
+    names = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
+    return report.known(ids.reaction(name) for name in (*names, "01"))
+
+
+def greatest(report: Report, quantities: Iterable[str]) -> list[Peak]:
+    """Which of the quantities take the greatest value of all over the cycle, and where."""
+    every = peaks(report, quantities, True)
+    top = max((one.value.number.shown for one in every), default=0.0)
+    return [one for one in every if one.value.number.shown == top]
+
+
+def cause(report: Report, top: Peak) -> Inlines:
+    """The largest force on the links where a reaction is greatest, as far as there is one."""
+    chief = chief_load(report, top)
+    if chief is None:
+        return ()
+    one, many = report.words["remarks"]["cause"]
+    return say(report, one if top.many == 1 else many, chief)
+
+
+def chief_load(report: Report, at: Peak) -> Peak | None:
+    """The largest of all forces on the links, inertia included, where another quantity is greatest."""
+    forces = [id for id in load_ids(report) if report.ledger[id].kind == "force"]
+    bodies = [name(body) for body in report.bodies for name in (ids.inertia_force, ids.weight)]
+    place = at.places[:1]
+    found = (peak(report, id, place) for id in report.known([*forces, *bodies]))
+    return max((one for one in found if one is not None), key=lambda one: one.value.number.value, default=None)
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """At which positions the balancing torque acts with the motion, against it, and not at all, by their numbers."""
+
+    along: tuple[int, ...]
+    against: tuple[int, ...]
+    none: tuple[int, ...]
+    mean: str
+    """What the machine does with energy over the cycle: "taken", "given", or "even"."""
+
+
+def balance_course(report: Report) -> Course:
+    """The senses of the balancing torque, or force, at all positions."""
+    with_motion = report.machine.turn if not report.machine.span else np.sign(report.machine.speed)
+    values = shown(report, "M.eq", report.all_positions) * with_motion
+    mean = float(report.ledger.number("M.mean").value) * with_motion
+    every = np.array(report.all_positions)
+    along, against, none = (tuple(map(int, every[chosen])) for chosen in (values > 0, values < 0, values == 0))
+    return Course(along, against, none, "taken" if mean > 0 else "given" if mean < 0 else "even")
+
+
+def balance_senses(report: Report) -> list[Inlines]:
+    """What the balancing torque does to the motion, and at which positions."""
+    course, words = balance_course(report), report.words["remarks"]["balance"]
+    found = {"against": course.against, "along": course.along, "none": course.none}
+    return [say(report, words[way], where=where(report, there)) for way, there in found.items() if there]
+
+
+def balance_mean(report: Report) -> Inlines:
+    """What the mean of the balancing torque says of the energy that the machine takes in or gives out."""
+    words = report.words["remarks"]["mean"]
+    return say(report, words[balance_course(report).mean], cycle=report.words["driven"][report.driver.kind]["cycle"])
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """The least and the greatest of a quantity over the cycle with their positions."""
+
+    least: Value
+    low: str
+    most: Value
+    high: str
+
+
+def work_range(report: Report) -> Range:
+    """Between which values the excess work of the flywheel's calculation goes."""
+    positions, values = report.all_positions, shown(report, "A.excess", report.all_positions)
+
+    def end(value: float) -> tuple[Value, str]:
+        there = [k for k, one in zip(positions, values, strict=True) if one == value]
+        return Value(report.ledger.number("A.excess", there[0])), labels(report, there)
+
+    return Range(*end(values.min()), *end(values.max()))
+
+
+# --- remarks
+
+
+@dataclass(frozen=True, slots=True)
+class Remark:
+    """A sentence about one quantity or several that go alike: their symbols, how they go, and why."""
+
+    symbols: Inlines
+    course: Inlines
+    why: Inlines
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """What remarks are about: the ids, over one turn or the whole cycle, with a word on zeros or without.
+
+    `why` says of which of them the words give a reason.
+    """
+
+    ids: Callable[[Report], Iterable[str]]
+    cycle: bool = False
+    zeros: bool = True
+    why: Callable[[Report, Peak], bool] = lambda report, one: False
+
+
+SUBJECTS = {
+    "v": Subject(
+        lambda report: slider_rates(report, "v"), why=lambda report, one: one.zeros > 0 and reverses(report, one)
+    ),
+    "a": Subject(
+        lambda report: slider_rates(report, "a"),
+        zeros=False,
+        why=lambda report, one: not one.level and at_rest(report, one),
+    ),
+    "omega": Subject(
+        lambda report: turning_rates(report, "omega"), why=lambda report, one: one.zeros > 0 and one.turns
+    ),
+    "eps": Subject(lambda report: turning_rates(report, "eps"), why=lambda report, one: one.zeros > 0 and one.turns),
+    "inertia": Subject(lambda report: inertia_forces(report), cycle=True, why=lambda report, one: not one.level),
+    "loads": Subject(lambda report: load_ids(report), cycle=True),
+    "torque": Subject(lambda report: ["M.eq"], cycle=True, zeros=False),
+}
+
+
+def remarks(report: Report, *subjects: str) -> list[Remark]:
+    """How the quantities of some subjects go, those that go alike together; nothing is left out."""
+    return [_remark(report, name, one) for name in subjects for one in _peaks_of(report, SUBJECTS[name])]
+
+
+def _peaks_of(report: Report, subject: Subject) -> list[Peak]:
+    return peaks(report, subject.ids(report), subject.cycle)
+
+
+def _remark(report: Report, name: str, one: Peak) -> Remark:
+    subject, words = SUBJECTS[name], report.words["remarks"]
+    phrases = words["course"] | words.get(name, {})
+    course = "level" if one.level else "zeros" if one.zeros and subject.zeros else "greatest"
+    why = say(report, phrases["why"], slider=report.words["names"]["slider"]) if subject.why(report, one) else ()
+    return Remark(one.symbols, say(report, phrases[course], one), why)
+
+
+def main_peaks(report: Report) -> list[Peak]:
+    """The greatest velocities and accelerations: of sliders, else of links that turn."""
+    pairs = ((SUBJECTS["v"], SUBJECTS["omega"]), (SUBJECTS["a"], SUBJECTS["eps"]))
+    return [one for first, other in pairs for one in _peaks_of(report, first) or _peaks_of(report, other)]
+
+
+def top_reactions(report: Report) -> list[Peak]:
+    """Which joint reactions take the greatest value of all over the cycle, and where."""
+    return greatest(report, reaction_ids(report))

@@ -1,0 +1,251 @@
+"""Curves over the cycle: motion, torque, load of the crank pins, and the diagrams of the flywheel."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from reportgen.drawing import Content, Scene, charts
+from reportgen.formula import Chain, Symbol, ids
+from reportgen.formula.vocabulary import KINDS
+from reportgen.machine import DRIVER, GROUND, Crank
+from reportgen.machine.analysis import FULL_TURN
+from reportgen.machine.flywheel import Flywheel
+from reportgen.plans.sides import scheme
+from reportgen.report.comments import sliders
+from reportgen.report.equations import heading_words
+from reportgen.report.figures import MM, Drawn
+from reportgen.report.report import SAME, Report, lower_digits
+
+THINNED = 4
+"""Every fourth of the samples is enough for a curve of the flywheel."""
+NARROW = 1e-3
+"""Below this share of J_r its variation is no width for a diagram, and the lines are drawn from the axis on."""
+
+# --- axes
+
+
+def axis(shown: Symbol, kind: str) -> Chain:
+    """What an axis shows, as the text calls it, and its unit in parentheses."""
+    return Chain((shown,), KINDS[kind].unit)
+
+
+def _axis_of(report: Report, id: str) -> Chain:
+    """The axis of a quantity."""
+    return axis(report.ledger.symbol(id), report.ledger[id].kind)
+
+
+def _driver_axis(report: Report, angle: str = "cycle_angle") -> Chain:
+    """The axis along which the driver moves: its angle, of a sliding driver its way."""
+    words, slides = report.words["figure"], bool(report.machine.span)
+    return Chain((Symbol("s"),), words["way"]) if slides else Chain((Symbol("φ"),), words[angle])
+
+
+# --- motion over a turn
+
+
+Shown = tuple[Symbol, np.ndarray]
+"""A curve: its symbol and its values in the unit of its axis."""
+
+
+def motion(report: Report) -> Drawn:
+    """Displacement, velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
+    shown = curves_of_motion(report)
+    return Drawn(tuple(over_a_turn(report, curves, title, half=len(shown) > 1).scene for curves, title in shown))
+
+
+def curves_of_motion(report: Report) -> list[tuple[list[Shown], Chain]]:
+    """The curves of each chart of the motion, with the name of its axis."""
+    moved = report.dense_cycle.motion
+    along = report.slider_senses
+    spins = scheme(report.machine.linkage).spins
+    turning = [link for link, other in spins.items() if link == other > DRIVER]
+
+    def of_points(base: str) -> list[Shown]:
+        vectors = {name: getattr(moved.points[name], base) for name in along}
+        return [(Symbol(base, name), np.real(np.conj(u) * vectors[name])) for name, u in along.items()]
+
+    def of_links(base: str, quantity: str) -> list[Shown]:
+        return [(Symbol(base, str(link)), getattr(moved.links[link], quantity)) for link in turning]
+
+    one_way = headings(report, along.values())
+    way = one_way[0] if len(one_way) == 1 else ""
+    rotation = report.sense(1)
+    drawings = (
+        (_displacements(report), axis(Symbol("s"), "segment")),
+        (of_points("v"), _positive(report, axis(Symbol("v"), "velocity"), way)),
+        (of_points("a"), _positive(report, axis(Symbol("a"), "acceleration"), way)),
+        (of_links("ω", "omega"), _positive(report, axis(Symbol("ω"), "angular velocity"), rotation)),
+        (of_links("ε", "epsilon"), _positive(report, axis(Symbol("ε"), "angular acceleration"), rotation)),
+    )
+    return [(curves, title) for curves, title in drawings if curves]
+
+
+def headings(report: Report, ways: Iterable[complex]) -> list[str]:
+    """The ways in words, each once."""
+    return list(dict.fromkeys(heading_words(report, math.degrees(cmath.phase(way))) for way in ways))
+
+
+def _positive(report: Report, title: Chain, sense: str) -> Chain:
+    """The title of an axis with the sense in which its quantity is positive; plain where curves differ in it."""
+    told = str(report.words["figure"]["positive"]).format(title=title.note, sense=sense)
+    return replace(title, note=told) if sense else title
+
+
+def _displacements(report: Report) -> list[Shown]:
+    """How far (mm) each slider is from its dead centre, the one at the far end of its guide if it has no first."""
+    courses = {course.link: course for course in report.machine.sliders}
+    moved, found = report.dense_cycle.motion, []
+    for slider in sliders(report):
+        place = moved.slides[GROUND, slider.link].s
+        course = courses.get(slider.link)
+        way = place.max() - place if course is None else course.fraction(moved) * course.stroke
+        found.append((Symbol("s", str(slider.link)), MM * way))
+    return found
+
+
+def _marks(report: Report) -> tuple[int, ...]:
+    """Which samples of the dense cycle are the positions that are shown."""
+    shown = report.machine.cycle_angles[[k - 1 for k in report.all_positions]]
+    places = np.searchsorted(report.dense_cycle.cycle_angle, shown)
+    return tuple(map(int, places))
+
+
+def _across(report: Report) -> np.ndarray:
+    """Where the samples stand: the angle turned (degrees), of a sliding driver the way gone (mm)."""
+    angle, span = report.dense_cycle.cycle_angle, report.machine.span
+    return angle * (span * MM / FULL_TURN) if span else np.degrees(angle)
+
+
+def over_a_turn(report: Report, curves: Sequence[Shown], title: Chain, half: bool = False) -> charts.Plotted:
+    """Curves over one turn of the driver, the numbered positions marked."""
+    count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME))
+    slides = bool(report.machine.span)
+    x, marks = _across(report)[:count], _marks(report)[: len(report.positions)]
+    series = [charts.Series(shown, x, values[:count], marks) for shown, values in curves]
+    return charts.plotted(series, _driver_axis(report, "angle"), title, turn=not slides, half=half, area=report.area)
+
+
+def over_the_cycle(report: Report, curves: Sequence[Shown], title: Chain, half: bool = False) -> charts.Plotted:
+    """Curves over the whole cycle, the numbered positions marked."""
+    series = [charts.Series(shown, _across(report), values, _marks(report)) for shown, values in curves]
+    turn = not report.machine.span
+    return charts.plotted(series, _driver_axis(report), title, turn=turn, half=half, area=report.area)
+
+
+# --- torque and forces over the cycle
+
+
+def torque(report: Report) -> Drawn:
+    """What balances the driver: a torque over the angle of a crank, a force over the way of a slider."""
+    return Drawn((torque_chart(report).scene,))
+
+
+def torque_chart(report: Report, half: bool = False) -> charts.Plotted:
+    """The curve of what balances the driver, with its mean."""
+    ledger, slides = report.ledger, bool(report.machine.span)
+    curve = charts.Series(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
+    levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),)
+    driver = report.machine.linkage.driver
+    sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
+    title = _positive(report, _axis_of(report, "M.eq"), sense)
+    across = _driver_axis(report)
+    return charts.plotted((curve,), across, title, levels=levels, turn=not slides, half=half, area=report.area)
+
+
+def polar(report: Report) -> Drawn:
+    """The load of each crank pin in axes that turn with the crank, its radius upwards.
+
+    Where several links hang on one pin, each of their reactions has its diagram, and their resultant.
+    """
+    fine, names = report.dense_cycle, report.words["figure"]
+    numbers = tuple(map(str, report.all_positions))
+    assert report.driver_polygon is not None
+    loads: dict[str, dict[str, np.ndarray]] = {}
+    for edge in report.driver_polygon.edges:
+        if edge.unknown or not edge.is_reaction:
+            continue
+        pin = next(group.P for group in report.groups if edge.name == ids.reaction_force(ids.joint(group.i, DRIVER)))
+        radius = fine.motion.points[pin].p - fine.motion.points[report.driver.centre].p
+        load = fine.forces.reactions[edge.name].force * np.conj(radius / np.abs(radius)) * 1j
+        loads.setdefault(pin, {})[lower_digits(edge.name)] = load
+    diagrams: list[Callable[..., Scene]] = []
+    for name, parts in loads.items():
+        shown = dict(parts)
+        if len(parts) > 1:
+            shown[" + ".join(parts)] = np.sum(list(parts.values()), axis=0)
+        along = names["along_crank"].format(arm=lower_digits(f"{report.driver.centre}{name}"))
+        for forces, load in shown.items():
+            series = charts.Series("", load.real, load.imag, _marks(report), numbers)
+            title = f"{names['pin']} {lower_digits(name)}: {forces}"
+            diagrams.append(partial(charts.polar, series, names["across_crank"], along, title=title, area=report.area))
+    if len(diagrams) == 1 or report.area is not None:
+        return Drawn(tuple(draw() for draw in diagrams))
+    for size in charts.POLAR_PAIRS:
+        scenes = tuple(draw(size=size) for draw in diagrams)
+        if all(scene.width <= charts.HALF_WIDTH for scene in scenes):
+            return Drawn(scenes)
+    return Drawn(tuple(draw() for draw in diagrams))
+
+
+# --- the flywheel
+
+
+def _wheel(report: Report) -> Flywheel:
+    assert report.flywheel is not None
+    return report.flywheel
+
+
+def _over_cycle(
+    report: Report,
+    values: np.ndarray,
+    title: Content,
+    levels: tuple[tuple[float, Symbol], ...] = (),
+    half: bool = False,
+) -> Scene:
+    kept = np.union1d(np.arange(0, values.size, THINNED), values.size - 1)
+    curve = charts.Series("", np.degrees(_wheel(report).angle[kept]), values[kept])
+    return charts.chart((curve,), _driver_axis(report), title, levels=levels, half=half, area=report.area)
+
+
+def flywheel_torque(report: Report) -> Drawn:
+    """M_r and the torque that balances its mean."""
+    wheel = _wheel(report)
+    level = (-wheel.constant, Symbol("−M", "c"))
+    return Drawn((_over_cycle(report, wheel.torque, _axis_of(report, "M.r"), (level,)),))
+
+
+def flywheel_work(report: Report) -> Drawn:
+    """J_r, if moving links have mass, and A over the cycle."""
+    wheel = _wheel(report)
+    drawings = [(wheel.inertia, "J.r")] if report.has_reduced_inertia else []
+    drawings.append((wheel.work, "A.excess"))
+    half = len(drawings) > 1
+    return Drawn(tuple(_over_cycle(report, values, _axis_of(report, id), half=half) for values, id in drawings))
+
+
+def wittenbauer(report: Report) -> Drawn:
+    """A over J_r with the two lines whose slopes are half the squares of the bounds of speed."""
+    wheel = _wheel(report)
+    ends = np.array([wheel.inertia.min(), wheel.inertia.max()])
+    if np.ptp(ends) < NARROW * ends[1]:
+        ends = np.array([0.0, 1.2 * ends[1]])
+    lines = [
+        charts.Series(report.ledger.symbol(id), ends, height + bound**2 / 2 * ends)
+        for id, height, bound in (("omega.max", wheel.upper, wheel.fastest), ("omega.min", wheel.lower, wheel.slowest))
+    ]
+    curve = charts.Series(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
+    across, up = _axis_of(report, "J.r"), _axis_of(report, "A.excess")
+    return Drawn((charts.chart((curve, *lines), across, up, turn=False, area=report.area),))
+
+
+def flywheel_speed(report: Report) -> Drawn:
+    """How far the speed is from its mean, in percent, with the flywheel."""
+    wheel = _wheel(report)
+    mean = (wheel.fastest + wheel.slowest) / 2
+    return Drawn((_over_cycle(report, (wheel.speed / mean - 1) * 100, report.words["figure"]["speed_deviation"]),))

@@ -1,0 +1,389 @@
+"""What templates say in symbols: quantities, worked lines, vector equations.
+
+All functions here are called by templates under their own names; they take everything from the ledger.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from reportgen.formula import (
+    Chain,
+    Expression,
+    Number,
+    Ref,
+    Symbol,
+    Term,
+    VectorEquation,
+    ids,
+    rebuild,
+    refs,
+    substitute,
+    vocabulary,
+)
+from reportgen.machine import mobility
+from reportgen.plans.loads import Edge, Polygon
+from reportgen.plans.sides import Side
+from reportgen.report import Equation, Inline, InlineMath, Inlines, Text, Value, listed
+from reportgen.report.groups import Contact, GroupView
+from reportgen.report.report import Report, lower_digits
+
+# --- numbers and symbols
+
+
+def symbol(report: Report, id: str) -> Symbol:
+    """The symbol of a quantity."""
+    return report.ledger.symbol(id)
+
+
+def math(report: Report, text: str) -> Symbol:
+    """What a template writes as `$…$`: a quantity's symbol by its id, else letters with what is lowered."""
+    if text in report.ledger:
+        return report.ledger.symbol(text)
+    base = re.match(r"[^\W\d_]*", text)
+    assert base is not None
+    return report.named(Symbol(base[0], text[base.end() :].removeprefix("_")))
+
+
+def value(report: Report, id: str, position: int | None = None, size: bool = False) -> Value:
+    """A quantity's number with its unit; `size` leaves its sign away."""
+    return Value(report.ledger.number(id, position, size=size))
+
+
+def quantity(report: Report, id: str, position: int | None = None) -> Inlines:
+    """A quantity as "symbol = number" in running text."""
+    return InlineMath(symbol(report, id)), Text(" = "), value(report, id, position)
+
+
+def known(report: Report, id: str) -> bool:
+    """Whether the report has a quantity."""
+    return id in report.ledger
+
+
+def point(report: Report, name: str) -> Symbol:
+    """The symbol of a point, e.g. S with a lowered 2."""
+    return vocabulary.point(name)
+
+
+def points(report: Report, names: Iterable[object]) -> Inlines:
+    """Symbols of points, side by side with commas."""
+    return listed(InlineMath(vocabulary.point(str(name))) for name in names)
+
+
+def image(report: Report, name: str, prime: bool = False) -> Symbol:
+    """The image of a point on a plan."""
+    return vocabulary.on_plan(name, prime)
+
+
+def letters(report: Report, base: str, sub: str | int = "", sup: str = "") -> Symbol:
+    """Any symbol."""
+    return Symbol(base, str(sub), sup)
+
+
+def vector(report: Report, base: str, sub: str | int = "", sup: str = "") -> Symbol:
+    """Any symbol under an arrow."""
+    return report.named(Symbol(base, str(sub), sup, "vector"))
+
+
+def v(report: Report, of: str | Side) -> Symbol:
+    """The velocity of a point as a vector; of a side, the relative one."""
+    return Symbol("v", of if isinstance(of, str) else of.pair, over="vector")
+
+
+def a(report: Report, of: str | Side, part: str = "") -> Symbol:
+    """The acceleration of a point, or a part of it, as a vector; of a side, the relative one."""
+    return report.named(Symbol("a", of if isinstance(of, str) else of.pair, part, "vector"))
+
+
+def R(report: Report, digits: str, part: str = "") -> Symbol:
+    """The reaction in a joint, or a part of it, as a vector."""
+    return Symbol("R", digits, part, "vector")
+
+
+def lowered(report: Report, text: str) -> str:
+    """Digits of point names as lowered digits: O1A → O₁A."""
+    return lower_digits(text)
+
+
+def group_kind(report: Report, group: GroupView) -> str:
+    return str(report.words["groups"][group.kind])
+
+
+def stroke_name(report: Report, link: int, position: int) -> str:
+    """The stroke that a piston is on."""
+    return str(report.words["strokes"][int(report.analysis.gas[ids.applied_force(link)].stroke[position - 1])])
+
+
+def force_list(report: Report, group: GroupView, position: int) -> Inlines:
+    """The known edges of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, …"""
+    assert group.polygon is not None
+    shown: list[Inline] = []
+    for edge in group.polygon.edges:
+        if not edge.unknown:
+            length = quantity(report, ids.force_segment(group.name, edge.name), position)
+            force = InlineMath(report.force_symbol(edge.name))
+            shown += [*((Text(", "),) if shown else ()), *length, Text(" ("), force, Text(")")]
+    return tuple(shown)
+
+
+# --- the sense of forces
+
+
+def assumed(report: Report, group: GroupView, position: int) -> Inlines:
+    """The reactions of a group that are drawn on its links in an assumed sense."""
+    sought = (id for id in group.assumed if not report.is_zero(id, position))
+    return listed(InlineMath(vocabulary.vector(report.ledger.symbol(id))) for id in sought)
+
+
+def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
+    """Where the reactions of some joints point, in words and by their angles; those that are nothing left out."""
+    shown: list[Inline] = []
+    for digits in joints:
+        if not report.is_zero(ids.reaction(digits), position):
+            force = ids.reaction_force(digits)
+            vector, angle = report.force_vector(force), report.ledger.number(ids.force_direction(force), position)
+            way = Text(f" {heading_words(report, angle.shown)} (")
+            shown += [*((Text("; "),) if shown else ()), InlineMath(vector), way, Value(angle), Text(")")]
+    return tuple(shown)
+
+
+def slider_ways(report: Report) -> Inlines:
+    """In which direction the velocity and the acceleration of each slider are positive, with its angle from +x."""
+    shown: list[Inline] = []
+    for pin, way in report.slider_senses.items():
+        degrees = round(float(np.degrees(np.angle(way))), 2) % 360.0
+        symbols = InlineMath(Symbol("v", pin)), Text(", "), InlineMath(Symbol("a", pin))
+        place = Text(f" {heading_words(report, degrees)} ("), Value(Number(degrees, unit="°")), Text(")")
+        shown += [*((Text("; "),) if shown else ()), *symbols, *place]
+    return tuple(shown)
+
+
+def heading_words(report: Report, degrees: float) -> str:
+    """The axis or the quadrant that an angle from +x lies in, in words: to the right, to the right and up, …."""
+    quadrant, within = divmod(round(degrees, 2) % 360.0, 90.0)
+    return str(report.words["headings"][int(2 * quadrant) + (within > 0)])
+
+
+def opposites(report: Report, polygon: Polygon, position: int) -> Equation:
+    """The reactions on a plan's links that other groups have left there: R42 = −R24 as vectors, then their size."""
+    rows: list[Expression] = []
+    for edge in polygon.carried:
+        size = report.force_symbol(edge.name)
+        (source,) = refs(report.ledger[ids.vector(edge.name)].definition or Number(0.0))
+        vectors = vocabulary.vector(size), -vocabulary.vector(report.ledger.symbol(report.ledger[source].of))
+        rows += [Chain(vectors), report.ledger.chain(ids.of_force(edge.name), position)]
+    return Equation(tuple(rows))
+
+
+def through_pin(report: Report, contact: Contact, position: int) -> Equation:
+    """ΣM about the pin of a slide that nothing tends to turn: R x = 0, hence x = 0."""
+    reaction, place = report.ledger.symbol(contact.reaction), report.ledger.symbol(contact.place)
+    moments = Chain((Symbol("ΣM", str(contact.pin)), reaction * place, Number(0.0)))
+    return Equation((moments, Chain((place, Number(0.0)))))
+
+
+# --- lines
+
+
+def line(report: Report, id: str, position: int | None = None, note: str = "", key: str = "") -> Equation:
+    """One worked line: symbol = formula = numbers = result."""
+    return lines(report, [id], position, note, key)
+
+
+def lines(
+    report: Report, quantities: Sequence[str], position: int | None = None, note: str = "", key: str = ""
+) -> Equation:
+    """Several worked lines, aligned."""
+    return Equation(tuple(_worked(report, id, position, note) for id in quantities), key)
+
+
+def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
+    """A worked line; one that comes to zero says why instead of showing its numbers."""
+    chain = report.ledger.chain(id, position, note)
+    result = chain.parts[-1]
+    if not note and isinstance(result, Number) and result.value == 0 and report.ledger[id].definition:
+        family = report.ledger[id]
+        reasons = vocabulary.words_of(report.words["zero"], id, family.kind, family.symbol)
+        return Chain((chain.parts[0], result), next(reasons, ""))
+    return chain
+
+
+def equations(report: Report, name: str, position: int | None = None) -> Equation:
+    """Equations of the machine's own, with the numbers at a position if they name quantities."""
+
+    def number_of(ref: Ref) -> Number:
+        number = report.ledger.number(ref.id, position)
+        return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
+
+    def in_words(node: Expression) -> Expression:
+        return report.named(node) if isinstance(node, Symbol) else rebuild(node, in_words)
+
+    return Equation(tuple(in_words(substitute(row, number_of)) for row in report.machine.equations[name]))
+
+
+def mobility_line(report: Report) -> Equation:
+    """W = 3n − (2t + c) + r − s with the numbers put in."""
+    counted = mobility(report.machine.linkage)
+    sizes = counted.n, counted.lower_pairs, counted.higher_pairs, counted.passive, counted.redundant
+
+    def freedom(n: Expression, t: Expression, c: Expression, r: Expression, s: Expression) -> Expression:
+        return 3 * n - (2 * t + c) + r - s
+
+    formula, numbers = freedom(*map(Symbol, "ntcrs")), freedom(*map(Number, sizes))
+    # A chain within a chain stays on one line: it is not broken at its equals signs.
+    return Equation((Chain((Chain((Symbol("W"), formula, numbers, Number(counted.W))),)),))
+
+
+# --- vector equations of motion
+
+
+def velocity_equation(report: Report, group: GroupView, position: int) -> Equation:
+    """v_M = v_P + v_MP = v_T + v_MT with what is known of each vector; a fixed base leaves v_M's direction."""
+    still = next((side for side in group.sides if side.still), None)
+    sides: list[tuple[Term, ...]] = [(_unknown(report, "v", group.M, "", still),)]
+    for side in group.moving:
+        relative = _unknown(report, "v", side.pair, "", side)
+        sides.append((_base(report, side, "v"), relative))
+    return _equation(report, sides, "rows", f"eq.v.{group}.{position}")
+
+
+def acceleration_equation(report: Report, group: GroupView, position: int) -> Equation:
+    """a_M = a_P + aⁿ_MP + aᵗ_MP = a_G + aᵏ_MG + aʳ_MG with what is known of each vector."""
+    fixed = next((side for side in group.sides if not side.sought), None)
+    sides: list[tuple[Term, ...]] = [(_unknown(report, "a", group.M, "", fixed),)]
+    for side in group.sides:
+        if side is not fixed:
+            base = () if side.still else (_base(report, side, "a"),)
+            sides.append((*base, *_relative(report, side)))
+    return _equation(report, sides, "rows", f"eq.a.{group}.{position}")
+
+
+def _equation(report: Report, sides: Sequence[tuple[Term, ...]], rows: str, key: str = "") -> Equation:
+    return Equation((VectorEquation(tuple(sides), tuple(report.words["vector"][rows])),), key)
+
+
+Known = Expression | str | None
+"""What is printed below a vector; None is the mark of an unknown."""
+
+
+def _term(
+    report: Report, base: str, sub: str, sup: str, *, direction: Known = None, sense: Known = None, size: Known = None
+) -> Term:
+    return Term(report.named(Symbol(base, sub, sup, "vector")), (direction, sense, size))
+
+
+def _unknown(report: Report, base: str, sub: str, sup: str, side: Side | None) -> Term:
+    """A vector of which only the direction is known, that of what is sought on a side."""
+    return _term(report, base, sub, sup, direction=None if side is None else _direction(report, side))
+
+
+def _direction(report: Report, side: Side) -> str:
+    """The direction of what is sought on a side."""
+    if side.turns:
+        return f"⊥ {lower_digits(side.rod)}"
+    return str(report.words["vector"]["along_slot" if side.carrier is None else "along_guide"])
+
+
+def _relative(report: Report, side: Side) -> tuple[Term, ...]:
+    """aⁿ and aᵗ of a turning side, aᵏ and aʳ of a sliding one."""
+    words, ledger = report.words["vector"], report.ledger
+    sought = _unknown(report, "a", side.pair, "τ" if side.turns else "r", side)
+    if side.turns:
+        size = ledger.symbol(side.velocity) ** 2 / ledger.symbol(ids.length(side.rod))
+        way = f"{lower_digits(side.point)} → {lower_digits(side.base)}"
+        direction = f"∥ {lower_digits(side.rod)}"
+        return _term(report, "a", side.pair, "n", direction=direction, sense=way, size=size), sought
+    if not side.turning:
+        return (sought,)
+    twice = 2 * ledger.symbol(side.omega) * ledger.symbol(side.velocity)
+    across = words["across_slot" if side.carrier is None else "across_guide"]
+    turned = words["turned"].format(link=lower_digits(str(side.turning)))
+    sense = Chain((ledger.symbol(side.velocity),), turned)
+    return _term(report, "a", side.pair, "k", direction=across, sense=sense, size=twice), sought
+
+
+def _base(report: Report, side: Side, what: str) -> Term:
+    """The vector of a side's base: on the crank with its direction and size, else known from before."""
+    words, ledger = report.words["vector"], report.ledger
+    arm = f"{report.driver.centre}{side.base}"
+    if not report.driver.centre or ids.length(arm) not in ledger or not _on_crank(report, side.base):
+        given = words["given"]
+        return _term(report, what, side.shown, "", direction=given, sense=given, size=given)
+    length, omega = ledger.symbol(ids.length(arm)), ledger.symbol("omega.1")
+    if what == "v":
+        direction, sense = f"⊥ {lower_digits(arm)}", words["with_crank"]
+        return _term(report, "v", side.shown, "", direction=direction, sense=sense, size=omega * length)
+    size = omega**2 * length
+    way = lower_digits(f"{side.base} → {report.driver.centre}")
+    return _term(report, "a", side.shown, "", direction=f"∥ {lower_digits(arm)}", sense=way, size=size)
+
+
+def _on_crank(report: Report, name: str) -> bool:
+    """Whether a point's velocity is computed as that of a point of the crank."""
+    definition = report.ledger[ids.velocity(name)].definition
+    return definition is not None and "omega.1" in refs(definition)
+
+
+# --- equations of equilibrium
+
+
+def force_equation(report: Report, group: GroupView, position: int) -> Equation:
+    """The equilibrium of a group's two links; only the two reactions that close the plan are unknown."""
+    assert group.polygon is not None
+    terms = [_force(report, group, edge) for edge in group.polygon.edges]
+    return _balance(report, terms, f"eq.R.{group}.{position}")
+
+
+def link_equation(report: Report, group: GroupView, link: int, position: int | None = None) -> Equation:
+    """The equilibrium of one link of a group with a slide between its links, R_ij or R_ji included.
+
+    Only an equation with a position has a number to refer to.
+    """
+    assert group.polygon is not None
+    words = report.words["vector"]
+    own = [edge for edge in group.polygon.edges if edge.link == link]
+    terms = [_force(report, group, edge) for edge in own if not edge.unknown]
+    # Across the slot; its size is computed before the plan, or read from the plan of link j.
+    first = group.kind == "RPP" and link == group.j
+    inner = R(report, group.across if link == group.j else group.inner)
+    terms.append(Term(inner, (words["across_slot"], None if first else words["computed"])))
+    terms += [_force(report, group, edge) for edge in own if edge.unknown]
+    return _balance(report, terms, "" if position is None else f"eq.R.{group}.{position}")
+
+
+def driver_equation(report: Report) -> Equation:
+    """The equilibrium of forces on the driver; of a sliding one the directions by its guide are known."""
+    assert report.driver_polygon is not None
+    words = report.words["vector"]
+    slides = "Rcb" in report.on_crank
+    unknown = {"R01": words["across_guide"], "Rcb": words["along_guide"]} if slides else {}
+    terms = [
+        Term(
+            report.force_vector(edge.name),
+            (unknown.get(edge.name), None) if edge.unknown else (words["given"], words["given"]),
+        )
+        for edge in report.driver_polygon.edges
+    ]
+    return _balance(report, terms)
+
+
+def _force(report: Report, group: GroupView, edge: Edge) -> Term:
+    """A force of a group's plan with what is known of it."""
+    words = report.words["vector"]
+    way = group.one if edge.link == group.i else group.two
+    shown = report.force_vector(edge.name)
+    if edge.part and way.turns:
+        normal = edge.part == "n"
+        along = f"{'∥' if normal else '⊥'} {lower_digits(way.rod)}"
+        return Term(shown, (along, None if normal else words["computed"]))
+    if edge.unknown:
+        return Term(shown, (words["across_guide"] if way.guided else None, None))
+    return Term(shown, (words["given"], words["given"]))
+
+
+def _balance(report: Report, terms: Sequence[Term], key: str = "") -> Equation:
+    zero_vector = Term(Symbol("0", over="vector"), ("", ""))
+    return _equation(report, [tuple(terms), (zero_vector,)], "force_rows", key)

@@ -1,0 +1,347 @@
+"""Figures: their names, paper, scale and looks; then those of the mechanism.
+
+A figure is a function of a report and of what it shows; its name in templates stands in the namespace.  Those
+of the mechanism are its scheme, groups and positions, the gas beside the cylinder, Coriolis acceleration.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from reportgen.drawing import Scene
+from reportgen.drawing import positions as indicator_figure
+from reportgen.drawing import scheme as scheme_figure
+from reportgen.drawing.forces import Sliding
+from reportgen.drawing.forces import coriolis as coriolis_figure
+from reportgen.drawing.labels import Draft, sheets
+from reportgen.drawing.positions import Centre, PlaneMotion, PositionPlan, centre_plan, position_plan
+from reportgen.drawing.scheme import Looks
+from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
+from reportgen.machine.analysis import FULL_TURN, Machine, motion_at
+from reportgen.machine.gas import StrokeIndicator
+from reportgen.machine.loads import Piston
+from reportgen.machine.motion import Motion, solve_motion
+from reportgen.plans.motion import NEAREST, centre_symbol
+from reportgen.plans.sides import Side
+from reportgen.report.groups import GroupView, PlaneLink
+from reportgen.report.report import DENSE, SAME, Report
+
+MM = 1e3
+A4_ACROSS = (297.0, 210.0)
+A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)
+LARGER = tuple(
+    size for short, long in ((420.0, 594.0), (594.0, 841.0), (841.0, 1189.0)) for size in ((long, short), (short, long))
+)
+"""Sheets A2, A1, A0, lying and standing."""
+TEXT_BLOCK = (160.0, 225.0)
+"""What of an A4 page a figure may fill with its caption."""
+WHITE = (34.0, 64.0)
+"""What of a plate's page (mm) its margins, header and caption take."""
+HALF = 0.5
+CLOSE = 5.5
+"""What of their margins (mm) scenes of one figure give up to stand side by side."""
+SCHEME_BOX = (120.0, 75.0)
+REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
+SHOWN_AT = 1
+"""The position (from 0) at which schemes are drawn: the first one away from the start."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """The scenes of a figure; `paper` (mm) asks for a page of its own for each."""
+
+    scenes: tuple[Scene, ...]
+    paper: tuple[float, float] | None = None
+    note: Chain | None = None
+    """A scale to print behind the caption."""
+
+
+def in_text(*scenes: Scene) -> bool:
+    """Whether a figure is one scene that fits a text block in true size."""
+    return len(scenes) == 1 and scenes[0].width <= TEXT_BLOCK[0] and scenes[0].height <= TEXT_BLOCK[1]
+
+
+def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
+    """Whether a drawing has room on a plate."""
+    return width <= paper[0] - WHITE[0] and height <= paper[1] - WHITE[1]
+
+
+def on_paper(*scenes: Scene) -> Drawn:
+    """Scenes in the text if they fit there in true size, else each on a page large enough for all of them."""
+    if all(map(in_text, scenes)):
+        return Drawn(scenes)
+    width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
+    papers = (paper for paper in (A4_ACROSS, A3_ACROSS, A3_UPRIGHT, *LARGER) if fits(width, height, paper))
+    return Drawn(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
+
+
+def beside_one_another(*scenes: Scene) -> Drawn:
+    """Scenes close together if they fit a text block so, else as they are; on pages of their own if they must."""
+    together = sheets(scenes, *TEXT_BLOCK, trim=CLOSE)
+    if in_text(*together):
+        return Drawn(together)
+    return Drawn(scenes, None if all(map(in_text, scenes)) else A3_ACROSS)
+
+
+def drawing_scale(report: Report) -> float:
+    """mm of paper for a metre, of drawings to μ_l."""
+    return MM / float(report.ledger["mu.l"].values[0])
+
+
+def scale_note(report: Report, id: str, factor: float = 1.0, k: int | None = None) -> Chain:
+    """A scale as printed below a figure; a figure drawn smaller by `factor` has a scale that much larger."""
+    number = report.ledger.number(id, k)
+    return Chain((report.ledger.symbol(id), short(replace(number, value=number.shown / factor))))
+
+
+def looks(report: Report, scale: float, factor: float = 1.0) -> Looks:
+    """Pistons with their bore, mass centres, the figure's scale."""
+    blocks = {
+        piston.link: (min(0.6 * piston.bore * scale, 24.0), min(piston.bore * scale, 40.0) * 0.5)
+        for piston in report.machine.pistons
+    }
+    jointed = {name for group in report.groups for name in (group.P, group.Q)}
+    names = report.analysis.motion.points.keys() - jointed
+    centres = tuple(body.centre for body in report.machine.linkage.inertias if body.centre in names)
+    return Looks(blocks=blocks, centres=centres, scale=scale_note(report, "mu.l", factor))
+
+
+def short(number: Number) -> Number:
+    """The number as it is, to six digits at most."""
+    return replace(number, value=float(f"{number.value:.6g}"), decimals=None)
+
+
+def line_styles(report: Report) -> Drawn:
+    """The legend of all lines of the report."""
+    return Drawn((scheme_figure.line_styles(report.words["line_styles"]),))
+
+
+# --- the machine at one position and over a turn
+
+
+def scheme(report: Report) -> Drawn:
+    return Drawn((scheme_scene(report, _reduction(report)),))
+
+
+def scheme_scene(report: Report, factor: float) -> Scene:
+    scale = drawing_scale(report) * factor
+    look = looks(report, scale, factor)
+    return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, SHOWN_AT, scale, look)
+
+
+def groups(report: Report) -> Drawn:
+    """The driver and each group by itself."""
+    factor = _reduction(report)
+    scale, words = drawing_scale(report) * factor, report.words["figure"]
+    titles = (words["driver"], *(words["group"].format(i=group.i, j=group.j) for group in report.groups))
+    look = replace(looks(report, scale, factor), scale=None)
+    motion = report.analysis.motion
+    return Drawn(scheme_figure.groups(report.machine.linkage, motion, SHOWN_AT, scale, look, titles))
+
+
+def _reduction(report: Report) -> float:
+    """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
+    points = [point.p[SHOWN_AT] for point in report.analysis.motion.points.values()]
+    size = np.array(points)[np.isfinite(points)] * drawing_scale(report)
+    needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
+    return next(factor for factor in REDUCTIONS if 1 / factor >= needed)
+
+
+def positions(report: Report) -> Drawn:
+    return on_paper(positions_scene(report))
+
+
+def plan_in_text(report: Report) -> bool:
+    """Whether the position plan stands in the text, on no page of its own."""
+    return positions(report).paper is None
+
+
+def positions_scene(report: Report, beside: Draft | None = None) -> Scene:
+    """The numbered positions of one turn, alone with the paths of points or beside another drawing."""
+    machine = report.machine
+    shows = PositionPlan(
+        _numbered(report),
+        machine.paths if beside is None else (),
+        report.positions.index(report.worked[0]),
+        labels=tuple(map(str, report.positions)),
+    )
+    one_turn = _motion(machine, machine.cycle_angles[[k - 1 for k in report.positions]])
+    return _position_plan(report, one_turn, shows, beside)
+
+
+def extremes(report: Report) -> Drawn:
+    """The mechanism where its first slider turns back: I as its stroke begins, II as it ends."""
+    course = report.machine.sliders[0]
+    motion = motion_at(report.machine, course.dead_centres[:2] - course.phase)
+    shows = PositionPlan(_numbered(report), report.machine.paths, labels=("I", "II"))
+    return on_paper(_position_plan(report, motion, shows))
+
+
+def _position_plan(report: Report, motion: Motion, shows: PositionPlan, beside: Draft | None = None) -> Scene:
+    dense = _motion(report.machine, np.linspace(0.0, FULL_TURN, DENSE))
+    scale = drawing_scale(report)
+    notes = looks(report, scale).notes
+    return position_plan(report.machine.linkage, motion, dense, scale, shows, notes, beside=beside)
+
+
+def _motion(machine: Machine, cycle_angle: np.ndarray) -> Motion:
+    return solve_motion(machine.linkage, machine.angles(cycle_angle), machine.turn * machine.speed)
+
+
+def _numbered(report: Report) -> tuple[str, ...]:
+    """Points that carry the positions' numbers: pins of the crank, joints, of a slotted lever its end."""
+    centres = {body.centre for body in report.machine.linkage.inertias}
+    names = [*report.crank_pins]
+    for group in report.groups:
+        ends = [place.name for place in group.points_j if place.name not in centres]
+        names += ends if group.kind == "RPR" else [group.Q]
+    return tuple(names)
+
+
+# --- the gas
+
+
+def indicator(report: Report) -> Drawn:
+    """The diagram in line with the first piston's stroke, every piston's positions read from it."""
+    machine, gases = report.machine, report.analysis.gas
+    first = machine.pistons[0]
+    unit, scale = 1e4, drawing_scale(report)
+    top, bottom = first.top * scale, first.bottom * scale
+    read = [float(pressure) for gas in gases.values() for pressure in gas.pressure]
+    read += [float(pressure) for row in first.indicator.rows for pressure in row]
+    lowest, highest = min(read) / unit, max(read) / unit
+    # What lies below zero stands between diagram and cylinder, where there is half the room.
+    highest = max(highest, -2 * lowest)
+    side = _free_side(machine)
+    enlarged = report.area.enlarged if report.area else None
+    start, end, mu = indicator_figure.beside(top, bottom, side, highest, enlarged)
+    note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
+    frame = indicator_figure.Frame(start, end, side, mu, Chain((Symbol("p"),), "N/cm²"), note)
+    branches = [
+        indicator_figure.Branch(name, x, tuple(p / unit for p in pressures))
+        for name, x, pressures in _branches(first, machine, report.words["strokes"])
+    ]
+    readings = [
+        indicator_figure.Reading(
+            Symbol(str(k), "" if len(machine.pistons) == 1 else f"({gas.piston.link})"),
+            float(gas.fraction[k - 1]),
+            float(gas.pressure[k - 1]) / unit,
+            top + (bottom - top) * float(gas.fraction[k - 1]) if _in_line(first, gas.piston) else None,
+        )
+        for gas in gases.values()
+        for k in report.all_positions
+    ]
+    return on_paper(positions_scene(report, indicator_figure.indicator(frame, branches, readings)))
+
+
+def _free_side(machine: Machine) -> complex:
+    """The side of the first cylinder that is free for its diagram: away from other cylinders, else to its right."""
+    first = machine.pistons[0]
+    right = 1j * first.inward
+    ways = [((one.top + one.bottom) / 2 - first.bottom) / right for one in machine.pistons]
+    return right if sum(way.real for way in ways) <= SAME else -right
+
+
+def _in_line(first: Piston, other: Piston) -> bool:
+    """Whether a piston moves on the line of the first one, where its positions are projected from."""
+    return abs(((other.top - first.top) / first.inward).imag) + abs((other.inward / first.inward).imag) < SAME
+
+
+def _branches(
+    piston: Piston, machine: Machine, names: Sequence[str]
+) -> Iterator[tuple[str, tuple[float, ...], tuple[float, ...]]]:
+    """Each stroke's line over s/H; a table by crank angle is carried over by the motion of the piston."""
+    table = piston.indicator
+    if isinstance(table, StrokeIndicator):
+        yield from ((name, table.fractions, row) for name, row in zip(names, table.rows, strict=True))
+        return
+    edges = (*piston.dead_centres, 2 * FULL_TURN)
+    for name, (start, end) in zip(names, pairwise(edges), strict=True):
+        angle = np.union1d(np.linspace(start, end, 91), [a for a in table.angles if start < a < end])
+        fractions = piston.fraction(motion_at(machine, angle - piston.phase))
+        pressure = np.interp(angle, table.angles, table.pressures)
+        yield name, tuple(map(float, fractions)), tuple(map(float, pressure))
+
+
+# --- Coriolis acceleration
+
+
+def coriolis(report: Report, k: int, group: GroupView, side: Side) -> Drawn:
+    """The relative velocity in a turning guide, turned by 90° in the sense of its ω."""
+    ledger, points = report.ledger, report.analysis.motion.points
+    omega = float(ledger[ids.signed("omega", side.turning)].at(k).real)
+    relative = complex(points[side.point].v[k - 1]) - complex(points[side.base].v[k - 1])
+    sliding = Sliding(
+        vocabulary.point(side.point),
+        (Symbol("v", side.pair, over="vector"), relative),
+        (report.named(Symbol("a", side.pair, "k", "vector")), 1j * omega * relative),
+        (ledger.symbol(side.omega), float(np.sign(omega))),
+    )
+    return Drawn((coriolis_figure(sliding),))
+
+
+# --- instant centres of velocity ------------------------------------------------------------------
+# How they lie at a position, and the mechanism drawn with them.
+
+
+def centre_state(report: Report, link: PlaneLink, k: int) -> str:
+    """How a link's centre lies: "found", "shift" (it does not turn), "rest" (at its base), "near" its base, "far"."""
+    ledger = report.ledger
+    if ledger[link.omega].at(k) == 0:
+        return "shift"
+    if ledger[ids.velocity(link.base)].at(k) == 0:
+        return "rest"
+    if np.isfinite([ledger[id].at(k) for id in link.distances]).all():
+        return "found"
+    base = complex(ledger[ids.place(link.base)].at(k))
+    to_base = abs(complex(ledger[ids.centre(link.link)].at(k)) - base) / float(ledger["mu.l"].values[0])
+    return "near" if to_base < NEAREST else "far"
+
+
+def _place(report: Report, link: PlaneLink, k: int) -> complex:
+    return complex(report.ledger[ids.centre(link.link)].at(k)) * drawing_scale(report)
+
+
+def centres(report: Report, k: int) -> Drawn:
+    """The mechanism at a position, true to μ_l: normals that meet in the centres, velocities and their angles.
+
+    Centres stand together on a sheet as far as one holds them.
+    """
+    linkage, scale, motion = report.machine.linkage, drawing_scale(report), report.analysis.motion
+    angles = [_plane_motion(report, link, k) for link in report.plane_links]
+
+    def scene(links: Sequence[PlaneLink], first: bool) -> Scene:
+        marks = [Centre(centre_symbol(one.link), _place(report, one, k), (one.base, one.point)) for one in links]
+        own = angles if first else ()
+        return centre_plan(linkage, motion, k - 1, scale, centres=marks, looks=looks(report, scale), moving=own)
+
+    sheets: list[list[PlaneLink]] = [[]]
+    for link in (link for link in report.plane_links if centre_state(report, link, k) == "found"):
+        for index, links in enumerate(sheets):
+            if not links or _has_a_sheet(scene([*links, link], index == 0)):
+                links.append(link)
+                break
+        else:
+            sheets.append([link])
+    return on_paper(*(scene(links, index == 0) for index, links in enumerate(sheets)))
+
+
+def _has_a_sheet(scene: Scene) -> bool:
+    return any(fits(scene.width, scene.height, paper) for paper in (A3_ACROSS, A3_UPRIGHT))
+
+
+def _plane_motion(report: Report, link: PlaneLink, k: int) -> PlaneMotion:
+    """The velocities of a link's two points and their angles with the line between them."""
+    ledger, points = report.ledger, report.analysis.motion.points
+    ends = (link.base, link.point)
+    moving = [not report.is_zero(ids.velocity(name), k) for name in ends]
+    return PlaneMotion(
+        ends,
+        tuple(complex(points[name].v[k - 1]) if there else 0j for name, there in zip(ends, moving, strict=True)),
+        tuple(Symbol("v", name, over="vector") for name in ends),
+        tuple(ledger.symbol(id) for id in link.angles),
+    )

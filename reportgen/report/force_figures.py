@@ -1,0 +1,287 @@
+"""Figures of forces: separated links, the driver, Zhukovsky's lever."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from reportgen.drawing import Circle, Item, Line, Scene
+from reportgen.drawing.forces import ArmOf, Couple, Force
+from reportgen.drawing.forces import bodies as bodies_figure
+from reportgen.drawing.forces import lever as lever_figure
+from reportgen.drawing.labels import Draft, label
+from reportgen.drawing.plan import plan
+from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
+from reportgen.formula import Chain, Expression, Symbol, constructions, ids, size, vocabulary
+from reportgen.machine import DRIVER
+from reportgen.machine.forces import Load, as_single_force, percussion_meeting
+from reportgen.plans.loads import Polygon
+from reportgen.report.figures import HALF, MM, Drawn, beside_one_another, drawing_scale, looks, on_paper
+from reportgen.report.groups import BodyView, GroupView
+from reportgen.report.plans import force_plan, motion_plan
+from reportgen.report.report import Report
+
+
+@dataclass(frozen=True, slots=True)
+class _Bodies:
+    """Links of a machine at a position, to a share of μ_l, with what acts on them."""
+
+    report: Report
+    k: int
+    links: tuple[int, ...]
+    share: float = 1.0
+
+    @property
+    def scale(self) -> float:
+        """mm of paper for a metre."""
+        return drawing_scale(self.report) * self.share
+
+    def at(self, name: str) -> complex:
+        """Where a point stands on paper."""
+        return complex(self.report.analysis.motion.points[name].p[self.k - 1]) * self.scale
+
+    def scene(self, forces: Sequence[Force], **more: Any) -> Scene:
+        report, look = self.report, looks(self.report, self.scale, self.share)
+        machine, motion = report.machine.linkage, report.analysis.motion
+        return bodies_figure(machine, motion, self.k - 1, self.scale, self.links, forces, looks=look, **more)
+
+    def loads(self) -> list[Force]:
+        """Loads on the links; a force with a couple acts at the one point where it alone does both."""
+        return [
+            Force(
+                self.report.force_vector(load.name),
+                _acts_at(self.report, load, self.k) * self.scale,
+                complex(load.force[self.k - 1]),
+                "load",
+                load.name,
+            )
+            for load in self.report.analysis.loads
+            if load.link in self.links and _has_force(self.report, load, self.k)
+        ]
+
+    def couples(self) -> list[Couple]:
+        """Torques, and couples whose force is zero."""
+        report, index, result = self.report, self.k - 1, []
+        for load in report.analysis.loads:
+            if load.link not in self.links or load.couple[index] == 0:
+                continue
+            torque = _is_torque(report, load)
+            if torque or report.is_zero(load.name, self.k):
+                shown: Expression = report.ledger.symbol(load.name if torque else ids.inertia_couple(load.link))
+                if torque and load.couple[index] < 0:
+                    # The arc shows the true sense: a torque with a minus acts so with its size.
+                    shown = size(shown)
+                result.append(Couple(shown, complex(load.point[index]) * self.scale, float(load.couple[index])))
+        return result
+
+    def arms(self, known: Sequence[str], pin: str) -> list[ArmOf]:
+        """The arms about a pin that are not zero."""
+        ledger, about = self.report.ledger, self.at(pin)
+        return [ArmOf(ledger.symbol(id), about, ledger[id].of) for id in known if not self.report.is_zero(id, self.k)]
+
+    # --- reactions
+
+    def reaction(self, name: str, at: complex) -> Force:
+        """A reaction R12 in its true sense, or a component R12.t with a sign in the sense assumed."""
+        direction = drawn_sense(self.report, name, self.k)
+        return Force(self.report.force_vector(name), at, direction, "reaction", name)
+
+    def found_before(self, polygon: Polygon) -> list[Force]:
+        """Reactions of other groups on the links of a force plan, found before."""
+        found = []
+        for edge in polygon.carried:
+            if edge.link in self.links:
+                at = complex(self.report.analysis.forces.reactions[edge.name].point[self.k - 1]) * self.scale
+                force = self.reaction(edge.name, at)
+                found.append(force if force.direction and np.isfinite(at) else replace(force, at=0j, direction=0j))
+        return found
+
+    def outer(self, group: GroupView, link: int) -> list[Force]:
+        """The reaction in the outer joint of a group's link, by components where moments gave one of them."""
+        first = link == group.i
+        digits = group.outer if first else group.guide
+        pin = group.P if first else group.T or group.Q
+        whole, parts = ids.reaction_force(digits), [ids.reaction_force(digits, part) for part in "tn"]
+        by_parts = ids.reaction(digits, "t") in self.report.ledger
+        return [self.reaction(name, self.at(pin)) for name in (parts if by_parts else [whole])]
+
+    def inner(self, group: GroupView, link: int) -> Force:
+        """The reaction in the inner joint on one link of the group: as moments assume it, else as the plan gives it."""
+        # Of an RPP the inner joint is the slide of the block, which stands at its pin.
+        at, on_i = self.at(group.P if group.kind == "RPP" else group.Q), link == group.i
+        if group.by_slot in self.report.ledger:
+            sense = drawn_sense(self.report, ids.reaction_force(group.across, "s"), self.k) * (-1 if on_i else 1)
+        else:
+            sense = drawn_sense(self.report, ids.reaction_force(group.inner), self.k) * (1 if on_i else -1)
+        digits = group.inner if on_i else group.across
+        return Force(Symbol("R", digits, over="vector"), at, sense, "reaction", ids.reaction_force(digits))
+
+
+def drawn_sense(report: Report, name: str, k: int) -> complex:
+    """How a reaction is drawn on a separated link: as its formula assumes it if it has a sign; 0 where it is nothing.
+
+    The formula's value times the arrow drawn is then the true force.
+    """
+    ledger, vector = report.ledger, report.ledger[ids.vector(name)]
+    if report.is_zero(vector.of, k):
+        return 0j
+    assumed = ledger.known((ids.assumed(name), ids.vector(name)))[0]
+    return complex(ledger[assumed].at(k))
+
+
+# --- groups and the driver
+
+
+def bodies(report: Report, k: int, group: GroupView) -> Drawn:
+    """The group with all its forces, at half size; then each link that moments are taken of, with the arms."""
+    return beside_one_another(*separated(report, k, group))
+
+
+def separated(report: Report, k: int, group: GroupView) -> list[Scene]:
+    """The scenes of a group's separated links."""
+    assert group.polygon is not None
+    both = _Bodies(report, k, (group.i, group.j), HALF)
+    forces = [
+        *both.loads(),
+        *both.found_before(group.polygon),
+        *both.outer(group, group.i),
+        *both.outer(group, group.j),
+    ]
+    title = report.words["figure"]["group"].format(i=group.i, j=group.j)
+    scenes = [both.scene(forces, turning=both.couples(), title=title)]
+    for link, pin in _moments(report, group, k):
+        one = _Bodies(report, k, (link,))
+        forces = [*one.loads(), *one.found_before(group.polygon), *one.outer(group, link), one.inner(group, link)]
+        arms, title = one.arms(group.arms(pin, link), pin), f"{report.words['figure']['link']} {link}"
+        extra = _percussion(report, link, k) + _foot(report, group, link, k)
+        scenes.append(one.scene(forces, arms=arms, turning=one.couples(), extra=extra, title=title))
+    return scenes
+
+
+def _moments(report: Report, group: GroupView, k: int) -> tuple[tuple[int, str], ...]:
+    """The links of a group that the force analysis takes moments of, with the pin it takes them about."""
+    solved: dict[str, tuple[tuple[int, str], ...]] = {
+        "RRR": ((group.i, group.Q), (group.j, group.Q)),
+        "RPR": ((group.j, group.T),),
+        "RRP": ((group.i, group.Q),),
+    }
+    # A slide's reaction is placed by moments about its pin, whose arms are measured too.
+    placed = [
+        (slide.link, str(slide.pin))
+        for slide in group.contacts
+        if not all(report.is_zero(arm, k) for arm in group.arms(slide.pin, slide.link))
+    ]
+    return tuple(dict.fromkeys((*solved.get(group.kind, ()), *placed)))
+
+
+def driver(report: Report, k: int) -> Drawn:
+    """The driver with the reactions on it and what balances it, of a crank with arms about its centre; their plan."""
+    polygon = report.driver_polygon
+    assert polygon is not None
+    return beside_one_another(separated_driver(report, k), plan(force_plan(report, polygon, k)))
+
+
+def separated_driver(report: Report, k: int) -> Scene:
+    """The driver with all that acts on it."""
+    polygon, centre, body = report.driver_polygon, report.driver.centre, _Bodies(report, k, (DRIVER,))
+    assert polygon is not None
+    pin = body.at(centre or report.driver.pin)
+    closing = (body.reaction(edge.name, pin) for edge in polygon.edges if edge.unknown)
+    forces = [*body.loads(), *body.found_before(polygon), *closing]
+    if centre:
+        # Assumed anticlockwise, as its formula counts it.
+        balance = Couple(report.balance_symbol(), pin, float(not report.is_zero("M.eq", k)))
+        return body.scene(forces, arms=body.arms(report.crank_arms, centre), turning=(balance,))
+    return body.scene(forces)
+
+
+# --- loads
+
+
+def _has_force(report: Report, load: Load, k: int) -> bool:
+    return load.name in report.ledger and not _is_torque(report, load) and not report.is_zero(load.name, k)
+
+
+def _is_torque(report: Report, load: Load) -> bool:
+    """Whether a load has no force by its nature."""
+    return any(torque.name == load.name for torque in report.machine.torques)
+
+
+def _acts_at(report: Report, load: Load, k: int) -> complex:
+    """Where a load is drawn: an inertia force at the constructed point Q, else where it acts alone."""
+    for body in report.couples:
+        if load.name == body.force and (points := _percussion_points(report, body, k)):
+            return points[1]
+    single = complex(as_single_force(load)[k - 1])
+    return single if np.isfinite(single) else complex(load.point[k - 1])
+
+
+def _percussion_points(report: Report, body: BodyView, k: int) -> tuple[complex, complex] | None:
+    """The centre of percussion K and the point Q (m); None where their lines do not meet near the link."""
+    start, centre = (report.analysis.motion.points[name] for name in (body.start, body.centre))
+    l_sk = float(report.ledger[body.ids[-1]].values[0])
+    s, a = complex(centre.p[k - 1]), complex(start.p[k - 1])
+    q = complex(percussion_meeting(start.p, centre.p, start.a, centre.a, l_sk)[k - 1])
+    near = abs(s - a) + 2 * l_sk
+    return (s + (s - a) / abs(s - a) * l_sk, q) if np.isfinite(q) and abs(q - s) < near else None
+
+
+def _percussion(report: Report, link: int, k: int) -> Draft:
+    """K on a link, and the two lines of construction that meet in Q."""
+    body = next((body for body in report.couples if body.link == link), None)
+    points = body and _percussion_points(report, body, k)
+    if not body or not points or report.is_zero(body.couple, k):
+        return Draft()
+    scale, number = drawing_scale(report), str(link)
+    known, meeting = (point * scale for point in points)
+    marks: tuple[Item, ...] = (
+        Line(complex(report.analysis.motion.points[body.centre].p[k - 1]) * scale, meeting, CONSTRUCTION),
+        Line(known, meeting, CONSTRUCTION),
+        Circle(known, 0.6, VISIBLE, PAPER),
+        Circle(meeting, 0.6, VISIBLE, PAPER),
+    )
+    labels = label(known, Symbol("K", number), gap=1.2), label(meeting, Symbol("Q", number), gap=1.2)
+    return Draft(marks, labels)
+
+
+def _foot(report: Report, group: GroupView, link: int, k: int) -> Draft:
+    """On a slotted link beside its pin T the foot H of T on the slot's line, from which the block is measured."""
+    if not (group.offset and link == group.j):
+        return Draft()
+    scale, ledger = drawing_scale(report), report.ledger
+    pivot, block = (complex(report.analysis.motion.points[name].p[k - 1]) * scale for name in (group.T, group.Q))
+    along = complex(ledger[ids.slot(link)].at(k))
+    at = complex(constructions.foot(pivot, block, along))
+    marks = (Line(pivot, at, CONSTRUCTION), Line(at, block, CONSTRUCTION), Circle(at, 0.6, VISIBLE, PAPER))
+    return Draft(marks, (label(at, Symbol("H", str(link)), gap=1.2),))
+
+
+# --- Zhukovsky's lever
+
+
+def lever(report: Report, k: int) -> Drawn:
+    """The velocity plan turned by 90° against ω1, every load at its image, arms about the pole."""
+    ledger, machine, motion, index = report.ledger, report.machine, report.analysis.motion, k - 1
+    per = -1j * machine.turn * MM / float(ledger["mu.v"].values[0])
+    forces, arms = [], []
+    for load in report.analysis.loads:
+        if not _has_force(report, load, k):
+            continue
+        at = np.full(motion.driver.shape, _acts_at(report, load, k))
+        image = complex(motion.of(load.link, at).v[index]) * per
+        shown = report.force_vector(load.name)
+        forces.append(Force(shown, image, complex(load.force[index]), "load", load.name))
+        if not report.is_zero(ids.lever_arm(load.name), k):
+            arms.append(ArmOf(ledger.symbol(ids.lever_arm(load.name)), 0j, load.name))
+    if machine.span and not report.is_zero("R.cb", k):
+        # The force that balances a sliding driver acts on the lever too; that of a crank is a torque.
+        image = complex(motion.points[report.driver.pin].v[index]) * per
+        shown = vocabulary.vector(report.balance_symbol())
+        forces.append(Force(shown, image, drawn_sense(report, "Rcb", k), "reaction", "Rcb"))
+        arms.append(ArmOf(ledger.symbol(report.driver.velocity_segment), 0j, "Rcb"))
+    scale = Chain((ledger.symbol("mu.v"), ledger.number("mu.v")))
+    drawing = motion_plan(report, "v", k)
+    return on_paper(lever_figure(drawing, forces, arms, sense=-machine.turn, notes=(scale,)))

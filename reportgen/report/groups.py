@@ -1,0 +1,446 @@
+"""The moving parts of a machine as templates, tables and figures see them, with the ids of their quantities.
+
+Names of points are `PointName`s, which templates print as symbols.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from reportgen.formula import ids, refs
+from reportgen.formula.ids import Name
+from reportgen.formula.ledger import Ledger
+from reportgen.machine import DRIVER, Crank, Dyad, Guide, Linkage
+from reportgen.plans.loads import Polygon
+from reportgen.plans.sides import Scheme, Side, image, sides
+from reportgen.report.prose import PointName
+
+
+@dataclass(frozen=True, slots=True)
+class PointView:
+    """A named point on a link, e.g. a mass centre."""
+
+    name: PointName
+    link: int
+
+    def __str__(self) -> str:
+        return self.name
+
+
+def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
+    """The named points of a link."""
+    return tuple(PointView(PointName(place.name), link) for place in linkage.points if place.link == link)
+
+
+class DriverView:
+    """The driver as templates name it: its centre O1 and pin A, its `arm` O1A, further points on it.
+
+    Of its `kind`, "crank" or "slide", a slide has neither centre nor arm; `rate` is the symbol of what is constant.
+    `velocity_lines` and `acceleration_lines` are those of its
+    points, `scale_lines` what the velocity plan of a sliding driver begins with; `drawn`, `velocity`,
+    `velocity_segment` and `acceleration_segment` the ids of the arm's drawn length, of the pin's velocity and of
+    the segments that stand for the pin's velocity and acceleration; `round_velocity` and `round_acceleration` say
+    that the scale of a plan was chosen from the series.
+    """
+
+    def __init__(self, linkage: Linkage, ledger: Ledger) -> None:
+        moved = linkage.driver
+        self.centre = PointName(moved.centre if isinstance(moved, Crank) else "")
+        self.pin = PointName(moved.pin)
+        self.others = points_on(linkage, DRIVER)
+        self.names = (self.pin, *(place.name for place in self.others))
+        self.arm = f"{self.centre}{self.pin}" if self.centre else ""
+        self.kind = "crank" if self.centre else "slide"
+        self.rate = ledger.symbol("omega.1" if self.centre else ids.velocity(self.pin))
+        self.drawn, self.velocity = ids.drawn(self.arm), ids.velocity(self.pin)
+        self.velocity_segment, self.acceleration_segment = (ids.segment(what, "p", image(self.pin)) for what in "va")
+        self.round_velocity, self.round_acceleration = (ledger[ids.scale(what)].definition is None for what in "va")
+        self.velocity_lines, self.acceleration_lines = (
+            [id for name in self.names if (id := rate(name)) in ledger] for rate in ids.POINT_RATE.values()
+        )
+        self.scale_lines = [self.velocity, "mu.v", self.velocity_segment]
+
+
+@dataclass(frozen=True, slots=True)
+class CarriedPoint:
+    """A point of a link that turns about `origin` without a segment of its own on the plan.
+
+    `relative` is its name with the origin's, e.g. S2B; `still` says whether the origin is fixed to the
+    frame, `swings` whether the link has an angular acceleration.
+    """
+
+    name: PointName
+    link: int
+    origin: PointName
+    relative: str
+    still: bool
+    swings: bool
+
+    @property
+    def base(self) -> str:
+        return self.origin
+
+    @property
+    def omega(self) -> str:
+        return ids.angular_velocity(self.link)
+
+    @property
+    def epsilon(self) -> str:
+        return ids.angular_acceleration(self.link)
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """The reaction `digits` of a slide on `link`: `moment` and `place` are the ids of its moment about the
+    pin and of its distance from the pin, `moments` the lines that give this moment.
+    """
+
+    digits: str
+    pin: PointName
+    link: int
+    moment: str
+    place: str
+    moments: list[str]
+    displaced: bool
+    """Whether other forces have a moment about the pin, so that the reaction may act beside it."""
+
+    @property
+    def reaction(self) -> str:
+        return ids.reaction(self.digits)
+
+    @property
+    def lines(self) -> list[str]:
+        """What is worked out for the moment and for the place."""
+        return [*self.moments, self.place]
+
+
+class GroupView:
+    """An Assur group as templates name it.
+
+    `i`, `j` are its links; `P`, `Q` the outer and the inner pin (A, B), `T` the outer pin of j ("" on a guide),
+    `M` the point whose motion is written in two ways; `one` and `two` those ways; `relative` is MP as in v_BA
+    and `rod` PQ; `outer`, `inner`, `guide` the joints' digits as in R12, R32, R03, `across` those of R23;
+    `points_i` and `points_j` the named points of links i and j; `carrier` is the link that i hangs on, and
+    `scale` the scale of the force plan.
+    """
+
+    def __init__(self, dyad: Dyad, plan: Scheme, driver: DriverView, polygons: Iterable[Polygon], ledger: Ledger):
+        self.kind, (self.i, self.j), self.ledger = dyad.kind, dyad.links, ledger
+        i, j = dyad.links
+        self.one, self.two = self.sides = sides(plan, dyad)
+        self.P = PointName(dyad.start if isinstance(dyad.start, str) else dyad.middle)
+        self.Q = PointName(dyad.middle)
+        self.T = PointName(dyad.end if isinstance(dyad.end, str) else "")
+        self.M, self.relative, self.rod = PointName(self.one.point), self.one.relative, self.one.rod
+        self.carrier, last = (end.link if isinstance(end, Guide) else plan.owner[end] for end in (dyad.start, dyad.end))
+        self.outer, self.inner = ids.joint(self.carrier, i), ids.joint(j, i)
+        self.guide, self.across = ids.joint(last, j), ids.joint(i, j)
+        self.name = ids.joint(i, j)
+        self.scale = ids.force_scale(self.name)
+        self.offset = dyad.kind == "RPR" and bool(dyad.lengths[1])
+        self.points_i, self.points_j = (points_on(plan.linkage, link) for link in dyad.links)
+        self.points = (*self.points_i, *self.points_j)
+        self.polygon = next((one for one in polygons if one.name == self.name), None)
+        self.fixed, self.on_driver = frozenset(plan.linkage.ground), frozenset(driver.names)
+        self.by_crank = driver.kind == "crank"
+
+    def __str__(self) -> str:
+        return self.name
+
+    # --- plans of velocity and acceleration
+
+    @property
+    def form(self) -> str:
+        """Its kind as the words for its plans tell them apart: the guide of an RRP may be fixed or "RRP-moving"."""
+        return "RRP-moving" if self.kind == "RRP" and not self.two.still else self.kind
+
+    @property
+    def unknowns(self) -> tuple[str | Side, str | Side]:
+        """The velocities whose magnitudes the vector equation leaves unknown: points, relative velocities, sides."""
+        first, second = (self.M if side.still else side.relative for side in self.sides)
+        if self.kind == "RPR":
+            return self.one, second
+        if self.kind != "RRP":
+            return first, second
+        along = self.Q if self.two.still or self.one.still else self.two.relative
+        return along, self.two.relative if self.one.still else self.relative
+
+    @property
+    def normal_by_segments(self) -> bool:
+        """Whether the plans' scales, those of a crank, let the normal acceleration of an RRP be drawn from segments."""
+        return self.by_crank and not self.one.still
+
+    @property
+    def moving(self) -> tuple[Side, ...]:
+        """The ways whose base moves."""
+        return tuple(side for side in self.sides if not side.still)
+
+    @property
+    def under(self) -> tuple[Side, ...]:
+        """The ways over a moving guide: their base is the guide's point under M."""
+        return tuple(side for side in self.moving if side.guided)
+
+    @property
+    def turning(self) -> tuple[Side, ...]:
+        """The ways with a Coriolis acceleration."""
+        return tuple(side for side in self.sides if side.turning)
+
+    @property
+    def normals(self) -> list[str]:
+        """The known relative accelerations and their segments, to be worked out before the plan."""
+        known = [side for side in self.sides if side.part]
+        return [id for side in known for id in (ids.acceleration(side.relative, side.part), side.known)]
+
+    @property
+    def velocity_lines(self) -> list[str]:
+        """What is worked out from the velocity plan: points, relative velocities, rotations."""
+        return self._in_order(
+            *(ids.velocity(side.base) for side in self.under),
+            ids.velocity(self.M),
+            *(side.velocity for side in self.sides),
+            ids.velocity(self.Q),
+            *self._point_lines(ids.velocity),
+            *self._measured(),
+            ids.angular_velocity(self.i),
+            ids.angular_velocity(self.j),
+        )
+
+    @property
+    def acceleration_lines(self) -> list[str]:
+        """What is worked out from the acceleration plan."""
+        return self._in_order(
+            *(ids.acceleration(side.base) for side in self.under),
+            ids.acceleration(self.M),
+            *(ids.acceleration(side.relative, side.sought) for side in self.sides),
+            ids.acceleration(self.Q),
+            *self._point_lines(ids.acceleration, "n", "t"),
+            ids.angular_acceleration(self.i),
+            ids.angular_acceleration(self.j),
+        )
+
+    def _in_order(self, *quantities: str) -> list[str]:
+        """The ids that exist, but before each what it is worked out from."""
+        known = self.ledger.known(quantities)
+        ordered: dict[str, None] = {}
+
+        def put(id: str) -> None:
+            if id in ordered:
+                return
+            definition = self.ledger[id].definition
+            for source in refs(definition) if definition is not None else ():
+                if source in known:
+                    put(source)
+            ordered[id] = None
+
+        for id in known:
+            put(id)
+        return list(ordered)
+
+    def _point_lines(self, rate: Name, *parts: str) -> Iterator[str]:
+        for place in self.points:
+            relative = f"{place.name}{self._origin(place.link)}"
+            yield from [rate(relative, part) for part in parts] or [rate(relative)]
+            yield rate(place.name)
+
+    def _measured(self) -> list[str]:
+        """Lengths that change and are measured on the position drawing."""
+        rods = [side.rod for side in self.sides if side.measured]
+        return [name(rod) for rod in rods for name in (ids.drawn, ids.length)]
+
+    def _origin(self, link: int) -> PointName:
+        """The joint that a link's points are measured from."""
+        return self.P if link == self.i else self.T or self.Q
+
+    @property
+    def carried(self) -> list[CarriedPoint]:
+        """Points that similarity does not give, as on a block: they turn about a joint at the link's rate."""
+        found = []
+        for place in self.points:
+            origin = self._origin(place.link)
+            relative = f"{place.name}{origin}"
+            if ids.velocity(relative) in self.ledger:
+                swings, still = ids.acceleration(relative, "t") in self.ledger, origin in self.fixed
+                found.append(CarriedPoint(place.name, place.link, origin, relative, still, swings))
+        return found
+
+    def similar(self, what: str) -> list[str]:
+        """A link's segment ab and what the similarity theorem gives: as₂, and be where E is off the line of joints."""
+        found: list[str] = []
+        for place in self.points:
+            for side in self.sides:
+                if side.turns and side.link == place.link:
+                    ends = "p" if side.still else image(side.base), image(self.M)
+                    found += [ids.segment(what, *ends), *(ids.segment(what, end, image(place.name)) for end in ends)]
+        return self.ledger.known(found)
+
+    def base(self, what: str, side: Side, k: int) -> str:
+        """How the end of a base's vector comes on the plan: at the "pole", "drawn" before, or "new"."""
+        if self.ledger.number(self.base_segment(what, side), k).value == 0:
+            return "pole"
+        return "new" if side.guided or side.base in self.on_driver else "drawn"
+
+    def base_segment(self, what: str, side: Side) -> str:
+        """The segment of a plan that stands for the velocity or acceleration of a side's base."""
+        return ids.segment(what, "p", image(side.base))
+
+    @property
+    def drawn(self) -> str:
+        """The drawn length of the rod."""
+        return ids.drawn(self.rod)
+
+    @property
+    def relative_segment(self) -> str:
+        """The segment of the velocity plan that stands for the relative velocity of the rod's ends."""
+        return ids.segment("v", image(self.P), image(self.Q))
+
+    # --- forces
+
+    def arms(self, about: str, link: int) -> list[str]:
+        """Arms about a point of the known loads on a link of the group."""
+        if self.polygon is None:
+            return []
+        known = [(edge.name, edge.link) for edge in self.polygon.edges if not edge.unknown]
+        known.append((ids.reaction_force(self.across), self.j))
+        return self.ledger.known(ids.arm(name, about) for name, carrier in known if carrier == link)
+
+    @property
+    def outer_lines(self) -> list[str]:
+        """Moments on link i about the inner pin, which give the component across the link in its outer joint."""
+        return [*self.arms(self.Q, self.i), ids.reaction(self.outer, "t")]
+
+    @property
+    def guide_lines(self) -> list[str]:
+        """Moments on link j about the inner pin, which give the component across the link in its outer joint."""
+        return [*self.arms(self.Q, self.j), ids.reaction(self.guide, "t")]
+
+    @property
+    def slot_lines(self) -> list[str]:
+        """Moments on a slotted link about its outer pin, which give the reaction of the block."""
+        H = f"H{self.j}"
+        foot = [ids.drawn(H, self.Q), ids.length(H, self.Q)] if self.offset else []
+        return [*self.arms(self.T, self.j), *foot, ids.reaction(self.across, "s")]
+
+    @property
+    def reactions(self) -> list[str]:
+        """What is measured on the force plan, in the order of the construction."""
+        joints = {
+            "RRR": ((self.outer, "n"), (self.guide, "n"), (self.outer,), (self.guide,), (self.inner,)),
+            "RRP": ((self.outer, "n"), (self.guide,), (self.outer,), (self.inner,)),
+            "RPR": ((self.guide,), (self.outer,), (self.inner,)),
+            "PRP": ((self.outer,), (self.guide,), (self.inner,)),
+            "RPP": ((self.inner,), (self.guide,), (self.outer,)),
+        }
+        return [ids.reaction(*joint) for joint in joints[self.kind]]
+
+    @property
+    def joints(self) -> tuple[str, str, str]:
+        """The digits of the reactions in the two outer joints and the inner one."""
+        return self.outer, self.guide, self.inner
+
+    @property
+    def contacts(self) -> list[Contact]:
+        """The reactions of slides, whose place on the slide is to be found."""
+        first, last = (self.inner, self.P, self.i), (self.guide, self.Q, self.j)
+        found = {"RRP": [last], "RPR": [first], "PRP": [(self.outer, self.Q, self.i), last], "RPP": [first, last]}
+        return [self._contact(*slide) for slide in found.get(self.kind, [])]
+
+    def _contact(self, digits: str, pin: PointName, link: int) -> Contact:
+        moment, arms = ids.reaction_couple(digits), self.arms(pin, link)
+        displaced = moment in self.ledger and self.ledger[moment].definition is not None
+        moments = [*arms, moment] if displaced else arms
+        return Contact(
+            digits=digits,
+            pin=pin,
+            link=link,
+            moment=moment,
+            place=ids.application(digits),
+            moments=moments,
+            displaced=displaced,
+        )
+
+    @property
+    def by_slot(self) -> str:
+        """The reaction of the block on a slotted link, which moments give with its sign."""
+        return ids.reaction(self.across, "s")
+
+    @property
+    def assumed(self) -> list[str]:
+        """What moments give, each drawn in an assumed sense, so that it has a sign."""
+        return [*self.tangential, *self.ledger.known([self.by_slot])]
+
+    @property
+    def tangential(self) -> list[str]:
+        """The components across links that moments give."""
+        return self.ledger.known((ids.reaction(self.outer, "t"), ids.reaction(self.guide, "t")))
+
+    def components(self, k: int) -> list[str]:
+        """The components that are found by moments; none where all of them are zero."""
+        found = self.tangential
+        return found if any(self.ledger.number(id, k).value != 0 for id in found) else []
+
+    @property
+    def last_known(self) -> str:
+        """The vertex of the force plan at which the known forces end."""
+        assert self.polygon is not None
+        return self.polygon.edges[-2].start
+
+    @property
+    def last_of_j(self) -> str:
+        """The vertex of the force plan at which the known forces on link j end."""
+        assert self.polygon is not None
+        return self.polygon.reads[-1].end
+
+
+@dataclass(frozen=True, slots=True)
+class BodyView:
+    """A link with an inertia couple: its number, mass centre, the pin it is measured from, the ids to show."""
+
+    link: int
+    centre: PointName
+    start: PointName
+    ids: list[str]
+    still: bool
+    """Whether that pin is fixed to the frame."""
+
+    @property
+    def force(self) -> str:
+        return ids.inertia_force(self.link)
+
+    @property
+    def couple(self) -> str:
+        return ids.inertia_couple(self.link)
+
+
+class PlaneLink:
+    """A link in plane motion: its number, two points with drawn velocities, their `rod` and their `group`.
+
+    The other members are the ids that the section on instant centres works out for it.
+    """
+
+    def __init__(self, turn: Side, group: str) -> None:
+        self.link, self.rod, self.group = turn.link, turn.rod, group
+        self.base, self.point = PointName(turn.base), PointName(turn.point)
+        self.omega = ids.angular_velocity(self.link)
+        self.rates = [ids.centre_omega(self.link), ids.centre_velocity(self.link)]
+        self.distances, self.angles, self.projections = (
+            [name(self.link, point) for point in (self.base, self.point)]
+            for name in (ids.centre_distance, ids.rod_angle, ids.projection)
+        )
+
+    def __str__(self) -> str:
+        return str(self.link)
+
+
+def displaced_inertia(linkage: Linkage, groups: Iterable[GroupView], ledger: Ledger) -> tuple[BodyView, ...]:
+    """Links whose inertia is a force and a couple, which one force off the mass centre replaces."""
+    # A block turns about no base of a plan: the pin it sits on is its first joint.
+    starts = {group.i: group.P for group in groups}
+    starts |= {side.link: PointName(side.base) for group in groups for side in group.sides if side.turns}
+    found = []
+    for body in linkage.inertias:
+        shown = ledger.known((ids.inertia_offset(body.link), ids.percussion(body.centre, body.link)))
+        if len(shown) == 2:
+            start = starts[body.link]
+            found.append(BodyView(body.link, PointName(body.centre), start, shown, start in linkage.ground))
+    return tuple(found)

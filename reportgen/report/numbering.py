@@ -1,0 +1,202 @@
+"""Numbers and cross-references: the last pass over a finished tree, shared by all writers.
+
+Parts (level 1) count 1, 2, …; sections below them 1.1 and 1.1.1; equations, tables and figures count
+by part, each kind by itself.  In a part without a number they count 1, 2, … through the whole
+document, which no number of a counted part can equal, as those have two members.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+from reportgen import report as tree
+from reportgen.base.errors import ReportgenError
+from reportgen.report import plain
+
+_COUNTED_LEVELS = 3
+
+_Kind = Literal["equation", "table", "figure"]
+Blocks = tuple[tree.Block, ...]
+Change = Callable[[tree.Inlines], tree.Inlines]
+
+
+class DocumentError(ReportgenError):
+    """A finished tree does not hold together; `faults` are all that is wrong with it."""
+
+    def __init__(self, faults: list[str]) -> None:
+        self.faults = tuple(faults)
+        super().__init__("\n".join(faults))
+
+
+def number(document: tree.Document) -> tree.Document:
+    """The document with every number and reference filled in.
+
+    An equation's number is "1.2", a reference to it "(1.2)"; a reference to a section without a number
+    is its title.  Raises `DocumentError` with all duplicate keys, references to nothing, equations with
+    a key that nothing refers to, and headings that skip a level.
+    """
+    count = _Count()
+    numbered = tuple(count.block(block) for block in document.blocks)
+    used = dict.fromkeys(_references(numbered))
+    faults = [
+        *count.faults,
+        *(f"two blocks have the key {key!r}" for key, times in count.times.items() if times > 1),
+        *(f"a reference to {key!r}, which is not in the document" for key in used if key not in count.times),
+        *(f"nothing refers to the equation {key!r}" for key in count.equations if key not in used),
+    ]
+    if faults:
+        raise DocumentError(faults)
+    named = {key: plain(_filled(title, count.shown), document.language) for key, title in count.titles.items()}
+    shown = count.shown | named
+    return replace(document, blocks=_each(numbered, lambda line: _filled(line, shown)))
+
+
+def unreferenced(document: tree.Document) -> tuple[str, ...]:
+    """Keys of the figures, plates and tables that no text refers to, in order."""
+    used = set(_references(document.blocks))
+    kinds = tree.Table, tree.Figure, tree.Plate
+    keys = (block.key for block in _walk(document.blocks) if isinstance(block, kinds))
+    return tuple(key for key in keys if key and key not in used)
+
+
+# --- counting -------------------------------------------------------------------------------------
+
+
+@dataclass(slots=True)
+class _Count:
+    """What the pass has met so far."""
+
+    path: tuple[int, ...] = ()
+    """Numbers of the section now open, () in a part that is not counted."""
+    level: int = 0
+    of_sections: Counter[tuple[int, ...]] = field(default_factory=Counter)
+    of_kinds: Counter[tuple[tuple[int, ...], _Kind]] = field(default_factory=Counter)
+    times: Counter[str] = field(default_factory=Counter)
+    shown: dict[str, str] = field(default_factory=dict)
+    """What a reference to a key prints."""
+    titles: dict[str, tree.Inlines] = field(default_factory=dict)
+    """Of sections without a number, by key."""
+    last_figure: str = ""
+    equations: list[str] = field(default_factory=list)
+    faults: list[str] = field(default_factory=list)
+
+    def block(self, block: tree.Block) -> tree.Block:
+        match block:
+            case tree.Section():
+                return self.section(block)
+            case tree.Equation(key=key) if key:
+                self.equations.append(key)
+                value = self.next("equation")
+                self.name(key, f"({value})")
+                return replace(block, number=value)
+            case tree.Plate(continues=True):
+                return replace(block, number=self.last_figure)
+            case tree.Table() | tree.Figure() | tree.Plate() if block.key or block.caption:
+                value = self.next("table" if isinstance(block, tree.Table) else "figure")
+                self.name(block.key, value)
+                self.last_figure = self.last_figure if isinstance(block, tree.Table) else value
+                return replace(block, number=value)
+            case tree.List(items):
+                return replace(block, items=tuple(tuple(map(self.block, item)) for item in items))
+        return block
+
+    def section(self, section: tree.Section) -> tree.Section:
+        level = section.level
+        if level > _COUNTED_LEVELS:
+            value = ""
+        else:
+            if level > self.level + 1:
+                self.faults.append(f"a heading of level {level} follows one of level {self.level}")
+            self.level = level
+            above = self.path[: level - 1]
+            counted = section.numbered and len(above) == level - 1
+            if counted:
+                self.of_sections[above] += 1
+                self.path = (*above, self.of_sections[above])
+            else:
+                self.path = above
+            value = _dotted(self.path) if counted else ""
+        self.name(section.key, value)
+        if section.key and not value:
+            self.titles[section.key] = section.title
+        return replace(section, number=value)
+
+    def next(self, kind: _Kind) -> str:
+        part = self.path[:1]
+        self.of_kinds[part, kind] += 1
+        return _dotted((*part, self.of_kinds[part, kind]))
+
+    def name(self, key: str, shown: str) -> None:
+        if key:
+            self.times[key] += 1
+            self.shown[key] = shown
+
+
+def _dotted(numbers: tuple[int, ...]) -> str:
+    return ".".join(map(str, numbers))
+
+
+# --- walking --------------------------------------------------------------------------------------
+
+
+def _walk(blocks: tuple[tree.Block, ...]) -> Iterator[tree.Block]:
+    for block in blocks:
+        yield block
+        if isinstance(block, tree.List):
+            for item in block.items:
+                yield from _walk(item)
+
+
+def _each(blocks: Blocks, change: Change) -> Blocks:
+    """The blocks with `change` applied to every line of text in them."""
+    return tuple(_changed(block, change) for block in blocks)
+
+
+def _changed(block: tree.Block, change: Change) -> tree.Block:
+    match block:
+        case tree.Section(_, title):
+            return replace(block, title=change(title))
+        case tree.Paragraph(inlines):
+            return replace(block, inlines=change(inlines))
+        case tree.List(items):
+            return replace(block, items=tuple(_each(item, change) for item in items))
+        case tree.Table():
+
+            def cells(rows: tuple[tuple[tree.Cell, ...], ...]) -> tuple[tuple[tree.Cell, ...], ...]:
+                return tuple(tuple(replace(cell, inlines=change(cell.inlines)) for cell in row) for row in rows)
+
+            return replace(block, head=cells(block.head), rows=cells(block.rows), caption=change(block.caption))
+        case tree.Figure() | tree.Plate():
+            return replace(block, caption=change(block.caption))
+    return block
+
+
+def _filled(inlines: tree.Inlines, shown: dict[str, str]) -> tree.Inlines:
+    """Inlines with the text of every reference."""
+    return tuple(
+        replace(inline, text=shown[inline.key])
+        if isinstance(inline, tree.Reference)
+        else replace(inline, of=_filled(inline.of, shown))
+        if isinstance(inline, (tree.Emph, tree.Strong))
+        else inline
+        for inline in inlines
+    )
+
+
+def _references(blocks: tuple[tree.Block, ...]) -> list[str]:
+    """Keys referred to, in order."""
+    keys: list[str] = []
+
+    def note(inlines: tree.Inlines) -> tree.Inlines:
+        for inline in inlines:
+            if isinstance(inline, tree.Reference):
+                keys.append(inline.key)
+            elif isinstance(inline, (tree.Emph, tree.Strong)):
+                note(inline.of)
+        return inlines
+
+    _each(blocks, note)
+    return keys

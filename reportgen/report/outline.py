@@ -1,0 +1,447 @@
+"""The names in templates, one table a kind of name: what a template may write, and what it then gets.
+
+`{{ count }}` is a property of the report, `{{ started }}` what a function makes of the report, `{{ symbol("l.AB") }}` a
+function of the report and of what stands in the parentheses.  `{{ figure("scheme") }}` and `{{ table("given") }}` name
+their figure and table in tables of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from reportgen.machine.analysis import Position
+from reportgen.report import (
+    Block,
+    Contents,
+    Cover,
+    Document,
+    Figure,
+    InlineMath,
+    PageBreak,
+    Paragraph,
+    Plate,
+    Table,
+    Text,
+    Words,
+    chapters,
+    comments,
+    curves,
+    equations,
+    figures,
+    force_figures,
+    phrases,
+    plans,
+    result_tables,
+    tables,
+)
+from reportgen.report import chapters as overview
+from reportgen.report import figures as centres
+from reportgen.report import phrases as steps
+from reportgen.report.case import Calculation
+from reportgen.report.figures import Drawn
+from reportgen.report.groups import GroupView
+from reportgen.report.numbering import number
+from reportgen.report.report import Report
+
+# --- names without parentheses ----------------------------------------------------------------------
+
+PROPERTIES = (
+    # the assignment, in words
+    "machine_title",
+    "turn_sense",
+    "turn_words",
+    "words",
+    # positions
+    "count",
+    "cycle_count",
+    "even_count",
+    "positions",
+    "thinned",
+    "worked",
+    "worked_forces",
+    # the machine
+    "couples",
+    "crank_pins",
+    "driver",
+    "driver_polygon",
+    "groups",
+    "joined",
+    "machine",
+    "mobility",
+    "own",
+    "pistons",
+    "plane_links",
+    "sheet",
+    # what is set out together, by ids
+    "inertia_lines",
+    "lengths",
+    "mass_lines",
+    # conditions
+    "all_zero",
+    "has_flywheel",
+    "has_force",
+    "has_forces",
+    "has_formulas",
+    "has_gas",
+    "has_turning_links",
+    "loads_crank",
+    "needs_flywheel",
+    "speed_in_rpm",
+)
+"""Properties of the `Report`."""
+
+VALUES: Mapping[str, Callable[[Report], Any]] = {
+    # the assignment, in words
+    "attached": chapters.attached,
+    "begins_at": chapters.begins_at,
+    "signature": chapters.signature,
+    "started": chapters.started,
+    "variant_words": chapters.variant_words,
+    "worked_at": comments.worked_at,
+    # words that follow from what the report has
+    "coupler": phrases.coupler,
+    "diagram_words": chapters.diagram_words,
+    "driven": phrases.driven,
+    "driver_loads": phrases.driver_loads,
+    "energy_key": phrases.energy_key,
+    "form": phrases.form,
+    "lever": phrases.lever,
+    "load_key": phrases.load_key,
+    "medium": phrases.medium,
+    "opposite_words": phrases.opposite_words,
+    "scope": phrases.scope,
+    "scope_key": phrases.scope_key,
+    "slide_reactions": phrases.slide_reactions,
+    "slider_convention": phrases.slider_convention,
+    "stores": chapters.stores,
+    "study": phrases.study,
+    "turning": phrases.turning,
+    # what is set out together, by ids
+    "crank_lines": chapters.crank_lines,
+    "driver_joints": chapters.driver_joints,
+    "driver_reactions": chapters.driver_reactions,
+    "energy_bounds": chapters.energy_bounds,
+    "gas_forces": chapters.gas_forces,
+    "inertia_parts": chapters.inertia_parts,
+    "lever_couples": chapters.lever_couples,
+    "mean_lines": chapters.mean_lines,
+    "speed_limits": chapters.speed_limits,
+    "tabled_forces": chapters.tabled_forces,
+    "uniform_rods": chapters.uniform_rods,
+    "without_mass": chapters.without_mass,
+    "work_lines": chapters.work_lines,
+    # conditions
+    "has_chosen_scale": chapters.has_chosen_scale,
+    "plan_in_text": figures.plan_in_text,
+    "shares_pins": chapters.shares_pins,
+}
+"""What functions make of a report."""
+
+# --- figures ----------------------------------------------------------------------------------------
+
+VELOCITY, ACCELERATION = plans.MotionFigures("v"), plans.MotionFigures("a")
+
+FIGURES: Mapping[str, tuple[str, Callable[..., Drawn]]] = {
+    "line-styles": ("fig.line-styles", figures.line_styles),
+    # the machine
+    "scheme": ("fig.scheme", figures.scheme),
+    "groups": ("fig.groups", figures.groups),
+    "positions": ("fig.positions", figures.positions),
+    "extremes": ("fig.extremes", figures.extremes),
+    # motion
+    "velocity": ("fig.v", VELOCITY.whole),
+    "velocity-stages": ("fig.v.stages", VELOCITY.in_stages),
+    "velocity-plates": ("fig.v.plates", VELOCITY.on_plates),
+    "acceleration": ("fig.a", ACCELERATION.whole),
+    "acceleration-stages": ("fig.a.stages", ACCELERATION.in_stages),
+    "acceleration-plates": ("fig.a.plates", ACCELERATION.on_plates),
+    "coriolis": ("fig.coriolis", figures.coriolis),
+    "centres": ("fig.centres", centres.centres),
+    "motion": ("fig.motion", curves.motion),
+    # forces
+    "indicator": ("fig.indicator", figures.indicator),
+    "bodies": ("fig.bodies", force_figures.bodies),
+    "forces": ("fig.R", plans.forces),
+    "force-stages": ("fig.R.stages", plans.force_stages),
+    "force-plates": ("fig.R.plates", plans.force_plates),
+    "crank": ("fig.crank", force_figures.driver),
+    "slide": ("fig.slide", force_figures.driver),
+    "lever": ("fig.lever", force_figures.lever),
+    "polar": ("fig.polar", curves.polar),
+    "torque": ("fig.M", curves.torque),
+    # the flywheel
+    "flywheel-torque": ("fig.Mr", curves.flywheel_torque),
+    "flywheel-work": ("fig.Jr", curves.flywheel_work),
+    "flywheel-speed": ("fig.speed", curves.flywheel_speed),
+    "wittenbauer": ("fig.wittenbauer", curves.wittenbauer),
+}
+"""What the keys of a figure begin with, and who draws it; its caption stands in `words.yaml` under `captions`."""
+
+
+def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple[Figure | Plate, ...]:
+    """A figure by its name: `figure(name, …)`, or `figure(name, key, caption, …)` with words of its own;
+    `words` names other ones of `words.yaml`.
+
+    A figure on plates is a block for each of them; the first has key and caption.  Raises `KeyError` for a
+    name that nobody draws.
+    """
+    key, draw = FIGURES[name]
+    if arguments and isinstance(arguments[0], str):
+        key, caption, *shown = arguments
+    else:
+        shown = list(arguments)
+        group = next((one for one in shown if isinstance(one, GroupView)), None)
+        position = next((one for one in shown if isinstance(one, Position)), None)
+        key = ".".join(str(part) for part in (key, group, position) if part is not None)
+        caption = report.words["captions"][words or name].format(k=position, g=group)
+    drawn = draw(report, *shown)
+    inlines = report.prose.inlines(caption)
+    if drawn.note is not None:
+        inlines = (*inlines, Text("; "), InlineMath(drawn.note))
+    if drawn.paper is None:
+        return (Figure(drawn.scenes, inlines, key),)
+    first, *others = drawn.scenes
+    further = (Plate(scene, drawn.paper, continues=True) for scene in others)
+    return Plate(first, drawn.paper, inlines, key), *further
+
+
+# --- tables -----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class QuantityTable:
+    """A table of the quantities whose ids a function gives, at all positions of one turn or of the cycle."""
+
+    ids: Callable[[Report], Sequence[str]]
+    cycle: bool = False
+
+    def __call__(self, report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
+        positions = report.all_positions if self.cycle else report.positions
+        return tables.tables(report, key, caption, self.ids(report), positions)
+
+
+@dataclass(frozen=True, slots=True)
+class RowTable:
+    """A table of the rows that a function gives, in columns of these widths (mm)."""
+
+    rows: Callable[..., Iterable[Sequence[object]]]
+    widths: tuple[float, ...]
+
+    def __call__(self, report: Report, key: str, caption: str, head: Sequence[str], *shown: Any) -> Table:
+        return tables.list_table(report, key, caption, head, self.rows(report, *shown), self.widths)
+
+
+TABLES: Mapping[str, Callable[..., Any]] = {
+    # results at the front, symbols
+    "extremes": overview.extremes,
+    "main.figures": RowTable(overview.main_figures, (74.0, 22.0, 36.0, 28.0)),
+    "symbols": RowTable(overview.symbols, (40.0, 92.0, 28.0)),
+    # given data
+    "given": tables.given_data,
+    "indicator": tables.indicator,
+    "force": tables.working_force,
+    "gas.law": tables.gas_law,
+    "law": tables.load_law,
+    # the machine
+    "joints": RowTable(tables.joints, (20.0, 30.0, 40.0, 50.0)),
+    "lengths": tables.lengths,
+    "positions": result_tables.coordinates,
+    "dead": RowTable(result_tables.dead_centres, (20.0, 46.0, 44.0, 46.0)),
+    "labels": RowTable(result_tables.labels, (24.0, 50.0, 50.0)),
+    # a declared linkage
+    "frame": RowTable(tables.frame, (30.0, 50.0, 50.0)),
+    "groups": RowTable(tables.groups, (20.0, 20.0, 30.0, 85.0)),
+    "guides": RowTable(tables.guides, (20.0, 40.0, 32.0, 32.0, 30.0)),
+    "points": RowTable(tables.further_points, (24.0, 24.0, 40.0, 40.0)),
+    # motion
+    "omega": RowTable(result_tables.angular_velocities, (34.0, 40.0, 60.0)),
+    "eps": RowTable(result_tables.angular_accelerations, (34.0, 40.0, 60.0)),
+    "summary": RowTable(result_tables.summary, (46.0, 46.0, 46.0)),
+    "v.segments": QuantityTable(result_tables.velocity_segments),
+    "v": QuantityTable(result_tables.velocities),
+    "a.segments": QuantityTable(result_tables.acceleration_segments),
+    "a": QuantityTable(result_tables.accelerations),
+    # forces
+    "strokes": result_tables.strokes,
+    "gas": QuantityTable(result_tables.gas, cycle=True),
+    "inertia": QuantityTable(result_tables.inertia, cycle=True),
+    "R": QuantityTable(result_tables.reactions, cycle=True),
+    "R.angles": QuantityTable(result_tables.reaction_angles, cycle=True),
+    "lever": RowTable(result_tables.lever, (30.0, 36.0, 44.0, 44.0)),
+    "M": QuantityTable(result_tables.balance, cycle=True),
+    "flywheel": result_tables.flywheel,
+    "checks": RowTable(result_tables.checks, (95.0, 35.0, 20.0)),
+}
+"""Who makes a table; its key is `tab.` and its name, its caption and head stand in `words.yaml` under `tables`."""
+
+
+def table(report: Report, name: str, *arguments: Any, words: str = "") -> Any:
+    """A table with its words, or with others of `words.yaml`; one of a position k has k in its key and its caption.
+
+    A name that is not in `TABLES` is a table of the quantities whose ids are given, over the cycle or at positions.
+    """
+    texts = report.words["tables"][words or name]
+    position = next((k for k in arguments if isinstance(k, Position)), None)
+    caption = texts["caption"] if position is None else texts["caption"].format(k=position)
+    key = ".".join(["tab", name, *(str(one) for one in arguments if isinstance(one, (Position, str)))])
+    return TABLES.get(name, _of_ids)(report, key, caption, texts.get("head", ()), *arguments)
+
+
+def _of_ids(
+    report: Report,
+    key: str,
+    caption: str,
+    head: Sequence[str],
+    ids: Sequence[str],
+    positions: Iterable[int] | None = None,
+) -> tuple[Table | Paragraph, ...]:
+    return tables.tables(report, key, caption, ids, positions or report.all_positions)
+
+
+# --- names with parentheses -------------------------------------------------------------------------
+
+FUNCTIONS: Mapping[str, Callable[..., Any]] = {
+    "figure": figure,
+    "table": table,
+    "tables": tables.tables,
+    # symbols, numbers, formulas
+    "R": equations.R,
+    "a": equations.a,
+    "image": equations.image,
+    "images": overview.images,
+    "known": equations.known,
+    "letters": equations.letters,
+    "line": equations.line,
+    "lines": equations.lines,
+    "lowered": equations.lowered,
+    "math": equations.math,
+    "point": equations.point,
+    "points": equations.points,
+    "quantity": equations.quantity,
+    "symbol": equations.symbol,
+    "v": equations.v,
+    "value": equations.value,
+    "vector": equations.vector,
+    "zero": Report.is_zero,
+    # equations of the machine and of its groups
+    "acceleration_equation": equations.acceleration_equation,
+    "driver_equation": equations.driver_equation,
+    "equations": equations.equations,
+    "force_equation": equations.force_equation,
+    "link_equation": equations.link_equation,
+    "mobility_line": equations.mobility_line,
+    "opposites": equations.opposites,
+    "through_pin": equations.through_pin,
+    "velocity_equation": equations.velocity_equation,
+    # words
+    "assumed": equations.assumed,
+    "balance_sign": phrases.balance_sign,
+    "centre_state": centres.centre_state,
+    "counted": phrases.counted,
+    "drawn_group": phrases.drawn_group,
+    "first_turn": Report.first_turn,
+    "force_list": equations.force_list,
+    "group_kind": equations.group_kind,
+    "load_sense": phrases.load_sense,
+    "mirror_images": plans.mirror_images,
+    "say": phrases.say,
+    "senses": equations.senses,
+    "sign": phrases.sign,
+    "stop": phrases.stop,
+    "stroke_name": equations.stroke_name,
+    # steps of a construction
+    "along": steps.along,
+    "base_motion": steps.base_motion,
+    "base_step": steps.base_step,
+    "found_senses": steps.found_senses,
+    "known_sense": steps.known_sense,
+    "line_start": steps.line_start,
+    "shows_coriolis": steps.shows_coriolis,
+    "sought": steps.sought,
+    "start": steps.start,
+    # remarks
+    "balance_mean": comments.balance_mean,
+    "balance_senses": comments.balance_senses,
+    "cause": comments.cause,
+    "main_peaks": comments.main_peaks,
+    "peaks": comments.peaks,
+    "remarks": comments.remarks,
+    "slider_rates": comments.slider_rates,
+    "top_reactions": comments.top_reactions,
+    "work_range": comments.work_range,
+}
+"""Functions of a report and of what a template puts between the parentheses."""
+
+
+def names(report: Report) -> dict[str, Any]:
+    """All that the templates of a report may name."""
+    return {
+        **{name: getattr(report, name) for name in PROPERTIES},
+        **{name: of(report) for name, of in VALUES.items()},
+        **{name: partial(called, report) for name, called in FUNCTIONS.items()},
+    }
+
+
+# --- case → Document ------------------------------------------------------------------------------
+# Cover, contents and the sections that the machine's outline names.
+
+
+def compose(case: Calculation) -> Document:
+    """The finished, numbered report of a machine; raises `TemplateError` for a fault in its words."""
+    report = Report(case)
+    words, named = report.words, names(report)
+    blocks: list[Block] = [_cover(report)]
+    for section in _sections(report):
+        if section == "contents":
+            blocks += [PageBreak(), Contents(words["document"]["contents"])]
+        else:
+            blocks += report.prose.render(section, named)
+    assignment = case.assignment
+    return number(
+        Document(
+            language=assignment.language,
+            title=f"{words['cover']['title']} – {case.title}",
+            author=assignment.report.student.name or "",
+            header=(words["header"].format(course=case.course), case.variant_line),
+            footer=("", words["document"]["page"]),
+            words=Words(**words["document"]),
+            blocks=tuple(blocks),
+        )
+    )
+
+
+def _sections(report: Report) -> Iterator[str]:
+    """The sections of the outline, that on instant centres behind the velocities if any link has one."""
+    outline = report.machine.outline
+    last = max((outline.index(name) for name in ("velocity", "summary") if name in outline), default=-1)
+    for index, section in enumerate(outline):
+        yield section
+        if report.plane_links and index == last:
+            yield "centres"
+
+
+def _cover(report: Report) -> Cover:
+    """The title page; a field without a value is a dotted line to fill in."""
+    given, labels = report.assignment.report, report.words["cover"]
+    student = given.student
+    fields: tuple[tuple[Any, str | None], ...] = (
+        (labels["student"], student.name),
+        (labels["id"], student.id),
+        (labels["class"], student.class_),
+        (labels["section"], student.section),
+        (labels["email"], student.email),
+        (labels["supervisor"], given.supervisor),
+    )
+    return Cover(
+        tuple(part for part in (given.university, given.faculty, given.department) if part),
+        (labels["title"], report.case.course),
+        (
+            *((f"{labels['variant']}: {report.variant}",) if report.variant else ()),
+            f"{labels['machine']}: {report.case.title}",
+        ),
+        tuple((label, value or "") for label, value in fields),
+        report.place_and_date,
+    )

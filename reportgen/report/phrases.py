@@ -1,0 +1,292 @@
+"""Words that follow from what is counted, from a sign or from a kind: `words.yaml` has them, a template names them.
+
+`{{ driven.balance }}` is what balances the driver that the report has, `{{ counted("each_group", groups) }}` speaks of
+one group or of several.  Gaps in braces are filled with members of what the phrase is said of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence, Sized
+from string import Formatter
+from typing import TYPE_CHECKING, Any
+
+from reportgen.formula import Expression, Number, Symbol, ids, vocabulary
+from reportgen.machine.loads import Opposing
+from reportgen.plans.sides import Side
+from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
+from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
+from reportgen.report.groups import CarriedPoint, GroupView
+from reportgen.report.prose import PointName
+from reportgen.report.report import Report, lower_digits
+
+if TYPE_CHECKING:
+    from reportgen.catalogue.linkage import GroupRow
+
+
+def say(report: Report, phrase: str, *about: Any, **gaps: Any) -> Inlines:
+    """A phrase of `words.yaml` whose gaps are filled by name, or with members of what it is about."""
+    said: list[Inline] = []
+    for text, name, how, _ in Formatter().parse(str(phrase)):
+        said += [Text(text)] if text else []
+        said += _gap(report, name, how or "", about, gaps) if name else ()
+    return tuple(said)
+
+
+def _gap(report: Report, name: str, how: str, about: Sequence[Any], gaps: Mapping[str, Any]) -> Inlines:
+    """What fills a gap: what is given for it, a member, a reference `@tab.dead`, else a quantity.
+
+    A quantity is named as between dollar signs in a template: `{e}` is its symbol, `{e:value}` its number and
+    `{e:quantity}` both.
+    """
+    for found in [gaps[name]] if name in gaps else _members(about, name):
+        return inlines(found)
+    if name.startswith("@"):
+        return (Reference(name[1:]),)
+    if how == "quantity":
+        return quantity(report, name)
+    return (value(report, name),) if how == "value" else (InlineMath(math(report, name)),)
+
+
+def _members(about: Sequence[Any], name: str) -> Iterator[Any]:
+    """What has this name among the members of some objects, or the entries of tables of words."""
+    for one in about:
+        if isinstance(one, Mapping):
+            yield from [one[name]] if name in one else []
+        elif hasattr(one, name):
+            yield getattr(one, name)
+
+
+def inlines(of: Any) -> Inlines:
+    """What fills a gap: points as symbols, numbers with their unit, formulas, inlines, else text."""
+    if isinstance(of, PointName):
+        return (InlineMath(vocabulary.point(of)),)
+    if isinstance(of, Number):
+        return (Value(of),)
+    if isinstance(of, Expression):
+        return (InlineMath(of),)
+    if isinstance(of, (str, int)):
+        return (Text(str(of)),)
+    return of if isinstance(of, tuple) else (of,)
+
+
+def counted(report: Report, name: str, things: Sized, **gaps: Any) -> Inlines:
+    """A phrase about so many things, by its words for one and for many, or by one for both; nothing for none.
+
+    The words may have gaps for their `count`, and for the `list` of them.
+    """
+    if not len(things):
+        return ()
+    words = report.words["counted"][name]
+    phrase = words if isinstance(words, str) else words[len(things) > 1]
+    listed = ", ".join(map(str, things)) if isinstance(things, Sequence) else ""
+    return say(report, phrase, count=len(things), list=listed, **gaps)
+
+
+def sign(report: Report, id: str, position: int | None = None) -> str:
+    """The key of the words for a quantity's sign as it is printed."""
+    number = report.ledger.number(id, position).value
+    return "zero" if number == 0 else "negative" if number < 0 else "positive"
+
+
+def stop(report: Report, loop: Any, *further: Sized) -> str:
+    """What ends an item of a list: a full stop after the last one, if nothing `further` follows it."""
+    return "." if loop.last and not any(map(len, further)) else ";"
+
+
+# --- words by what the report has
+
+
+def _set(report: Report, name: str, key: str, *about: Any, **gaps: Any) -> Mapping[str, Inlines]:
+    """The phrases that `words.yaml` has under a name and a key, with their gaps filled."""
+    return {one: say(report, phrase, *about, **gaps) for one, phrase in report.words[name][key].items()}
+
+
+def driven(report: Report) -> Mapping[str, Inlines]:
+    """Words for the driver, a crank or a slide, and for what balances it."""
+    return _set(report, "driven", report.driver.kind, report.driver, report)
+
+
+def scope(report: Report) -> Mapping[str, Inlines]:
+    """Words for what the report goes into: forces, or motion alone."""
+    return _set(report, "scope", scope_key(report), report.words["driven"][report.driver.kind])
+
+
+def scope_key(report: Report) -> str:
+    return "forces" if report.has_forces else "motion"
+
+
+def study(report: Report) -> Mapping[str, Inlines]:
+    """Words for what is done: an analysis, perhaps with a synthesis before it."""
+    return _set(report, "study", "synthesis" if report.synthesised else "analysis")
+
+
+def turning(report: Report) -> Mapping[str, Inlines]:
+    """What is said of the links that turn, if any does."""
+    return _set(report, "turning", "links" if report.has_turning_links else "none")
+
+
+def lever(report: Report) -> Mapping[str, Inlines]:
+    """Words for the lever of a crank: its velocity plan has a round scale of its own, or the crank's."""
+    if not report.driver.centre:
+        return {}
+    symbols = {name: report.ledger.symbol(id) for name, id in (("ω", "omega.1"), ("μ_v", "mu.v"), ("μ_l", "mu.l"))}
+    return _set(report, "lever", "round" if report.driver.round_velocity else "crank", **symbols)
+
+
+def form(report: Report) -> Mapping[str, Inlines]:
+    """Words for the form of a machine that comes in several: a slider-crank in line or offset, …."""
+    return _set(report, "form", report.own["form"], report) if "form" in report.own else {}
+
+
+def coupler(report: Report) -> Mapping[str, Inlines]:
+    """Words for the points that a coupler carries."""
+    return _set(report, "coupler", report.own["coupler"], report) if "coupler" in report.own else {}
+
+
+def load_key(report: Report) -> str:
+    """The key of the words for the loads that the machine sets out, of those it may have: M3-P3."""
+    return "-".join(report.sheet.get("loads", ()))
+
+
+def driver_loads(report: Report) -> Inlines:
+    """The driver's own inertia force and weight with their symbols, each followed by a comma."""
+    words, found = report.words["driver_loads"], [id for id in ("Pqt1", "G1") if id in report.on_crank]
+    return tuple(part for id in found for part in say(report, words[id], force=report.ledger.symbol(id)))
+
+
+def opposite_words(report: Report) -> str:
+    """The sense of rotation opposite to the driver's."""
+    return report.sense(-report.machine.turn)
+
+
+def medium(report: Report) -> str:
+    """The key of the words for what loads the machine: the gas in its cylinders, or anything else."""
+    return "gas" if report.has_gas else "other"
+
+
+def slider_convention(report: Report) -> Inlines:
+    """A further sentence on the positive directions of sliders, if there are any."""
+    ways = slider_ways(report)
+    return say(report, f" {report.words['conventions']['sliders']} {{ways}}.", ways=ways) if ways else ()
+
+
+def balance_sign(report: Report, position: int) -> Inlines:
+    """What the sign of the balancing torque or force says."""
+    words = report.words["balance_signs"][report.driver.kind]
+    sense = report.sense(report.ledger.number("M.eq", position).value)
+    return say(report, words[sign(report, "M.eq", position)], M=report.ledger.symbol("M.eq"), sense=sense)
+
+
+def slide_reactions(report: Report) -> Inlines:
+    """Where the reactions of slides act, if there are any."""
+    key = "none" if not report.has_slides else "displaced" if report.displaced_reactions else "at_pin"
+    names = report.words["names"]
+    parts = {"guide": names["guide"], "wall": names["wall"], "pin": names["pin"]}
+    return say(report, report.words["slide_reactions"][key], **parts)
+
+
+def energy_key(report: Report) -> str:
+    """Which words on the balance of energy fit: of the gas, of a stroke, of a turn that is idle or not, or none."""
+    if not report.has_forces:
+        return "none"
+    if report.has_gas or not report.driver.centre:
+        return "gas" if report.has_gas else "stroke"
+    return "idle" if report.is_zero("W", 1) else "turn"
+
+
+def load_sense(report: Report, name: str) -> Inlines:
+    """What is said of the sense of a load that is constant or always against the motion."""
+    words = report.words["load_senses"]
+    if any(load.name == name and isinstance(load.law, Opposing) for load in report.loads):
+        return say(report, words["opposing"])
+    return say(report, words[sign(report, name, 1)], sense=report.sense(report.ledger.number(name, 1).value))
+
+
+def drawn_group(report: Report, row: GroupRow) -> Inlines:
+    """How a group of a declared linkage is drawn: its rods, its outer joints, the inner one."""
+    drawn = [value(report, ids.drawn(rod)) for rod, _ in row.lengths]
+    rods = dict(zip(("first", "second"), drawn, strict=False))
+    first, *others = map(PointName, row.joints)
+    joints = {"start": first} | dict(zip(("inner", "end"), others, strict=False))
+    words = report.words["linkage"]["drawing"][row.drawing]
+    return say(report, words, row, last=row.links[1], **rods, **joints)
+
+
+# --- the steps in which a plan is drawn, in words -------------------------------------------------
+# Where a line begins, its direction, what it stands for.
+# `what` is "v" for the velocity plan, "a" for the acceleration plan.
+
+POLES = {"v": "p", "a": "π"}
+
+
+def _image(report: Report, what: str, name: str) -> Symbol:
+    return image(report, name, what == "a")
+
+
+def start(report: Report, what: str, of: Side | CarriedPoint) -> Inlines:
+    """Where the vector relative to a base begins on a plan: in the pole, or at the end of the base's own vector."""
+    words = report.words["plan"]
+    if of.still:
+        return say(report, words["pole"], pole=math(report, POLES[what]))
+    return say(report, words["end"], image=_image(report, what, of.base))
+
+
+def line_start(report: Report, what: str, side: Side) -> Inlines:
+    """Where the line of what is sought begins: at the end of the known relative acceleration, if there is one."""
+    if what == "a" and side.part:
+        return say(report, report.words["plan"]["end_of"], vector=a(report, side, side.part))
+    return start(report, what, side)
+
+
+def along(report: Report, side: Side) -> Inlines:
+    """The direction of what is sought on a side."""
+    return say(report, report.words["plan"]["directions"][side.way], rod=lower_digits(side.rod))
+
+
+def sought(report: Report, what: str, group: GroupView, side: Side) -> Symbol:
+    """The vector that is sought on a side: of the point itself where the side's base is at rest, else the relative."""
+    if what == "v":
+        return v(report, group.M if side.still else side)
+    if side.turns:
+        return a(report, side, "τ")
+    return a(report, group.M) if side.still and not side.turning else a(report, side, "r")
+
+
+def base_step(report: Report, what: str, group: GroupView, side: Side, position: int) -> Inlines:
+    """How the vector of a side's base comes on the plan."""
+    return say(
+        report,
+        report.words["plan"]["base"][group.base(what, side, position)],
+        vector=(v if what == "v" else a)(report, side.shown),
+        image=_image(report, what, side.base),
+        pole=math(report, POLES[what]),
+        segment=quantity(report, group.base_segment(what, side), position),
+    )
+
+
+def known_sense(report: Report, side: Side) -> Inlines:
+    """The sense of the relative acceleration that velocities give: towards the base, or as Coriolis turned it."""
+    ends = {"point": PointName(side.point), "base": PointName(side.base)}
+    return say(report, report.words["plan"]["senses"]["centre" if side.turns else "coriolis"], **ends)
+
+
+def base_motion(report: Report, side: Side) -> Inlines:
+    """What is known of a side's base: that it is fixed, or its velocity."""
+    return say(report, report.words["plan"]["bases"][side.state], base=PointName(side.base))
+
+
+def shows_coriolis(report: Report, group: GroupView, side: Side, position: int) -> bool:
+    """Whether a figure shows the turn that gives the Coriolis acceleration of a slot its sense."""
+    return group.kind == "RPR" and not any(report.is_zero(id, position) for id in (side.velocity, side.omega))
+
+
+def found_senses(report: Report, group: GroupView, position: int) -> Inlines:
+    """What the signs of the reactions say that moments gave."""
+    words, figure = report.words["plan"]["found"], Reference(f"fig.bodies.{group}.{position}")
+    found = [(id, sign(report, id, position)) for id in group.assumed]
+    return tuple(
+        part
+        for id, way in found
+        if way != "zero"
+        for part in say(report, words[way], force=report.ledger.symbol(id), figure=figure)
+    )

@@ -1,0 +1,378 @@
+"""Plans of velocity, acceleration and force: the ledger's points on paper, in the order of construction.
+
+The ledger's plans are metres on paper; how they are drawn is in `reportgen.figures`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from reportgen.drawing import Scene
+from reportgen.drawing.labels import sheets
+from reportgen.drawing.plan import (
+    Construction,
+    Plan,
+    PlanLine,
+    PlanPoint,
+    PlanVector,
+    Style,
+    Titles,
+    lettered,
+    plan,
+    stages,
+)
+from reportgen.drawing.scheme import thumbnail
+from reportgen.formula import Chain, Symbol, ids, vocabulary
+from reportgen.plans.loads import Edge, Polygon
+from reportgen.plans.motion import POLES, What
+from reportgen.plans.sides import Side, image
+from reportgen.report import Inlines
+from reportgen.report.figures import A3_ACROSS, MM, TEXT_BLOCK, Drawn, on_paper, scale_note
+from reportgen.report.groups import GroupView
+from reportgen.report.phrases import counted
+from reportgen.report.report import Report
+
+SCENE_GAP = 4.0
+"""Between scenes side by side (mm)."""
+SHEET = (385.0, 232.0)
+"""What of an A3 page (landscape) plans may fill."""
+SHARES = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1)
+"""How much smaller the plans of all positions may be drawn than the worked ones: scales stay in their series."""
+LARGEST = 58.0
+"""What the longest extent of these plans may be without their labels (mm): about three stand side by side."""
+ROOM = (78.0, 75.0)
+"""What each of them may take with its labels (mm)."""
+PANELS = 160.0, 60.0
+"""What of a page the panels of a construction's steps may take, all in one row (mm)."""
+PANEL = 78.0
+"""The width of one panel at most (mm)."""
+CLOSE_MARGIN = 2.0
+"""White around each of many plans (mm)."""
+
+POLE = "pole"
+"""The corner that a plan of velocities or accelerations begins in; the ids of all others are in the ledger."""
+STAGES = 3
+"""Of a group in a plan of velocity or acceleration: what is known, the lines that meet, further points."""
+
+# --- velocity and acceleration
+
+
+@dataclass(frozen=True, slots=True)
+class MotionFigures:
+    """The figures of the plan of velocities (v) or accelerations (a): the plan, its stages, the plates of one turn."""
+
+    what: What
+
+    def whole(self, report: Report, k: int) -> Drawn:
+        return on_paper(_worked(report, self._plan(report, k), k))
+
+    def in_stages(self, report: Report, k: int, group: GroupView) -> Drawn:
+        """The steps of one group's construction, numbered as in the text; what was drawn before is gray."""
+        begin = STAGES * next(n for n, one in enumerate(report.groups) if one.name == group.name)
+        bounds = np.cumsum([0, *_steps(group, self.what)])
+        names = report.words["figure"]
+
+        def titles(stages: range, number: int) -> str:
+            first, last = bounds[stages.start - begin] + 1, bounds[stages.stop - begin]
+            return str(names["steps"].format(first, last) if first < last else names["step"].format(last))
+
+        until = self._plan(report, k).until(begin + STAGES - 1)
+        return _stages(report, until, ids.scale(self.what), titles, begin)
+
+    def on_plates(self, report: Report) -> Drawn:
+        told = _mirrored(report, self.what).at
+        return _plates(report, self._plan, [k for k in _one_turn(report) if k not in told], ids.scale(self.what))
+
+    def _plan(self, report: Report, k: int) -> Plan:
+        return motion_plan(report, self.what, k)
+
+
+def _one_turn(report: Report) -> list[int]:
+    """The positions of one turn whose plans are drawn."""
+    return sorted({(k - 1) % report.count + 1 for k in report.plates})
+
+
+def _mirrored(report: Report, what: What) -> Mirrored:
+    """The positions whose plans of velocity (v) or acceleration (a) mirror drawn ones."""
+    return mirrored({k: motion_plan(report, what, k) for k in _one_turn(report)})
+
+
+def mirror_images(report: Report, what: What) -> Inlines:
+    """What is said of the positions whose plans are not drawn again; nothing where all are drawn."""
+    found = _mirrored(report, what)
+    drawn = ", ".join(str(report.machine.position(k)) for k in found.of)
+    return counted(report, "mirrored", [report.machine.position(k) for k in found.at], drawn=drawn)
+
+
+def _at(construction: Construction[str], report: Report, k: int) -> Plan:
+    """A construction on paper (mm) as it is at a position."""
+    return construction.placed(lambda id: 0j if id == POLE else complex(report.ledger[id].at(k)) * MM)
+
+
+def motion_plan(report: Report, what: What, k: int) -> Plan:
+    """The plan of velocities (v) or accelerations (a) at a position, in mm."""
+    return _at(motion_construction(report, what), report, k)
+
+
+def motion_construction(report: Report, what: What) -> Construction[str]:
+    """The plan of velocities (v) or accelerations (a), its stages in their order, with the ids of its corners."""
+    sketch = _Sketch(report, what)
+    stage = 0
+    drawn: set[str] = set()
+    for group in report.groups:
+        for side in group.moving:
+            if side.base in report.driver.names and side.base not in drawn:
+                sketch.absolute(side.base, "known", stage)
+                drawn.add(side.base)
+        sketch.group(group, stage)
+        stage += STAGES
+    points = (PlanPoint(Symbol(POLES[what]), POLE), *sketch.points)
+    return Construction(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, ids.scale(what)))
+
+
+def _worked(report: Report, drawing: Plan, k: int) -> Scene:
+    """A worked plan with the mechanism beside it."""
+    small = thumbnail(report.machine.linkage, report.analysis.motion, k - 1)
+    return plan(drawing, beside=(small,), width=TEXT_BLOCK[0])
+
+
+def _scale(report: Report, id: str, k: int | None = None) -> Chain:
+    """A scale as a figure prints it: μ_v = 0.2189 m/(s·mm)."""
+    return Chain((report.ledger.symbol(id), report.ledger.number(id, k)))
+
+
+def _steps(group: GroupView, what: What) -> tuple[int, int, int]:
+    """How many steps of a group's construction, as the text counts them, each of its stages draws."""
+    bases = 1 if group.kind == "RRP" and group.two.still else len(group.moving)
+    known = sum(bool(side.part) for side in group.sides) if what == "a" else 0
+    return bases + known, len(group.sides), len(group.carried) + bool(group.similar(what))
+
+
+def _stages(
+    report: Report, drawing: Plan, scale: str, titles: Titles = lettered, begin: int = 0, k: int | None = None
+) -> Drawn:
+    """The stages of a plan at half its size or, for large plans, less, with the scale that makes."""
+    number = report.ledger.number(scale, k)
+    for share in SHARES[1:-1]:
+        scenes = stages(drawing, share, titles, begin)
+        across = sum(scene.width for scene in scenes) + SCENE_GAP * (len(scenes) - 1)
+        widest, highest = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
+        if widest <= PANEL and across <= PANELS[0] and highest <= PANELS[1]:
+            break
+    smaller = replace(number, value=float(f"{number.shown / share:.9g}"), decimals=None)
+    return Drawn(scenes, note=Chain((report.ledger.symbol(scale), smaller)))
+
+
+def _plates(
+    report: Report, drawing: Callable[[Report, int], Plan], positions: Sequence[int], scale: str, at: int | None = None
+) -> Drawn:
+    """Plans of one scale, that of the position `at`, in rows, at the largest of the shares at which each has room.
+
+    If none fits the text block, they stand on A3 sheets.  Insets are for worked plans.
+    """
+    word = report.words["table"]["position"]
+    plans = {k: replace(drawing(report, k), scale=None, lines=()) for k in positions}
+    largest = max(shown.extent for shown in plans.values())
+
+    def scenes(share: float) -> Iterator[Scene]:
+        for k, shown in plans.items():
+            title = f"{word} {report.machine.position(k)}"
+            yield plan(shown.scaled(share), title=title, enlarged=False, margin=CLOSE_MARGIN)
+
+    for share in SHARES:
+        last = share == SHARES[-1]
+        room = TEXT_BLOCK if last else ROOM
+        if share * largest > LARGEST and not last:
+            continue
+        drawn: list[Scene] = []
+        for scene in scenes(share):
+            if scene.width > room[0] or scene.height > room[1]:
+                break
+            drawn.append(scene)
+        else:
+            return Drawn(tuple(drawn), note=scale_note(report, scale, share, at))
+    return Drawn(sheets(tuple(scenes(share)), *SHEET, scale_note(report, scale, share, at), trim=0.0), A3_ACROSS)
+
+
+class _Sketch:
+    """A velocity or acceleration plan while its vectors are collected."""
+
+    def __init__(self, report: Report, what: What) -> None:
+        self.what, self.named = what, report.named
+        self.vectors: list[PlanVector[str]] = []
+        self.points: list[PlanPoint[str]] = []
+        self.lines: list[PlanLine[str]] = []
+
+    def at(self, name: str) -> str:
+        return ids.plan_point(self.what, name)
+
+    def absolute(self, name: str, style: Style, stage: int) -> None:
+        """Enter the vector of a point's own velocity or acceleration, from the pole, with its end."""
+        end = self.at(image(name))
+        self.vectors.append(PlanVector(name, POLE, end, style, Symbol(self.what, name, over="vector"), stage))
+        self.points.append(PlanPoint(vocabulary.on_plan(name, self.what == "a"), end, stage))
+
+    def relative(self, side: Side, part: str, start: str, end: str, stage: int) -> None:
+        """Enter what a side adds to the velocity or acceleration of its base, or a part of it."""
+        label = self.named(Symbol(self.what, side.pair, part, "vector"))
+        self.vectors.append(PlanVector(part + side.relative, start, end, "relative", label, stage))
+
+    def group(self, group: GroupView, stage: int) -> None:
+        """Enter a group's construction in three stages: what is known, the lines that meet, further points."""
+        for guide in group.under:
+            self.absolute(guide.base, "known", stage)
+        end = self.at(image(group.M))
+        starts = [self._known(side, stage) for side in group.sides]
+        stage += 1
+        for start in starts:
+            self.lines.append(PlanLine(start, end, stage))
+        for side, start in zip(group.sides, starts, strict=True):
+            if self.what == "a" and side.sought:
+                self.relative(side, "τ" if side.turns else "r", start, end, stage)
+            elif self.what == "v" and not side.still:
+                self.relative(side, "", start, end, stage)
+        self.absolute(group.M, "found", stage)
+        further = [name for name in (group.Q, *(place.name for place in group.points)) if name != group.M]
+        for name in further:
+            self.absolute(name, "found", stage + 1)
+
+    def _known(self, side: Side, stage: int) -> str:
+        """Enter the relative acceleration that is known; gives where the sought part starts."""
+        start = POLE if side.still else self.at(image(side.base))
+        if self.what == "v" or not side.part:
+            return start
+        end = self.at(ids.relative_corner(side.part, side.relative))
+        self.relative(side, side.part, start, end, stage)
+        self.points.append(PlanPoint(Symbol(side.part, side.pair), end, stage))
+        return end
+
+
+# --- forces
+
+
+def forces(report: Report, k: int, group: GroupView) -> Drawn:
+    assert group.polygon is not None
+    return on_paper(_worked(report, force_plan(report, group.polygon, k), k))
+
+
+def force_stages(report: Report, k: int, group: GroupView) -> Drawn:
+    """The force plan step by step: loads, components found by moments, closing edges, what is read."""
+    assert group.polygon is not None
+    drawing = force_plan(report, group.polygon, k)
+    edges = group.polygon.edges
+    known = sum(not edge.unknown for edge in edges)
+    by_moments = [not edge.unknown and edge.part == "t" for edge in edges]
+
+    def step(stage: int) -> int:
+        return 2 + stage - known if stage >= known else int(by_moments[stage])
+
+    def reached(corner: complex) -> int:
+        """The first step that draws an arrow to or from a corner."""
+        return min(step(v.stage) for v in drawing.vectors if corner in (v.start, v.end))
+
+    steps = replace(
+        drawing,
+        vectors=tuple(replace(v, stage=step(v.stage)) for v in drawing.vectors),
+        points=tuple(replace(p, stage=reached(p.at)) for p in drawing.points),
+    )
+    return _stages(report, steps, group.scale, k=k)
+
+
+def force_plates(report: Report, group: GroupView) -> Drawn:
+    """The force plans of all positions at one scale: the largest of those that they have by themselves."""
+    polygon = group.polygon
+    assert polygon is not None
+    scales = {k: float(report.ledger[group.scale].at(k)) for k in report.plates}
+    common = max(scales, key=lambda k: scales[k])
+
+    def drawing(report: Report, k: int) -> Plan:
+        return force_plan(report, polygon, k).scaled(scales[k] / scales[common])
+
+    return _plates(report, drawing, report.plates, group.scale, common)
+
+
+def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:
+    """A force plan at a position, in mm."""
+    return replace(
+        _at(force_construction(report, polygon), report, k), scale=_scale(report, ids.force_scale(polygon.name), k)
+    )
+
+
+def force_construction(report: Report, polygon: Polygon) -> Construction[str]:
+    """A force plan with the ids of its corners: known edges one by one, what closing it gives, what is read from it."""
+
+    def corner(letter: str) -> str:
+        return ids.force_corner(polygon.name, letter)
+
+    known = sum(not edge.unknown for edge in polygon.edges)
+    drawn: list[tuple[Edge, int, Style]] = [
+        (edge, known, "found") if edge.unknown else (edge, number, "known") for number, edge in enumerate(polygon.edges)
+    ]
+    drawn += [(read, known + 1, "relative") for read in polygon.reads]
+    vectors = []
+    stage_of = {polygon.edges[0].start: 0}
+    for edge, stage, style in drawn:
+        start, end, label = corner(edge.start), corner(edge.end), report.force_vector(edge.name)
+        vectors.append(PlanVector(edge.start + edge.end, start, end, style, label, stage))
+        stage_of.setdefault(edge.end, stage)
+    points = tuple(PlanPoint(Symbol(letter), corner(letter), stage) for letter, stage in stage_of.items())
+    return Construction(tuple(vectors), points, pole=False)
+
+
+# --- positions that mirror others -----------------------------------------------------------------
+# Their plans are mirror images and are told, not drawn again.
+# The positions k and N + 2 − k of a centric slider-crank mirror each other in the line of its slide.
+
+SAME = 0.01
+"""Ends of vectors nearer than this (mm), the last digit of a measured length, are one for any reader."""
+FEWEST = 2
+"""Pairs of positions, less of which are not worth a sentence."""
+PARALLEL = 1e-3
+"""Two lines of mirroring whose directions differ by no more (radians, twice) are one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mirrored:
+    """Positions (numbers) and, in the same order, the earlier ones of whose plans theirs are the mirror images."""
+
+    at: tuple[int, ...]
+    of: tuple[int, ...]
+
+
+def mirrored(plans: Mapping[int, Plan]) -> Mirrored:
+    """Which of the plans, at their positions, mirror one at an earlier position in parallel lines.
+
+    Of several such lines the one with most pairs counts; a single pair, as of the two dead centres, is drawn.
+    """
+    ends = {k: np.array([end for v in plan.vectors for end in (v.start, v.end)]) for k, plan in plans.items()}
+    found = [
+        (one, other, turn)
+        for one, other in combinations(sorted(ends), 2)
+        if (turn := _turn(ends[one], ends[other])) is not None
+    ]
+    best: dict[int, int] = {}
+    for *_, line in found:
+        pairs: dict[int, int] = {}
+        for one, other, turn in found:
+            if abs(turn - line) < PARALLEL and not {one, other} & {*pairs, *pairs.values()}:
+                pairs[one] = other
+        best = max(best, pairs, key=len)
+    if len(best) < FEWEST:
+        return Mirrored((), ())
+    return Mirrored(tuple(best.values()), tuple(best))
+
+
+def _turn(one: np.ndarray, other: np.ndarray) -> complex | None:
+    """What turns the conjugates of some points into others, if anything does; None if both are one without it."""
+    if not one.size or abs(one - other).max() < SAME:
+        return None
+    largest = int(abs(one).argmax())
+    turn = complex(other[largest] / one[largest].conjugate())
+    if abs(abs(one[largest]) * (abs(turn) - 1)) > SAME:
+        return None
+    turn /= abs(turn)
+    return turn if abs(other - turn * one.conj()).max() < SAME else None

@@ -1,0 +1,357 @@
+"""Words: templates of plain Markdown with Jinja names become blocks of the tree.
+
+Two things are never mixed: what the author of a template wrote and what was put into it.  Static text
+is enclosed in marks that also carry its file and line; whatever `{{ … }}` emits goes to a side list
+and leaves a token behind.  Both survive macros, `{% set %}` blocks, `~` and filters, because a string
+made of them still says which part of it is which, and all the rest is a user's text.  The marks hold a
+number drawn anew in every process, so that no text can imitate them; it never reaches the result.
+"""
+
+from __future__ import annotations
+
+import re
+import traceback
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from pickle import UnpicklingError
+
+from jinja2 import (
+    BaseLoader,
+    BytecodeCache,
+    Environment,
+    StrictUndefined,
+    TemplateNotFound,
+    TemplateSyntaxError,
+    Undefined,
+)
+from jinja2.bccache import Bucket
+from jinja2.ext import Extension
+from jinja2.lexer import Token, TokenStream
+from jinja2.runtime import Context
+from jinja2.utils import pass_context
+
+from reportgen.base.errors import ReportgenError, TemplateError
+from reportgen.base.files import keep, kept
+from reportgen.base.units import MINUS
+from reportgen.base.words import find, home, refuse_strangers, version
+from reportgen.formula import Expression, Number, vocabulary
+from reportgen.report import BlankLine, Block, InlineMath, Inlines, Reference, Text, Value, markdown
+from reportgen.report.markdown import SECRET, Emitted, Key, Place, Rendered, Unnumbered
+
+_PRIVATE = re.compile("[\ue000-\ue004]")
+_PIECE = re.compile(
+    f"\ue000{SECRET}:(?P<value>\\d+)\ue001"
+    f"|\ue002{SECRET}:(?P<line>\\d+):(?P<file>[^\ue003]*)\ue003(?P<static>[^\ue004]*)\ue004"
+)
+
+
+NUMBER = b"271828182845904523"
+"""Stands in the marks of a template that is kept; as long as that of a process."""
+
+
+_values: ContextVar[list[Emitted]] = ContextVar("values")
+"""What the templates being rendered have emitted so far."""
+
+
+ENVIRONMENTS = 8
+"""How many search paths (language, kind, school) keep their compiled templates."""
+
+
+class PointName(str):
+    """The name of a point, which templates print as its symbol."""
+
+
+class Prose:
+    """Renders the sections found in `places`; one object serves a whole report.
+
+    Every section may call `ref(key, …)`, `key(name)` and `unnumbered()` (at the end of a heading),
+    `blank(label)`, and `inlines(words)` for what a macro or a `{% set %}` block made.  Raises `TemplateError`
+    for a section of a school that would never be read.
+    """
+
+    def __init__(self, places: tuple[Path, ...]) -> None:
+        refuse_strangers(places)
+        self.places = places
+
+    def render(self, name: str, names: Mapping[str, object]) -> tuple[Block, ...]:
+        """The blocks of the section `name` ("foreword") with `names` filled in.
+
+        Strings appear as they are, expressions as formulas, numbers with their unit, inlines and blocks
+        as themselves, sequences item by item.  Raises `TemplateError` (`file:line: message`) on any fault.
+        """
+        return markdown.blocks(_render(self.places, name, names))
+
+    def inlines(self, words: str) -> Inlines:
+        """What a macro, `caller()` or a `{% set %}` block made, as inlines: a caption written in a template.
+
+        For functions called by a template while it is rendered; a plain string becomes plain text.
+        """
+        return _inlines(words)
+
+
+def _inlines(words: str) -> Inlines:
+    return markdown.inlines(_excerpt(words))
+
+
+class _Compiled(BytecodeCache):
+    """Templates as compiled, by file and content: in this process, and kept for the next.
+
+    The number in the marks is another one in each process; what is kept has `NUMBER` in its place.
+    """
+
+    def __init__(self) -> None:
+        self.codes: dict[str, bytes] = {}
+
+    def load_bytecode(self, bucket: Bucket) -> None:
+        code = self.codes.get(bucket.key)
+        if code is None and (found := kept(_kept_as(bucket))) is not None:
+            code = self.codes[bucket.key] = found.replace(NUMBER, SECRET.encode())
+        if code is not None:
+            # A damaged file is as good as none.
+            with suppress(EOFError, ValueError, TypeError, UnpicklingError):
+                bucket.bytecode_from_string(code)
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        code = self.codes[bucket.key] = bucket.bytecode_to_string()
+        keep(_kept_as(bucket), code.replace(SECRET.encode(), NUMBER))
+
+
+def _kept_as(bucket: Bucket) -> str:
+    # The code that a template becomes depends on what this module does with it.
+    return f"template-{version()}-{Path(__file__).stat().st_mtime_ns:x}-{bucket.key}"
+
+
+_compiled = _Compiled()
+
+
+class _Sections(BaseLoader):
+    """Each section is a template, whose lines have the numbers that they have in their file."""
+
+    def __init__(self, places: tuple[Path, ...]) -> None:
+        self.places = places
+
+    def get_source(self, environment: Environment, template: str) -> tuple[str, str, Callable[[], bool]]:
+        found = find(template, self.places)
+        if found is None:
+            raise TemplateNotFound(template)
+        above = "{#" + "\n" * (found.line - 1) + "#}\n"  # a comment, of which nothing is left
+        return above + found.text, str(found.file), lambda: find(template, self.places) == found
+
+
+@lru_cache(maxsize=ENVIRONMENTS)
+def _environment(places: tuple[Path, ...]) -> Environment:
+    """The environment of some places with its compiled sections; a section that was changed is read again."""
+    result = Environment(
+        loader=_Sections(places),
+        bytecode_cache=_compiled,
+        extensions=[_Provenance],
+        undefined=StrictUndefined,
+        finalize=_finalize,
+        autoescape=False,
+        auto_reload=True,
+        optimized=False,  # constants are too few here for folding them to pay
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    result.filters["join"] = _join
+    result.globals.update(ref=_ref, key=_key, unnumbered=Unnumbered, blank=_blank, inlines=_inlines)
+    return result
+
+
+def _render(places: tuple[Path, ...], name: str, names: Mapping[str, object]) -> Rendered:
+    """The section `name` with `names` filled in; raises `TemplateError` with file and line on any fault."""
+    values: list[Emitted] = []
+    outer = _values.set(values)
+    try:
+        output = _environment(places).get_template(name).render(names)
+    except TemplateSyntaxError as error:
+        raise TemplateError(f"{error.filename or error.name}:{error.lineno}: {error.message}") from error
+    except TemplateNotFound as error:
+        own = next(place for place in places if place.is_relative_to(places[-1]))  # of the machine, if it has one
+        file, line = _origin(error, str(home(name, own)[0]))
+        raise TemplateError(f"{file}:{line}: there is no section {error.name}") from error
+    except ReportgenError:
+        raise
+    except Exception as error:
+        file, line = _origin(error, name)
+        raise TemplateError(f"{file}:{line}: {type(error).__name__}: {error}") from error
+    finally:
+        _values.reset(outer)
+    return _assemble(output, name, values)
+
+
+def _excerpt(fragment: str) -> Rendered:
+    """A string made in the template being rendered (by a macro, `caller()` or `{% set %}`), ready to be read.
+
+    Plain text in it stays text; outside a rendering there is nothing else.
+    """
+    outer = _values.set(_values.get([]))
+    try:
+        return _assemble(_emit(fragment), "", _values.get())
+    finally:
+        _values.reset(outer)
+
+
+# --- what a template may emit ---------------------------------------------------------------------
+
+
+@pass_context  # keeps Jinja from folding constants, which would fill the side list while compiling
+def _finalize(context: Context, value: object) -> str:
+    return _emit(value)
+
+
+def _emit(value: object) -> str:
+    """The text that stands for a value in the Markdown; raises `TypeError` for what has no place in words."""
+    match value:
+        case Undefined():
+            return str(value)  # raises, naming what is undefined
+        case PointName():
+            return _store(InlineMath(vocabulary.point(value)))
+        case str():
+            return _emit_text(value)
+        case bool() | float() | None:
+            raise TypeError(f"{value!r} has no place in words; a number needs its decimals")
+        case int():
+            return _store(Text(str(value).replace("-", MINUS)))
+        case Number():
+            return _store(Value(value))
+    if isinstance(value, Expression):
+        return _store(InlineMath(value))
+    if isinstance(value, Emitted):
+        return _store(value)
+    if isinstance(value, Iterable) and not isinstance(value, Mapping):
+        return "".join(map(_emit, value))
+    raise TypeError(f"a {type(value).__name__} has no place in words")
+
+
+def _emit_text(text: str) -> str:
+    """Marked parts of a string as they are, all between them as plain text."""
+    result, end = [], 0
+    for piece in _PIECE.finditer(text):
+        result += [_store_text(text[end : piece.start()]), piece.group()]
+        end = piece.end()
+    return "".join([*result, _store_text(text[end:])])
+
+
+def _store_text(text: str) -> str:
+    if SECRET in text:
+        raise ValueError("a filter has cut a piece of the template in two")
+    return _store(Text(text)) if text else ""
+
+
+def _store(value: Emitted) -> str:
+    values = _values.get()
+    values.append(value)
+    return f"\ue000{SECRET}:{len(values) - 1}\ue001"
+
+
+def _join(values: Iterable[object], separator: str = "") -> str:
+    """Strings joined to a string; anything else to be printed side by side, separated alike."""
+    parts = list(values)
+    if all(isinstance(part, (str, int)) for part in parts):
+        return separator.join(map(str, parts))
+    return _emit(separator).join(map(_emit, parts))
+
+
+def _ref(*key: object) -> Reference:
+    """A reference to what has a key; the key's parts are joined with dots."""
+    return Reference(".".join(_plain(str(part)) for part in key))
+
+
+def _key(name: str) -> Key:
+    return Key(_plain(name))
+
+
+def _blank(label: str = "") -> BlankLine:
+    return BlankLine(_plain(label))
+
+
+def _plain(text: str) -> str:
+    if not isinstance(text, str) or SECRET in text:
+        raise TypeError("a plain string is wanted here")
+    return text
+
+
+# --- where things come from -----------------------------------------------------------------------
+
+
+_MATH = re.compile(r"\$([^\W\d_][\w.]*)\$")
+_REFERENCE = re.compile(r"@((?:eq|fig|tab)(?:\.\w+)+)")
+
+
+class _Provenance(Extension):
+    """Encloses static text in its marks, and marks the line of every `{{`.
+
+    Before that `$x$` becomes `{{ math("x") }}`, and `@fig.a` becomes `{{ ref("fig.a") }}`.
+    """
+
+    def preprocess(self, source: str, name: str | None, filename: str | None = None) -> str:
+        return _REFERENCE.sub(r'{{ ref("\1") }}', _MATH.sub(r'{{ math("\1") }}', source))
+
+    def filter_stream(self, stream: TokenStream) -> Iterator[Token]:
+        file = stream.filename or stream.name or ""
+        for token in stream:
+            if token.type == "data":
+                if found := _PRIVATE.search(token.value):
+                    line = token.lineno + token.value.count("\n", 0, found.start())
+                    raise TemplateSyntaxError("private-use characters", line, stream.name, file)
+                yield _static(token.lineno, file, token.value)
+            else:
+                if token.type == "variable_begin":
+                    yield _static(token.lineno, file, "")
+                yield token
+
+
+def _static(line: int, file: str, text: str) -> Token:
+    return Token(line, "data", f"\ue002{SECRET}:{line}:{file}\ue003{text}\ue004")
+
+
+@dataclass(slots=True)
+class _Lines:
+    """The text so far and the origin of each of its lines."""
+
+    text: list[str] = field(default_factory=list)
+    lines: list[Place] = field(default_factory=list)
+    fresh: bool = True
+
+    def add(self, static: str, file: str, line: int) -> None:
+        if self.fresh:
+            self.lines[-1:] = [(file, line)]
+        count = static.count("\n")
+        self.lines += [(file, line + 1 + i) for i in range(count)]
+        if static:
+            self.fresh = static.endswith("\n")
+        self.text.append(static)
+
+
+def _assemble(output: str, name: str, values: Sequence[Emitted]) -> Rendered:
+    """The output without the marks of static text, and from them the origin of every line and token."""
+    so_far, places = _Lines(lines=[(name, 1)]), {}
+    place, end = (name, 1), 0
+    for piece in _PIECE.finditer(output):
+        if piece.start() != end:
+            break
+        end = piece.end()
+        if piece["value"]:
+            places[int(piece["value"])] = place
+            so_far.text.append(piece.group())
+            so_far.fresh = False
+        else:
+            line, static = int(piece["line"]), piece["static"]
+            so_far.add(static, piece["file"], line)
+            place = piece["file"], line + static.count("\n")
+    if end != len(output):
+        raise TemplateError(f"{place[0]}:{place[1]}: a filter has cut a piece of the template in two")
+    return Rendered("".join(so_far.text), values, places, so_far.lines)
+
+
+def _origin(error: Exception, name: str) -> Place:
+    """The innermost line of a template that an exception passed through; Jinja puts them in the traceback."""
+    frames = traceback.extract_tb(error.__traceback__)
+    places = [(frame.filename, frame.lineno or 1) for frame in frames if frame.filename.endswith(".md")]
+    return places[-1] if places else (name, 1)

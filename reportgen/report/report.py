@@ -1,0 +1,423 @@
+"""One report: what its templates, tables and figures share.
+
+What of it templates may name stands in the namespace, with the functions, tables and figures made of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from reportgen.assignment import Assignment
+from reportgen.drawing.charts import Area
+from reportgen.drawing.sheet import USUAL_FORM, Form
+from reportgen.formula import Symbol, ids, vocabulary
+from reportgen.formula.ledger import Ledger
+from reportgen.machine import GROUND, Mobility, mobility
+from reportgen.machine.analysis import FULL_TURN, Analysis, Machine, Position, analyse
+from reportgen.machine.flywheel import Flywheel
+from reportgen.machine.loads import Applied, Piston, Torque
+from reportgen.plans.loads import Polygon
+from reportgen.plans.motion import links_in_plane_motion
+from reportgen.plans.sides import scheme
+from reportgen.report.case import Calculation
+from reportgen.report.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
+from reportgen.report.prose import Prose
+
+PLATES_UP_TO = 24
+"""Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""
+DENSE = 361
+"""Samples of a turn from which curves are drawn."""
+SAME = 1e-9
+"""Cycle angles nearer than this are one."""
+
+
+@dataclass(frozen=True)
+class Report:
+    """A case with its prose.
+
+    On a drawing sheet curves have an `area` and round scales, and long tables a `form`.  Curves are drawn from
+    `samples` of the cycle if they are given.
+    """
+
+    case: Calculation
+    area: Area | None = None
+    form: Form = USUAL_FORM
+    samples: Analysis | None = None
+
+    # --- what it is made of
+
+    @cached_property
+    def prose(self) -> Prose:
+        return Prose(self.case.places)
+
+    @property
+    def words(self) -> Mapping[str, Any]:
+        return self.case.words
+
+    @property
+    def assignment(self) -> Assignment:
+        return self.case.assignment
+
+    @property
+    def analysis(self) -> Analysis:
+        return self.case.analysis
+
+    @property
+    def machine(self) -> Machine:
+        return self.analysis.machine
+
+    @property
+    def ledger(self) -> Ledger:
+        return self.case.ledger
+
+    @property
+    def flywheel(self) -> Flywheel | None:
+        return self.case.flywheel
+
+    @cached_property
+    def groups(self) -> tuple[GroupView, ...]:
+        """The groups in the order of assembly."""
+        plan, polygons = scheme(self.machine.linkage), self.case.polygons
+        dyads = self.machine.linkage.dyads
+        return tuple(GroupView(dyad, plan, self.driver, polygons, self.ledger) for dyad in dyads)
+
+    @cached_property
+    def driver(self) -> DriverView:
+        return DriverView(self.machine.linkage, self.ledger)
+
+    @cached_property
+    def dense_cycle(self) -> Analysis:
+        """The whole analysis over the cycle, finely, the numbered positions among the samples."""
+        if self.samples is not None:
+            return self.samples
+        own = self.machine.cycle_angles
+        turns = self.machine.turns
+        grid = np.linspace(0.0, turns * FULL_TURN, turns * (DENSE - 1) + 1)
+        between = np.abs(grid[:, None] - own).min(axis=1) > SAME
+        return analyse(self.machine, np.sort(np.concatenate((grid[between], own))))
+
+    # --- the assignment in words
+
+    @property
+    def machine_title(self) -> str:
+        title = self.case.title
+        return title[:1].lower() + title[1:]
+
+    @property
+    def variant(self) -> str:
+        return self.assignment.variant
+
+    @property
+    def turn_words(self) -> str:
+        """The sense of the driver's rotation."""
+        return self.sense(self.machine.turn)
+
+    def sense(self, value: float) -> str:
+        """The sense of a rotation; a dash where there is none."""
+        words = self.words["sense"]
+        return str(words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"])
+
+    @property
+    def place_and_date(self) -> str:
+        labels, report = self.words["cover"], self.assignment.report
+        place, day = report.place or "……………………", report.date
+        if day is None:
+            return str(labels["no_date"]).format(place=place)
+        months = labels.get("months")
+        return str(labels["date"]).format(
+            place=place,
+            day=day.day,
+            month=day.month,
+            year=day.year,
+            month_name=months[day.month - 1] if months else day.month,
+        )
+
+    # --- positions
+
+    @property
+    def count(self) -> int:
+        """Positions of one turn."""
+        return self.machine.count
+
+    @property
+    def cycle_count(self) -> int:
+        return self.machine.positions
+
+    @property
+    def even_count(self) -> int:
+        """Evenly spaced positions of one turn."""
+        return self.assignment.positions.count
+
+    @property
+    def thinned(self) -> int:
+        """Tables and drawings show one position in so many, and the worked ones; 0 where they show all."""
+        step = -(-self.even_count // PLATES_UP_TO)
+        return step if step > 1 else 0
+
+    @property
+    def positions(self) -> tuple[Position, ...]:
+        """The positions of one turn that are shown."""
+        return tuple(k for k in self.all_positions if k <= self.machine.count)
+
+    @property
+    def all_positions(self) -> tuple[Position, ...]:
+        """The positions of the cycle that are shown."""
+        evenly = range(1, self.machine.positions + 1, self.thinned or 1)
+        return self.machine.numbered(sorted({*evenly, *self.worked, *self.worked_forces}))
+
+    @property
+    def worked(self) -> tuple[Position, ...]:
+        """The positions of one turn whose motion is worked out in full."""
+        count = self.machine.count
+        return self.machine.numbered(dict.fromkeys((k - 1) % count + 1 for k in self.assignment.worked_positions))
+
+    @property
+    def worked_forces(self) -> tuple[Position, ...]:
+        """The positions of the cycle whose forces are worked out in full."""
+        return self.machine.numbered(self.assignment.worked_positions)
+
+    @property
+    def plates(self) -> tuple[int, ...]:
+        """Positions whose plans are drawn: all of the cycle, or the worked ones when there are very many."""
+        if self.assignment.positions.count <= PLATES_UP_TO:
+            return tuple(range(1, self.assignment.cycle_positions + 1))
+        return self.assignment.worked_positions
+
+    def first_turn(self, k: Position) -> Position | None:
+        """The position of the first turn that one of a later turn repeats in its motion; None in the first turn."""
+        return self.machine.position((k - 1) % self.count + 1) if k > self.count else None
+
+    # --- the machine
+
+    @property
+    def own(self) -> Mapping[str, Any]:
+        """What only the words of this kind of machine name."""
+        return self.machine.facts
+
+    @cached_property
+    def sheet(self) -> Mapping[str, list[str]]:
+        """What the machine's sheet sets out together, by name: `lines(sheet.velocity, k)`."""
+        return {name: self.known(lines) for name, lines in self.ledger.lines.items()}
+
+    @property
+    def given_names(self) -> Mapping[str, str]:
+        """What is given, in words, by id; a declared linkage names its own quantities."""
+        if "quantities" not in self.own:
+            names: Mapping[str, str] = self.words.get("given", {})
+            return names
+        words = self.words["linkage"]["given"]
+        declared = {
+            id: words[what] + (lower_digits(of) if what == "length" else of) for id, what, of in self.own["quantities"]
+        }
+        return {**declared, "unevenness": words["unevenness"]}
+
+    @property
+    def mobility(self) -> Mobility:
+        return mobility(self.machine.linkage)
+
+    @property
+    def lengths(self) -> list[str]:
+        """The true lengths that have a drawn one, in the machine's own order if it has one."""
+        if "lengths" in self.sheet:
+            return self.sheet["lengths"]
+        single = [id for id, family in self.ledger.families.items() if len(family.values) == 1]
+        return [id for id in single if (found := ids.length.read(id)) and ids.drawn.of(found) in single]
+
+    @property
+    def drawn_lines(self) -> list[str]:
+        """What those lengths are lengths of, by its ends."""
+        return [found["line"] for id in self.lengths if (found := ids.length.read(id))]
+
+    @property
+    def pistons(self) -> tuple[Piston, ...]:
+        return self.machine.pistons
+
+    @property
+    def turn_sense(self) -> str:
+        """The key of the words for the sense of the driver's rotation."""
+        return "anticlockwise" if self.machine.turn > 0 else "clockwise"
+
+    @property
+    def loads(self) -> tuple[Applied | Torque, ...]:
+        """The forces and torques applied to the machine."""
+        return (*self.machine.applied, *self.machine.torques)
+
+    @property
+    def speed_in_rpm(self) -> bool:
+        """Whether the driver's angular velocity follows from its speed in revolutions a minute."""
+        return "omega.1" in self.computed
+
+    @property
+    def has_flywheel(self) -> bool:
+        """Whether the assignment asks for a flywheel, and anything acts that it could even out."""
+        return "unevenness" in self.ledger and self.has_forces
+
+    @property
+    def has_gas(self) -> bool:
+        """Whether the pressure in any cylinder is other than that of the air outside."""
+        return any(piston.name not in self.machine.idle for piston in self.pistons)
+
+    @property
+    def all_zero(self) -> bool:
+        """Whether masses or loads are given, but are all zero."""
+        given = any(id in ids.weight or id in ids.mass for id in self.ledger.families)
+        return not self.has_forces and (bool(self.machine.idle) or given)
+
+    @property
+    def loads_crank(self) -> bool:
+        """Whether any group hands a force on to the crank, at whatever position."""
+        edges = self.driver_polygon.edges if self.driver_polygon else ()
+        reactions = (self.ledger[ids.of_force(edge.name)] for edge in edges if edge.is_reaction and not edge.unknown)
+        return any(one.at(k) != 0 for one in reactions for k in range(1, self.cycle_count + 1))
+
+    @property
+    def synthesised(self) -> bool:
+        return "synthesis" in self.machine.outline
+
+    @property
+    def has_force(self) -> bool:
+        """Whether a working force acts, be it constant or not."""
+        return bool(self.machine.applied)
+
+    @property
+    def has_forces(self) -> bool:
+        """Whether anything loads the machine, weights and inertia included."""
+        return bool(self.analysis.loads)
+
+    @property
+    def has_turning_links(self) -> bool:
+        """Whether any link of the groups turns, rather than all being in translation."""
+        return any(ids.signed("omega", link) in self.ledger for link in self.machine.linkage.links)
+
+    @property
+    def has_formulas(self) -> bool:
+        """Whether closed formulas check the plans."""
+        return bool(self.machine.compared)
+
+    @property
+    def needs_flywheel(self) -> bool:
+        """Whether the links alone are too light to keep the speed even enough."""
+        return "omega.of" in self.ledger
+
+    @cached_property
+    def computed(self) -> frozenset[str]:
+        """The ids of what has a formula."""
+        return frozenset(id for id, family in self.ledger.families.items() if family.definition is not None)
+
+    # --- motion
+
+    def known(self, quantities: Iterable[str]) -> list[str]:
+        """Those of the ids that the ledger knows, each once."""
+        return self.ledger.known(quantities)
+
+    @cached_property
+    def plane_links(self) -> tuple[PlaneLink, ...]:
+        """The links that turn about no fixed point and are no mere sliders, in the order of assembly."""
+        owner = {link: group.name for group in self.groups for link in (group.i, group.j)}
+        turns = links_in_plane_motion(scheme(self.machine.linkage))
+        return tuple(PlaneLink(turn, owner[turn.link]) for turn in turns)
+
+    @property
+    def sliding(self) -> tuple[GroupView, ...]:
+        """Groups whose last link slides along a fixed guide."""
+        on_ground = {slider for carrier, slider in self.analysis.motion.slides if carrier == GROUND}
+        return tuple(group for group in self.groups if group.kind in ("RRP", "RPP") and group.j in on_ground)
+
+    @property
+    def slider_senses(self) -> Mapping[str, complex]:
+        """The unit vectors along which the motion of sliders on the ground counts as positive, by their pins."""
+        angles = {group.Q: float(self.analysis.motion.links[group.j].angle[0]) for group in self.sliding}
+        return {pin: self.machine.positive.get(pin, complex(np.exp(1j * angle))) for pin, angle in angles.items()}
+
+    # --- forces
+
+    @property
+    def bodies(self) -> list[str]:
+        """The links that have mass."""
+        return [str(body.link) for body in self.machine.linkage.inertias]
+
+    @property
+    def mass_lines(self) -> list[str]:
+        return self.known(name(link) for name in (ids.mass, ids.inertia) for link in self.bodies)
+
+    @property
+    def inertia_lines(self) -> list[str]:
+        return self.known(name(link) for name in (ids.inertia_force, ids.inertia_couple) for link in self.bodies)
+
+    @cached_property
+    def couples(self) -> tuple[BodyView, ...]:
+        """Links whose inertia is a force and a couple, replaced by one force off the mass centre."""
+        return displaced_inertia(self.machine.linkage, self.groups, self.ledger)
+
+    @property
+    def displaced_reactions(self) -> bool:
+        """Whether the reaction of any slide may act beside its pin."""
+        joints = [joint for group in self.groups for joint in (group.outer, group.inner, group.guide)]
+        return any(ids.reaction_couple(joint) in self.computed for joint in joints)
+
+    @property
+    def has_slides(self) -> bool:
+        return any(group.kind != "RRR" for group in self.groups)
+
+    @property
+    def driver_polygon(self) -> Polygon | None:
+        return self.case.polygons[-1] if self.case.polygons else None
+
+    @property
+    def on_crank(self) -> frozenset[str]:
+        """The forces of the driver's force plan."""
+        return frozenset(edge.name for edge in self.driver_polygon.edges) if self.driver_polygon else frozenset()
+
+    @property
+    def joined(self) -> list[GroupView]:
+        """The groups that hang on the driver."""
+        return [group for group in self.groups if group.carrier == 1]
+
+    def arms_about(self, point: str) -> list[str]:
+        return [id for id, family in self.ledger.families.items() if family.arm and family.about == point]
+
+    @property
+    def crank_arms(self) -> list[str]:
+        """Arms of the forces on the driver about its centre."""
+        return self.arms_about(self.driver.centre)
+
+    @property
+    def crank_pins(self) -> list[str]:
+        """The crank's pin, and further points of the crank that a group hangs on."""
+        hung = {pin for group in self.groups for pin in (group.P, group.T)}
+        return [self.driver.pin, *(place.name for place in self.driver.others if place.name in hung)]
+
+    @property
+    def has_reduced_inertia(self) -> bool:
+        """Whether moving links have mass, which the flywheel's calculation reduces to the crank."""
+        return "J.r" in self.ledger
+
+    # --- quantities and points by name
+
+    def force_symbol(self, name: str) -> Symbol:
+        """The symbol of a force of a plan: of a load, or of a reaction R12, R12.t."""
+        return self.ledger.symbol(self.ledger[ids.vector(name)].of)
+
+    def force_vector(self, name: str) -> Symbol:
+        return vocabulary.vector(self.force_symbol(name))
+
+    def balance_symbol(self) -> Symbol:
+        """M_cb or P_cb, whichever of the two ways it is reached by."""
+        return replace(self.ledger.symbol("M.eq"), sup="")
+
+    def named(self, symbol: Symbol) -> Symbol:
+        """A symbol that is no quantity's, with its indices in the report's language."""
+        return vocabulary.in_language(symbol, self.words["symbols"])
+
+    def is_zero(self, id: str, k: int | None = None) -> bool:
+        return bool(self.ledger.number(id, k).value == 0)
+
+
+def lower_digits(text: str) -> str:
+    """Digits of point names as lowered digits: O1A → O₁A."""
+    return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))

@@ -1,0 +1,299 @@
+"""Tables of results: motion, forces, and the checks that do not repeat the calculation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from reportgen.formula import Chain, Number, Power, Symbol, ids
+from reportgen.formula.vocabulary import Chapter
+from reportgen.machine import Crank
+from reportgen.plans.sides import Side, image
+from reportgen.report import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Paragraph, Table, Text, Value
+from reportgen.report.groups import GroupView
+from reportgen.report.report import Report
+from reportgen.report.tables import bare, list_table, side_by_side, tables
+
+MM = 1e3
+MOST_COORDINATES, MOST_WIDE = 10, 8
+"""Columns of coordinates in one table; fewer where one of them is −100 mm or less."""
+WIDE = -0.1
+"""A coordinate (m) that takes the widest column."""
+STILL = 1e-9
+"""A rate below this share of its greatest value is zero."""
+NARROWEST = 16.0
+"""Columns of words narrower than this (mm) are set as rows instead."""
+
+# --- motion
+
+
+def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
+    """x and y of every moving point at the positions of one turn, in mm; several tables where they are many."""
+    linkage, motion = report.machine.linkage, report.analysis.motion
+    at = [k - 1 for k in report.positions]
+    # The point of a lever under a block's pin lies where the pin is.
+    under = {dyad.middle for dyad in linkage.dyads if dyad.kind == "RPR"}
+    names = [name for name in motion.points if name not in {*linkage.ground, *under}]
+    courses = [
+        (Symbol(axis, name), part[at])
+        for name in names
+        for axis, part in (("x", motion.points[name].p.real), ("y", motion.points[name].p.imag))
+    ]
+    kept = [(shown, values) for shown, values in courses if np.abs(values).max() > 1e-12]
+    wide = any(values.min() <= WIDE for _, values in kept)
+    columns = [(shown, *(_coordinate(value * MM) for value in values)) for shown, values in kept]
+    titles = [report.words["table"]["position"], *map(str, report.positions)]
+    first, most = Column(FIRST_COLUMN), MOST_WIDE if wide else MOST_COORDINATES
+    return side_by_side(report, key, caption, first, titles=titles, columns=columns, most=most, widest=22.0, together=2)
+
+
+def _coordinate(value: float) -> Number:
+    return Number(0.0 if abs(value) < 1e-9 else value, 2)
+
+
+def _two_decimals(value: float) -> Number:
+    """A number to two decimals, or as it is when it has no more than two."""
+    short = abs(value * 100 - round(value * 100)) < 1e-7
+    return Number(float(f"{value:.10g}")) if short else Number(value, 2)
+
+
+def dead_centres(report: Report) -> Iterator[Sequence[object]]:
+    """Where each slider turns back: crank's turn from position 1, the pin's distance from the crank centre."""
+    words = report.words["tables"]["dead"]
+    for piston in report.machine.sliders:
+        for name, angle, place in (
+            (words["top"], piston.top_angle, piston.top),
+            (words["bottom"], piston.bottom_angle, piston.bottom),
+        ):
+            turn = math.degrees((angle - piston.phase) % (2 * math.pi))
+            turn = 0.0 if abs(turn - 360) < 1e-9 else turn
+            yield str(piston.link), name, _two_decimals(turn), _two_decimals(abs(place) * MM)
+
+
+def labels(report: Report) -> Iterator[Sequence[object]]:
+    """The positions of one turn by their labels: the crank's turn, and what the first slider does there.
+
+    It turns back at its "top" and "bottom", and is "fastest" where a = 0.
+    """
+    words = report.words["tables"]["labels"]
+    machine, motion = report.machine, report.analysis.motion
+    course = machine.sliders[0]
+    pin, way = motion.points[course.pin], course.fraction(motion)
+    still, steady = (np.abs(rate) < STILL * np.abs(rate).max() for rate in (pin.v, pin.a))
+    for k in range(machine.count):
+        end = ("top" if way[k] < 0.5 else "bottom") if still[k] else "fastest" if steady[k] else ""
+        angle = _two_decimals(math.degrees(machine.cycle_angles[k]))
+        yield str(machine.position(k + 1)), angle, words.get(end, "")
+
+
+def angular_velocities(report: Report, k: int) -> Iterator[Sequence[object]]:
+    """The angular velocities with their sense in words."""
+    if report.driver.centre:
+        yield report.ledger.symbol("omega.1"), bare(report, "omega.1", k, size=True), report.turn_words
+    yield from _rotations(report, "omega", k)
+
+
+def angular_accelerations(report: Report, k: int) -> Iterator[Sequence[object]]:
+    return _rotations(report, "eps", k)
+
+
+def _rotations(report: Report, rate: str, k: int) -> Iterator[Sequence[object]]:
+    for id in _of_links(report, rate):
+        sense = report.sense(report.ledger.number(id, k).value)
+        yield report.ledger.symbol(id), bare(report, id, k, size=True), sense
+
+
+def summary(report: Report, k: int) -> Iterator[Sequence[object]]:
+    """Quantities at one position as "symbol = value", in rows of as many as there are heads."""
+    ledger = report.ledger
+    for row in report.own["summary"]:
+        yield [Chain((ledger.symbol(id), ledger.number(id, k))) for id in row]
+
+
+def velocity_segments(report: Report) -> list[str]:
+    columns: list[str] = []
+    for group in report.groups:
+        columns += [
+            ids.segment("v", "p", image(group.M)),
+            *(ids.segment("v", image(side.base), image(group.M)) for side in group.moving),
+        ]
+        columns += _images("v", group)
+    return report.known(columns)
+
+
+def velocities(report: Report) -> list[str]:
+    columns: list[str] = []
+    for group in report.groups:
+        # Relative to a fixed point a velocity is the point's own.
+        columns += [ids.velocity(group.M), *(side.velocity for side in group.moving), ids.velocity(group.Q)]
+        columns += [ids.velocity(place) for place in group.points]
+    return [*report.known(columns), *_of_links(report, "omega")]
+
+
+def acceleration_segments(report: Report) -> list[str]:
+    columns: list[str] = []
+    for group in report.groups:
+        columns.append(ids.segment("a", "p", image(group.M)))
+        columns += [ids.relative_segment(part, side.relative) for side in group.sides for part in _parts(side)]
+        columns += _images("a", group)
+    return report.known(columns)
+
+
+def accelerations(report: Report) -> list[str]:
+    columns: list[str] = []
+    for group in report.groups:
+        columns.append(ids.acceleration(group.M))
+        columns += [ids.acceleration(side.relative, part) for side in group.sides for part in _parts(side)]
+        columns += [ids.acceleration(group.Q), *(ids.acceleration(place) for place in group.points)]
+    return [*report.known(columns), *_of_links(report, "eps")]
+
+
+def _of_links(report: Report, rate: str) -> list[str]:
+    """Signed angular quantities of the links that turn."""
+    return report.known(ids.signed(rate, link) for link in report.machine.linkage.links)
+
+
+def _images(what: str, group: GroupView) -> list[str]:
+    return [ids.segment(what, "p", image(place)) for place in (group.Q, *(place.name for place in group.points))]
+
+
+def _parts(side: Side) -> list[str]:
+    """Suffixes of a side's relative accelerations, the known one first."""
+    return [part for part in (side.part, side.sought) if part]
+
+
+# --- forces
+
+
+def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The stroke of every piston between dead centres of any of them."""
+    positions, first = head
+    gas, machine = report.analysis.gas, report.machine
+    names = report.words["strokes"]
+    courses = np.array([state.stroke for state in gas.values()])
+    starts = [0, *(int(i) + 1 for i in np.flatnonzero(np.any(np.diff(courses, axis=1), axis=0)))]
+    ends = [*starts[1:], machine.positions]
+    stretches = [
+        f"{machine.position(start + 1)}–{machine.position(end % machine.positions + 1)}"
+        for start, end in zip(starts, ends, strict=True)
+    ]
+    of_pistons = [[names[int(state.stroke[start])] for start in starts] for state in gas.values()]
+    pistons = [f"{first} {state.piston.link}" for state in gas.values()]
+    width = (TEXT_WIDTH - 30) / len(starts)
+    if width < NARROWEST:
+        down = zip(stretches, *of_pistons, strict=True)
+        widths = (30.0, *(40.0,) * len(pistons))
+        return list_table(report, key, caption, (positions, *pistons), down, widths)
+    across = [(piston, *row) for piston, row in zip(pistons, of_pistons, strict=True)]
+    widths = (30.0, *(min(width, 30.0),) * len(starts))
+    return list_table(report, key, caption, (positions, *stretches), across, widths)
+
+
+def gas(report: Report) -> list[str]:
+    """The way of each piston, the pressure on it and its force."""
+    return report.known(
+        id
+        for piston in report.pistons
+        for id in (ids.displacement(piston.link), ids.pressure(piston.link), piston.name)
+    )
+
+
+def inertia(report: Report) -> list[str]:
+    return report.inertia_lines
+
+
+def reactions(report: Report) -> list[str]:
+    columns: list[str] = []
+    for group in reversed(report.groups):
+        columns += [ids.reaction(joint, "t") for joint in (group.outer, group.guide)]
+        columns += [ids.reaction(joint) for joint in (group.outer, group.inner, group.guide)]
+    return report.known([*columns, "R.01"])
+
+
+def reaction_angles(report: Report) -> list[str]:
+    joints = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
+    return report.known(ids.force_direction(ids.reaction_force(name)) for name in (*joints, "01"))
+
+
+def lever(report: Report, k: int) -> Iterator[Sequence[object]]:
+    """Loads on the turned velocity plan: size, arm, moment about the pole by μ_l, anticlockwise positive."""
+    for id in report.arms_about("p"):
+        load = report.ledger[id].of
+        yield report.ledger.symbol(load), *(bare(report, one, k) for one in (load, id, ids.lever_moment(load)))
+
+
+def balance(report: Report) -> list[str]:
+    return ["M.eq", "M.vw", "M.difference"]
+
+
+def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
+    """Reduced torque and excess work; the reduced inertia if links have mass, the speed if there is a flywheel."""
+    words = report.words["tables"]["flywheel"]
+    inertia = words["inertia"] if report.has_reduced_inertia else ""
+    speed = words["speed"] if report.needs_flywheel else ""
+    columns = report.known(("M.r", "A.excess", "J.r", "omega.of"))
+    return tables(report, key, f"{caption}{inertia}{speed}", columns, report.all_positions)
+
+
+# --- checks
+
+
+def checks(report: Report) -> Iterator[Sequence[object]]:
+    """Residuals of the independent checks, as powers of ten."""
+    found = residuals(report)
+    for id, name in report.words["tables"]["checks"]["rows"].items():
+        if id in found:
+            residual, unit = found[id]
+            yield name, _power_of_ten(residual), unit
+
+
+def residuals(report: Report) -> dict[str, tuple[float, str]]:
+    """The largest residual of each check and its unit: closure, formulas, reactions, torques, energy."""
+    analysis, values = report.analysis, report.ledger.families
+    found = {"closure": (_closure(report), "m")}
+    for name, chapter in (("formulas", Chapter.velocity), ("formulas_a", Chapter.acceleration)):
+        differences = [
+            float(np.max(np.abs(np.abs(values[one].values) - np.abs(values[other].values))))
+            / float(np.max(np.abs(values[one].values)))
+            for one, other in analysis.machine.compared
+            if values[one].chapter is chapter
+        ]
+        if differences:
+            found[name] = (max(differences), "")
+    if analysis.loads:
+        forces = [
+            float(np.nanmax(np.abs(reaction.force - values[ids.vector(name)].values)))
+            for name, reaction in analysis.forces.reactions.items()
+            if ids.vector(name) in values
+        ]
+        found["ledger"] = (max(forces), "N")
+        difference = float(np.nanmax(np.abs(analysis.torque - analysis.torque_by_work)))
+        found["force" if analysis.machine.span else "torque"] = (difference, "N" if analysis.machine.span else "N·m")
+        found["energy"] = (analysis.summary.energy_error, "")
+    return found
+
+
+def _closure(report: Report) -> float:
+    """How far a distance of two points of one link is from its length at any position (m); 0 where there is none."""
+    motion, families = report.analysis.motion, report.ledger.families
+    pairs = [(group.P, group.Q) for group in report.groups]
+    pairs += [(group.T, group.Q) for group in report.groups if group.kind == "RRR"]
+    rods = [(p, q, families[ids.length(p, q)].values) for p, q in pairs if ids.length(p, q) in families]
+    differences = [np.abs(motion.points[p].p - motion.points[q].p) - length for p, q, length in rods]
+    differences += [
+        np.abs(motion.points[point.name].p - motion.origins[point.link].p) - abs(point.local)
+        for point in report.machine.linkage.points
+    ]
+    if isinstance(driver := report.machine.linkage.driver, Crank):
+        arm = motion.points[driver.pin].p - motion.points[driver.centre].p
+        differences.append(np.abs(arm) - driver.length)
+    return max((float(np.nanmax(np.abs(difference))) for difference in differences), default=0.0)
+
+
+def _power_of_ten(value: float) -> Inlines:
+    """A residual as a power of ten: < 10⁻¹² m."""
+    if value == 0:
+        return (Value(Number(0.0)),)
+    return Text("< "), InlineMath(Power(Number(10), Number(math.ceil(math.log10(value)))))

@@ -1,0 +1,346 @@
+"""Tables of what is given, and what all tables of a report are made with.
+
+A table is a function of a report, its key, caption and head, and of what it shows; its name in templates stands
+in the namespace.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from reportgen.catalogue.given_loads import ByOrdinates
+from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
+from reportgen.machine.gas import StrokeIndicator
+from reportgen.machine.loads import AngleLaw, Applied, TableLaw, Torque, WayLaw
+from reportgen.report import (
+    FIRST_COLUMN,
+    TEXT_WIDTH,
+    Cell,
+    Column,
+    InlineMath,
+    Inlines,
+    Paragraph,
+    Table,
+    Text,
+    Value,
+    listed,
+)
+from reportgen.report.report import Report, lower_digits
+
+MM = 1e3
+WIDEST_COLUMN = 26.0
+MOST_COLUMNS = 9
+MOST_LENGTHS = 7
+"""Columns of lengths that stand beside one another."""
+LONG_WORDS = 10
+"""A column with a text this long is one of words and set flush left."""
+
+
+# --- what tables are made with
+
+
+def cell(content: object) -> Cell:
+    """A table cell from text, a symbol, a number or inlines."""
+    return Cell(_inlines(content))
+
+
+def _inlines(content: object) -> Inlines:
+    match content:
+        case str():
+            return (Text(content),) if content else ()
+        case Number():
+            return (Value(content),)
+        case tuple():
+            return tuple(inline for part in content for inline in _inlines(part))
+        case Text() | Value() | InlineMath():
+            return (content,)
+    if isinstance(content, Expression):
+        return (InlineMath(content),)
+    raise TypeError(f"a {type(content).__name__} has no place in a table")
+
+
+def bare(report: Report, id: str, position: int | None, size: bool = False) -> Inlines:
+    """A number without its unit, a dash for what does not exist; that of an arm, or `size`, without its sign."""
+    family = report.ledger[id]
+    number = report.ledger.number(id, position, size=size or family.arm)
+    if math.isnan(number.value) or (family.is_direction and report.is_zero(family.of, position)):
+        return (Text("–"),)
+    return (Value(Number(number.value, number.decimals, "")),)
+
+
+def head_symbol(report: Report, id: str) -> Expression:
+    """The symbol over a column: |v| over magnitudes, read from plans, of what has a direction of its own."""
+    symbol = report.ledger.symbol(id)
+    return size(symbol) if any(id in rate for rate in ids.POINT_RATE.values()) else symbol
+
+
+def tables(
+    report: Report, key: str, caption: str, quantities: Sequence[str], positions: Iterable[int]
+) -> tuple[Table | Paragraph, ...]:
+    """Quantities at positions: one table, or several below one another where the columns are too many.
+
+    Those that are zero at every position have no column; a sentence says so instead.
+    """
+    at, columns = list(positions), []
+    zeros = [id for id in quantities if all(report.is_zero(id, k) for k in at)]
+    shown = [id for id in quantities if id not in zeros] or list(quantities)
+    for id in shown:
+        unit = report.ledger[id].how.unit
+        unit = report.ledger.units.get(unit, unit)
+        columns.append([head_symbol(report, id), unit, *(bare(report, id, k) for k in at)])
+    titles = [report.words["table"]["position"], "", *map(str, at)]
+    found = side_by_side(
+        report, key, caption, Column(FIRST_COLUMN), titles=titles, columns=columns, most=MOST_COLUMNS - 1, heads=2
+    )
+    if not zeros or shown == list(quantities):
+        return found
+    equations = listed(InlineMath(Chain((report.ledger.symbol(id), Number(0.0)))) for id in zeros)
+    return *found, Paragraph((Text(f"{report.words['table']['zero']} "), *equations, Text(".")))
+
+
+def side_by_side(
+    report: Report,
+    key: str,
+    caption: str,
+    first: Column,
+    titles: Sequence[object],
+    columns: Sequence[Sequence[object]],
+    most: int,
+    heads: int = 1,
+    widest: float = WIDEST_COLUMN,
+    together: int = 1,
+) -> tuple[Table, ...]:
+    """Columns beside one of titles, each with its `heads` on top; several tables where there are too many.
+
+    Each table has at most so many columns, and keeps so many `together`; the key names the first.
+    """
+    count = max(-(-len(columns) // most), 1)
+    size = together * -(-len(columns) // (together * count))
+    parts = [columns[start : start + size] for start in range(0, len(columns), size or 1)]
+    found = []
+    for number, part in enumerate(parts, start=1):
+        width = min((TEXT_WIDTH - first.width) / len(part), widest)
+        rows = [tuple(map(cell, row)) for row in zip(titles, *part, strict=True)]
+        title = f"{caption} ({number}/{len(parts)})" if len(parts) > 1 else caption
+        found.append(
+            Table(
+                (first, *(Column(width),) * len(part)),
+                tuple(rows[:heads]),
+                tuple(rows[heads:]),
+                report.prose.inlines(title),
+                f"{key}.{number}" if number > 1 else key,
+            )
+        )
+    return tuple(found)
+
+
+def list_table(
+    report: Report,
+    key: str,
+    caption: str,
+    head: Sequence[object],
+    rows: Iterable[Sequence[object]],
+    widths: Sequence[float],
+) -> Table:
+    """A free table: cells are texts, symbols, numbers or inlines; widths in mm; columns of words flush left."""
+    body = [tuple(row) for row in rows]
+    words = [any(_is_wordy(row[i]) for row in body) for i in range(len(widths))]
+    return Table(
+        tuple(Column(width, "left" if wordy else "center") for width, wordy in zip(widths, words, strict=True)),
+        (tuple(map(cell, head)),),
+        tuple(tuple(map(cell, row)) for row in body),
+        report.prose.inlines(caption),
+        key,
+    )
+
+
+def _is_wordy(content: object) -> bool:
+    return isinstance(content, str) and len(content) >= LONG_WORDS
+
+
+# --- given data
+
+
+def given_data(
+    report: Report, key: str, caption: str, head: Sequence[str], others: Mapping[str, str] | None = None
+) -> Table:
+    """The given quantities in the words of the machine, some of them in other words."""
+    return given_table(report, key, caption, {**report.given_names, **(others or {})})
+
+
+def given_table(report: Report, key: str, caption: str, names: Mapping[str, str]) -> Table:
+    """All given quantities of the machine that `names` describes; what is derived is left out."""
+    heads = report.words["table"]
+    rows = [
+        (name, report.ledger.symbol(id), _as_typed(report, id))
+        for id, name in names.items()
+        if id in report.ledger and _is_given(report, id)
+    ]
+    return list_table(
+        report, key, caption, (heads["quantity"], heads["symbol"], heads["value"]), rows, (92.0, 28.0, 40.0)
+    )
+
+
+def _is_given(report: Report, id: str) -> bool:
+    definition = report.ledger[id].definition
+    return definition is None or not refs(definition)
+
+
+def _as_typed(report: Report, id: str) -> Inlines:
+    """A given number with its unit; a ratio written 1/3.6 stays one."""
+    definition = report.ledger[id].definition
+    if isinstance(definition, Fraction):
+        ends = [part for part in (definition.top, definition.bottom) if isinstance(part, Number)]
+        if len(ends) == 2:
+            return Value(ends[0]), Text("/"), Value(ends[1])
+    return (Value(report.ledger.number(id)),)
+
+
+def indicator(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The indicator diagram as given, in gauge pressure: by stroke, or against the cycle angle."""
+    diagram = report.assignment.indicator
+    heights = diagram.height if isinstance(diagram, ByOrdinates) else ()
+    law = report.machine.pistons[0].law
+    return _law_table(
+        report, law, key, caption, names=report.words["strokes"], shown=Symbol("p"), unit=1e4, heights=heights
+    )
+
+
+def working_force(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """The working force as given (N): a row for each of the strokes of the head, or against the crank angle."""
+    law = report.machine.applied[0].law
+    assert isinstance(law, TableLaw)
+    return _law_table(report, law, key, caption, head, Symbol("P"))
+
+
+def gas_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
+    """The gauge pressure (N/cm²) on a piston as given: by stroke, or against the cycle angle."""
+    gas = next(load for load in report.machine.applied if load.name == name)
+    assert isinstance(gas.law, TableLaw)
+    caption = caption.format(link=gas.link)
+    return _law_table(report, gas.law, key, caption, names=report.words["strokes"], shown=Symbol("p"), unit=1e4)
+
+
+def load_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
+    """The load `name` as given: a row for each of the strokes of the head, or against the driver's turn or way."""
+    loads: tuple[Applied | Torque, ...] = (*report.machine.applied, *report.machine.torques)
+    load = next(load for load in loads if load.name == name)
+    law, shown = load.law, report.ledger.symbol(name)
+    caption = caption.format(link=load.link, unit=report.ledger[name].how.unit)
+    if isinstance(law, AngleLaw):
+        angles = [math.degrees(angle) for angle in law.angles]
+        return _beside(report, key, caption, [(Symbol("φ"), angles), (shown, law.values)])
+    if isinstance(law, WayLaw):
+        ways = [way * MM for way in law.ways]
+        return _beside(report, key, caption, [(Symbol("s"), ways), (shown, law.values)])
+    assert isinstance(law, TableLaw)
+    return _law_table(report, law, key, caption, head, shown)
+
+
+def _law_table(
+    report: Report,
+    law: TableLaw,
+    key: str,
+    caption: str,
+    names: Sequence[str],
+    shown: Symbol,
+    unit: float = 1.0,
+    heights: Sequence[float] = (),
+) -> Table:
+    """The nodes of a law; `heights` (mm) are those it was read from, if it was read from a drawing."""
+    nodes = law.table
+    if isinstance(nodes, StrokeIndicator):
+        rows = [
+            (cell(name), *(_exact(value / unit) for value in row)) for name, row in zip(names, nodes.rows, strict=False)
+        ]
+        head = (cell(Fraction(Symbol("s"), Symbol("H"))), *map(_exact, nodes.nodes))
+        return _blocks(report, key, caption, head, rows, FIRST_COLUMN + 8)
+    last = law.turns * 2 * math.pi * (1 + 1e-15)
+    columns: list[tuple[Symbol, Sequence[float]]] = [
+        (Symbol("φ"), [math.degrees(angle) for angle in nodes.angles if angle <= last]),
+        *(((Symbol("y"), list(heights)),) if heights else ()),
+        (shown, [value / unit for value in nodes.pressures]),
+    ]
+    return _beside(report, key, caption, columns)
+
+
+def _exact(value: float) -> Cell:
+    return Cell((Value(Number(float(f"{value:.10g}"))),))
+
+
+def _beside(report: Report, key: str, caption: str, columns: Sequence[tuple[Symbol, Sequence[float]]]) -> Table:
+    """Long columns, folded into sets side by side."""
+    head = tuple(cell(shown) for shown, _ in columns)
+    sets = [tuple(map(_exact, row)) for row in zip(*(values for _, values in columns), strict=False)]
+    beside = 3 if len(columns) > 2 else 4
+    rows_count = -(-len(sets) // beside)
+    filled = sets + [(Cell(),) * len(columns)] * (rows_count * beside - len(sets))
+    body = tuple(
+        tuple(one for block in range(beside) for one in filled[block * rows_count + row]) for row in range(rows_count)
+    )
+    width = Column(TEXT_WIDTH / beside / len(columns) - 2.0)
+    return Table((width,) * (beside * len(columns)), (head * beside,), body, report.prose.inlines(caption), key)
+
+
+def _blocks(
+    report: Report, key: str, caption: str, head: tuple[Cell, ...], rows: Sequence[tuple[Cell, ...]], first: float
+) -> Table:
+    """A wide table; more than 13 columns are set below one another in blocks of at most 12 values."""
+    most = 12
+    width = min((TEXT_WIDTH - first) / min(len(head) - 1, most), 14.0)
+    body: list[tuple[Cell, ...]] = []
+    for start in range(1, len(head), most):
+        stop = min(start + most, len(head))
+        pad = (Cell(),) * (most - (stop - start)) if len(head) - 1 > most else ()
+        if start > 1:
+            body.append((head[0], *head[start:stop], *pad))
+        body += [(row[0], *row[start:stop], *pad) for row in rows]
+    count = min(len(head) - 1, most)
+    columns = (Column(first, "left"), *(Column(width),) * count)
+    return Table(columns, ((head[0], *head[1 : count + 1]),), tuple(body), report.prose.inlines(caption), key)
+
+
+def joints(report: Report) -> Iterator[Sequence[object]]:
+    """All joints: number, place, links, type."""
+    for number, joint in enumerate(report.mobility.joints, start=1):
+        one, other = joint.links
+        yield str(number), vocabulary.point(joint.point), f"{one} – {other}", report.words["joints"][joint.kind]
+
+
+def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
+    """Real and drawn lengths, one column a length; many lengths in several tables below one another."""
+    columns = [
+        (lower_digits(line), *(bare(report, name(line), None) for name in (ids.length, ids.drawn)))
+        for line in report.drawn_lines
+    ]
+    return side_by_side(
+        report, key, caption, Column(46.0, "left"), titles=head, columns=columns, most=MOST_LENGTHS, widest=22.0
+    )
+
+
+# --- a declared linkage
+
+
+def frame(report: Report) -> Iterable[Sequence[object]]:
+    """The fixed points."""
+    fixed: Iterable[Sequence[object]] = report.own["frame"]
+    return fixed
+
+
+def groups(report: Report) -> Iterator[Sequence[object]]:
+    """The groups in the order of assembly, with the way in which each is assembled."""
+    choice = report.words["linkage"]["choice"]
+    for row in report.own["groups"]:
+        joints = listed(InlineMath(vocabulary.point(name)) for name in row.joints)
+        yield ", ".join(map(str, row.links)), row.kind, joints, choice[row.choice]
+
+
+def guides(report: Report) -> Iterator[Sequence[object]]:
+    """The guides: a point of the line and its direction."""
+    return ((str(row.slider), str(row.carrier), row.x, row.y, row.angle) for row in report.own["guides"])
+
+
+def further_points(report: Report) -> Iterator[Sequence[object]]:
+    """Further points of the links by their distances."""
+    return ((vocabulary.point(row.name), str(row.link), row.along, row.across) for row in report.own["points"])

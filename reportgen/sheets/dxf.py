@@ -1,0 +1,226 @@
+"""Drawing sheets → DXF: the items of the PDF, as a CAD program draws them; ezdxf writes the file.
+
+Everything stands 1:1 in model space, in millimetres, one sheet beside another's file; a paper-space layout
+shows it.  Layers go by meaning, a plate is a named group, and the same sheet gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import cmath
+import io
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from reportgen.base.units import Language
+from reportgen.drawing import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline, Stroke
+from reportgen.drawing.geometry import POINT
+from reportgen.drawing.sheet import CAPITAL, NARROW, Part, Sheet
+from reportgen.drawing.style import HEAD_SLENDERNESS, PAPER, arrow_head, clip_hatch
+from reportgen.formula import Symbol
+from reportgen.formula.plain import Plain
+from reportgen.formula.vocabulary import runs
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing
+
+LAYERS: dict[str, int] = {
+    "scheme": 7,
+    "positions": 7,
+    "velocity": 5,
+    "acceleration": 3,
+    "forces": 1,
+    "indicator": 6,
+    "curves": 4,
+    "tables": 7,
+    "axes": 8,
+    "hidden": 9,
+    "text": 7,
+    "frame": 7,
+}
+"""The colour index of each layer."""
+AXIS, HIDDEN = "CENTER", "HIDDEN"
+AXIS_PARTS = 4
+"""A pen of four dashes and gaps is that of an axis, one of two that of a hidden or construction line."""
+STYLE, FONT = "lc_opengost-ar", "arial.ttf"
+"""The text style's name, which LibreCAD takes for that of a stroke font of its own, and the font of all others.
+
+The second has all letters of Vietnamese.  None of LibreCAD's has; the first has Greek, the minus and other signs.
+"""
+WIDTHS = (13, 18, 25, 35, 50, 70, 100)
+"""Line weights that DXF knows, hundredths of a millimetre."""
+ATTACHMENT: dict[Anchor, int] = {
+    "top-left": 1,
+    "top": 2,
+    "top-right": 3,
+    "left": 4,
+    "center": 5,
+    "right": 6,
+    "bottom-left": 7,
+    "bottom": 8,
+    "bottom-right": 9,
+}
+SHADE = 254
+"""The colour index of a link's inside, a light gray."""
+STACK = 0.7
+"""Size of indices beside the letters they belong to."""
+
+
+def write_sheet(sheet: Sheet, language: Language) -> bytes:
+    """The DXF file (R2010) of a sheet."""
+    import ezdxf
+
+    # Dates and serial numbers would make each file another one.
+    ezdxf.options.write_fixed_meta_data_for_testing = True
+    document = ezdxf.new("R2010")
+    document.header["$INSUNITS"] = 4
+    document.header["$MEASUREMENT"] = 1
+    document.header["$LTSCALE"] = 1.0
+    document.styles.add(STYLE, font=FONT)
+    document.linetypes.add(AXIS, [8.0, 5.0, -1.0, 0.8, -1.2], description="axis ____ . ____")
+    document.linetypes.add(HIDDEN, [3.0, 2.0, -1.0], description="hidden __ __ __")
+    for name, colour in LAYERS.items():
+        linetype = {"axes": AXIS, "hidden": HIDDEN}.get(name, "CONTINUOUS")
+        document.layers.add(name, color=colour, linetype=linetype, lineweight=50 if name == "frame" else 35)
+    for part in sheet.parts:
+        _draw(document, part, MText(language))
+    _layout(document, sheet)
+    stream = io.StringIO()
+    document.write(stream)
+    return stream.getvalue().encode("utf-8")
+
+
+def _draw(document: Drawing, part: Part, texts: MText) -> None:
+    """The items of a part in model space, as one named group."""
+    group: list[Any]
+    with document.groups.new(part.name).edit_data() as group:
+        for item in part.scene.items:
+            group.extend(_entities(document, item, part, texts))
+
+
+def _layout(document: Drawing, sheet: Sheet) -> None:
+    """A page of the sheet's size with one window on all of it, 1:1."""
+    paper: Any = document.layout("Layout1")
+    paper.page_setup(size=(sheet.width, sheet.height), margins=(0, 0, 0, 0), units="mm")
+    size, middle = (sheet.width, sheet.height), (sheet.width / 2, sheet.height / 2)
+    paper.add_viewport(center=middle, size=size, view_center_point=middle, view_height=sheet.height)
+
+
+# --- items ----------------------------------------------------------------------------------------
+
+
+def _entities(document: Drawing, item: Item, part: Part, texts: MText) -> Iterator[Any]:
+    model: Any = document.modelspace()
+
+    def at(point: complex) -> tuple[float, float]:
+        moved = point + part.at
+        return round(moved.real, 6), round(moved.imag, 6)
+
+    def line(start: complex, end: complex, stroke: Stroke) -> Any:
+        return model.add_line(at(start), at(end), dxfattribs=_pen(part.layer, stroke))
+
+    def head(start: complex, end: complex, length: float) -> Iterator[Any]:
+        if triangle := arrow_head(start, end, length)[1]:
+            tip, left, right = triangle
+            back = (left + right) / 2 - tip
+            how = {"layer": part.layer, "rotation": math.degrees(cmath.phase(back)), "xscale": abs(back)}
+            yield model.add_blockref(_arrowhead(document), at(tip), dxfattribs={**how, "yscale": abs(back)})
+
+    match item:
+        case Line(start, end, stroke):
+            yield line(start, end, stroke)
+        case Arrow(start, end, stroke, length):
+            # The shaft goes on to the tip, so that a distance query finds the vector's own length.
+            yield line(start, end, stroke)
+            yield from head(start, end, length)
+        case Circle(centre, radius, outline, fill):
+            if fill is not None and fill != PAPER:
+                yield model.add_blockref(_disc(document, radius), at(centre), dxfattribs={"layer": part.layer})
+            if outline is not None:
+                yield model.add_circle(at(centre), radius, dxfattribs=_pen(part.layer, outline))
+        case Arc(centre, radius, start, stop, stroke, length):
+            low, high = sorted((math.degrees(start), math.degrees(stop)))
+            yield model.add_arc(at(centre), radius, low, high, dxfattribs=_pen(part.layer, stroke))
+            if length > 0:
+                tip = centre + cmath.rect(radius, stop)
+                tangent = 1j * cmath.rect(math.copysign(1.0, stop - start), stop)
+                yield from head(tip - 4 * length * tangent, tip, length)
+        case Polyline(points, outline, closed, fill):
+            if fill is not None and fill != PAPER and len(points) > 2:
+                hatch = model.add_hatch(color=SHADE, dxfattribs={"layer": part.layer})
+                hatch.paths.add_polyline_path(list(map(at, points)), is_closed=True)
+                yield hatch
+            if outline is not None and points:
+                corners = list(map(at, points))
+                yield model.add_lwpolyline(corners, close=closed, dxfattribs=_pen(part.layer, outline))
+        case Hatch(points, spacing, stroke, turn):
+            for start, end in clip_hatch(points, spacing, turn):
+                yield line(start, end, stroke)
+        case Label(where, content, anchor, size, turn):
+            attributes = {
+                "layer": "text",
+                "style": STYLE,
+                "char_height": round(CAPITAL * POINT * size, 4),
+                "attachment_point": ATTACHMENT[anchor],
+                "insert": at(where),
+                "rotation": turn,
+            }
+            yield model.add_mtext(texts.content(content), dxfattribs=attributes)
+
+
+def _arrowhead(document: Drawing) -> str:
+    """The block of all arrowheads, its tip at the origin, one unit long along x."""
+    name = "ARROWHEAD"
+    if name not in document.blocks:
+        block: Any = document.blocks.new(name)
+        half = HEAD_SLENDERNESS / 2
+        block.add_solid([(0, 0), (1, half), (1, -half)])
+    return name
+
+
+def _disc(document: Drawing, radius: float) -> str:
+    """The block of a black point of a radius (mm)."""
+    name = f"POINT_{1000 * radius:.0f}"
+    if name not in document.blocks:
+        block: Any = document.blocks.new(name)
+        hatch = block.add_hatch()
+        hatch.paths.add_edge_path().add_arc((0, 0), radius)
+    return name
+
+
+def _pen(layer: str, stroke: Stroke) -> dict[str, Any]:
+    """A pen's layer, weight and line type; narrow axes and lines of construction have layers of their own."""
+    weight = min(WIDTHS, key=lambda width: abs(width - 100 * stroke.width))
+    if not stroke.dash or layer == "frame":
+        return {"layer": layer, "lineweight": weight}
+    own, linetype = ("axes", AXIS) if len(stroke.dash) >= AXIS_PARTS else ("hidden", HIDDEN)
+    if stroke.width > NARROW:
+        return {"layer": layer, "lineweight": weight, "linetype": linetype}
+    return {"layer": own, "lineweight": weight}
+
+
+# --- text -----------------------------------------------------------------------------------------
+
+
+class MText(Plain):
+    """Formulas as MTEXT: Unicode, with indices stacked and set smaller."""
+
+    BELOW = f"%s{{\\H{STACK}x;\\S^ %s;}}"
+    RAISED = f"%s{{\\H{STACK}x;\\S%s^ ;}}"
+    NOTE = "  %s"
+
+    def text(self, text: str) -> str:
+        """A text with what MTEXT takes for orders made plain."""
+        escaped = text.replace("\\", "\\\\").replace("{", "\\{").replace("}", "\\}")
+        return escaped.replace("\n", "\\P").replace("^", "^ ")
+
+    def symbol(self, node: Symbol) -> str:
+        # Without the arrow of a vector: overlining is an order that not every program knows and some print.
+        # Digits within an index stand in its line: stacks do not nest.
+        return self.lowered(runs(node.base), self.text) + _stacked(self.text(node.sub), self.text(node.sup))
+
+
+def _stacked(below: str, above: str) -> str:
+    """An index and an exponent over one another."""
+    # Without the blank a caret and the letter after it would be a control character.
+    return f"{{\\H{STACK}x;\\S{above}^ {below};}}" if below or above else ""
