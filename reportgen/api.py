@@ -21,7 +21,7 @@ from reportgen.cases import open_case, opened
 from reportgen.report.case import Calculation
 
 if TYPE_CHECKING:
-    from reportgen.drawing.sheet import Sheet
+    from reportgen.drawing.sheet import DrawingSheet
     from reportgen.machine.analysis import Analysis
     from reportgen.marking.key import Ask
     from reportgen.report import Document
@@ -213,7 +213,7 @@ def sheet_files(
 
     case = open_case(path, language)
     sheets = case.sheets(size, sets, block)
-    writers: Mapping[str, Callable[[Sheet], bytes]] = {
+    writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {
         "pdf": lambda sheet: typst_run.compile(typst.write_sheet(sheet, case.title, case.assignment.language)),
         "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
     }

@@ -18,7 +18,7 @@ from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.units import Language
 from reportgen.drawing.film import Film
-from reportgen.drawing.sheet import Sheet
+from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import ids
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
@@ -108,7 +108,7 @@ class MachineCase(Calculation):
 
         return film(self)
 
-    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[Sheet]:
+    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
         from reportgen.sheets import drawing_sheets
 
         return drawing_sheets(self, size, sets, block)

@@ -48,7 +48,7 @@ class Student(Part):
     email: OneLine | None = None
 
 
-class Report(Part):
+class ReportSection(Part):
     """The report's language, cover and the positions written out in full (None: all).
 
     `school` names a folder of templates whose words stand before the common ones, `sheets` the size of the drawing
@@ -149,7 +149,7 @@ class Assignment:
 
     kind: str
     variant: str
-    report: Report
+    report: ReportSection
     positions: Positions
     drawing: Drawing
     parameters: Any
@@ -196,7 +196,7 @@ def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
     """Keys of the file beside `kind`: type and default (`...`: required); None gives the common ones."""
     common: dict[str, tuple[Any, Any]] = {
         "variant": (OneLine, ""),
-        "report": (Report, Report()),
+        "report": (ReportSection, ReportSection()),
         "positions": (Positions, Positions()),
         "drawing": (Drawing, Drawing()),
     }

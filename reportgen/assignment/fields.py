@@ -198,7 +198,7 @@ class Flag(Reader):
 
 
 @dataclass(frozen=True, slots=True)
-class Text(Reader):
+class TypedText(Reader):
     """One line of text, kept exactly as typed."""
 
     def read(self, value: object) -> str:
@@ -272,7 +272,7 @@ def quantity(unit: str, **ends: float) -> Quantity:
     return Quantity(unit, Interval(**ends))
 
 
-OneLine = Annotated[str, Text()]
+OneLine = Annotated[str, TypedText()]
 Date = Annotated[datetime.date, Day()]
 Length = Annotated[Given, quantity("mm", least=0.1, below=1e5)]
 Coordinate = Annotated[Given, quantity("mm", above=-1e5, below=1e5, tiny=1e-4)]

@@ -25,7 +25,7 @@ from reportgen.assignment.common import (
 )
 from reportgen.assignment.fields import RESERVED
 from reportgen.base.errors import Fault, Finding, Mark, Where
-from reportgen.base.source import List, Node, Scalar, Source, Table, plain, read_source
+from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_source
 from reportgen.base.units import Language
 from reportgen.base.words import DEFAULT_LANGUAGE, as_error, close_or_known
 
@@ -97,7 +97,7 @@ def placed(source: Source, findings: Iterable[Finding]) -> list[Fault]:
     return [] if top is None else [_placed(finding, top) for finding in findings]
 
 
-def misread(top: Table, kind: Kind) -> list[Fault]:
+def misread(top: MappingNode, kind: Kind) -> list[Fault]:
     """The faults that single values and keys show by themselves, without the checks of several values."""
     return [_placed(finding, top) for finding in _sections(plain(top), kind)[0]]
 
@@ -108,10 +108,10 @@ def language_of(source: Source) -> Language:
     return "en" if found and found[1] == "en" else DEFAULT_LANGUAGE
 
 
-def _top(source: Source) -> tuple[Table | None, list[Fault]]:
+def _top(source: Source) -> tuple[MappingNode | None, list[Fault]]:
     """The table at the top of a file, and the file's faults."""
     faults = list(source.faults)
-    if isinstance(source.top, Table):
+    if isinstance(source.top, MappingNode):
         return source.top, faults
     if source.top is not None and not faults:
         faults.append(Fault("wrong-type", source.top.mark, {"expected": "mapping"}))
@@ -272,17 +272,17 @@ def _alternatives(one: dict[str, Any], schema: dict[str, Any]) -> Iterator[dict[
         yield one
 
 
-def _placed(finding: Finding, top: Table) -> Fault:
+def _placed(finding: Finding, top: MappingNode) -> Fault:
     """The finding with its mark; what is missing stands at the key it is missing under."""
     node: Node = top
     key_mark = top.mark
     for step in finding.where:
-        entry = node.find(step) if isinstance(node, Table) else None
+        entry = node.find(step) if isinstance(node, MappingNode) else None
         if entry is not None:
             key, node = entry
             key_mark = key.mark
             continue
-        if isinstance(node, List) and isinstance(step, int) and step < len(node.items):
+        if isinstance(node, SequenceNode) and isinstance(step, int) and step < len(node.items):
             node = node.items[step]
             key_mark = node.mark
             continue

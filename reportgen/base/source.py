@@ -50,13 +50,13 @@ class Scalar:
 
 
 @dataclass(frozen=True, slots=True)
-class List:
+class SequenceNode:
     items: tuple[Node, ...]
     mark: Mark
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class MappingNode:
     """A mapping: its entries in the order of the file, each key once."""
 
     entries: tuple[tuple[Scalar, Node], ...]
@@ -66,7 +66,7 @@ class Table:
         return next((entry for entry in self.entries if entry[0].text == key), None)
 
 
-Node = Scalar | List | Table
+Node = Scalar | SequenceNode | MappingNode
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,9 +160,9 @@ def plain(node: Node) -> Any:
     match node:
         case Scalar(text, null=null):
             return None if null else text
-        case List(items):
+        case SequenceNode(items):
             return [plain(item) for item in items]
-        case Table(entries):
+        case MappingNode(entries):
             return {key.text: plain(value) for key, value in entries}
 
 
@@ -226,9 +226,9 @@ def _mark(place: yaml.Mark, file: str) -> Mark:
 def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
     mark = _mark(node.start_mark, file)
     if isinstance(node, yaml.SequenceNode):
-        return List(tuple(_node(item, file, faults) for item in node.value), mark)
+        return SequenceNode(tuple(_node(item, file, faults) for item in node.value), mark)
     if isinstance(node, yaml.MappingNode):
-        return Table(tuple(_entries(node, file, faults)), mark)
+        return MappingNode(tuple(_entries(node, file, faults)), mark)
     style = getattr(node, "style", None) or None  # libyaml calls that of a plain scalar ""
     if style is None and "\t" in node.value:
         faults.append(Fault("tab", mark))
@@ -289,10 +289,10 @@ _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 def at(node: Node | None, where: Where) -> Node | None:
     """The node at a place; None if there is none."""
     for step in where:
-        if isinstance(node, Table):
+        if isinstance(node, MappingNode):
             entry = node.find(step)
             node = entry[1] if entry else None
-        elif isinstance(node, List) and isinstance(step, int) and step < len(node.items):
+        elif isinstance(node, SequenceNode) and isinstance(step, int) and step < len(node.items):
             node = node.items[step]
         else:
             return None
@@ -304,17 +304,17 @@ def put(node: Node, where: Where, value: Node) -> Node:
     if not where:
         return value
     step, rest = where[0], where[1:]
-    if isinstance(node, List):
+    if isinstance(node, SequenceNode):
         items = tuple(put(item, rest, value) if k == step else item for k, item in enumerate(node.items))
         return replace(node, items=items)
-    entries = node.entries if isinstance(node, Table) else ()
+    entries = node.entries if isinstance(node, MappingNode) else ()
     if step not in [key.text for key, _ in entries]:
-        entries = (*entries, (Scalar(str(step), value.mark), Table((), value.mark)))
+        entries = (*entries, (Scalar(str(step), value.mark), MappingNode((), value.mark)))
     changed = tuple((key, put(old, rest, value) if key.text == step else old) for key, old in entries)
-    return Table(changed, node.mark)
+    return MappingNode(changed, node.mark)
 
 
-def without(table: Table, keys: Collection[str]) -> Table:
+def without(table: MappingNode, keys: Collection[str]) -> MappingNode:
     """The table without some of its keys."""
     return replace(table, entries=tuple(entry for entry in table.entries if entry[0].text not in keys))
 
@@ -324,7 +324,7 @@ def path_text(where: Where) -> str:
     return ".".join(map(str, where))
 
 
-def text_of(table: Table, source: str, original: Table) -> str:
+def text_of(table: MappingNode, source: str, original: MappingNode) -> str:
     """The file of a table whose unchanged parts are those of `original`, which was read from `source`."""
     kept = _block(table, original, source.splitlines(), 0)
     read = read_own(kept)
@@ -347,7 +347,7 @@ def _escaped(letter: str) -> str:
     return f"\\u{ord(letter):04x}" if ord(letter) < 0x10000 else f"\\U{ord(letter):08x}"
 
 
-def _block(table: Table, original: Table, lines: Sequence[str], depth: int) -> str:
+def _block(table: MappingNode, original: MappingNode, lines: Sequence[str], depth: int) -> str:
     """A table in block form: entries that are the very ones of the source by their lines, others anew."""
     spans = _spans(original, lines)
     text = ""
@@ -360,7 +360,7 @@ def _block(table: Table, original: Table, lines: Sequence[str], depth: int) -> s
             text = full + _entry(key, value, depth) + text[len(full) :]
         elif value is entry[1]:
             text += _joined(span)
-        elif isinstance(value, Table) and isinstance(entry[1], Table) and _is_block(entry[0], entry[1]):
+        elif isinstance(value, MappingNode) and isinstance(entry[1], MappingNode) and _is_block(entry[0], entry[1]):
             start = entry[0].mark.line - 1
             text += _joined(lines[start : entry[1].mark.line - 1])
             text += _block(value, entry[1], lines[: start + len(span)], entry[1].mark.column - 1)
@@ -373,11 +373,11 @@ def _joined(lines: Sequence[str]) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 
-def _is_block(key: Scalar, table: Table) -> bool:
+def _is_block(key: Scalar, table: MappingNode) -> bool:
     return bool(table.entries) and table.mark.line > key.mark.line and table.mark == table.entries[0][0].mark
 
 
-def _spans(table: Table, lines: Sequence[str]) -> dict[str, Sequence[str]]:
+def _spans(table: MappingNode, lines: Sequence[str]) -> dict[str, Sequence[str]]:
     """The lines of each entry, up to the next; none for entries that share lines."""
     keys = [key for key, _ in table.entries]
     starts = [key.mark.line for key in keys]
@@ -405,12 +405,12 @@ def _entry(key: Scalar, value: Node, depth: int) -> str:
     flow = _flow(value)
     if isinstance(value, Scalar) or len(space) + len(name) + len(flow) + 2 <= WIDTH:
         return f"{space}{name}: {flow}".rstrip() + "\n"
-    if isinstance(value, Table):
+    if isinstance(value, MappingNode):
         return f"{space}{name}:\n{_lines(value, depth + 2)}"
     return _joined([f"{space}{name}:", *(f"{space}  - {_flow(item)}" for item in value.items)])
 
 
-def _lines(table: Table, depth: int) -> str:
+def _lines(table: MappingNode, depth: int) -> str:
     return "".join(_entry(key, value, depth) for key, value in table.entries)
 
 
@@ -418,7 +418,7 @@ def _flow(node: Node) -> str:
     match node:
         case Scalar(text, null=null):
             return "" if null else quoted(text)
-        case List(items):
+        case SequenceNode(items):
             return f"[{', '.join(_flow(item) for item in items)}]"
-        case Table(entries):
+        case MappingNode(entries):
             return "{" + ", ".join(f"{quoted(key.text)}: {_flow(value)}".rstrip() for key, value in entries) + "}"

@@ -20,7 +20,7 @@ from string import Formatter
 from typing import Any
 
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem, TemplateError
-from reportgen.base.source import Source, Table, plain, read_own, read_words
+from reportgen.base.source import MappingNode, Source, plain, read_own, read_words
 from reportgen.base.units import Language
 
 DEFAULT_LANGUAGE: Language = "vi"
@@ -127,7 +127,7 @@ def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
     """The table that a file is, or the part of one below its first lines."""
     if source.faults:
         raise TemplateError("\n".join(f"{_below(fault.mark, above)}: {fault.code}" for fault in source.faults))
-    if not isinstance(source.top, Table):
+    if not isinstance(source.top, MappingNode):
         raise TemplateError(f"{_below(Mark(source.file), above)}: a table of words is wanted here")
     content: Mapping[str, Any] = plain(source.top)
     return content

@@ -24,7 +24,7 @@ from reportgen.formula import PI, Symbol, cis, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine, lettered
-from reportgen.machine.loads import Applied, Constant, Piston, course, crank_motion, gas_forces
+from reportgen.machine.loads import Applied, ConstantLaw, Piston, course, crank_motion, gas_forces
 
 TURNS = 1
 """Four strokes take two: the second turn's positions then count among those added to the first."""
@@ -196,7 +196,7 @@ def _constant(given: Parameters) -> tuple[Applied, ...]:
     """Constant forces that push the pistons towards the crank."""
     ends = ((3, "C", given.PC, given.alpha), (5, "E", given.PE, given.beta))
     return tuple(
-        Applied(ids.applied_force(link), link, pin, -cmath.exp(1j * axis.si), Constant(force.si))
+        Applied(ids.applied_force(link), link, pin, -cmath.exp(1j * axis.si), ConstantLaw(force.si))
         for link, pin, force, axis in ends
         if force is not None
     )

@@ -22,7 +22,7 @@ from reportgen.base.units import Given
 from reportgen.formula import ids
 from reportgen.machine import Linkage
 from reportgen.machine.gas import STROKES, AngleIndicator, Indicator, StrokeIndicator
-from reportgen.machine.loads import Constant, Law, Torque, by_angle, by_stroke, crank_motion, opposing
+from reportgen.machine.loads import ConstantLaw, Law, Torque, by_angle, by_stroke, crank_motion, opposing
 
 # --- the indicator diagram of a four-stroke engine --------------------------------------------------
 
@@ -114,7 +114,7 @@ class ConstantForce(Part):
         return by_stroke((0.0, 1.0), inward, outward)
 
 
-class OverStroke(Part):
+class ForceOverStroke(Part):
     """A row of forces for the way towards the crank and one for the way back, over s/H from the outer end."""
 
     by: Literal["stroke"]
@@ -130,7 +130,7 @@ class OverStroke(Part):
         return by_stroke(self.s, inward, outward)
 
 
-class OverAngle(Part):
+class ForceOverAngle(Part):
     """Forces over the crank's turn from the outer dead centre."""
 
     by: Literal["crank_angle"]
@@ -158,7 +158,7 @@ class PressingForce(Part):
         return by_stroke(self.s, down, tuple(0.0 for _ in down))
 
 
-WorkingForce = Annotated[ConstantForce | OverStroke | OverAngle, Field(discriminator="by")]
+WorkingForce = Annotated[ConstantForce | ForceOverStroke | ForceOverAngle, Field(discriminator="by")]
 
 
 FORCE_CHECKS = (
@@ -192,5 +192,5 @@ def torque_on(
     if given.sense == "opposing":
         law: Law = opposing(size, lambda angle: motion_at(angle).links[link].omega)
     else:
-        law = Constant(size if given.sense == "anticlockwise" else -size)
+        law = ConstantLaw(size if given.sense == "anticlockwise" else -size)
     return (Torque(ids.applied_torque(link), link, law),)

@@ -18,7 +18,7 @@ from reportgen.formula import Symbol, ids, turned
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, Constant, Law, crank_motion, opposing
+from reportgen.machine.loads import Applied, ConstantLaw, Law, crank_motion, opposing
 
 TURNS = 1
 BARS = {1: ("B", "A"), 2: ("A", "C"), 3: ("D", "C"), 4: ("E", "F")}
@@ -152,5 +152,5 @@ def _applied(given: Parameters, linkage: Linkage, positions: Positions, start: f
     if sense == "opposing":
         law: Law = opposing(size, lambda angle: motion_at(angle).points["F"].v.real)
     else:
-        law = Constant(size if sense == "right" else -size)
+        law = ConstantLaw(size if sense == "right" else -size)
     return (Applied("P5", 5, "F", 1 + 0j, law),)

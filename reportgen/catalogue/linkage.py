@@ -31,7 +31,7 @@ from reportgen.machine.loads import (
     FULL_TURN,
     AngleLaw,
     Applied,
-    Constant,
+    ConstantLaw,
     Floats,
     Law,
     MotionAt,
@@ -257,7 +257,7 @@ def _law(
     size = load.M if load.at is None else load.F
     assert size is not None, "a load without its size is refused by the kind's checks"
     if not load.against:
-        return Constant(size.si)
+        return ConstantLaw(size.si)
 
     def rate(motion: Motion) -> Floats:
         if load.at is None:

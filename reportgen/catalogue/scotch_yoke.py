@@ -18,7 +18,7 @@ from reportgen.formula import Chain, Symbol, cos, sin
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import FULL_TURN, Applied, Course, TableLaw
+from reportgen.machine.loads import FULL_TURN, Applied, Stroke, TableLaw
 
 TURNS = 1
 CHECKS = given_loads.FORCE_CHECKS
@@ -61,7 +61,7 @@ def machine(assignment: Assignment) -> Machine:
         gravity=-1j * given.g.si,
     )
     phase = (start + ROUND) % FULL_TURN - ROUND
-    course = Course(
+    course = Stroke(
         link=3,
         rod=2,
         pin="B",

@@ -25,7 +25,7 @@ import numpy as np
 from reportgen.formula import Chain, Expression, Number, Ref, Symbol, asin, cos, ids, signed, sin, sqrt, tan
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.loads import FULL_TURN, Course, Floats, halved
+from reportgen.machine.loads import FULL_TURN, Floats, Stroke, halved
 
 HALVINGS = 60
 """π halved so often is below the spacing of floats there."""
@@ -177,9 +177,9 @@ class OffsetSlider:
         low, _ = halved(low, high, lambda phi: before * self.acceleration(phi) > 0, HALVINGS)
         return float(low[0]), float(low[1])
 
-    def course(self, start: float, turns: int) -> Course:
+    def course(self, start: float, turns: int) -> Stroke:
         """The way of slider 3 in a machine that starts at φ = `start` and has a cycle of `turns` turns."""
-        return Course(
+        return Stroke(
             link=3,
             rod=2,
             pin="C",

@@ -17,7 +17,7 @@ from reportgen.catalogue.driven import natural_lines
 from reportgen.formula import PI, Chain, Expression, Number, Ref, Symbol, acos, asin, cos, ids, signed, sin, sqrt, tan
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.loads import FULL_TURN, Course, Floats
+from reportgen.machine.loads import FULL_TURN, Floats, Stroke
 
 ROUND = 1e-12
 DRAWN_CRANKS = (0.05, 0.04, 0.03, 0.025, 0.02, 0.015)
@@ -99,9 +99,9 @@ class Ram:
         along = side * self.lever * math.sin(theta) - self.link * math.sqrt(1 - rise**2)
         return self.crank.place(complex(along, self.height - self.crank.d))
 
-    def course(self, start: float) -> Course:
+    def course(self, start: float) -> Stroke:
         """The ram's way from the beginning of its working stroke, for a machine that starts at φ₁ = `start`."""
-        return Course(
+        return Stroke(
             link=5,
             rod=4,
             pin="E",

@@ -18,12 +18,12 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_problem, counted, title, word
 from reportgen.cases import open_case
 from reportgen.classes.platforms import Owner, StudentResult, fill, handed_in, read_sheets, zipped
-from reportgen.classes.roster import Student, assignment_files, comparable, folder_name, read_roster
+from reportgen.classes.roster import RosterEntry, assignment_files, comparable, folder_name, read_roster
 from reportgen.marking.feedback import feedback_book, feedback_document
 from reportgen.marking.grades import class_document, grade_rows, person
 from reportgen.marking.guard import Classmate
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Guide, Marking, Policy, Submission, open_guide
+from reportgen.marking.marks import Marking, MarkingScheme, Policy, Submission, marking_scheme
 from reportgen.marking.sheet import read_submission
 from reportgen.report.case import Key
 from reportgen.workbook import write_csv, write_xlsx
@@ -36,15 +36,15 @@ class Classroom:
     files: Mapping[str, Path]
     policy: Policy
     language: Language | None
-    people: Mapping[str, Student] = field(default_factory=dict)
+    people: Mapping[str, RosterEntry] = field(default_factory=dict)
     """What a roster says of the students, by the stem of their files."""
-    opened: dict[str, Guide] = field(default_factory=dict)
+    opened: dict[str, MarkingScheme] = field(default_factory=dict)
 
-    def guide(self, name: str) -> Guide:
+    def guide(self, name: str) -> MarkingScheme:
         """The marking guide of an assignment.  Raises `KeyError` for a name that no file has."""
         stem = comparable(name)
         if stem not in self.opened:
-            guide = open_guide(open_case(self.files[stem], self.language), self.policy)
+            guide = marking_scheme(open_case(self.files[stem], self.language), self.policy)
             known = self.people[stem].card if stem in self.people else {}
             student = {name: known[name] for name in ("name", "id", "class") if name in known}
             student |= dict(guide.key.student)
@@ -159,7 +159,7 @@ def grade(
     return Graded(tuple(marked), tuple(problems), missing, owners, emails)
 
 
-def _asked(guide: Guide, submission: Submission) -> Guide:
+def _asked(guide: MarkingScheme, submission: Submission) -> MarkingScheme:
     """The guide with the cells that the policy asks for; what else is filled in is judged but earns no marks."""
     policy = guide.policy
     filled = {id for id, _ in (*submission.values, *submission.problems)}

@@ -28,7 +28,7 @@ from reportgen import catalogue
 from reportgen.base.errors import Fault
 from reportgen.base.source import path_text
 from reportgen.cases import opened
-from reportgen.classes.roster import Roster, Student
+from reportgen.classes.roster import Roster, RosterEntry
 from reportgen.classes.spec import DRAWN_SECTIONS, Settings, Spec, place
 
 ATTEMPTS = 64
@@ -43,10 +43,10 @@ Key = frozenset[tuple[str, str]]
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class DrawnVariant:
     """A student's values: of the combination drawn, and over them those of the roster."""
 
-    student: Student
+    student: RosterEntry
     combination: Combination
     settings: Settings
 
@@ -68,7 +68,7 @@ class Draw:
     keys: dict[Combination, Key] = field(default_factory=dict)
     faults: list[Fault] = field(default_factory=list)
 
-    def each(self, roster: Roster) -> Iterator[Drawn]:
+    def each(self, roster: Roster) -> Iterator[DrawnVariant]:
         """The students' variants in the order of the roster; nobody's counts if there are `faults` in the end."""
         for student in roster.students:
             one = self._draw_for(student)
@@ -88,7 +88,7 @@ class Draw:
         """The number of usable variants where all of them are taken and some are shared, else None."""
         return len(self.taken) if any(count > 1 for count in self.taken.values()) else None
 
-    def _draw_for(self, student: Student) -> Drawn | None:
+    def _draw_for(self, student: RosterEntry) -> DrawnVariant | None:
         for combination in self._attempts(student):
             if not self.taken[self._key(student, combination)] and not self._faults(student, combination):
                 return self._drawn(student, combination)
@@ -104,27 +104,27 @@ class Draw:
                 break
         return None if found is None else self._drawn(student, found)
 
-    def _drawn(self, student: Student, combination: Combination) -> Drawn:
-        return Drawn(student, combination, self._settings(student, combination))
+    def _drawn(self, student: RosterEntry, combination: Combination) -> DrawnVariant:
+        return DrawnVariant(student, combination, self._settings(student, combination))
 
-    def _attempts(self, student: Student) -> Iterator[Combination]:
+    def _attempts(self, student: RosterEntry) -> Iterator[Combination]:
         spec = self.spec
         for attempt in range(ATTEMPTS):
             yield tuple(
                 pick(spec.name, spec.salt, student.id, axis.name, attempt, len(axis.choices)) for axis in spec.axes
             )
 
-    def _in_order(self, student: Student) -> Iterator[Combination]:
+    def _in_order(self, student: RosterEntry) -> Iterator[Combination]:
         spec, size = self.spec, self.spec.size
         start = pick(spec.name, spec.salt, student.id, "scan", 0, size)
         for step in range(min(size, MOST_TRIED)):
             yield spec.combination((start + step) % size)
 
-    def _settings(self, student: Student, combination: Combination) -> Settings:
+    def _settings(self, student: RosterEntry, combination: Combination) -> Settings:
         overridden = {place(self.spec.kind, name): value for name, value in student.overrides.items()}
         return {**self.spec.settings(combination), **overridden}
 
-    def _key(self, student: Student, combination: Combination) -> Key:
+    def _key(self, student: RosterEntry, combination: Combination) -> Key:
         """That of a student without values of his or her own is found once a combination."""
         if student.overrides:
             return _key(self._settings(student, combination))
@@ -132,13 +132,13 @@ class Draw:
             self.keys[combination] = _key(self._settings(student, combination))
         return self.keys[combination]
 
-    def _faults(self, student: Student, combination: Combination) -> tuple[Fault, ...]:
+    def _faults(self, student: RosterEntry, combination: Combination) -> tuple[Fault, ...]:
         key = self._key(student, combination)
         if key not in self.judged:
             self.judged[key] = self.judge(self._settings(student, combination))
         return self.judged[key]
 
-    def _reasons(self, student: Student) -> list[Fault]:
+    def _reasons(self, student: RosterEntry) -> list[Fault]:
         """Why the first combinations fail."""
         found: dict[tuple[str, str], Fault] = {}
         for combination in self._attempts(student):
@@ -148,7 +148,7 @@ class Draw:
                 break
         return list(found.values())[:MOST_REASONS]
 
-    def _faults_of_roster(self, student: Student) -> list[Fault]:
+    def _faults_of_roster(self, student: RosterEntry) -> list[Fault]:
         """The reasons at the cells of the student's own values, or else the first reason at the first cell."""
         cells = [value.mark for value in student.overrides.values()]
         reasons = self._reasons(student)
@@ -162,9 +162,9 @@ def _key(settings: Settings) -> Key:
     return frozenset((path_text(where), value.text.strip()) for where, value in drawn)
 
 
-def shared(drawn: Iterable[Drawn]) -> list[tuple[Drawn, ...]]:
+def shared(drawn: Iterable[DrawnVariant]) -> list[tuple[DrawnVariant, ...]]:
     """Students with the same variant, together."""
-    groups: dict[Key, list[Drawn]] = {}
+    groups: dict[Key, list[DrawnVariant]] = {}
     for one in drawn:
         groups.setdefault(_key(one.settings), []).append(one)
     return [tuple(group) for group in groups.values() if len(group) > 1]

@@ -22,12 +22,12 @@ from typing import get_args
 
 from pydantic_core import PydanticCustomError
 
-from reportgen.assignment.fields import RESERVED, Text
+from reportgen.assignment.fields import RESERVED, TypedText
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.source import Scalar
 from reportgen.base.units import NUMBER, UNIT, Language
 from reportgen.base.words import as_error, as_problem, messages
-from reportgen.workbook import Cell, Page, read
+from reportgen.workbook import Page, SheetCell, read
 
 FIRST_ROWS = 20
 """How far down the headings are looked for, below a title."""
@@ -36,7 +36,7 @@ _NUMBER = re.compile(NUMBER)
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class RosterColumn:
     """A heading: `name` is one of the known columns or what was typed, `unit` what stood in brackets after it."""
 
     index: int
@@ -74,7 +74,7 @@ def folded(text: str) -> str:
     return " ".join(unicodedata.normalize("NFC", text).casefold().split()).rstrip(" .:*")
 
 
-def columns(row: Sequence[Cell]) -> list[Column]:
+def columns(row: Sequence[SheetCell]) -> list[RosterColumn]:
     """The headings of a row; empty ones are left out."""
     found = []
     for index, cell in enumerate(row):
@@ -83,7 +83,7 @@ def columns(row: Sequence[Cell]) -> list[Column]:
         match = None if known else _WITH_UNIT.fullmatch(title)
         name, unit = (match[1], match[2]) if match else (title, "")
         if title:
-            found.append(Column(index, known or _known_columns().get(folded(name)) or name, unit, cell.mark))
+            found.append(RosterColumn(index, known or _known_columns().get(folded(name)) or name, unit, cell.mark))
     return found
 
 
@@ -93,7 +93,7 @@ def heading_row(page: Page, wanted: str) -> int | None:
     return next((k for k, row in rows if any(column.name == wanted for column in columns(row))), None)
 
 
-def records(page: Page, headings: Sequence[Column], start: int, faults: list[Fault]) -> Iterator[Record]:
+def records(page: Page, headings: Sequence[RosterColumn], start: int, faults: list[Fault]) -> Iterator[Record]:
     """The rows from index `start` on that hold something.
 
     Faults are headings that stand for a column there is already, and cells that show no value.
@@ -141,7 +141,7 @@ _LIKE_HASHED = re.compile(rf".*-[0-9A-F]{{{HASH_DIGITS}}}")
 
 
 @dataclass(frozen=True, slots=True)
-class Student:
+class RosterEntry:
     """A row of the roster.
 
     `card` is what it says of the student, by the keys of `report.student`; `overrides` are values with their
@@ -166,11 +166,11 @@ class Student:
 class Roster:
     """The students in the order of the table; `columns` are the headings of values they override."""
 
-    students: tuple[Student, ...]
-    columns: tuple[Column, ...] = ()
+    students: tuple[RosterEntry, ...]
+    columns: tuple[RosterColumn, ...] = ()
 
 
-Assigned = tuple[Student, Path | Problem]
+Assigned = tuple[RosterEntry, Path | Problem]
 """A student with the assignment file, or with the reason why there is none."""
 
 
@@ -221,9 +221,9 @@ def _page(pages: Sequence[Page]) -> tuple[Page, int | None]:
     return (full[0] if full else Page("", ())), None
 
 
-def _used(headings: Sequence[Column]) -> list[Column]:
+def _used(headings: Sequence[RosterColumn]) -> list[RosterColumn]:
     """The headings that count: all ids and paths, which must not be repeated, and the first of each other."""
-    used: list[Column] = []
+    used: list[RosterColumn] = []
     taken: set[str] = set()
     for column in headings:
         optional = column.name in (*PERSONAL, *NAME_PARTS)
@@ -233,18 +233,18 @@ def _used(headings: Sequence[Column]) -> list[Column]:
     return used
 
 
-def _normal(column: Column, faults: list[Fault]) -> Column:
+def _normal(column: RosterColumn, faults: list[Fault]) -> RosterColumn:
     """A column whose heading is a path, its section's name in small letters; a misspelt section is a fault."""
     match = _PATH.fullmatch(column.name)
     if match is None:
         return column
     section = match[1].casefold()
     if section in SECTIONS:
-        return Column(column.index, f"{section}{match[2]}", column.unit, column.mark)
+        return RosterColumn(column.index, f"{section}{match[2]}", column.unit, column.mark)
     close = difflib.get_close_matches(section, SECTIONS, n=1, cutoff=0.7)
     if close:
         faults.append(Fault("unknown-column", column.mark, {"key": column.name, "close": f"{close[0]}{match[2]}"}))
-    return Column(column.index, "", "", column.mark)
+    return RosterColumn(column.index, "", "", column.mark)
 
 
 def _unfit(row: Record) -> Iterable[Fault]:
@@ -252,7 +252,7 @@ def _unfit(row: Record) -> Iterable[Fault]:
     for name in (*PERSONAL, *NAME_PARTS):
         if name in row.values:
             try:
-                Text().read(row.values[name].text)
+                TypedText().read(row.values[name].text)
             except PydanticCustomError as error:
                 context = {key: str(value) for key, value in (error.context or {}).items()}
                 yield Fault(context.pop("code"), row.values[name].mark, context)
@@ -272,11 +272,11 @@ def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
             yield Fault("duplicate-id", id.mark, {"text": id.text, "place": str(first).removeprefix(f"{first.file}:")})
 
 
-def _student(row: Record) -> Student:
+def _student(row: Record) -> RosterEntry:
     parts = (value.text for name, value in row.values.items() if name in NAME_PARTS)
     texts = {"name": " ".join(parts), **{name: value.text for name, value in row.values.items()}}
     overrides = {name: value for name, value in row.values.items() if _PATH.fullmatch(name)}
-    return Student({name: texts[name] for name in PERSONAL if texts.get(name)}, overrides, row.mark)
+    return RosterEntry({name: texts[name] for name in PERSONAL if texts.get(name)}, overrides, row.mark)
 
 
 def folder_name(id: str) -> str:
@@ -320,7 +320,7 @@ def assignment_files(folder: Path, language: Language | None) -> dict[str, Path]
 
 
 def match_files(
-    students: Sequence[Student], folder: Path, language: Language | None
+    students: Sequence[RosterEntry], folder: Path, language: Language | None
 ) -> tuple[list[Assigned], list[Path]]:
     """Each student with the file in `folder` or below whose stem is the id, and the files of no student.
 

@@ -23,7 +23,7 @@ from reportgen.base.files import held, put_file, reported, scratch
 from reportgen.base.units import Language, write
 from reportgen.base.words import DEFAULT_LANGUAGE, as_problem, counted, word
 from reportgen.classes.pool import Job, Outcome, Pool, failed, local, making
-from reportgen.classes.roster import Assigned, Roster, Student, match_files, read_roster
+from reportgen.classes.roster import Assigned, Roster, RosterEntry, match_files, read_roster
 from reportgen.classes.variants import make_variants
 from reportgen.marking.key import Ask
 
@@ -141,7 +141,7 @@ def _run(
     how = {name: making(order.engine, order.language, _asked(order, name)) for name in makers}
     kept: list[Job] = []
     jobs: list[Job] = []
-    refused: list[tuple[Student, Problem]] = []
+    refused: list[tuple[RosterEntry, Problem]] = []
     for student, file in assigned:
         read = _read(file, order.language)
         if isinstance(read, Problem):

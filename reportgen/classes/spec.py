@@ -27,10 +27,21 @@ from reportgen import catalogue
 from reportgen.assignment.common import Kind
 from reportgen.assignment.reading import allowed_forms, known_keys, language_of, misread
 from reportgen.base.errors import Fault, Mark, Where
-from reportgen.base.source import List, Node, Scalar, Source, Table, at, path_text, put, read_source, without
+from reportgen.base.source import (
+    MappingNode,
+    Node,
+    Scalar,
+    SequenceNode,
+    Source,
+    at,
+    path_text,
+    put,
+    read_source,
+    without,
+)
 from reportgen.base.units import NUMBER, Language, QuantityFault, read_number, read_quantity, read_unit
 from reportgen.base.words import as_error, close_or_known, kinds
-from reportgen.classes.roster import Column, columns, records
+from reportgen.classes.roster import RosterColumn, columns, records
 from reportgen.workbook import read
 
 OWN_KEYS = ("variants", "salt")
@@ -54,7 +65,7 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True)
-class Axis:
+class DrawnParameter:
     """What is drawn by itself: its path ("parameters.H", or "variants") and its choices."""
 
     name: str
@@ -70,12 +81,12 @@ class Spec:
 
     path: Path
     text: str
-    whole: Table
+    whole: MappingNode
     """The file as it stands."""
-    top: Table
+    top: MappingNode
     """The same without the keys that only a spec has."""
     kind: Kind
-    axes: tuple[Axis, ...]
+    axes: tuple[DrawnParameter, ...]
     salt: str
     digest: str
     language: Language
@@ -133,7 +144,7 @@ class Spec:
         """The assignment file with `settings` in place of the choices."""
         return Source(str(self.path), self.text, assembled(self.top, settings))
 
-    def column_faults(self, overriding: Iterable[Column]) -> list[Fault]:
+    def column_faults(self, overriding: Iterable[RosterColumn]) -> list[Fault]:
         """Faults of a roster's headings that set what this kind of machine does not have."""
         return [fault for column in overriding for fault in _no_place(self.kind, self.top, column)]
 
@@ -145,7 +156,7 @@ def read_spec(path: Path, language: Language | None = None) -> Spec:
     top = source.top
     name = at(top, ("kind",))
     named = isinstance(name, Scalar) and name.text in kinds()
-    if source.faults or not isinstance(top, Table) or not isinstance(name, Scalar) or not named:
+    if source.faults or not isinstance(top, MappingNode) or not isinstance(name, Scalar) or not named:
         raise as_error(catalogue.assess(source, path)[1], language)
     kind = catalogue.kind(name.text)
     faults: list[Fault] = []
@@ -158,7 +169,7 @@ def read_spec(path: Path, language: Language | None = None) -> Spec:
         file = path.parent / table.text
         rows = _rows(file, kind, base, faults, language)
         faults += _given_twice(base, axes, rows)
-        axes.append(Axis("variants", rows))
+        axes.append(DrawnParameter("variants", rows))
         if not faults:
             digest.update(file.read_bytes())
     salted = salt.text if salt else ""
@@ -179,12 +190,12 @@ def read_spec(path: Path, language: Language | None = None) -> Spec:
     return spec
 
 
-def assembled(top: Table, settings: Settings) -> Table:
+def assembled(top: MappingNode, settings: Settings) -> MappingNode:
     """The file with some values set."""
     node: Node = top
     for where, value in settings.items():
         node = put(node, where, value)
-    assert isinstance(node, Table), "no place is the top of the file"
+    assert isinstance(node, MappingNode), "no place is the top of the file"
     return node
 
 
@@ -197,7 +208,7 @@ def place(kind: Kind, name: str) -> Where:
     return where
 
 
-def _own_text(top: Table, key: str, faults: list[Fault]) -> Scalar | None:
+def _own_text(top: MappingNode, key: str, faults: list[Fault]) -> Scalar | None:
     entry = top.find(key)
     if entry is None or (isinstance(entry[1], Scalar) and entry[1].null):
         return None
@@ -210,28 +221,28 @@ def _own_text(top: Table, key: str, faults: list[Fault]) -> Scalar | None:
 # --- lists and ranges -------------------------------------------------------------------------------
 
 
-def _axes(node: Node, where: Where, kind: Kind, faults: list[Fault]) -> Iterator[Axis]:
+def _axes(node: Node, where: Where, kind: Kind, faults: list[Fault]) -> Iterator[DrawnParameter]:
     """Lists and ranges that stand where the model wants one value."""
     forms = allowed_forms(kind, where)
     one_value = "scalar" in forms and bool(where) and where[0] in DRAWN_SECTIONS
     match node:
-        case List() if one_value and "list" not in forms:
+        case SequenceNode() if one_value and "list" not in forms:
             yield _axis(where, _listed(node, faults))
-        case List(items):
+        case SequenceNode(items):
             for index, item in enumerate(items):
                 yield from _axes(item, (*where, index), kind, faults)
-        case Table() if one_value and "table" not in forms:
+        case MappingNode() if one_value and "table" not in forms:
             yield _axis(where, _stepped(node, faults))
-        case Table(entries):
+        case MappingNode(entries):
             for key, value in entries:
                 yield from _axes(value, (*where, key.text), kind, faults)
 
 
-def _axis(where: Where, values: Sequence[Scalar]) -> Axis:
-    return Axis(path_text(where), tuple(Choice(value.text, {where: value}) for value in values))
+def _axis(where: Where, values: Sequence[Scalar]) -> DrawnParameter:
+    return DrawnParameter(path_text(where), tuple(Choice(value.text, {where: value}) for value in values))
 
 
-def _listed(node: List, faults: list[Fault]) -> tuple[Scalar, ...]:
+def _listed(node: SequenceNode, faults: list[Fault]) -> tuple[Scalar, ...]:
     """The choices of a list."""
     if not node.items:
         faults.append(Fault("too-few", node.mark, {"least": "1"}))
@@ -249,7 +260,7 @@ def _listed(node: List, faults: list[Fault]) -> tuple[Scalar, ...]:
     return tuple(values.values())
 
 
-def _stepped(node: Table, faults: list[Fault]) -> tuple[Scalar, ...]:
+def _stepped(node: MappingNode, faults: list[Fault]) -> tuple[Scalar, ...]:
     """The choices of a range: from, from + step, …, up to `to` inclusive, in the unit of `from`.
 
     Steps are added in decimal numbers, so that 0.1 steps give 0.3.  None if something is at fault.
@@ -279,7 +290,7 @@ def _stepped(node: Table, faults: list[Fault]) -> tuple[Scalar, ...]:
     return ()
 
 
-def _ends(node: Table, faults: list[Fault]) -> Iterator[Scalar]:
+def _ends(node: MappingNode, faults: list[Fault]) -> Iterator[Scalar]:
     """The scalars of from, to and step, as far as they are there; the rest are faults."""
     for key, _ in node.entries:
         if key.text not in RANGE_KEYS:
@@ -310,7 +321,7 @@ def _typed(number: Decimal) -> str:
 # --- the table of variants --------------------------------------------------------------------------
 
 
-def _rows(file: Path, kind: Kind, base: Table, faults: list[Fault], language: Language) -> tuple[Choice, ...]:
+def _rows(file: Path, kind: Kind, base: MappingNode, faults: list[Fault], language: Language) -> tuple[Choice, ...]:
     """The rows of a table of variants; raises `AssignmentError` if it cannot be read at all."""
     pages = read(file, language)
     page = next((page for page in pages if any(page.rows)), pages[0])
@@ -332,7 +343,7 @@ def _rows(file: Path, kind: Kind, base: Table, faults: list[Fault], language: La
     return tuple(rows)
 
 
-def _no_place(kind: Kind, base: Table, column: Column) -> Iterator[Fault]:
+def _no_place(kind: Kind, base: MappingNode, column: RosterColumn) -> Iterator[Fault]:
     """The fault of a heading that names no place where a single value can stand, or an item no list has."""
     where = place(kind, column.name)
     items = [where[: k + 1] for k, step in enumerate(where) if isinstance(step, int)]
@@ -342,7 +353,7 @@ def _no_place(kind: Kind, base: Table, column: Column) -> Iterator[Fault]:
         yield Fault("unknown-column", column.mark, {"key": column.name, **hint})
 
 
-def _given_twice(base: Table, axes: Iterable[Axis], rows: Iterable[Choice]) -> Iterator[Fault]:
+def _given_twice(base: MappingNode, axes: Iterable[DrawnParameter], rows: Iterable[Choice]) -> Iterator[Fault]:
     """Values of the spec that a column of the table sets too."""
     drawn = {axis.name for axis in axes}
     for where in dict.fromkeys(where for row in rows for where in row.settings):

@@ -22,11 +22,11 @@ from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import Fault, Mark, Where
 from reportgen.base.files import put_file
-from reportgen.base.source import Node, Scalar, Source, Table, at, path_text, put, quoted, read_source, text_of
+from reportgen.base.source import MappingNode, Node, Scalar, Source, at, path_text, put, quoted, read_source, text_of
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, version, word
 from reportgen.cases import opened
-from reportgen.classes.draw import Draw, Drawn, judge_of, shared
+from reportgen.classes.draw import Draw, DrawnVariant, judge_of, shared
 from reportgen.classes.pool import Limits, each_within
 from reportgen.classes.roster import read_roster
 from reportgen.classes.spec import Spec, assembled, read_spec
@@ -60,11 +60,11 @@ State = Literal["new", "changed", "same", "kept"]
 class StudentFile:
     """A student's assignment file: whose it is, where it belongs, what is to be done with it, what it says as drawn."""
 
-    drawn: Drawn
+    drawn: DrawnVariant
     path: Path
     state: State
     text: str
-    top: Table
+    top: MappingNode
 
     @cached_property
     def source(self) -> Source:
@@ -154,7 +154,7 @@ def _refuse(faults: Sequence[Fault], spec: Spec) -> None:
 # --- a student's file -------------------------------------------------------------------------------
 
 
-def _student_file(spec: Spec, drawn: Drawn, folder: Path, force: bool) -> StudentFile:
+def _student_file(spec: Spec, drawn: DrawnVariant, folder: Path, force: bool) -> StudentFile:
     """The assignment file of a student in `folder`; one there that was edited is kept unless `force`."""
     top = _table(spec, drawn)
     body = text_of(top, spec.text, spec.whole)
@@ -179,7 +179,7 @@ def _digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _head(spec: Spec, drawn: Drawn, body: str) -> str:
+def _head(spec: Spec, drawn: DrawnVariant, body: str) -> str:
     """Comments; what a user wrote is quoted, so that no line can end in it."""
     origin = {"version": version(), "spec": quoted(spec.path.name), "digest": spec.digest, "salt": quoted(spec.salt)}
     lines = (
@@ -190,19 +190,19 @@ def _head(spec: Spec, drawn: Drawn, body: str) -> str:
     return "".join(f"# {line}\n" for line in lines)
 
 
-def _table(spec: Spec, drawn: Drawn) -> Table:
+def _table(spec: Spec, drawn: DrawnVariant) -> MappingNode:
     """What the file says: the spec with the student's card and what was drawn."""
-    card = Table(tuple((_scalar(key), _scalar(text)) for key, text in drawn.student.card.items()), _HERE)
+    card = MappingNode(tuple((_scalar(key), _scalar(text)) for key, text in drawn.student.card.items()), _HERE)
     top: Node = put(assembled(spec.top, drawn.settings), ("report", "student"), card)
     if at(top, ("report", "language")) is None:
         top = put(top, ("report", "language"), _scalar(spec.language))
     if spec.axes:
         top = put(top, ("variant",), _scalar(spec.label(drawn.combination)))
-    assert isinstance(top, Table), "keys are put into a table"
+    assert isinstance(top, MappingNode), "keys are put into a table"
     # The kind and the variant stand before all else.
     first = {"kind": 0, "variant": 1}
     entries = sorted(top.entries, key=lambda entry: first.get(entry[0].text, 2))
-    return Table(tuple(entries), top.mark)
+    return MappingNode(tuple(entries), top.mark)
 
 
 def _scalar(text: str) -> Scalar:

@@ -17,7 +17,7 @@ Anchor = Literal["center", "left", "right", "top", "bottom", "top-left", "top-ri
 
 
 @dataclass(frozen=True, slots=True)
-class Stroke:
+class Pen:
     """A pen: width in mm, colour as #rrggbb, dashes (on, off, …) in mm; empty dashes draw solid."""
 
     width: float = 0.25
@@ -29,7 +29,7 @@ class Stroke:
 class Line:
     start: complex
     end: complex
-    stroke: Stroke = Stroke()
+    stroke: Pen = Pen()
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ class Arrow:
 
     start: complex
     end: complex
-    stroke: Stroke = Stroke()
+    stroke: Pen = Pen()
     head: float = 2.6
     name: str = ""
 
@@ -50,7 +50,7 @@ class Arrow:
 class Circle:
     centre: complex
     radius: float
-    stroke: Stroke | None = Stroke()
+    stroke: Pen | None = Pen()
     fill: str | None = None
 
 
@@ -65,14 +65,14 @@ class Arc:
     radius: float
     start: float
     stop: float
-    stroke: Stroke = Stroke()
+    stroke: Pen = Pen()
     head: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class Polyline:
     points: tuple[complex, ...]
-    stroke: Stroke | None = Stroke()
+    stroke: Pen | None = Pen()
     closed: bool = False
     fill: str | None = None
 
@@ -86,7 +86,7 @@ class Hatch:
 
     points: tuple[complex, ...]
     spacing: float = 1.2
-    stroke: Stroke = Stroke(0.13)
+    stroke: Pen = Pen(0.13)
     turn: float = 0.0
 
 

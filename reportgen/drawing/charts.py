@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.base.units import nice_up
-from reportgen.drawing import Circle, Content, Item, Label, Line, Polyline, Scene, Stroke, style
+from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import box, clusters
-from reportgen.drawing.labels import Draft, Request, finish, joined, label
+from reportgen.drawing.labels import Canvas, Request, finish, joined, label
 from reportgen.formula import Chain, Number, Symbol
 
 WIDTH, HEIGHT = 128.0, 62.0
@@ -33,15 +33,15 @@ POLAR_SIZE = 84.0
 POLAR_PAIRS = 58.0, 54.0, 50.0
 """Of one that stands beside another if it is narrow enough then, mm."""
 PENS = (
-    Stroke(0.4, style.BLUE),
-    Stroke(0.4, style.RED, style.DASHED),
-    Stroke(0.4, style.BLACK, style.CHAIN),
-    Stroke(0.4, style.GRAY, style.DOTTED),
+    Pen(0.4, style.BLUE),
+    Pen(0.4, style.RED, style.DASHED),
+    Pen(0.4, style.BLACK, style.CHAIN),
+    Pen(0.4, style.GRAY, style.DOTTED),
 )
 """One curve after the other, distinguished by dashes as well as by colour."""
-GRID = Stroke(0.1, style.PALE)
-EDGE = Stroke(0.25)
-MEAN = Stroke(0.25, style.BLACK, (4.0, 1.0, 0.8, 1.0))
+GRID = Pen(0.1, style.PALE)
+EDGE = Pen(0.25)
+MEAN = Pen(0.25, style.BLACK, (4.0, 1.0, 0.8, 1.0))
 MARK = 0.75
 """Radius of the circle at a marked point, mm."""
 
@@ -53,7 +53,7 @@ ROW, BAR = 6.0, 4.0
 """From one horizontal bar to the next, and their thickness, mm."""
 COLUMN_HEIGHT = 55.0
 """Of a histogram, mm."""
-OUTLINE = Stroke(0.3, style.BLUE)
+OUTLINE = Pen(0.3, style.BLUE)
 TICKS = 6
 BETWEEN = 1.0
 """White between the figures of an axis at least, mm."""
@@ -62,7 +62,7 @@ Vertices = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
-class Series:
+class PlottedCurve:
     """One curve: x [K] and y [K], its label, and indices of the points that get a mark."""
 
     label: Content
@@ -121,7 +121,7 @@ class Plotted:
 
 
 def chart(
-    series: Sequence[Series],
+    series: Sequence[PlottedCurve],
     x_label: Content,
     y_label: Content,
     *,
@@ -135,7 +135,7 @@ def chart(
 
 
 def plotted(
-    series: Sequence[Series],
+    series: Sequence[PlottedCurve],
     x_label: Content,
     y_label: Content,
     *,
@@ -167,14 +167,14 @@ def plotted(
     items += _titles(window, x_label, y_label, items, area is not None)
     scales = _scale(x_label, window.x, window.width, turn), _scale(y_label, window.y, window.height)
     notes = scales if area is not None else ()
-    scene = finish(Draft(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN)
+    scene = finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN)
     # The frame is the first closed line; finishing moves all items alike.
     frame = next(item for item in scene.items if isinstance(item, Polyline) and item.closed)
     return Plotted(scene, frame.points[0], frame.points[2], window.x, window.y)
 
 
 def polar(
-    series: Series,
+    series: PlottedCurve,
     x_label: Content,
     y_label: Content = "",
     *,
@@ -201,7 +201,7 @@ def polar(
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
     items += _titles(window, x_label, y_label, items, area is not None)
     notes = () if area is None else (_scale(x_label, window.x, window.width),)
-    return finish(Draft(tuple(items), tuple(requests)), notes=notes, title=title, margin=2.0)
+    return finish(Canvas(tuple(items), tuple(requests)), notes=notes, title=title, margin=2.0)
 
 
 def bars(names: Sequence[Content], counts: Sequence[int], x_label: Content) -> Scene:
@@ -223,7 +223,7 @@ def bars(names: Sequence[Content], counts: Sequence[int], x_label: Content) -> S
         items.append(Label(complex(-1.5, y), name, "right", style.SMALL))
     items.append(Line(0j, complex(0, height), EDGE))
     items.append(Label(complex(length / 2, -8.5), x_label))
-    return finish(Draft(tuple(items)), margin=1.5)
+    return finish(Canvas(tuple(items)), margin=1.5)
 
 
 def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y_label: Content) -> Scene:
@@ -244,14 +244,14 @@ def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y
     items.append(Line(0j, complex(width * len(counts), 0), EDGE))
     items.append(Label(complex(width * len(counts) / 2, -8.5), x_label))
     items.append(Label(complex(-9.0, COLUMN_HEIGHT / 2), y_label, turn=90))
-    return finish(Draft(tuple(items)), margin=1.5)
+    return finish(Canvas(tuple(items)), margin=1.5)
 
 
 # --- curves ---------------------------------------------------------------------------------------
 
 
 def _window(
-    series: Sequence[Series], levels: Sequence[float], turn: bool, half: bool, area: Area | None
+    series: Sequence[PlottedCurve], levels: Sequence[float], turn: bool, half: bool, area: Area | None
 ) -> tuple[_Window, list[float], list[float]]:
     """Ranges and ticks: whole multiples of 45, 90 or 180 degrees across, matplotlib's choice upwards."""
     from matplotlib.ticker import MaxNLocator, MultipleLocator
@@ -336,7 +336,7 @@ def _with_room(window: _Window, ticks: Sequence[float], unit: str) -> list[float
     return [tick for tick in ticks if round(tick / step) % stride == 0]
 
 
-def _box(low: complex, high: complex, pen: Stroke, fill: str | None = None) -> Polyline:
+def _box(low: complex, high: complex, pen: Pen, fill: str | None = None) -> Polyline:
     corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
     return Polyline(corners, pen, closed=True, fill=fill)
 
@@ -395,10 +395,10 @@ def _paths(vertices: Vertices) -> list[tuple[complex, ...]]:
     return [tuple(part) for part in parts if len(part) > 1]
 
 
-def _marked(series: Series, vertices: Vertices, pen: Stroke, items: list[Item]) -> list[Request]:
+def _marked(series: PlottedCurve, vertices: Vertices, pen: Pen, items: list[Item]) -> list[Request]:
     """Circles at the marked points (added to the items) and requests for their names."""
     where = [complex(*vertices[i]) for i in series.marks]
-    solid = Stroke(0.25, pen.colour)
+    solid = Pen(0.25, pen.colour)
     items += [Circle(at, MARK, solid, style.PAPER) for at in where if np.isfinite(at)]
     named = [(at, name) for at, name in zip(where, series.names, strict=False) if np.isfinite(at)]
     return [

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from reportgen.drawing import Circle, Content, Item, Polyline, Stroke, style
+from reportgen.drawing import Circle, Content, Item, Pen, Polyline, style
 from reportgen.drawing.charts import Plotted
 from reportgen.drawing.geometry import bounds
 from reportgen.drawing.plan import PENS, Construction
@@ -58,12 +58,12 @@ class Carried:
 
 
 @dataclass(frozen=True, slots=True)
-class Vector:
+class MovingVector:
     """An arrow between two tracks, or with no `head` a line, `beyond` mm longer than its end."""
 
     start: Track
     end: Track
-    stroke: Stroke
+    stroke: Pen
     head: float = style.HEAD
     label: Content | None = None
     name: str = ""
@@ -72,7 +72,7 @@ class Vector:
 
 
 @dataclass(frozen=True, slots=True)
-class Name:
+class MovingName:
     """A label at a track, on the side away from its `neighbours`."""
 
     content: Content
@@ -93,7 +93,7 @@ class Spot:
     acceleration: Track
 
 
-MovingItem = Still | Carried | Vector | Name
+MovingItem = Still | Carried | MovingVector | MovingName
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,7 +143,7 @@ class Chart:
 
 
 @dataclass(frozen=True, slots=True)
-class Value:
+class MomentValue:
     """A number of the moment: its symbol, its unit, its values in that unit."""
 
     symbol: Content
@@ -181,7 +181,7 @@ class Film:
     """The position (from 0) that the page opens at."""
     stages: tuple[Stage, ...]
     charts: tuple[Chart, ...]
-    values: tuple[Value, ...]
+    values: tuple[MomentValue, ...]
     errors: Errors
     layers: tuple[str, ...] = field(default=())
     """What can be switched on, of `LAYERS`, in their order."""
@@ -217,7 +217,7 @@ def linkage_items(linkage: Linkage, motion: Motion, at: int, scale: float, looks
     further = [name for name in places if name not in {*bones.joints, *looks.centres}]
     items += [Carried((style.point(0j),), places[name]) for name in further]
     items += [
-        Name(vocabulary.point(name), place, tuple(_neighbours(name, bones, places)), style.JOINT + 0.5)
+        MovingName(vocabulary.point(name), place, tuple(_neighbours(name, bones, places)), style.JOINT + 0.5)
         for name, place in places.items()
     ]
     return items
@@ -251,18 +251,18 @@ def path_items(linkage: Linkage, motion: Motion, names: Sequence[str], scale: fl
 def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
     """A plan that moves: each of its corners follows the track of its name."""
     items: list[MovingItem] = [
-        Vector(tracks[line.start], tracks[line.end], style.CONSTRUCTION, 0.0, beyond=6.0) for line in plan.lines
+        MovingVector(tracks[line.start], tracks[line.end], style.CONSTRUCTION, 0.0, beyond=6.0) for line in plan.lines
     ]
     joined: dict[str, list[Track]] = {}
     for one in plan.vectors:
         start, end = tracks[one.start], tracks[one.end]
         joined.setdefault(one.start, []).append(end)
         joined.setdefault(one.end, []).append(start)
-        items.append(Vector(start, end, PENS[one.style], label=one.label, name=one.name))
+        items.append(MovingVector(start, end, PENS[one.style], label=one.label, name=one.name))
     if plan.pole:
-        items.append(Carried((Circle(0j, 0.7, Stroke(0.25), style.PAPER),), tracks[plan.points[0].at]))
+        items.append(Carried((Circle(0j, 0.7, Pen(0.25), style.PAPER),), tracks[plan.points[0].at]))
     for label, corner in dict.fromkeys((point.label, point.at) for point in plan.points):
-        items.append(Name(label, tracks[corner], tuple(joined.get(corner, ())), 0.9))
+        items.append(MovingName(label, tracks[corner], tuple(joined.get(corner, ())), 0.9))
     return items
 
 
@@ -278,7 +278,7 @@ def extent(items: Iterable[MovingItem]) -> tuple[complex, complex]:
                 turned = np.exp(1j * angle.values) if angle is not None else np.array([1.0])
                 box = (low, high, complex(low.real, high.imag), complex(high.real, low.imag))
                 points += [p for corner in box for p in _corners(Track(at.values + corner * turned))]
-            case Vector(start, end) if not item.layer:
+            case MovingVector(start, end) if not item.layer:
                 points += [*_corners(start), *_corners(end)]
             case _:
                 pass

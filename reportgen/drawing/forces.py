@@ -14,7 +14,7 @@ from typing import Literal
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.geometry import clusters, on_one_line, polar, unit
-from reportgen.drawing.labels import Draft, Request, finish, joined, label
+from reportgen.drawing.labels import Canvas, Request, finish, joined, label
 from reportgen.drawing.plan import CROWDED, Plan, point_names
 from reportgen.drawing.scheme import Looks, mechanism, skeleton
 from reportgen.formula import Symbol, constructions
@@ -88,7 +88,7 @@ def bodies(
     *,
     arms: Sequence[ArmOf] = (),
     turning: Sequence[Couple] = (),
-    extra: Draft | None = None,
+    extra: Canvas | None = None,
     looks: Looks,
     title: str = "",
 ) -> Scene:
@@ -119,7 +119,7 @@ def lever(
     items += [Circle(point.at, 1.1, style.VISIBLE, style.PAPER) for point in rigid.points[:1]]
     groups = clusters(rigid.points, CROWDED, lambda point: point.at)
     names = tuple(label(group[0].at, *point_names(group), gap=1.3) for group in groups)
-    return finish(Draft(tuple(items), names) + draw_forces(forces, arms), notes=notes)
+    return finish(Canvas(tuple(items), names) + draw_forces(forces, arms), notes=notes)
 
 
 def coriolis(sliding: Sliding) -> Scene:
@@ -127,8 +127,8 @@ def coriolis(sliding: Sliding) -> Scene:
     along, sense = unit(sliding.velocity[1]), sliding.omega[1]
     start = cmath.phase(along)
     quarter = Arc(0j, QUARTER, start, start + sense * math.pi / 2, style.CONSTRUCTION, style.DIMENSION_HEAD)
-    guide = Draft((Line(BESIDE * along, BEYOND * along, style.OLD), quarter))
-    ends = Draft(
+    guide = Canvas((Line(BESIDE * along, BEYOND * along, style.OLD), quarter))
+    ends = Canvas(
         (Circle(0j, 0.7, style.VISIBLE, style.PAPER), Circle(BESIDE * along, 0.7, style.VISIBLE, style.PAPER)),
         (label(0j, sliding.point, gap=1.4),),
     )
@@ -147,7 +147,7 @@ def coriolis(sliding: Sliding) -> Scene:
 
 def draw_forces(
     forces: Sequence[Force], arms: Sequence[ArmOf] = (), bars: Sequence[tuple[complex, complex]] = ()
-) -> Draft:
+) -> Canvas:
     """Arrows with their labels and the arms to their lines; forces without direction are left out.
 
     A force that would lie along one of the `bars` from its end is drawn as a push from outside instead, one that
@@ -183,10 +183,10 @@ def draw_forces(
         if same[0] is arm:
             items += _dimension(arm.about, end, *shafts[arm.force])
             requests.append(_arm_name(arm.about, end, same))
-    return Draft(tuple(items), tuple(requests))
+    return Canvas(tuple(items), tuple(requests))
 
 
-def draw_couples(couples: Sequence[Couple]) -> Draft:
+def draw_couples(couples: Sequence[Couple]) -> Canvas:
     """Arcs of seven tenths of a turn about their points."""
     arcs: list[Item] = []
     requests: list[Request] = []
@@ -197,7 +197,7 @@ def draw_couples(couples: Sequence[Couple]) -> Draft:
         arcs.append(Arc(couple.at, COUPLE_RADIUS, start * math.pi, stop * math.pi, style.ACTIVE, style.HEAD))
         places = [couple.at + COUPLE_RADIUS * polar(angle) for angle in (0.35, 0.9, 1.6, 2.4, -0.6)]
         requests.append(label(places, couple.label))
-    return Draft(tuple(arcs), tuple(requests))
+    return Canvas(tuple(arcs), tuple(requests))
 
 
 def foot(about: complex, start: complex, end: complex) -> complex:

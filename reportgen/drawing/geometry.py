@@ -14,7 +14,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Stroke
+from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline
 from reportgen.formula import Symbol, setting
 from reportgen.formula.vocabulary import numbered, runs
 
@@ -118,7 +118,7 @@ def moved(item: Item, by: complex) -> Item:
 def enlarged(item: Item, factor: float) -> Item:
     """The item as a photographic enlargement about the origin shows it: pens, arrowheads and letters grow too."""
 
-    def pen(stroke: Stroke) -> Stroke:
+    def pen(stroke: Pen) -> Pen:
         return _enlarged_pen(stroke, factor)
 
     match item:
@@ -139,7 +139,7 @@ def enlarged(item: Item, factor: float) -> Item:
 
 
 @lru_cache(maxsize=256)
-def _enlarged_pen(stroke: Stroke, factor: float) -> Stroke:
+def _enlarged_pen(stroke: Pen, factor: float) -> Pen:
     """The same few pens draw every figure."""
     return replace(stroke, width=factor * stroke.width, dash=tuple(factor * part for part in stroke.dash))
 
@@ -338,7 +338,7 @@ class Boxes(setting.Setter[Box]):
                 return self.text(sign)
             case setting.Sign(_, role):
                 return _gap(GAPS.get(role, 0.78 + RELATION) * em)
-            case setting.Row(parts):
+            case setting.MathRow(parts):
                 return _row(map(of, parts))
             case setting.Raised(base, exponent):
                 return _scripts(of(base), NOTHING, self.script.part(exponent), em)
@@ -351,7 +351,7 @@ class Boxes(setting.Setter[Box]):
                 return of(inner).beside(_gap(em))
             case setting.Fence(left, inner, right):
                 return self.text(left + right).beside(of(inner))
-            case setting.Applied(name, exponent, to):
+            case setting.Function(name, exponent, to):
                 power = NOTHING if exponent is None else self.script.part(exponent)
                 function = _scripts(self.text(name), NOTHING, power, em)
                 return function.beside(of(to) if isinstance(to, setting.Fence) else _gap(THIN * em).beside(of(to)))

@@ -336,7 +336,7 @@ def _grazes(leaders: Complexes, strokes: Complexes) -> Floats:
 
 # --- from drafts to finished scenes ---------------------------------------------------------------
 # And scenes of one scale together on sheets of paper.
-# Every figure makes a `Draft` in mm about any origin; drafts with the same origin can be added. `finish` places the
+# Every figure makes a `Canvas` in mm about any origin; drafts with the same origin can be added. `finish` places the
 # labels, crops to the content and gives the `Scene`.
 
 Part = TypeVar("Part")
@@ -349,27 +349,27 @@ TRIM = 3.5
 
 
 @dataclass(frozen=True, slots=True)
-class Draft:
+class Canvas:
     """Items in the order of painting and the labels still to be placed."""
 
     items: tuple[Item, ...] = ()
     requests: tuple[Request, ...] = ()
 
-    def __add__(self, other: Draft) -> Draft:
-        return Draft(self.items + other.items, self.requests + other.requests)
+    def __add__(self, other: Canvas) -> Canvas:
+        return Canvas(self.items + other.items, self.requests + other.requests)
 
-    def moved(self, by: complex) -> Draft:
+    def moved(self, by: complex) -> Canvas:
         """The draft shifted by a vector; its labels must have been placed before."""
-        return Draft(tuple(moved(item, by) for item in self.items))
+        return Canvas(tuple(moved(item, by) for item in self.items))
 
 
-def settle(draft: Draft) -> Draft:
+def settle(draft: Canvas) -> Canvas:
     """The draft with its labels placed."""
-    return Draft(draft.items + place(draft.items, draft.requests))
+    return Canvas(draft.items + place(draft.items, draft.requests))
 
 
 def finish(
-    draft: Draft,
+    draft: Canvas,
     *,
     notes: Sequence[Content] = (),
     title: str = "",

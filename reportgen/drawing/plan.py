@@ -15,14 +15,14 @@ from itertools import chain
 from typing import Generic, Literal, TypeVar
 
 from reportgen.base.units import SERIES
-from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Polyline, Scene, Stroke, style
+from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import bounds, clipped, clusters, corners_of, on_one_line, unit
-from reportgen.drawing.labels import MARGIN, Draft, Request, finish, label, settle
+from reportgen.drawing.labels import MARGIN, Canvas, Request, finish, label, settle
 
 Style = Literal["known", "relative", "found"]
 Titles = Callable[[range, int], str]
 """What stands below a panel, of the stages that it draws and its own number from 0."""
-PENS: dict[Style, Stroke] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
+PENS: dict[Style, Pen] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
 
 SAME = 0.05
 """Points nearer than this (mm) look like one point and share a label joined by ≡."""
@@ -165,7 +165,7 @@ def plan(
     drawing: Plan,
     *,
     title: str = "",
-    beside: Sequence[Draft] = (),
+    beside: Sequence[Canvas] = (),
     width: float = math.inf,
     enlarged: bool = True,
     margin: float = MARGIN,
@@ -176,9 +176,9 @@ def plan(
     wider than `width` (mm), they stand in rows below it.
     """
     vectors = drawing.drawn()
-    draft = Draft((*_lines(drawing), *_arrows(vectors), *_marks(drawing)), _labels(drawing, vectors, style.LABEL))
+    draft = Canvas((*_lines(drawing), *_arrows(vectors), *_marks(drawing)), _labels(drawing, vectors, style.LABEL))
     notes = () if drawing.scale is None else (drawing.scale,)
-    parts, marks = insets(drawing) if enlarged else ((), Draft())
+    parts, marks = insets(drawing) if enlarged else ((), Canvas())
     further = [*beside, *parts]
     if not further:
         return finish(draft, notes=notes, title=title, margin=margin)
@@ -211,7 +211,7 @@ def stages(drawing: Plan, factor: float = 1.0, titles: Titles = lettered, begin:
         )
         before = kept[stage - 1] if stage else -1
         title = titles(range(max(before + 1, begin), kept[stage] + 1 if kept else 1), len(panels))
-        draft = Draft(items, _labels(part, vectors, style.SMALL))
+        draft = Canvas(items, _labels(part, vectors, style.SMALL))
         panels.append(finish(draft, title=title, margin=2.0, frame=(corner[0] - pad, corner[1] + pad)))
     width = max(panel.width for panel in panels)
     height = max(panel.height for panel in panels)
@@ -257,7 +257,7 @@ def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
     return result
 
 
-def _arrows(vectors: Sequence[PlanVector[complex]], pens: Sequence[Stroke] = ()) -> list[Item]:
+def _arrows(vectors: Sequence[PlanVector[complex]], pens: Sequence[Pen] = ()) -> list[Item]:
     """The arrows; one that would lie on an earlier one stands beside it, thin lines from its ends to their places."""
     result: list[Item] = []
     pens = pens or [PENS[v.style] for v in vectors]
@@ -292,7 +292,7 @@ def _on_one_line(one: PlanVector[complex], other: PlanVector[complex]) -> bool:
 def _marks(drawing: Plan) -> list[Item]:
     if not (drawing.pole and drawing.points):
         return []
-    return [Circle(drawing.points[0].at, 0.7, Stroke(0.25), style.PAPER)]
+    return [Circle(drawing.points[0].at, 0.7, Pen(0.25), style.PAPER)]
 
 
 def _labels(drawing: Plan, vectors: Sequence[PlanVector[complex]], size: float) -> tuple[Request, ...]:
@@ -338,21 +338,21 @@ def _outward(at: complex, vectors: Sequence[PlanVector[complex]]) -> tuple[float
 # --- insets ---------------------------------------------------------------------------------------
 
 
-def insets(drawing: Plan) -> tuple[list[Draft], Draft]:
+def insets(drawing: Plan) -> tuple[list[Canvas], Canvas]:
     """Insets for groups of short vectors, each about its own middle, and the circles that mark what they enlarge.
 
     Each prints its ratio (e.g. 10:1) and shows what passes through its frame of the plan's other vectors.
     """
     groups = _groups([vector for vector in drawing.drawn() if vector.length < TINY])
-    return [_inset(group, drawing) for group in groups], Draft(tuple(map(_mark, groups)))
+    return [_inset(group, drawing) for group in groups], Canvas(tuple(map(_mark, groups)))
 
 
-def _stacked(parts: Sequence[Draft], figure: Draft) -> Draft:
+def _stacked(parts: Sequence[Canvas], figure: Canvas) -> Canvas:
     """The parts in a column to the right of a figure."""
     # The figure's own labels are placed later; they seldom stand out further than LABELS.
     high = bounds(figure.items)[1]
     top = complex(high.real + LABELS + SPACE, high.imag)
-    result = Draft()
+    result = Canvas()
     for part in parts:
         floor, ceiling = bounds(part.items)
         result += part.moved(top - complex(floor.real, ceiling.imag))
@@ -360,11 +360,11 @@ def _stacked(parts: Sequence[Draft], figure: Draft) -> Draft:
     return result
 
 
-def _below(parts: Sequence[Draft], figure: Draft) -> Draft:
+def _below(parts: Sequence[Canvas], figure: Canvas) -> Canvas:
     """The parts in rows below a figure, no wider than it."""
     low, high = bounds(figure.items)
     left = place = low - 1j * (LABELS + SPACE)
-    deepest, result = 0.0, Draft()
+    deepest, result = 0.0, Canvas()
     for part in parts:
         floor, ceiling = bounds(part.items)
         size = ceiling - floor
@@ -409,10 +409,10 @@ def _mark(group: Sequence[PlanVector[complex]]) -> Item:
     ends = [end for vector in group for end in (vector.start, vector.end)]
     low, high = corners_of(ends)
     centre = (low + high) / 2
-    return Circle(centre, max(abs(end - centre) for end in ends) + 1.2, Stroke(0.1, style.GRAY), None)
+    return Circle(centre, max(abs(end - centre) for end in ends) + 1.2, Pen(0.1, style.GRAY), None)
 
 
-def _inset(group: Sequence[PlanVector[complex]], drawing: Plan) -> Draft:
+def _inset(group: Sequence[PlanVector[complex]], drawing: Plan) -> Canvas:
     """One inset with its labels placed, in coordinates about its own middle."""
     ratio = enlargement(max(vector.length for vector in group))
     low, high = corners_of([end for vector in group for end in (vector.start, vector.end)])
@@ -425,7 +425,7 @@ def _inset(group: Sequence[PlanVector[complex]], drawing: Plan) -> Draft:
     own = {(vector.start, vector.end) for vector in group}
     others = (v for v in drawing.drawn() if (v.start, v.end) not in own)
     parts = (clipped(enlarged(v.start), enlarged(v.end), -half, half) for v in others)
-    items: list[Item] = [Line(*part, Stroke(0.15, style.PALE)) for part in parts if part]
+    items: list[Item] = [Line(*part, Pen(0.15, style.PALE)) for part in parts if part]
     items += (
         Arrow(enlarged(v.start), enlarged(v.end), PENS[v.style], style.HEAD, f"{v.name} ×{ratio:g}") for v in group
     )
@@ -444,4 +444,4 @@ def _inset(group: Sequence[PlanVector[complex]], drawing: Plan) -> Draft:
             across = cmath.phase(way) + math.pi / 2
             sides = (across, across - math.pi)
             requests.append(label(enlarged(vector.middle), vector.label, prefer=sides, size=style.SMALL))
-    return settle(Draft(tuple(items), tuple(requests)))
+    return settle(Canvas(tuple(items), tuple(requests)))

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.units import nice_up
-from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Polyline, Scene, Stroke, style
+from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import Complexes, box, clusters, polar, unit
-from reportgen.drawing.labels import CLEAR, Draft, Request, finish, joined, label
+from reportgen.drawing.labels import CLEAR, Canvas, Request, finish, joined, label
 from reportgen.drawing.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine import GROUND, Crank, Linkage
@@ -61,7 +61,7 @@ def position_plan(
     shows: PositionPlan,
     notes: Sequence[Content] = (),
     *,
-    beside: Draft | None = None,
+    beside: Canvas | None = None,
 ) -> Scene:
     """The scene, `scale` mm of paper per m, with a drawing `beside` it about the same origin (an indicator diagram)."""
     count = len(motion.driver)
@@ -107,12 +107,12 @@ def position_plan(
         items += style.pivot(reached[0].points[name])
         requests.append(label(reached[0].points[name], vocabulary.point(name), gap=style.JOINT + 0.4))
     numbers = range(count) if count <= CROWDED else [k for k in (shows.emphasised,) if k is not None]
-    draft = Draft(tuple(items), tuple(requests)) + _numbers(every, numbers, shows)
+    draft = Canvas(tuple(items), tuple(requests)) + _numbers(every, numbers, shows)
     return finish(draft + beside if beside else draft, notes=notes)
 
 
 @dataclass(frozen=True, slots=True)
-class Centre:
+class DrawnCentre:
     """The instant centre of a link, at `at` (mm), where the normals of the velocities of two `points` meet."""
 
     name: Content
@@ -135,7 +135,7 @@ def centre_plan(
     motion: Motion,
     index: int,
     scale: float,
-    centres: Sequence[Centre],
+    centres: Sequence[DrawnCentre],
     looks: Looks,
     moving: Sequence[PlaneMotion] = (),
 ) -> Scene:
@@ -153,13 +153,13 @@ def centre_plan(
             way = centre.at - start
             if abs(way) > style.JOINT:
                 normals.append(Line(start, centre.at + way / abs(way) * BEYOND, style.NORMAL))
-        marks.append(Circle(centre.at, DOT, Stroke(0.2, style.RED), style.PAPER))
+        marks.append(Circle(centre.at, DOT, Pen(0.2, style.RED), style.PAPER))
         names.append(label(centre.at, centre.name, gap=DOT + 0.5))
-    whole = Draft((*normals, *draft.items, *marks), (*draft.requests, *names))
+    whole = Canvas((*normals, *draft.items, *marks), (*draft.requests, *names))
     return finish(whole + _inclined(bones, moving), notes=looks.notes)
 
 
-def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Draft:
+def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Canvas:
     """Velocities at their points and their angles with the links, counted from the way from base to point."""
     items: list[Item] = []
     requests: list[Request] = []
@@ -182,7 +182,7 @@ def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Draft:
                 items.append(Arc(at, ANGLE, start, start + turn, style.DIMENSION, style.DIMENSION_HEAD))
             middle = at + ANGLE * polar(start + turn / 2)
             requests.append(label(middle, angle, prefer=(start + turn / 2,), size=style.SMALL))
-    return Draft(tuple(items), tuple(requests))
+    return Canvas(tuple(items), tuple(requests))
 
 
 def _covers(one: Complexes, other: Complexes) -> bool:
@@ -217,7 +217,7 @@ def _axes(bones: Skeleton) -> list[Item]:
     return lines
 
 
-def _links(bones: Skeleton, pen: Stroke, further: Sequence[str] = ()) -> list[Item]:
+def _links(bones: Skeleton, pen: Pen, further: Sequence[str] = ()) -> list[Item]:
     """Bars between the joints of each link; a plate where one of its `further` points lies off them.
 
     A link with a slideway reaches from its joint to the way's near end, as a lever through its pivot does.
@@ -236,7 +236,7 @@ def _links(bones: Skeleton, pen: Stroke, further: Sequence[str] = ()) -> list[It
     return result
 
 
-def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionPlan) -> Draft:
+def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionPlan) -> Canvas:
     """Dots at the numbered positions and their names, one label for points that coincide."""
     shown = [
         (every[k].points[name], Symbol(vocabulary.point(name).base, shows.label(k)))
@@ -249,11 +249,11 @@ def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionP
     requests: list[Request] = []
     for group in clusters(shown, TOGETHER, lambda one: one[0]):
         at = group[0][0]
-        items.append(Circle(at, DOT, Stroke(0.2), style.PAPER))
+        items.append(Circle(at, DOT, Pen(0.2), style.PAPER))
         out = (float(np.angle(at - middle)),) if abs(at - middle) > 1 else ()
         size = style.LABEL if len(group) < 3 else style.SMALL
         requests.append(label(at, *joined(name for _, name in group), prefer=out, gap=DOT + 0.5, size=size))
-    return Draft(tuple(items), tuple(requests))
+    return Canvas(tuple(items), tuple(requests))
 
 
 # --- the indicator diagram beside its cylinder ----------------------------------------------------
@@ -262,10 +262,10 @@ def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionP
 # piston's own position.
 
 STROKES = (
-    Stroke(0.35, style.BLUE, style.CHAIN),
-    Stroke(0.25, style.BLACK),
-    Stroke(0.5, style.RED),
-    Stroke(0.35, style.BLACK, style.DASHED),
+    Pen(0.35, style.BLUE, style.CHAIN),
+    Pen(0.25, style.BLACK),
+    Pen(0.5, style.RED),
+    Pen(0.35, style.BLACK, style.DASHED),
 )
 """Pens of the branches in their order, told apart by dashes and width as well as by colour."""
 WIDTH = 80.0
@@ -274,7 +274,7 @@ NARROW, SHAPE = 46.0, 1.5
 """On a sheet it is so wide at least (mm), and so many times as wide as high at most."""
 AWAY = 0.94
 """How far beside the cylinder it stands, in its widths."""
-AXIS_PEN = Stroke(0.2)
+AXIS_PEN = Pen(0.2)
 TICK = 1.0
 
 
@@ -335,7 +335,7 @@ def beside(
     return top + away, bottom + away, nice_up(highest / width / enlarged) * enlarged
 
 
-def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Reading] = ()) -> Draft:
+def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Reading] = ()) -> Canvas:
     """The diagram with its branches named, its readings numbered and projected from the slider."""
     pressures = [p for branch in branches for p in branch.pressure]
     lowest, highest = min([0.0, *pressures]), max([0.0, *pressures])
@@ -346,7 +346,7 @@ def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Readi
         items.append(Polyline(points, STROKES[n % len(STROKES)]))
         requests.append(label(_along(points), branch.label, size=style.SMALL))
     read = [(frame.at(reading.fraction, reading.pressure), reading.label) for reading in readings]
-    items += [Circle(at, 0.5, Stroke(0.2), style.PAPER) for at, _ in read]
+    items += [Circle(at, 0.5, Pen(0.2), style.PAPER) for at, _ in read]
     for group in clusters(read, 0.3, lambda one: one[0]):
         numbers = joined(number for _, number in group)
         outward = (cmath.phase(unit(frame.side)),)
@@ -357,7 +357,7 @@ def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Readi
     if frame.note:
         middle = frame.at(1.0, (highest + lowest) / 2)
         requests.append(label(middle, frame.note, prefer=(-math.pi / 2,), gap=8))
-    return Draft(tuple(items), tuple(requests))
+    return Canvas(tuple(items), tuple(requests))
 
 
 def _diagram_axes(frame: Frame, lowest: float, highest: float) -> list[Item]:

@@ -11,9 +11,9 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Scene, Stroke, style
+from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
 from reportgen.drawing.geometry import Complexes, Floats, clusters, polar
-from reportgen.drawing.labels import Draft, Request, finish, joined, label, settle
+from reportgen.drawing.labels import Canvas, Request, finish, joined, label, settle
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
 from reportgen.machine.motion import Motion
@@ -192,7 +192,7 @@ THUMBNAIL = 34.0, 40.0
 """What a small mechanism beside a plan fills at most, across and upwards, mm."""
 
 
-def thumbnail(linkage: Linkage, motion: Motion, index: int) -> Draft:
+def thumbnail(linkage: Linkage, motion: Motion, index: int) -> Canvas:
     """The mechanism at position `index` as a small sketch, not to scale: links, joints and their names."""
     whole = skeleton(linkage, motion, index, 1.0)
     ends = np.array([*whole.points.values(), *(end for s in whole.slides if s.on == GROUND for end in (s.low, s.high))])
@@ -208,10 +208,10 @@ def thumbnail(linkage: Linkage, motion: Motion, index: int) -> Draft:
     items += [item for name in bones.pivots for item in style.small_pivot(bones.points[name])]
     joints = [name for name in bones.joints if name not in bones.pivots]
     items += [Circle(bones.points[name], style.POINT, style.THIN, style.PAPER) for name in joints]
-    return settle(Draft(tuple(items), tuple(_names([*bones.pivots, *joints], bones, style.SMALL, style.POINT))))
+    return settle(Canvas(tuple(items), tuple(_names([*bones.pivots, *joints], bones, style.SMALL, style.POINT))))
 
 
-def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Draft:
+def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Canvas:
     """The shown links with their joints, names and numbers; with link 0 its pivots and guides."""
     rails: list[Item] = []
     bars: list[Item] = []
@@ -250,11 +250,11 @@ def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Draft:
     marks = [item for name in centres for item in style.mass_centre(bones.points[name])]
     marks += [style.point(bones.points[name]) for name in marked]
     requests += _names([*names, *centres, *marked], bones)
-    return Draft((*rails, *bars, *blocks, *pins, *marks), tuple(requests))
+    return Canvas((*rails, *bars, *blocks, *pins, *marks), tuple(requests))
 
 
 @dataclass(frozen=True, slots=True)
-class Parts:
+class LinkShape:
     """A link drawn in its own frame, in mm: the guide it carries, its bars, its block, in the order of painting."""
 
     rails: tuple[Item, ...]
@@ -262,7 +262,7 @@ class Parts:
     blocks: tuple[Item, ...]
 
 
-def parts_of(bones: Skeleton, link: int, looks: Looks, origin: complex, angle: float) -> Parts:
+def parts_of(bones: Skeleton, link: int, looks: Looks, origin: complex, angle: float) -> LinkShape:
     """What of a link moves with it, seen from its frame, which lies at `origin` (mm) under `angle`."""
     u = polar(angle)
     slides = tuple(
@@ -279,7 +279,7 @@ def parts_of(bones: Skeleton, link: int, looks: Looks, origin: complex, angle: f
     rails = [item for slide in slides if slide.on == link for item in _rail(slide, looks.block(slide.link), ())]
     bars = style.body([*_body_points(own, link), *(own.points[name] for name in _marked(own, link, looks))])
     blocks = [style.block(slide.at, slide.angle, looks.block(link)) for slide in slides if slide.link == link]
-    return Parts(tuple(rails), bars, tuple(blocks))
+    return LinkShape(tuple(rails), bars, tuple(blocks))
 
 
 def ground_guides(bones: Skeleton, looks: Looks) -> tuple[Item, ...]:
@@ -288,21 +288,21 @@ def ground_guides(bones: Skeleton, looks: Looks) -> tuple[Item, ...]:
     return tuple(item for items in found for item in items)
 
 
-def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton) -> Draft:
+def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
     """The circle of a crank's pin and the arrow of ω1; an empty draft for a sliding driver."""
     driver = linkage.driver
     if not isinstance(driver, Crank):
-        return Draft()
+        return Canvas()
     centre = bones.points[driver.centre]
     circle = Circle(centre, abs(bones.points[driver.pin] - centre), style.THIN)
-    return Draft((circle,)) + driver_arrow(linkage, motion, bones)
+    return Canvas((circle,)) + driver_arrow(linkage, motion, bones)
 
 
-def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Draft:
+def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
     """The arrow of ω1 about a crank's centre; an empty draft for a sliding driver."""
     driver = linkage.driver
     if not isinstance(driver, Crank):
-        return Draft()
+        return Canvas()
     centre, pin = bones.points[driver.centre], bones.points[driver.pin]
     radius = abs(pin - centre)
     sense = math.copysign(1.0, motion.rate)
@@ -312,10 +312,10 @@ def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Draft:
     starts = [angle + sense * (0.25 + quarter * math.pi / 2) for quarter in (0, 1, 2, 3)]
     start = next(one for one in starts if math.cos(one + sense * 0.45 + math.pi / 2) < LEGS)
     stop = start + sense * 0.9
-    arrow = Arc(centre, reach, start, stop, Stroke(0.25), style.HEAD)
+    arrow = Arc(centre, reach, start, stop, Pen(0.25), style.HEAD)
     places = [centre + reach * polar(start + share * (stop - start)) for share in (0.6, 0.3, 0.9)]
     omega = label(places, Symbol("ω", "1"), prefer=((start + stop) / 2,))
-    return Draft((arrow,), (omega,))
+    return Canvas((arrow,), (omega,))
 
 
 def _bars(bones: Skeleton, shown: Sequence[int], looks: Looks) -> list[tuple[complex, complex]]:
@@ -402,7 +402,7 @@ def _names(
 
 # --- the legend of lines ---------------------------------------------------------------------------
 
-LINES: tuple[tuple[str, Stroke], ...] = (
+LINES: tuple[tuple[str, Pen], ...] = (
     ("link", style.HEAVY),
     ("other", style.THIN),
     ("axis", style.AXIS),
@@ -411,7 +411,7 @@ LINES: tuple[tuple[str, Stroke], ...] = (
     ("normal", style.NORMAL),
 )
 """Lines of the mechanism and of constructions, by the names of their words."""
-ARROWS: tuple[tuple[str, Stroke], ...] = (
+ARROWS: tuple[tuple[str, Pen], ...] = (
     ("known", style.KNOWN),
     ("relative", style.RELATIVE),
     ("found", style.FOUND),
@@ -433,4 +433,4 @@ def line_styles(words: Mapping[str, str]) -> Scene:
             end = start + SAMPLE
             items.append(Arrow(start, end, pen, style.HEAD) if pens is ARROWS else Line(start, end, pen))
             items.append(Label(end + GAP, words[name], "left", style.LABEL))
-    return finish(Draft(tuple(items)), margin=2.0)
+    return finish(Canvas(tuple(items)), margin=2.0)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 
-from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene, Stroke, style
+from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import POINT, SCRIPT, box, enlarged, moved
 from reportgen.formula import Chain, Number, Symbol
 
@@ -20,7 +20,7 @@ GAP = 5.0
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class PlacedScene:
     """A scene on a sheet with its lower left corner `at`; `name` groups its items, `layer` says what it shows.
 
     `table` is the width and height of what of it may be stretched, nothing if it is no table.
@@ -39,13 +39,13 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True)
-class Sheet:
+class DrawingSheet:
     """A sheet of paper `width` × `height` with what is drawn on it; `name` is that of its size, such as A1."""
 
     name: str
     width: float
     height: float
-    parts: tuple[Part, ...] = ()
+    parts: tuple[PlacedScene, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,12 +68,12 @@ class Room:
 class TooLargeError(ValueError):
     """A plate has no place on a sheet of the size asked for."""
 
-    def __init__(self, part: Part) -> None:
+    def __init__(self, part: PlacedScene) -> None:
         super().__init__(part.name)
         self.part = part
 
 
-def filled(parts: Iterable[Part], room: Room) -> float:
+def filled(parts: Iterable[PlacedScene], room: Room) -> float:
     """The share of a sheet's free area that the boxes of plates, captions included, take."""
     return sum(part.scene.width * part.scene.height for part in parts) / room.area
 
@@ -133,7 +133,7 @@ def _standard(item: Item) -> Item:
 
 
 @lru_cache(maxsize=256)
-def _pen(stroke: Stroke) -> Stroke:
+def _pen(stroke: Pen) -> Pen:
     return replace(stroke, width=WIDE if stroke.width >= ENLARGED * OUTLINE else NARROW)
 
 
@@ -165,7 +165,7 @@ ROW = 5.0
 """Height of a row, mm."""
 PADDING = 1.4
 """White beside the widest content of a column, mm."""
-EDGE, RULE = Stroke(0.35), Stroke(0.15)
+EDGE, RULE = Pen(0.35), Pen(0.15)
 
 
 @dataclass(frozen=True, slots=True)

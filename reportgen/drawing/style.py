@@ -11,41 +11,41 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.drawing import Arc, Circle, Hatch, Item, Line, Polyline, Stroke
+from reportgen.drawing import Arc, Circle, Hatch, Item, Line, Pen, Polyline
 from reportgen.drawing.geometry import clipped, polar, rectangle, unit
 
 BLACK, GRAY, PALE = "#000000", "#6b6b6b", "#a8a8a8"
 BLUE, RED = "#123c7c", "#9c1c1c"
 PAPER, TINT = "#ffffff", "#eef1f5"
 
-VISIBLE = Stroke(0.35)
+VISIBLE = Pen(0.35)
 """Outlines of links and curves."""
-HEAVY = Stroke(0.5)
-THIN = Stroke(0.15, GRAY)
+HEAVY = Pen(0.5)
+THIN = Pen(0.15, GRAY)
 """Circles, guides, lines of projection."""
-AXIS = Stroke(0.13, GRAY, (5.0, 1.0, 0.8, 1.0))
+AXIS = Pen(0.13, GRAY, (5.0, 1.0, 0.8, 1.0))
 """Axes of symmetry and of guides."""
-PROJECTION = Stroke(0.18, BLACK, (5.0, 1.0, 0.8, 1.0))
+PROJECTION = Pen(0.18, BLACK, (5.0, 1.0, 0.8, 1.0))
 """An axis that vectors are projected on."""
-CONSTRUCTION = Stroke(0.13, GRAY, (1.6, 1.0))
+CONSTRUCTION = Pen(0.13, GRAY, (1.6, 1.0))
 """Auxiliary directions of a plan, which go a little beyond their end."""
-LEADER = Stroke(0.1, GRAY)
+LEADER = Pen(0.1, GRAY)
 SOLID, DASHED, CHAIN, DOTTED = (), (2.4, 0.9), (3.6, 0.8, 0.6, 0.8), (0.9, 0.7)
 """What tells lines apart that are printed without colour, beside their widths."""
-KNOWN = Stroke(0.35)
-RELATIVE = Stroke(0.3, BLUE, CHAIN)
-FOUND = Stroke(0.3, RED, DASHED)
+KNOWN = Pen(0.35)
+RELATIVE = Pen(0.3, BLUE, CHAIN)
+FOUND = Pen(0.3, RED, DASHED)
 """A vector that a plan gives by closing."""
-ACTIVE = Stroke(0.5, BLUE)
-REACTION = Stroke(0.3, RED, DASHED)
-PATH = Stroke(0.3, BLUE, CHAIN)
+ACTIVE = Pen(0.5, BLUE)
+REACTION = Pen(0.3, RED, DASHED)
+PATH = Pen(0.3, BLUE, CHAIN)
 """The curve that a point describes."""
-NORMAL = Stroke(0.18, RED, (1.8, 1.0))
+NORMAL = Pen(0.18, RED, (1.8, 1.0))
 """A normal to a velocity, through an instant centre."""
-NEW = Stroke(0.5, BLUE)
+NEW = Pen(0.5, BLUE)
 """What a stage of a construction adds."""
-OLD = Stroke(0.2, GRAY)
-DIMENSION = Stroke(0.13)
+OLD = Pen(0.2, GRAY)
+DIMENSION = Pen(0.13)
 
 ON_LINE, BESIDE = 0.4, 1.6
 """Arrows within the first distance (mm) of one line lie on each other: the later one is drawn beside by the second."""
@@ -154,7 +154,7 @@ def block(at: complex, angle: float, size: tuple[float, float]) -> Item:
     return Polyline(rectangle(at, *size, angle), VISIBLE, closed=True, fill=TINT)
 
 
-def body(points: Sequence[complex], pen: Stroke = HEAVY, fill: str | None = TINT) -> tuple[Item, ...]:
+def body(points: Sequence[complex], pen: Pen = HEAVY, fill: str | None = TINT) -> tuple[Item, ...]:
     """A link through its joints: a bar where they are in line, else the triangle or polygon around them."""
     if len(points) < 2:
         return ()
@@ -187,7 +187,7 @@ def mass_centre(at: complex) -> tuple[Item, ...]:
     for start in (0.0, math.pi):
         rim = (at + CENTRE * polar(start + k * math.pi / 8) for k in range(5))
         quarters.append(Polyline((at, *rim), None, closed=True, fill=BLACK))
-    return (Circle(at, CENTRE, Stroke(0.2), PAPER), *quarters)
+    return (Circle(at, CENTRE, Pen(0.2), PAPER), *quarters)
 
 
 # --- what writers without a word for it draw instead ------------------------------------------------

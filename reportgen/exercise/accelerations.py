@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from reportgen.exercise import file
-from reportgen.exercise.board import Board, Equation, Projected, Step, Vector, components
+from reportgen.exercise.board import Board, BoardEquation, Projected, Step, Vector, components
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.places import direction_of, parallel, perpendicular, unit
 from reportgen.formula import sqrt
@@ -62,7 +62,7 @@ def _enter_part(parts: Parts, id: str, rate: str, power: int, base: str, point: 
 
 
 @dataclass(frozen=True)
-class Path:
+class AccelerationPath:
     """What is known of the acceleration of a point, its part of unknown size, the body and base that it is about."""
 
     known: tuple[Vector, ...]
@@ -72,7 +72,7 @@ class Path:
     lines: tuple[str, ...] = ()
 
 
-def known_path(parts: Parts, point: str, body: int) -> Path | None:
+def known_path(parts: Parts, point: str, body: int) -> AccelerationPath | None:
     """What is known of the acceleration of a point on a known path, its unknown part, and the body it turns with.
 
     On a straight line of the ground nothing is known; about a pivot, or another known point, the normal acceleration.
@@ -81,23 +81,23 @@ def known_path(parts: Parts, point: str, body: int) -> Path | None:
     actual = board.motion.a(point) if point in board.motion.system.points else 0j
     if point in layout.slots:
         u = layout.slots[point]
-        return Path((), Vector(f"a.{point}", u if (u.conjugate() * actual).real >= 0 else -u))
+        return AccelerationPath((), Vector(f"a.{point}", u if (u.conjugate() * actual).real >= 0 else -u))
     for other, centre in layout.centres.items():
         if other != body and centre.rule == "pivot" and point in layout.own(other) and board.knows(f"omega.{other}"):
             normal, tangential = relative(parts, other, point, centre.name)
             lines = enter_normal(parts, other, point, centre.name, normal)
-            return Path(parts.board.nonzero(normal), tangential, other, centre.name, lines)
+            return AccelerationPath(parts.board.nonzero(normal), tangential, other, centre.name, lines)
     for other in layout.members:
         names = layout.own(other)
         base = next((name for name in names if name in parts.of), "")
         if other != body and point in names and base and board.knows(f"omega.{other}"):
             normal, tangential = relative(parts, other, point, base)
             lines = enter_normal(parts, other, point, base, normal)
-            return Path((*parts.of[base], *parts.board.nonzero(normal)), tangential, other, base, lines)
+            return AccelerationPath((*parts.of[base], *parts.board.nonzero(normal)), tangential, other, base, lines)
     return None
 
 
-def enter_end(parts: Parts, point: str, path: Path, equation: Projected) -> None:
+def enter_end(parts: Parts, point: str, path: AccelerationPath, equation: Projected) -> None:
     """The whole acceleration of a point whose unknown part has been found, and the rate of the body it is about."""
     board, size = parts.board, parts.board.q[path.unknown.id]
     parts.of[point] = (*path.known, *board.nonzero(path.unknown))
@@ -182,7 +182,7 @@ def _points(parts: Parts, body: int, names: list[str]) -> bool:
     lines = enter_normal(parts, body, point, base, normal) + enter_tangential(parts, body, point, base, tangential)
     own = parts.board.nonzero(normal, tangential)
     parts.of[point] = (*parts.of[base], *own)
-    equation = Equation((), parts.of[point])
+    equation = BoardEquation((), parts.of[point])
     kind = "acceleration-point" if parts.of[base] else "acceleration-pivot"
     board.steps.append(Step(kind, lines, body, point, base, equation))
     return True
@@ -210,7 +210,7 @@ def _by_base(parts: Parts, body: int, names: list[str]) -> bool:
     return False
 
 
-def _two_unknown(parts: Parts, body: int, point: str, base: str, path: Path) -> bool:
+def _two_unknown(parts: Parts, body: int, point: str, base: str, path: AccelerationPath) -> bool:
     """a_P = a_B + aⁿ + aᵗ with two unknown sizes: along BP there is no aᵗ, and across it there is no aⁿ."""
     board, q = parts.board, parts.board.q
     normal, tangential = relative(parts, body, point, base)

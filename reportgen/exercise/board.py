@@ -9,7 +9,7 @@ from typing import Literal
 
 from reportgen.exercise.centres import Layout
 from reportgen.exercise.places import SAME, direction_of, parallel
-from reportgen.exercise.solving import Motion
+from reportgen.exercise.solving import InstantMotion
 from reportgen.formula import Chain, Expression, Negative, Number, Product, Ref, Symbol, cos, sqrt, total
 from reportgen.formula.sheet import Family, Sheet, is_short
 
@@ -25,7 +25,7 @@ class Vector:
 
 
 @dataclass(frozen=True, slots=True)
-class Equation:
+class BoardEquation:
     """Σ left = Σ right, vectors; `unknown` are the ids of the two whose sizes are not known yet."""
 
     left: tuple[Vector, ...]
@@ -70,7 +70,7 @@ class Step:
     body: int = 0
     point: str = ""
     base: str = ""
-    equation: Equation | None = None
+    equation: BoardEquation | None = None
     axes: tuple[Axis, ...] = ()
     """What the equation is projected on, in the order of the lines."""
     frame: int = 0
@@ -91,7 +91,7 @@ class Step:
 class Quantities(Sheet):
     """A sheet on which a rate is nothing that is so beside the rates of the whole system: what floats leave of 0."""
 
-    def __init__(self, positions: int, motion: Motion) -> None:
+    def __init__(self, positions: int, motion: InstantMotion) -> None:
         super().__init__(positions)
         # A hundred thousandth: what is small beside the other rates keeps its figures.
         fast, steep = motion.fastest * 1e-5, motion.steepest * 1e-5
@@ -118,7 +118,7 @@ class Board:
     steps: list[Step] = field(default_factory=list)
 
     @property
-    def motion(self) -> Motion:
+    def motion(self) -> InstantMotion:
         return self.layout.motion
 
     def length(self, one: str, other: str, one_at: complex | None = None) -> Ref:
@@ -239,7 +239,7 @@ class Projected:
         self, board: Board, left: tuple[Vector, ...], right: tuple[Vector, ...], lines: tuple[str, ...] = ()
     ) -> None:
         unknown = tuple(one.id for one in (*left, *right) if not board.knows(one.id))
-        self.board, self.equation = board, Equation(left, right, unknown)
+        self.board, self.equation = board, BoardEquation(left, right, unknown)
         self.lines, self.axes = lines, tuple[Axis, ...]()
 
     def find(

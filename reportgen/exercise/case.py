@@ -36,10 +36,10 @@ from reportgen.report import (
 )
 from reportgen.report.case import Key, Pitfalls
 from reportgen.report.numbering import number
-from reportgen.report.prose import PointName, Prose
+from reportgen.report.prose import NamedPoint, Prose
 
 if TYPE_CHECKING:
-    from reportgen.drawing.sheet import Sheet
+    from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
 
 
@@ -118,7 +118,7 @@ class ExerciseCase(SolvedExercise):
     def film(self) -> None:
         """Nothing moves at one instant."""
 
-    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[Sheet]:
+    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
         """Raises `NotOfferedError`: there is no machine to draw."""
         self._no_machine()
 
@@ -160,7 +160,7 @@ def solution(case: SolvedExercise) -> Document:
 
 def task_names(case: SolvedExercise) -> Mapping[str, Any]:
     """What the templates of an exercise name that say what is given and asked."""
-    page = Page(case, case.worked)
+    page = SolutionPage(case, case.worked)
     return {
         "title": case.title,
         "variant": case.assignment.variant,
@@ -178,8 +178,8 @@ def task_names(case: SolvedExercise) -> Mapping[str, Any]:
 
 def names(case: SolvedExercise) -> Mapping[str, Any]:
     """What the templates of its solution name."""
-    page = Page(case, case.worked)
-    further = [Page(case, worked) for worked in case.further]
+    page = SolutionPage(case, case.worked)
+    further = [SolutionPage(case, worked) for worked in case.further]
     return {
         **task_names(case),
         "method": page.method,
@@ -200,14 +200,14 @@ class GivenItem:
     """A given quantity: the key of its words, and what they name."""
 
     form: str
-    point: PointName
+    point: NamedPoint
     body: int
     value: Chain | Symbol
     way: Inlines = ()
 
 
 @dataclass(frozen=True)
-class Page(Solution):
+class SolutionPage(Solution):
     """An exercise as its page shows it."""
 
     @property
@@ -231,7 +231,7 @@ class Page(Solution):
         return tuple(self._given_items())
 
     def _given_items(self) -> Iterator[GivenItem]:
-        none = PointName("")
+        none = NamedPoint("")
         for rate in self.case.exercise.given.given:
             match rate:
                 case file.OmegaOf(body=body, value=value) | file.EpsilonOf(body=body, value=value):
@@ -244,16 +244,16 @@ class Page(Solution):
                     id = f"{form[0]}.{point}"
                     if size is None:
                         yield GivenItem(
-                            f"{form}-way", PointName(point), 0, vocabulary.symbol(id), self._angle(rate.direction.si)
+                            f"{form}-way", NamedPoint(point), 0, vocabulary.symbol(id), self._angle(rate.direction.si)
                         )
                     else:
                         turned = rate.direction.si + (math.pi if size.si < 0 else 0.0)
                         shown = self._typed(id, size)
-                        yield GivenItem(form, PointName(point), 0, shown, self._angle(turned))
+                        yield GivenItem(form, NamedPoint(point), 0, shown, self._angle(turned))
                 case file.FromRest(point=point, acceleration=acceleration, time=time):
                     shown = self._typed(f"a.{point}", acceleration)
                     after = (InlineMath(Chain((Symbol("t"), Number(time.value, None, time.unit)))),)
-                    yield GivenItem("from-rest", PointName(point), 0, shown, after)
+                    yield GivenItem("from-rest", NamedPoint(point), 0, shown, after)
 
     def _typed(self, id: str, given: Given) -> Chain:
         """What is given, by its size: the formula of one that is stated by symbols."""
@@ -332,7 +332,7 @@ class Page(Solution):
         across, up = (replace(self._coordinate(part), unit=unit) for part in (at.real, at.imag))
         return (Value(across),), (Value(up),)
 
-    def comparison(self, further: Sequence[Page]) -> Table:
+    def comparison(self, further: Sequence[SolutionPage]) -> Table:
         """What is asked of velocities, by each method that leads to it.  Raises `ValueError` if two disagree."""
         words, pages = self.case.words["instant"], (self, *further)
         rows: list[tuple[Cell, ...]] = []

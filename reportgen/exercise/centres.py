@@ -14,7 +14,7 @@ from typing import Literal
 from reportgen.exercise import file
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.places import Geometry, parallel, perpendicular, unit
-from reportgen.exercise.solving import Motion
+from reportgen.exercise.solving import InstantMotion
 from reportgen.formula.constructions import meet
 
 Rule = Literal["pivot", "contact", "normals", "rate", "translation"]
@@ -24,7 +24,7 @@ LETTERS = "PQIK"
 
 
 @dataclass(frozen=True, slots=True)
-class Centre:
+class InstantCentre:
     """The instant centre of a body: by which rule, its name and place, and the points whose normals meet there.
 
     By the rule `rate` it lies on one normal, at the distance v/ω of a body whose rotation is known already.
@@ -50,12 +50,12 @@ class Layout:
     """Bodies with all points that move with them, the directions of their velocities, and the instant centres."""
 
     given: file.Parameters
-    motion: Motion
+    motion: InstantMotion
     points: dict[str, complex] = field(default_factory=dict)
     members: dict[int, list[str]] = field(default_factory=dict)
     directions: dict[str, complex] = field(default_factory=dict)
     """Along which line a point moves; the sense is not known yet."""
-    centres: dict[int, Centre] = field(default_factory=dict)
+    centres: dict[int, InstantCentre] = field(default_factory=dict)
     slots: dict[str, complex] = field(default_factory=dict)
     """Points that are guided along a straight line of the ground."""
     contacts: dict[int, str] = field(default_factory=dict)
@@ -95,14 +95,14 @@ class Layout:
         declared = self.given.bodies[body].carried
         return [name for name in self.members[body] if name in declared or name not in touching]
 
-    def arm(self, centre: Centre, point: str) -> complex:
+    def arm(self, centre: InstantCentre, point: str) -> complex:
         return self.points[point] - centre.at
 
-    def is_centre(self, centre: Centre, point: str) -> bool:
+    def is_centre(self, centre: InstantCentre, point: str) -> bool:
         return abs(self.arm(centre, point)) < NEAR
 
 
-def lay_out(given: file.Parameters, motion: Motion) -> Layout:
+def lay_out(given: file.Parameters, motion: InstantMotion) -> Layout:
     """Everything about directions and centres that the joints and the given directions tell."""
     system = motion.system
     found = Layout(given, motion, dict(system.points), {body: [] for body in system.bodies})
@@ -136,19 +136,19 @@ def _enter(found: Layout, joint: file.Joint, index: int) -> None:
     match joint:
         case file.Pin(at=at, bodies=bodies) if GROUND in bodies:
             body = max(bodies)
-            found.centres[body] = Centre(body, "pivot", at, known[at])
+            found.centres[body] = InstantCentre(body, "pivot", at, known[at])
         case file.SlotJoint(point=point, on=0):
             found.directions[point] = found.slots[point] = found.geometry.direction(joint)
         case file.Slider(body=body, on=0):
-            found.centres[body] = Centre(body, "translation", direction=found.geometry.direction(joint))
+            found.centres[body] = InstantCentre(body, "translation", direction=found.geometry.direction(joint))
         case file.Translation(body=body):
-            found.centres.setdefault(body, Centre(body, "translation"))
+            found.centres.setdefault(body, InstantCentre(body, "translation"))
         case file.RollingOnLine(disc=body, on=carrier):
             touch = found.point_at(found.geometry.contact_on_line(joint), "K")
             found.contacts[index] = touch
             disc = given.disc(body)
             if carrier == GROUND and disc is not None:
-                found.centres[body] = Centre(body, "contact", touch, known[touch])
+                found.centres[body] = InstantCentre(body, "contact", touch, known[touch])
                 found.slots[disc.centre] = found.geometry.direction(joint)
             _share(found, touch, body, carrier)
         case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
@@ -156,7 +156,7 @@ def _enter(found: Layout, joint: file.Joint, index: int) -> None:
             found.contacts[index] = touch
             if GROUND in discs:
                 body = max(discs)
-                found.centres[body] = Centre(body, "contact", touch, known[touch])
+                found.centres[body] = InstantCentre(body, "contact", touch, known[touch])
             _share(found, touch, *discs)
         case file.Belt():
             _belt_ends(found, joint, index)
@@ -192,14 +192,14 @@ def _next_centre(found: Layout) -> bool:
     return False
 
 
-def _by_normals(found: Layout, body: int, one: str, other: str) -> Centre | None:
+def _by_normals(found: Layout, body: int, one: str, other: str) -> InstantCentre | None:
     p, q, u, w = found.points[one], found.points[other], found.directions[one], found.directions[other]
     if parallel(u, w):
         if abs(p - q) < NEAR or perpendicular(u, (p - q) / abs(p - q)):
             return None
-        return Centre(body, "translation", points=(one, other), direction=u)
+        return InstantCentre(body, "translation", points=(one, other), direction=u)
     at = meet(p, 1j * u, q, 1j * w)
-    return Centre(body, "normals", name_of_centre(found, body, at), at, (one, other))
+    return InstantCentre(body, "normals", name_of_centre(found, body, at), at, (one, other))
 
 
 def name_of_centre(found: Layout, body: int, at: complex) -> str:
@@ -234,7 +234,7 @@ def _by_projection(found: Layout) -> Iterator[tuple[str, complex]]:
                         yield name, found.directions[other]
 
 
-def _direction(found: Layout, centre: Centre, name: str) -> complex:
+def _direction(found: Layout, centre: InstantCentre, name: str) -> complex:
     if centre.rule == "translation":
         return centre.direction
     if found.is_centre(centre, name):

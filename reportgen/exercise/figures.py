@@ -10,9 +10,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from reportgen.base.units import nice_up
-from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Scene, Stroke, style
+from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Scene, style
 from reportgen.drawing.geometry import bounds, clusters
-from reportgen.drawing.labels import Draft, Request, finish, joined, label, settle
+from reportgen.drawing.labels import Canvas, Request, finish, joined, label, settle
 from reportgen.exercise import file
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.solved import SolvedExercise
@@ -103,7 +103,7 @@ class DrawnSystem:
     rotations: Sequence[DrawnRotation] = ()
     axes: Sequence[DrawnAxis] = ()
     coordinates: bool = False
-    pen: Stroke = field(default=style.ACTIVE)
+    pen: Pen = field(default=style.ACTIVE)
 
 
 def scene_of(drawn: DrawnSystem, notes: Sequence[Content] = ()) -> Scene:
@@ -148,23 +148,23 @@ def scene_of(drawn: DrawnSystem, notes: Sequence[Content] = ()) -> Scene:
         stop = start + rotation.sense * 1.9
         inner = sum(abs(other.at - rotation.at) < TOGETHER for other in drawn.rotations[:index])
         radius = DRIVER_ARROW + inner * ARROWS_APART
-        items.append(Arc(rotation.at, radius, start, stop, Stroke(0.25), style.HEAD))
+        items.append(Arc(rotation.at, radius, start, stop, Pen(0.25), style.HEAD))
         ends = [rotation.at + radius * cmath.exp(1j * (start + (stop - start) * share)) for share in (0.5, 0.8, 0.2)]
         requests.append(label(ends, rotation.symbol, prefer=((start + stop) / 2,)))
-    draft = settle(Draft(tuple(items), tuple(requests)))
+    draft = settle(Canvas(tuple(items), tuple(requests)))
     if drawn.coordinates:
         draft += _coordinates(draft)
     return finish(draft, notes=notes)
 
 
-def _coordinates(draft: Draft) -> Draft:
+def _coordinates(draft: Canvas) -> Canvas:
     """The axes of the coordinates at the lower left corner of a drawing."""
     low, _ = bounds(draft.items)
     corner = low - CORNER - COORDINATE
     ends = {"x": corner + COORDINATE, "y": corner + 1j * COORDINATE}
     arrows = (Arrow(corner, end, style.PROJECTION, AXIS_HEAD, letter) for letter, end in ends.items())
     names = (label(end, Symbol(letter), prefer=(cmath.phase(end - corner),)) for letter, end in ends.items())
-    return Draft((*arrows,), (*names,))
+    return Canvas((*arrows,), (*names,))
 
 
 def _names(points: Mapping[str, complex]) -> list[Request]:

@@ -12,7 +12,7 @@ from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Angle, Flag, Reader, Whole, fault, quantity
 from reportgen.base.units import Given
 from reportgen.catalogue.linkage_file import MOST_NAMES, Name
-from reportgen.exercise.symbols import MOST_SYMBOLS, SymbolName, SymbolValue, Told, Value, stated
+from reportgen.exercise.symbols import MOST_SYMBOLS, Substitution, SymbolName, SymbolValue, Told, stated
 
 LAST_BODY = 40
 _ASKED = re.compile(r"(?P<what>v|a|omega|eps|centre)\.(?P<of>[A-Z][0-9]{0,2}|[0-9]{1,2})")
@@ -323,7 +323,7 @@ Method = Literal["instant centre", "base point", "projection", "moving frame"]
 
 
 SymbolTable = Annotated[
-    dict[Annotated[str, SymbolName()], Annotated[Value, SymbolValue()]], Field(max_length=MOST_SYMBOLS)
+    dict[Annotated[str, SymbolName()], Annotated[Substitution, SymbolValue()]], Field(max_length=MOST_SYMBOLS)
 ]
 
 

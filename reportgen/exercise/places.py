@@ -13,7 +13,7 @@ from reportgen.base.units import Given
 from reportgen.exercise import conditions as on
 from reportgen.exercise import file
 from reportgen.exercise.conditions import Condition
-from reportgen.exercise.solving import Motion, System
+from reportgen.exercise.solving import InstantMotion, System
 from reportgen.formula.constructions import circle_circle, circle_line, cross, foot, meet, real_root
 
 TOP: Where = ("parameters",)
@@ -343,7 +343,7 @@ class Exercise:
     """A system in motion at one instant, and what is to be found of it."""
 
     given: file.Parameters
-    motion: Motion
+    motion: InstantMotion
 
     @property
     def asked(self) -> tuple[file.Asked, ...]:
@@ -353,4 +353,4 @@ class Exercise:
 def exercise_of(assignment: Assignment) -> Exercise:
     """The exercise of an assignment that is in order."""
     given: file.Parameters = assignment.parameters
-    return Exercise(given, Motion(system(given)))
+    return Exercise(given, InstantMotion(system(given)))

@@ -19,7 +19,7 @@ from reportgen.exercise import file, symbols
 from reportgen.exercise.centres import NEAR, Layout, lay_out
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.places import TOP, MisplacedError, direction_of, named, perpendicular, system
-from reportgen.exercise.solving import Motion
+from reportgen.exercise.solving import InstantMotion
 from reportgen.formula import Negative, Ref
 
 if TYPE_CHECKING:
@@ -195,7 +195,7 @@ def _one_of(told: list[str], keys: tuple[str, ...], where: Where) -> Iterator[Fi
 def _motion(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Finding]:
     """The system can move as is given, and what is asked follows from that."""
     try:
-        motion = Motion(system(given))
+        motion = InstantMotion(system(given))
     except MisplacedError as fault:
         yield fault.finding
         return
@@ -237,7 +237,7 @@ def _by_symbols(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Find
     changes = {name: 1 + CHANGED * (index + 1) for index, name in enumerate(given.symbols)}
     changed = {name: f"{one.given.si * changes[name]!r} {symbols.si_unit(one)}" for name, one in given.symbols.items()}
     try:
-        other = Motion(system(file.Parameters.model_validate({**raw, "symbols": changed})))
+        other = InstantMotion(system(file.Parameters.model_validate({**raw, "symbols": changed})))
         moves = not (other.velocity_conflicts or other.acceleration_conflicts)
     except (MisplacedError, ValidationError):
         moves = False
@@ -260,7 +260,7 @@ def _is_acceleration_on(rate: file.GivenRate, body: int, given: file.Parameters)
     return isinstance(rate, file.AccelerationOf) and rate.point in given.bodies[body].carried
 
 
-def _open(motion: Motion, asked: file.Asked) -> str:
+def _open(motion: InstantMotion, asked: file.Asked) -> str:
     """The bodies whose motion stays open, by number."""
     bodies = motion.system.bodies
     if asked.what in ("omega", "v", "centre"):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from reportgen.exercise.accelerations import Parts, about_points, by_slots, enter_accelerations
 from reportgen.exercise.board import Board, Quantities, Step
-from reportgen.exercise.centres import NEAR, Centre, Layout, lay_out, name_of_centre
+from reportgen.exercise.centres import NEAR, InstantCentre, Layout, lay_out, name_of_centre
 from reportgen.exercise.file import Asked, Method
 from reportgen.exercise.loops import enter_proportion, solve_accelerations_together, solve_velocities_together
 from reportgen.exercise.places import Exercise
@@ -246,11 +246,11 @@ def _from_rate(board: Board, body: int) -> None:
         return
     at = board.motion.centre(body)
     if at is None:
-        layout.centres[body] = Centre(body, "translation")
+        layout.centres[body] = InstantCentre(body, "translation")
         return
     name = name_of_centre(layout, body, at)
     away = next((one for one in known if abs(layout.points[one] - at) > NEAR), "")
-    layout.centres[body] = Centre(body, "rate", name, at, (away,) if away else ())
+    layout.centres[body] = InstantCentre(body, "rate", name, at, (away,) if away else ())
     if away:
         length = q.define(f"l.{name}{away}", q[f"v.{away}"] / q[f"omega.{body}"])
         board.steps.append(Step("centre-rate", (length.id,), body, away, name))

@@ -3,7 +3,7 @@
 Both have one matrix but for the given quantities.  Conditions are taken in the order of the file.  One that follows
 from those before it is a passive one where its value fits, else it *contradicts* those it follows from.  What the
 conditions leave open is the null space of the matrix: a quantity that some motion of it changes is *undetermined*.
-`Motion` asks for both and tells the rates of bodies and points, and the centres of rotation.
+`InstantMotion` asks for both and tells the rates of bodies and points, and the centres of rotation.
 """
 
 from __future__ import annotations
@@ -220,7 +220,7 @@ def _conflicts(names: Sequence[str], matrix: np.ndarray, values: np.ndarray) -> 
 
 
 @dataclass(frozen=True)
-class Motion:
+class InstantMotion:
     """A system with its velocities and its accelerations, each solved when it is first asked for."""
 
     system: System

@@ -10,7 +10,7 @@ from itertools import combinations, permutations
 
 from reportgen.exercise import file
 from reportgen.exercise.board import Board, Projected, Step, Vector, towards
-from reportgen.exercise.centres import NEAR, Centre
+from reportgen.exercise.centres import NEAR, InstantCentre
 from reportgen.exercise.places import direction_of, parallel, perpendicular
 from reportgen.formula import Symbol
 
@@ -84,7 +84,7 @@ def _by_belt(board: Board) -> bool:
     return False
 
 
-def _about(board: Board, centres: Iterable[Centre]) -> bool:
+def _about(board: Board, centres: Iterable[InstantCentre]) -> bool:
     for centre in centres:
         if centre.rule == "translation":
             if _translation(board, centre.body, centre):
@@ -94,7 +94,7 @@ def _about(board: Board, centres: Iterable[Centre]) -> bool:
     return False
 
 
-def _translation(board: Board, body: int, centre: Centre) -> bool:
+def _translation(board: Board, body: int, centre: InstantCentre) -> bool:
     """All points have one velocity."""
     q, names = board.q, board.layout.members[body]
     known = next((name for name in names if board.knows(f"v.{name}")), "")
@@ -109,7 +109,7 @@ def _translation(board: Board, body: int, centre: Centre) -> bool:
     return True
 
 
-def _rate(board: Board, body: int, centre: Centre) -> bool:
+def _rate(board: Board, body: int, centre: InstantCentre) -> bool:
     """ω = v/l from one velocity, about the centre."""
     if board.knows(f"omega.{body}"):
         return False
@@ -123,7 +123,7 @@ def _rate(board: Board, body: int, centre: Centre) -> bool:
     return True
 
 
-def _points(board: Board, body: int, centre: Centre) -> bool:
+def _points(board: Board, body: int, centre: InstantCentre) -> bool:
     """v = ω l of every point, about the centre; what is at the centre is at rest."""
     q, layout = board.q, board.layout
     new = [name for name in layout.members[body] if not board.knows(f"v.{name}")]

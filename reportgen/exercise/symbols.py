@@ -46,7 +46,7 @@ class Literal(Given):
 
 
 @dataclass(frozen=True, slots=True)
-class Value:
+class Substitution:
     """What a symbol stands for; `put_in` unless the answer is to stay an expression."""
 
     given: Given
@@ -54,17 +54,17 @@ class Value:
     put_in: bool = True
 
 
-Symbols = Mapping[str, Value]
+Symbols = Mapping[str, Substitution]
 
 
 @dataclass(frozen=True, slots=True)
 class SymbolValue(Reader):
     """A quantity of any kind, or  {drawn: 100 mm}  for one that is not to be put in."""
 
-    def read(self, value: object) -> Value:
+    def read(self, value: object) -> Substitution:
         if isinstance(value, dict) and set(value) == {"drawn"}:
             found = self.read(value["drawn"])
-            return Value(found.given, found.powers, put_in=False)
+            return Substitution(found.given, found.powers, put_in=False)
         if not isinstance(value, str):
             raise fault("wrong-type", expected="text")
         problem: QuantityFault | None = None
@@ -76,7 +76,7 @@ class SymbolValue(Reader):
                 continue
             if given.si <= 0:
                 raise fault("out-of-range", text=value, range="> 0")
-            return Value(given, powers)
+            return Substitution(given, powers)
         assert problem is not None
         raise fault(problem.code, **problem.arguments)
 
@@ -158,7 +158,7 @@ def _at_values(formula: Expression, told: Stated) -> float:
     return si
 
 
-def si_unit(value: Value) -> str:
+def si_unit(value: Substitution) -> str:
     """The SI unit of what a symbol stands for."""
     unit = next(unit for unit, powers in _UNITS.items() if powers == value.powers)
     return "m" if unit == "mm" else unit

@@ -20,7 +20,7 @@ from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import symbol
 from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, refs, substitute, vocabulary
 from reportgen.report import Equation, InlineMath, Inlines, Text, Value
-from reportgen.report.prose import PointName
+from reportgen.report.prose import NamedPoint
 
 AT = 1
 """The one position of an exercise."""
@@ -35,11 +35,11 @@ class StepView:
     kind: str
     of_accelerations: bool
     body: int
-    point: PointName
-    base: PointName
-    centre: PointName
-    one: PointName
-    other: PointName
+    point: NamedPoint
+    base: NamedPoint
+    centre: NamedPoint
+    one: NamedPoint
+    other: NamedPoint
     """The points whose normals meet in the centre."""
     lines: tuple[Equation, ...]
     equation: tuple[Equation, ...]
@@ -59,7 +59,7 @@ class StepView:
     """Whether the step projects on ξ."""
     on_coordinates: bool
     """Whether it projects on x or y."""
-    contact: PointName | str
+    contact: NamedPoint | str
     """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
 
 
@@ -111,11 +111,11 @@ class Solution:
             kind=step.kind,
             of_accelerations=step.of_accelerations,
             body=step.body,
-            point=PointName(step.point),
-            base=PointName(step.base),
-            centre=PointName(centre.name if centre is not None else ""),
-            one=PointName(others[0]),
-            other=PointName(others[1]),
+            point=NamedPoint(step.point),
+            base=NamedPoint(step.base),
+            centre=NamedPoint(centre.name if centre is not None else ""),
+            one=NamedPoint(others[0]),
+            other=NamedPoint(others[1]),
             lines=(Equation(tuple(map(self._chain, shown))),) if shown else (),
             equation=(self._equation(step),) if step.equation is not None and step.equation.left else (),
             angles=tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),
@@ -129,7 +129,7 @@ class Solution:
             across=self.axes.symbol(step, "η"),
             on_line=any(axis.letter == "ξ" for axis in step.axes),
             on_coordinates=any(axis.letter in COORDINATES for axis in step.axes),
-            contact=PointName(centre.name) if rolling and centre is not None else "",
+            contact=NamedPoint(centre.name) if rolling and centre is not None else "",
         )
 
     def _angles_of(self, id: str) -> list[str]:

@@ -1,6 +1,6 @@
 """Named numbers and their definitions, and the ledger evaluated again from other values.
 
-The families of the finished sheet (`notation.sheet`) with their decimals.  A `Quantity` is a family at one
+The families of the finished sheet (`notation.sheet`) with their decimals.  A `PrintedQuantity` is a family at one
 position.  Definitions are expressions over other families, so the ledger evaluates itself
 (`Ledger.evaluate`), tells what depends on what (`refs`), and prints its own worked lines (`Ledger.chain`).
 
@@ -42,7 +42,7 @@ Entered = Callable[[str, dict[str, np.ndarray]], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Quantity:
+class PrintedQuantity:
     """A family at one position, as printed: `value` in `unit` with `decimals`."""
 
     id: str
@@ -122,13 +122,13 @@ class Ledger:
         """Those of the ids that are entered, each once."""
         return [id for id in dict.fromkeys(ids) if id in self.families]
 
-    def quantity(self, id: str, position: int | None = None) -> Quantity:
+    def quantity(self, id: str, position: int | None = None) -> PrintedQuantity:
         """One number as printed.  Raises `KeyError` for an unknown id."""
         family = self.families[id]
         how = family.how
         value = float(family.at(position).real) / how.scale
         decimals = self.decimals[id] if value else None
-        return Quantity(
+        return PrintedQuantity(
             id=id,
             position=None if len(family.values) == 1 else position,
             symbol=family.symbol,

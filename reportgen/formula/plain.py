@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from reportgen.base.units import Language
 from reportgen.formula import Expression, Number, Symbol, VectorEquation
-from reportgen.formula.setting import Sign, Source, Written, known_of, written
+from reportgen.formula.setting import Sign, TextSetter, Written, known_of, written
 
 
-class Plain(Source):
+class Plain(TextSetter):
     """Formulas as letters in a line, indices and exponents behind their marks."""
 
     linear = True

@@ -81,7 +81,7 @@ class Written:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class MathRow:
     parts: tuple[Part, ...]
 
 
@@ -112,7 +112,7 @@ class Fence:
 
 
 @dataclass(frozen=True, slots=True)
-class Applied:
+class Function:
     """A function before its argument, which is in a fence unless it is one letter."""
 
     name: str
@@ -132,7 +132,7 @@ class Note:
     text: str
 
 
-Part = Symbol | Written | Sign | Row | Raised | Quotient | Radical | Fence | Applied | Grid | Note
+Part = Symbol | Written | Sign | MathRow | Raised | Quotient | Radical | Fence | Function | Grid | Note
 
 NEGATIVE, PLUS, MINUS = Sign("−", "prefix"), Sign("+", "sum"), Sign("−", "sum")
 DOT, SLASH = Sign("·", "product"), Sign("/", "slash")
@@ -157,13 +157,13 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
             case Ref(id):
                 raise TypesetterError(f"quantity {id!r} came to the page without its symbol or value")
             case Sum(members):
-                return Row((of(members[0]), *(part for term in members[1:] for part in signed(term))))
+                return MathRow((of(members[0]), *(part for term in members[1:] for part in signed(term))))
             case Product(factors):
-                return Row(tuple(_joined((tight(factor, PRODUCT) for factor in factors), repeat(DOT))))
+                return MathRow(tuple(_joined((tight(factor, PRODUCT) for factor in factors), repeat(DOT))))
             case Negative(inner):
-                return Row((NEGATIVE, tight(inner, PRODUCT)))
+                return MathRow((NEGATIVE, tight(inner, PRODUCT)))
             case Fraction(top, bottom) if slashed or linear:
-                return Row((tight(top, PRODUCT), SLASH, tight(bottom, ATOM)))
+                return MathRow((tight(top, PRODUCT), SLASH, tight(bottom, ATOM)))
             case Fraction(top, bottom):
                 return Quotient(of(top), of(bottom))
             case Power(Call(name, arguments), exponent) if name in NAMED and not linear:
@@ -176,7 +176,7 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
                 return Fence("|", of(argument), "|")
             case Call("cross" | "dot" as product, (left, right)):
                 sign = Sign("×" if product == "cross" else "·", "bound")
-                return Row((tight(left, QUOTIENT), sign, tight(right, QUOTIENT)))
+                return MathRow((tight(left, QUOTIENT), sign, tight(right, QUOTIENT)))
             case Call(name, arguments):
                 return applied(name, arguments, None)
             case Matrix(rows):
@@ -185,12 +185,12 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
                 signs = [FIRST] + [EQUALS] * (len(parts) - 2)
                 if short_end(node):
                     signs[-1] = LAST
-                return _noted(Row(tuple(_joined(map(of, parts), signs))), node)
+                return _noted(MathRow(tuple(_joined(map(of, parts), signs))), node)
             case VectorEquation():
                 line: list[Part] = []
                 for before, term in terms(node):
                     line += (*before, term.symbol)
-                return Row(tuple(line))
+                return MathRow(tuple(line))
 
     def tight(node: Expression, least: int) -> Fence:
         return Fence("", of(node), "") if level(node, linear) >= least else Fence("(", of(node), ")")
@@ -201,12 +201,12 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
     def signed(term: Expression) -> tuple[Sign, Part]:
         return (MINUS, tight(term.of, PRODUCT)) if isinstance(term, Negative) else (PLUS, tight(term, PRODUCT))
 
-    def applied(name: str, arguments: Sequence[Expression], exponent: Part | None) -> Applied:
+    def applied(name: str, arguments: Sequence[Expression], exponent: Part | None) -> Function:
         if len(arguments) == 1 and name in NAMED and level(arguments[0]) >= MARKED and not linear:
-            return Applied(name, exponent, of(arguments[0]))
+            return Function(name, exponent, of(arguments[0]))
         # A comma is the decimal mark in Vietnamese.
         mark = Sign(";" if language == "vi" else ",", "separator")
-        return Applied(name, exponent, Fence("(", Row(tuple(_joined(map(of, arguments), repeat(mark)))), ")"))
+        return Function(name, exponent, Fence("(", MathRow(tuple(_joined(map(of, arguments), repeat(mark)))), ")"))
 
     return of(node)
 
@@ -220,7 +220,7 @@ def _joined(parts: Iterable[Part], signs: Iterable[Sign]) -> Iterator[Part]:
 
 def _noted(part: Part, node: Expression) -> Part:
     """A part with the reason that a chain has behind its result."""
-    return Row((part, Note(node.note))) if isinstance(node, Chain) and node.note else part
+    return MathRow((part, Note(node.note))) if isinstance(node, Chain) and node.note else part
 
 
 def level(node: Expression, linear: bool = False) -> int:
@@ -249,11 +249,11 @@ def is_tall(part: Part) -> bool:
     match part:
         case Quotient() | Radical() | Grid():
             return True
-        case Row(parts):
+        case MathRow(parts):
             return any(map(is_tall, parts))
         case Raised(base, exponent):
             return is_tall(base) or is_tall(exponent)
-        case Fence(of=inner) | Applied(to=inner):
+        case Fence(of=inner) | Function(to=inner):
             return is_tall(inner)
         case _:
             return False
@@ -286,7 +286,7 @@ def displayed(node: Expression, language: Language) -> list[list[Part]]:
     found = [pieces(laid(part, language)) for part in (node.parts if isinstance(node, Chain) else (node,))]
     if short_end(node) and (len(found) > 2 or (len(found) == 2 and len(found[0]) > 1)):
         end = found.pop()
-        found[-1][-1] = Row((found[-1][-1], EQUALS, *end))
+        found[-1][-1] = MathRow((found[-1][-1], EQUALS, *end))
     found[-1][-1] = _noted(found[-1][-1], node)
     return found
 
@@ -294,9 +294,9 @@ def displayed(node: Expression, language: Language) -> list[list[Part]]:
 def pieces(part: Part) -> list[Part]:
     """What a displayed line may break between: terms of a sum, factors of a product."""
     match part:
-        case Row((Sign() as sign, Fence("", Row(parts)))):
+        case MathRow((Sign() as sign, Fence("", MathRow(parts)))):
             every: tuple[Part, ...] = (sign, *parts)
-        case Row(parts):
+        case MathRow(parts):
             every = parts
         case _:
             every = (part,)
@@ -305,7 +305,7 @@ def pieces(part: Part) -> list[Part]:
         if isinstance(one, Sign) and one.role in ("sum", "product"):
             found.append([])
         found[-1].append(one)
-    return [Row(tuple(some)) for some in found]
+    return [MathRow(tuple(some)) for some in found]
 
 
 def short_end(row: Expression) -> bool:
@@ -317,7 +317,7 @@ def short_end(row: Expression) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class TermColumn:
     """Of a vector equation: the signs before a term, the term itself, what is known of it in the equation's rows."""
 
     signs: tuple[Sign, ...]
@@ -335,17 +335,17 @@ def terms(equation: VectorEquation) -> Iterator[tuple[tuple[Sign, ...], Term]]:
                 yield (BOUND,) * bool(side) + (NEGATIVE,) * (term.sign < 0), term
 
 
-def columns(equation: VectorEquation) -> list[Column]:
+def columns(equation: VectorEquation) -> list[TermColumn]:
     """The columns of a vector equation.
 
     A last "= 0", of which nothing is known, stands with the term before it: no row is broken between them.
     """
-    found: list[Column] = []
+    found: list[TermColumn] = []
     for signs, term in terms(equation):
         if found and signs[:1] == (BOUND,) and not any(entry != "" for entry in term.known):
-            found[-1] = Column(found[-1].signs, Row((found[-1].term, *signs, term.symbol)), found[-1].known)
+            found[-1] = TermColumn(found[-1].signs, MathRow((found[-1].term, *signs, term.symbol)), found[-1].known)
         else:
-            found.append(Column(signs, term.symbol, known_of(term, equation)))
+            found.append(TermColumn(signs, term.symbol, known_of(term, equation)))
     return found
 
 
@@ -395,7 +395,7 @@ class Setter(ABC, Generic[Look]):
     def part(self, part: Part) -> Look: ...
 
 
-class Source(Setter[str]):
+class TextSetter(Setter[str]):
     """A look in letters, operands in the places of "%s"."""
 
     BELOW: ClassVar[str] = "%s%s"
@@ -422,7 +422,7 @@ class Source(Setter[str]):
                 return self.number(part)
             case Sign():
                 return self.sign(part)
-            case Row(parts):
+            case MathRow(parts):
                 return "".join(map(of, parts))
             case Raised(base, exponent):
                 return self.RAISED % (of(base), of(exponent))
@@ -432,7 +432,7 @@ class Source(Setter[str]):
                 return self.RADICAL % of(inner)
             case Fence():
                 return self.fence(part)
-            case Applied(name, exponent, to):
+            case Function(name, exponent, to):
                 function = self.function(name)
                 function = self.POWER % (function, of(exponent)) if exponent else function
                 return (self.CALL if isinstance(to, Fence) else self.APPLIED) % (function, of(to))

@@ -21,7 +21,7 @@ import numpy as np
 
 from reportgen.formula import Call, Expression, Operand, Ref, Symbol, as_expression, vocabulary, walk
 from reportgen.formula.evaluation import evaluate
-from reportgen.formula.vocabulary import KINDS, MAX_DIGITS, Chapter, Kind
+from reportgen.formula.vocabulary import KINDS, MAX_DIGITS, Chapter, QuantityKind
 
 ZERO = 1e-9
 """A value below this share of its own scale is nothing: it prints as 0."""
@@ -71,7 +71,7 @@ class Family:
         return self.definition if self.written is None else self.written
 
     @property
-    def how(self) -> Kind:
+    def how(self) -> QuantityKind:
         """How it is printed: its unit and its figures."""
         return KINDS[self.kind]
 

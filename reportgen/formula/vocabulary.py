@@ -24,7 +24,7 @@ from reportgen.formula.ids import Name
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class QuantityKind:
     """How a kind of quantity is printed: SI value = printed value × `scale`.
 
     `digits` are the significant figures aimed at for the largest value of a family, and `most` those that
@@ -40,36 +40,36 @@ class Kind:
     finest: int | None = None
 
 
-KINDS: dict[str, Kind] = {
-    "ratio": Kind("", digits=5),
-    "count": Kind("", decimals=0),
-    "sign": Kind("", decimals=0),
-    "angle": Kind("°", math.pi / 180, decimals=2),
-    "speed of rotation": Kind("rpm", digits=5),
-    "time": Kind("s", digits=4),
-    "length": Kind("m", digits=4),
-    "diameter": Kind("cm", 1e-2, digits=4),
-    "area": Kind("cm²", 1e-4, digits=5),
-    "product of lengths": Kind("m²", digits=4),
-    "segment": Kind("mm", 1e-3, decimals=2, finest=2),
-    "length scale": Kind("m/mm", 1e3, digits=4),
-    "velocity scale": Kind("m/(s·mm)", 1e3, digits=6),
-    "acceleration scale": Kind("m/(s²·mm)", 1e3, digits=5),
-    "force scale": Kind("N/mm", 1e3, digits=4),
-    "pressure scale": Kind("N/(cm²·mm)", 1e7, digits=4),
-    "velocity": Kind("m/s", most=5),
-    "acceleration": Kind("m/s²", most=5),
-    "angular velocity": Kind("rad/s"),
-    "angular acceleration": Kind("rad/s²", most=5),
-    "weight": Kind("N", digits=4),
-    "gravity": Kind("m/s²", digits=3),
-    "mass": Kind("kg", digits=5),
-    "moment of inertia": Kind("kg·m²", digits=4),
-    "pressure": Kind("N/cm²", 1e4, digits=4),
-    "force": Kind("N", most=5),
-    "torque": Kind("N·m", most=5),
-    "work": Kind("J", most=5),
-    "power": Kind("W", most=5),
+KINDS: dict[str, QuantityKind] = {
+    "ratio": QuantityKind("", digits=5),
+    "count": QuantityKind("", decimals=0),
+    "sign": QuantityKind("", decimals=0),
+    "angle": QuantityKind("°", math.pi / 180, decimals=2),
+    "speed of rotation": QuantityKind("rpm", digits=5),
+    "time": QuantityKind("s", digits=4),
+    "length": QuantityKind("m", digits=4),
+    "diameter": QuantityKind("cm", 1e-2, digits=4),
+    "area": QuantityKind("cm²", 1e-4, digits=5),
+    "product of lengths": QuantityKind("m²", digits=4),
+    "segment": QuantityKind("mm", 1e-3, decimals=2, finest=2),
+    "length scale": QuantityKind("m/mm", 1e3, digits=4),
+    "velocity scale": QuantityKind("m/(s·mm)", 1e3, digits=6),
+    "acceleration scale": QuantityKind("m/(s²·mm)", 1e3, digits=5),
+    "force scale": QuantityKind("N/mm", 1e3, digits=4),
+    "pressure scale": QuantityKind("N/(cm²·mm)", 1e7, digits=4),
+    "velocity": QuantityKind("m/s", most=5),
+    "acceleration": QuantityKind("m/s²", most=5),
+    "angular velocity": QuantityKind("rad/s"),
+    "angular acceleration": QuantityKind("rad/s²", most=5),
+    "weight": QuantityKind("N", digits=4),
+    "gravity": QuantityKind("m/s²", digits=3),
+    "mass": QuantityKind("kg", digits=5),
+    "moment of inertia": QuantityKind("kg·m²", digits=4),
+    "pressure": QuantityKind("N/cm²", 1e4, digits=4),
+    "force": QuantityKind("N", most=5),
+    "torque": QuantityKind("N·m", most=5),
+    "work": QuantityKind("J", most=5),
+    "power": QuantityKind("W", most=5),
 }
 
 MAX_DIGITS = max(kind.most for kind in KINDS.values())
@@ -154,7 +154,7 @@ class Chapter(StrEnum):
 
 
 @dataclass(frozen=True)
-class Row:
+class VocabularyRow:
     """A family of ids, or a single one.
 
     Under the `letter` stands the text `below`, else the word in the last place, above it the `part`.  `plan` is the id
@@ -183,122 +183,122 @@ _NOT_BELOW = frozenset({"to", "axis", "part", "about", "letter"})
 _G, _V, _A = Chapter.geometry, Chapter.velocity, Chapter.acceleration
 _LOADS, _FORCES, _TORQUE, _CYCLE = Chapter.loads, Chapter.forces, Chapter.torque, Chapter.cycle
 
-ROWS: tuple[Row, ...] = (
+ROWS: tuple[VocabularyRow, ...] = (
     # geometry
-    Row(ids.percussion, "l", "length", _LOADS, below="{point}K{link}", name="percussion"),
-    Row(ids.length, "l", "length", _G, name="length"),
-    Row(ids.drawn, "", "segment", _G, "mu.l", name="drawn length"),
-    Row(ids.scale.only(plan="l"), "μ", "length scale", _G, below="l"),
-    Row(Name("R"), "R", "length", _G),
-    Row(Name("L"), "L", "length", _G),
-    Row(Name("H"), "H", "length"),
-    Row(Name("e"), "e", "length"),
-    Row(Name("D"), "D", "diameter"),
-    Row(Name("F"), "F", "area", _G),
-    Row(Name("lambda"), "λ", "ratio", _G),
-    Row(Name("theta"), "θ", "angle"),
-    Row(Name("K"), "K", "ratio"),
-    Row(Name("s"), "s", "ratio"),
+    VocabularyRow(ids.percussion, "l", "length", _LOADS, below="{point}K{link}", name="percussion"),
+    VocabularyRow(ids.length, "l", "length", _G, name="length"),
+    VocabularyRow(ids.drawn, "", "segment", _G, "mu.l", name="drawn length"),
+    VocabularyRow(ids.scale.only(plan="l"), "μ", "length scale", _G, below="l"),
+    VocabularyRow(Name("R"), "R", "length", _G),
+    VocabularyRow(Name("L"), "L", "length", _G),
+    VocabularyRow(Name("H"), "H", "length"),
+    VocabularyRow(Name("e"), "e", "length"),
+    VocabularyRow(Name("D"), "D", "diameter"),
+    VocabularyRow(Name("F"), "F", "area", _G),
+    VocabularyRow(Name("lambda"), "λ", "ratio", _G),
+    VocabularyRow(Name("theta"), "θ", "angle"),
+    VocabularyRow(Name("K"), "K", "ratio"),
+    VocabularyRow(Name("s"), "s", "ratio"),
     # masses
-    Row(Name("g"), "g", "gravity"),
-    Row(ids.weight, "G", "weight", _LOADS, name="weight"),
-    Row(ids.mass, "m", "mass", _G, name="mass"),
-    Row(ids.inertia, "J", "moment of inertia", _G, below="S{link}", name="inertia"),
-    Row(ids.reduced_inertia, "J", "moment of inertia", _CYCLE, name="reduced inertia"),
-    Row(Name("J.r"), "J", "moment of inertia", _CYCLE, below="r"),
-    Row(Name("J.d"), "J", "moment of inertia", _CYCLE, below="d"),
+    VocabularyRow(Name("g"), "g", "gravity"),
+    VocabularyRow(ids.weight, "G", "weight", _LOADS, name="weight"),
+    VocabularyRow(ids.mass, "m", "mass", _G, name="mass"),
+    VocabularyRow(ids.inertia, "J", "moment of inertia", _G, below="S{link}", name="inertia"),
+    VocabularyRow(ids.reduced_inertia, "J", "moment of inertia", _CYCLE, name="reduced inertia"),
+    VocabularyRow(Name("J.r"), "J", "moment of inertia", _CYCLE, below="r"),
+    VocabularyRow(Name("J.d"), "J", "moment of inertia", _CYCLE, below="d"),
     # rotation
-    Row(Name("n"), "n", "speed of rotation"),
-    Row(Name("omega.of"), "ω", "angular velocity", _CYCLE),
-    Row(ids.bound_of_speed, "ω", "angular velocity", _V),
-    Row(ids.angular_velocity, "ω", "angular velocity", _V, name="angular velocity"),
-    Row(ids.signed.only(rate="omega"), "ω", "angular velocity", _V, name="signed angular velocity"),
-    Row(ids.angular_acceleration, "ε", "angular acceleration", _A, name="angular acceleration"),
-    Row(ids.signed.only(rate="eps"), "ε", "angular acceleration", _A, name="signed angular acceleration"),
+    VocabularyRow(Name("n"), "n", "speed of rotation"),
+    VocabularyRow(Name("omega.of"), "ω", "angular velocity", _CYCLE),
+    VocabularyRow(ids.bound_of_speed, "ω", "angular velocity", _V),
+    VocabularyRow(ids.angular_velocity, "ω", "angular velocity", _V, name="angular velocity"),
+    VocabularyRow(ids.signed.only(rate="omega"), "ω", "angular velocity", _V, name="signed angular velocity"),
+    VocabularyRow(ids.angular_acceleration, "ε", "angular acceleration", _A, name="angular acceleration"),
+    VocabularyRow(ids.signed.only(rate="eps"), "ε", "angular acceleration", _A, name="signed angular acceleration"),
     # plans of velocities and accelerations
-    Row(ids.scale.only(plan="v"), "μ", "velocity scale", _V, below="v"),
-    Row(ids.scale.only(plan="a"), "μ", "acceleration scale", _A, below="a"),
-    Row(ids.segment.only(what="v"), "", "segment", _V, "mu.v", name="segment"),
-    Row(ids.segment.only(what="a"), "", "segment", _A, "mu.a", name="segment"),
-    Row(ids.relative_segment, "", "segment", _A, "mu.a", name="segment"),
-    Row(ids.velocity, "v", "velocity", _V, name="velocity"),
-    Row(ids.stroke_velocity, "v", "velocity", _V),
-    Row(ids.acceleration, "a", "acceleration", _A, name="acceleration"),
-    Row(ids.direction.only(what="v"), "α", "angle", _V, below="v{point}", around=True, name="direction"),
-    Row(ids.direction.only(what="a"), "α", "angle", _A, below="a{point}", around=True, name="direction"),
+    VocabularyRow(ids.scale.only(plan="v"), "μ", "velocity scale", _V, below="v"),
+    VocabularyRow(ids.scale.only(plan="a"), "μ", "acceleration scale", _A, below="a"),
+    VocabularyRow(ids.segment.only(what="v"), "", "segment", _V, "mu.v", name="segment"),
+    VocabularyRow(ids.segment.only(what="a"), "", "segment", _A, "mu.a", name="segment"),
+    VocabularyRow(ids.relative_segment, "", "segment", _A, "mu.a", name="segment"),
+    VocabularyRow(ids.velocity, "v", "velocity", _V, name="velocity"),
+    VocabularyRow(ids.stroke_velocity, "v", "velocity", _V),
+    VocabularyRow(ids.acceleration, "a", "acceleration", _A, name="acceleration"),
+    VocabularyRow(ids.direction.only(what="v"), "α", "angle", _V, below="v{point}", around=True, name="direction"),
+    VocabularyRow(ids.direction.only(what="a"), "α", "angle", _A, below="a{point}", around=True, name="direction"),
     # exercises of plane motion: components, the velocity along a moving line, instant centres, angles of projection
-    Row(ids.velocity_component, "v", "velocity", _V, name="velocity component"),
-    Row(ids.acceleration_component, "a", "acceleration", _A, name="acceleration component"),
-    Row(ids.sliding_velocity, "v", "velocity", _V, name="sliding velocity"),
-    Row(ids.centre_coordinate, "x", "length", _V, name="centre coordinate"),
-    Row(ids.velocity_factor, "k", "length", _V, name="velocity factor"),
-    Row(ids.inner_angle, "α", "angle", name="projection angle"),
-    Row(Name("t"), "t", "time", name="time"),
+    VocabularyRow(ids.velocity_component, "v", "velocity", _V, name="velocity component"),
+    VocabularyRow(ids.acceleration_component, "a", "acceleration", _A, name="acceleration component"),
+    VocabularyRow(ids.sliding_velocity, "v", "velocity", _V, name="sliding velocity"),
+    VocabularyRow(ids.centre_coordinate, "x", "length", _V, name="centre coordinate"),
+    VocabularyRow(ids.velocity_factor, "k", "length", _V, name="velocity factor"),
+    VocabularyRow(ids.inner_angle, "α", "angle", name="projection angle"),
+    VocabularyRow(Name("t"), "t", "time", name="time"),
     # instant centres
-    Row(ids.centre_distance, "", "segment", _V, "mu.l", name="centre distance"),
-    Row(ids.centre_omega, "ω", "angular velocity", _V, name="centre rotation"),
-    Row(ids.centre_velocity, "v", "velocity", _V, name="centre velocity"),
-    Row(ids.rod_angle, "ψ", "angle", _V, name="rod angle"),
-    Row(ids.projection, "u", "velocity", _V, name="projection"),
+    VocabularyRow(ids.centre_distance, "", "segment", _V, "mu.l", name="centre distance"),
+    VocabularyRow(ids.centre_omega, "ω", "angular velocity", _V, name="centre rotation"),
+    VocabularyRow(ids.centre_velocity, "v", "velocity", _V, name="centre velocity"),
+    VocabularyRow(ids.rod_angle, "ψ", "angle", _V, name="rod angle"),
+    VocabularyRow(ids.projection, "u", "velocity", _V, name="projection"),
     # closed formulas
-    Row(ids.angle, "φ", "angle", name="angle"),
-    Row(ids.formula_angle, "φ", "angle", name="angle"),
-    Row(ids.inclination, "β", "angle", name="inclination"),
-    Row(ids.formula_velocity, "v", "velocity", name="formula velocity"),
-    Row(ids.formula_acceleration, "a", "acceleration", name="formula acceleration"),
-    Row(ids.formula_sliding.only(what="v"), "v", "velocity"),
-    Row(ids.formula_sliding.only(what="a"), "a", "acceleration"),
-    Row(ids.formula_angular_velocity, "ω", "angular velocity", name="formula angular velocity"),
-    Row(ids.formula_angular_acceleration, "ε", "angular acceleration", name="formula angular acceleration"),
-    Row(ids.formula_coordinate, "{axis}", "length", name="coordinate"),
-    Row(ids.formula_component.only(what="v"), "v", "velocity", name="velocity component"),
-    Row(ids.formula_component.only(what="a"), "a", "acceleration", name="acceleration component"),
-    Row(ids.slider_way, name="way of a slider"),
-    Row(ids.matrix_entry, name="matrix entry"),
-    Row(ids.numerator, name="numerator"),
-    Row(ids.slope, name="slope"),
+    VocabularyRow(ids.angle, "φ", "angle", name="angle"),
+    VocabularyRow(ids.formula_angle, "φ", "angle", name="angle"),
+    VocabularyRow(ids.inclination, "β", "angle", name="inclination"),
+    VocabularyRow(ids.formula_velocity, "v", "velocity", name="formula velocity"),
+    VocabularyRow(ids.formula_acceleration, "a", "acceleration", name="formula acceleration"),
+    VocabularyRow(ids.formula_sliding.only(what="v"), "v", "velocity"),
+    VocabularyRow(ids.formula_sliding.only(what="a"), "a", "acceleration"),
+    VocabularyRow(ids.formula_angular_velocity, "ω", "angular velocity", name="formula angular velocity"),
+    VocabularyRow(ids.formula_angular_acceleration, "ε", "angular acceleration", name="formula angular acceleration"),
+    VocabularyRow(ids.formula_coordinate, "{axis}", "length", name="coordinate"),
+    VocabularyRow(ids.formula_component.only(what="v"), "v", "velocity", name="velocity component"),
+    VocabularyRow(ids.formula_component.only(what="a"), "a", "acceleration", name="acceleration component"),
+    VocabularyRow(ids.slider_way, name="way of a slider"),
+    VocabularyRow(ids.matrix_entry, name="matrix entry"),
+    VocabularyRow(ids.numerator, name="numerator"),
+    VocabularyRow(ids.slope, name="slope"),
     # loads
-    Row(ids.displacement, "s", "length", _LOADS, name="displacement"),
-    Row(ids.pressure, "p", "pressure", _LOADS, name="pressure"),
-    Row(ids.inertia_force, "P", "force", _LOADS, below="qt{link}", name="inertia force"),
-    Row(ids.inertia_couple, "M", "torque", _LOADS, below="qt{link}", name="inertia couple"),
-    Row(ids.inertia_offset, "e", "length", _LOADS, below="qt{link}", name="inertia offset"),
-    Row(ids.applied_force, "P", "force", _LOADS, name="applied force"),
-    Row(ids.applied_torque, "M", "torque", name="applied torque"),
-    Row(ids.given_force, name="given force"),
+    VocabularyRow(ids.displacement, "s", "length", _LOADS, name="displacement"),
+    VocabularyRow(ids.pressure, "p", "pressure", _LOADS, name="pressure"),
+    VocabularyRow(ids.inertia_force, "P", "force", _LOADS, below="qt{link}", name="inertia force"),
+    VocabularyRow(ids.inertia_couple, "M", "torque", _LOADS, below="qt{link}", name="inertia couple"),
+    VocabularyRow(ids.inertia_offset, "e", "length", _LOADS, below="qt{link}", name="inertia offset"),
+    VocabularyRow(ids.applied_force, "P", "force", _LOADS, name="applied force"),
+    VocabularyRow(ids.applied_torque, "M", "torque", name="applied torque"),
+    VocabularyRow(ids.given_force, name="given force"),
     # the balance of the driver
-    Row(ids.lever_arm, "h", "segment", _TORQUE, "mu.v", name="lever arm"),
-    Row(ids.lever_moment, "M", "torque", _TORQUE, name="lever moment"),
-    Row(ids.lone_moment, "M", "torque", _TORQUE),
-    Row(ids.balance, "M", "torque", _TORQUE, name="balance"),
+    VocabularyRow(ids.lever_arm, "h", "segment", _TORQUE, "mu.v", name="lever arm"),
+    VocabularyRow(ids.lever_moment, "M", "torque", _TORQUE, name="lever moment"),
+    VocabularyRow(ids.lone_moment, "M", "torque", _TORQUE),
+    VocabularyRow(ids.balance, "M", "torque", _TORQUE, name="balance"),
     # reactions
-    Row(ids.reaction, "R", "force", _FORCES, name="reaction"),
-    Row(ids.reaction_couple, "M", "torque", _FORCES, name="reaction couple"),
-    Row(ids.application, "x", "length", _FORCES, name="application"),
-    Row(ids.arm, "h", "segment", _FORCES, "mu.l", name="arm"),
-    Row(ids.force_scale, "μ", "force scale", _FORCES, name="force scale"),
-    Row(ids.force_direction, "α", "angle", _FORCES, around=True, name="direction"),
-    Row(ids.force_segment, "", "segment", _FORCES, "mu.R{group}", name="segment"),
+    VocabularyRow(ids.reaction, "R", "force", _FORCES, name="reaction"),
+    VocabularyRow(ids.reaction_couple, "M", "torque", _FORCES, name="reaction couple"),
+    VocabularyRow(ids.application, "x", "length", _FORCES, name="application"),
+    VocabularyRow(ids.arm, "h", "segment", _FORCES, "mu.l", name="arm"),
+    VocabularyRow(ids.force_scale, "μ", "force scale", _FORCES, name="force scale"),
+    VocabularyRow(ids.force_direction, "α", "angle", _FORCES, around=True, name="direction"),
+    VocabularyRow(ids.force_segment, "", "segment", _FORCES, "mu.R{group}", name="segment"),
     # given data of a linkage
-    Row(ids.frame_coordinate, name="coordinate"),
+    VocabularyRow(ids.frame_coordinate, name="coordinate"),
     # the cycle
-    Row(ids.figure_of_balance, "M", "torque", name="balance over the cycle"),
-    Row(Name("W"), "W", "work"),
-    Row(Name("power"), "N", "power"),
+    VocabularyRow(ids.figure_of_balance, "M", "torque", name="balance over the cycle"),
+    VocabularyRow(Name("W"), "W", "work"),
+    VocabularyRow(Name("power"), "N", "power"),
 )
 _PRINTED = {"t": "τ"}
-_NO_ROW = Row(Name(""))
+_NO_ROW = VocabularyRow(Name(""))
 
 
 @lru_cache(maxsize=4096)
-def _found(id: str) -> tuple[Row, dict[str, str]]:
+def _found(id: str) -> tuple[VocabularyRow, dict[str, str]]:
     for row in ROWS:
         if (words := row.ids.read(id)) is not None:
             return row, words
     return _NO_ROW, {}
 
 
-def row(id: str) -> Row:
+def row(id: str) -> VocabularyRow:
     """The row of an id; an empty one for a quantity that a machine has for itself."""
     return _found(id)[0]
 

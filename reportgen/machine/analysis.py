@@ -15,14 +15,14 @@ from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.forces import Forces, Load, inertia_loads, mean_over, solve_forces, virtual_work_torque, weights
 from reportgen.machine.gas import indicated_work, stroke_at
-from reportgen.machine.loads import Applied, Course, Piston, Torque
+from reportgen.machine.loads import Applied, Piston, Stroke, Torque
 from reportgen.machine.motion import Motion, solve_motion
 
 FULL_TURN = 2 * np.pi
 
 
 @dataclass(frozen=True)
-class Gas:
+class GasState:
     """The gas in one cylinder over positions [N]: cycle angle, s/H, stroke number 0…3, gauge pressure (Pa)."""
 
     piston: Piston
@@ -39,7 +39,7 @@ class Analysis:
     machine: Machine
     cycle_angle: np.ndarray
     motion: Motion
-    gas: Mapping[str, Gas]
+    gas: Mapping[str, GasState]
     weights: tuple[Load, ...]
     inertia: tuple[Load, ...]
     applied: tuple[Load, ...]
@@ -73,10 +73,10 @@ class Summary:
     extremes: tuple[tuple[float, float], tuple[float, float]]
 
 
-def gas_in(piston: Piston, motion: Motion, cycle_angle: np.ndarray) -> Gas:
+def gas_in(piston: Piston, motion: Motion, cycle_angle: np.ndarray) -> GasState:
     """The gas in a cylinder: s/H from the pin's place, pressure from the indicator diagram."""
     angle = piston.phase + cycle_angle
-    return Gas(
+    return GasState(
         piston,
         angle,
         piston.fraction(motion),
@@ -273,7 +273,7 @@ class Machine:
     """Torques other than inertia couples."""
     idle: tuple[str, ...] = ()
     """Names of loads that the file gives as zero throughout; they are in neither of the two above."""
-    sliders: tuple[Course, ...] = ()
+    sliders: tuple[Stroke, ...] = ()
     """Sliders with dead centres, the pistons among them."""
     positive: Mapping[str, complex] = field(default_factory=dict)
     """Unit vectors along which the motion of sliders counts as positive, by their pins; else along their guides."""

@@ -25,7 +25,7 @@ ORDER = 8
 
 
 @dataclass(frozen=True)
-class Flywheel:
+class RegulatedCycle:
     """The regulated cycle over angles φ [N] (rad, in the direction of rotation).
 
     `torque` M_r and `constant` M_c (N·m), `inertia` J_r and `moment` J_d (kg·m²), `work` A, `upper` a and
@@ -57,7 +57,9 @@ def accumulated(function: Callable[[Floats], Floats], angle: Floats) -> Floats:
     return np.concatenate(([0.0], np.cumsum((half * factors * values).sum(axis=1))))
 
 
-def regulate(angle: Floats, torque: Floats, work: Floats, inertia: Floats, speed: float, unevenness: float) -> Flywheel:
+def regulate(
+    angle: Floats, torque: Floats, work: Floats, inertia: Floats, speed: float, unevenness: float
+) -> RegulatedCycle:
     """The flywheel for mean speed ω_m and unevenness δ, from M_r, its work ∫M_r dφ and J_r at angles [N].
 
     The angles span the whole cycle.  `moment` is 0 or less where the links alone are even enough; the speed is
@@ -72,7 +74,7 @@ def regulate(angle: Floats, torque: Floats, work: Floats, inertia: Floats, speed
     moment = (upper - lower) / (unevenness * speed**2)
     energy = fastest**2 * moment / 2 - upper
     squared = 2 * (energy + excess) / (moment + inertia) if moment > 0 else np.full(angle.shape, np.nan)
-    return Flywheel(
+    return RegulatedCycle(
         angle=angle,
         torque=torque,
         constant=-mean,
@@ -120,7 +122,7 @@ def possible(analysis: Analysis, loads: Sequence[Load]) -> float:
     return (force * fastest + couple * turning) / abs(motion.rate)
 
 
-def flywheel(machine: Machine, unevenness: float) -> Flywheel:
+def flywheel(machine: Machine, unevenness: float) -> RegulatedCycle:
     """The flywheel for the unevenness δ, over angles among which are all positions and corners of the loads."""
     whole = machine.turns * FULL_TURN
     own = np.concatenate((machine.cycle_angles, breaks(machine), [0.0, whole]))

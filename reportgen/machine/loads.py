@@ -42,7 +42,7 @@ MotionAt = Callable[[Floats], Motion]
 
 
 @dataclass(frozen=True)
-class Course:
+class Stroke:
     """The way of slider `link`, whose pin `pin` is joined by `rod` to `crank_pin`.
 
     `top` and `bottom` are the pin's places at the dead centres, `top_angle` and `bottom_angle` the
@@ -121,7 +121,7 @@ class TableLaw:
     `turns` is how many turns of it were given: a table of one turn stands twice in `table`.
     """
 
-    course: Course
+    course: Stroke
     table: Indicator
     factor: float = 1.0
     turns: int = 2
@@ -192,7 +192,7 @@ class CuttingLaw:
     It runs free over the share `free` of the stroke at each end of that way.
     """
 
-    course: Course
+    course: Stroke
     force: float
     free: float
 
@@ -217,7 +217,7 @@ class CuttingLaw:
 
 
 @dataclass(frozen=True)
-class Constant:
+class ConstantLaw:
     """The same size at every position."""
 
     size: float
@@ -331,7 +331,7 @@ def rails(linkage: Linkage) -> dict[int, tuple[Dyad, Guide]]:
     return found
 
 
-def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top: int = 1) -> Course:
+def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top: int = 1) -> Stroke:
     """The way of a slider on the frame; its top is the end farther along the guide.
 
     Intake starts at the passage number `top` of the top.  Raises `NotToAndFro` for a slider that turns
@@ -354,7 +354,7 @@ def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top
     phase = (-(first + FULL_TURN * (top - 1)) + ROUND) % whole - ROUND
     crank_pin = dyad.start if isinstance(dyad.start, str) else dyad.middle
     other = dyad.links[0] if dyad.links[1] == link else dyad.links[1]
-    return Course(
+    return Stroke(
         link=link,
         rod=other,
         pin=dyad.middle,
@@ -371,7 +371,7 @@ def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top
 
 
 @dataclass(frozen=True)
-class Piston(Course):
+class Piston(Stroke):
     """A piston and the gas on it; its cycle angle counts from its top at the start of intake.
 
     A positive pressure pushes it along `inward`, towards the crank.
@@ -381,7 +381,7 @@ class Piston(Course):
     indicator: Indicator
 
     @classmethod
-    def on(cls, course: Course, bore: float, indicator: Indicator) -> Piston:
+    def on(cls, course: Stroke, bore: float, indicator: Indicator) -> Piston:
         """The piston that is the slider of a course."""
         return cls(**vars(course), bore=bore, indicator=indicator)
 

@@ -18,8 +18,8 @@ from reportgen.marking.marks import Marked, Marking, Verdict, points_of
 from reportgen.marking.paper import DASH, cells, fields, heading, paper, paragraph, student_rows
 from reportgen.marking.sheet import NAMES, asked_positions, given_entry, grid, info_page, page, rows_shown
 from reportgen.report import Block, Column, Document, Inline, InlineMath, Inlines, Paragraph, Table, Text, plain
-from reportgen.report.case import Key, Row
-from reportgen.workbook import Book, Entry, Sheet
+from reportgen.report.case import Key, KeyRow
+from reportgen.workbook import Book, BookSheet, Entry
 from reportgen.workbook.writing import Style
 
 STYLES: Mapping[Verdict, Style] = {
@@ -50,7 +50,7 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
     marked = {(cell.id, cell.position): cell for cell in marking.cells}
     positions = asked_positions(key)
 
-    def filling(row: Row, position: int) -> Entry | None:
+    def filling(row: KeyRow, position: int) -> Entry | None:
         place = (row.id, position)
         if place in marked:
             return _marked(marking, words, marked[place], show_answers)
@@ -60,7 +60,7 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
         answer = marking.submission.values.get(place)
         return Entry(answer.value if answer else None)
 
-    def tail(row: Row) -> Sequence[Entry]:
+    def tail(row: KeyRow) -> Sequence[Entry]:
         own = [marked[row.id, k] for k in row.positions if (row.id, k) in marked]
         return _points(own) if own else ()
 
@@ -94,7 +94,7 @@ def _points(judged: Sequence[Marked], style: Style = "") -> tuple[Entry, Entry]:
     return (Entry(round(earned, 2), style), Entry(round(worth, 2), style))
 
 
-def _legend(words: Mapping[str, Any]) -> Sheet:
+def _legend(words: Mapping[str, Any]) -> BookSheet:
     """What the colours mean."""
     notes, verdicts = words["verdict_notes"], words["verdicts"]
     styles = [(verdict.value, style) for verdict, style in STYLES.items()]
@@ -102,7 +102,7 @@ def _legend(words: Mapping[str, Any]) -> Sheet:
     rows = tuple(
         (Entry(str(verdicts[name]), style), Entry(str(notes[name]).partition(":")[0])) for name, style in styles
     )
-    return Sheet(words["feedback"]["legend"], rows, (18.0, 80.0), protected=True)
+    return BookSheet(words["feedback"]["legend"], rows, (18.0, 80.0), protected=True)
 
 
 # --- the page -------------------------------------------------------------------------------------
@@ -237,7 +237,7 @@ def points_text(points: float, language: Language) -> str:
     return write(printed(points, 2), None, language)
 
 
-def _given_value(row: Row, value: float) -> Inline:
+def _given_value(row: KeyRow, value: float) -> Inline:
     """A student's value with its unit, to six figures; one of any size takes little room."""
     if value and not LEAST < abs(value) < MOST:
         return Text(f"{value:.4g} {row.unit}".replace("-", MINUS).strip())

@@ -1,7 +1,7 @@
 """Sheets that are not the student's own work: what speaks for it is told, and little is taken.
 
 Five things are looked for: one number throughout, rows or columns that do not vary, other data than the
-assignment's, and values of a classmate.  Each is a `Flag` with its places and its reason.  Marks are taken only for
+assignment's, and values of a classmate.  Each is a `Notice` with its places and its reason.  Marks are taken only for
 what is beyond doubt, and only if the policy says so: what follows from a wrong value is otherwise the student's.
 
 Copying shows in values that are the student's alone: too far from the key and from what the own values give to come
@@ -23,10 +23,10 @@ from reportgen.formula import vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.bands import is_direction
-from reportgen.marking.marks import Cells, Flag, Guide, Marked, Place, Submission, Verdict
+from reportgen.marking.marks import Cells, Marked, MarkingScheme, Notice, Place, Submission, Verdict
 from reportgen.marking.mistakes import WRONG_DATUM
 from reportgen.marking.working import Working, last_half_unit
-from reportgen.report.case import Key, Role, Row
+from reportgen.report.case import Key, KeyRow, Role
 
 SAME = 0.8
 """The share of a sheet's, a column's or a chapter's values that are not its own."""
@@ -81,7 +81,9 @@ class Classmate:
     submission: Submission | None = None
 
 
-def guard(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> tuple[dict[Place, Marked], tuple[Flag, ...]]:
+def guard(
+    guide: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
+) -> tuple[dict[Place, Marked], tuple[Notice, ...]]:
     """The cells without what the policy takes, and everything that was found."""
     result, flags = dict(cells), []
     for search in (_one_number, _same_columns, _constant_rows):
@@ -109,17 +111,17 @@ def _filled(cells: Cells) -> list[Place]:
 # --- the sheet alone ------------------------------------------------------------------------------
 
 
-def _one_number(guide: Guide, cells: Cells) -> Iterator[Flag]:
+def _one_number(guide: MarkingScheme, cells: Cells) -> Iterator[Notice]:
     """Nearly all cells hold one number, which most of them should not."""
     filled = _filled(cells)
     number, _ = Counter(cells[place].given for place in filled).most_common(1)[0] if filled else (None, 0)
     same = tuple(place for place in filled if cells[place].given == number)
     wrong = [place for place in same if cells[place].verdict is not Verdict.right]
     if len(same) >= SAME * len(filled) and len(wrong) >= max(FEWEST, len(same) / 2):
-        yield Flag("stock", same, tuple(filled))
+        yield Notice("stock", same, tuple(filled))
 
 
-def _constant_rows(guide: Guide, cells: Cells) -> Iterator[Flag]:
+def _constant_rows(guide: MarkingScheme, cells: Cells) -> Iterator[Notice]:
     """Rows of one number throughout where the key varies by more than its bands."""
     rows: dict[str, list[Place]] = {}
     for place in _filled(cells):
@@ -128,10 +130,10 @@ def _constant_rows(guide: Guide, cells: Cells) -> Iterator[Flag]:
         row = [cells[place] for place in places]
         varies = np.ptp([cell.expected for cell in row]) > APART * max(cell.band for cell in row)
         if len(row) >= FEWEST and len({cell.given for cell in row}) == 1 and varies:
-            yield Flag("constant", tuple(places))
+            yield Notice("constant", tuple(places))
 
 
-def _same_columns(guide: Guide, cells: Cells) -> Iterator[Flag]:
+def _same_columns(guide: MarkingScheme, cells: Cells) -> Iterator[Notice]:
     """A position whose values are those of another one, figure for figure, where the key tells them apart."""
     positions = sorted({position for _, position in _filled(cells) if position})
     copies: set[int] = set()
@@ -145,7 +147,7 @@ def _same_columns(guide: Guide, cells: Cells) -> Iterator[Flag]:
         copies.add(copy)
         # What is right in spite of it stays.
         spoiled = tuple(place for place in cells if place[1] == copy and cells[place].verdict is Verdict.follows)
-        yield Flag("columns", tuple((id, copy) for id in same), spoiled, other="", count=len(telling))
+        yield Notice("columns", tuple((id, copy) for id in same), spoiled, other="", count=len(telling))
 
 
 def _differ(cells: Cells, one: Place, other: Place) -> bool:
@@ -156,7 +158,7 @@ def _differ(cells: Cells, one: Place, other: Place) -> bool:
     return abs(cells[one].expected - cells[other].expected) >= APART * band
 
 
-def _other_data(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> Iterator[Flag]:
+def _other_data(guide: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> Iterator[Notice]:
     """Values that belong to other data than the assignment's: what follows from them is work on another one.
 
     Two data are enough where the whole sheet is right for a classmate's assignment, from which it has them.
@@ -175,10 +177,10 @@ def _other_data(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> 
         follows = (place for place, cell in cells.items() if cell.verdict is Verdict.follows)
         spoiled = (one for one in follows if guide.stands_on(one, causes) or misread & {*guide.before[one[0]]})
         # In the order of the sheet, which is the same in every run.
-        yield Flag("other-data", tuple(place for place in first if place in causes), tuple(spoiled), other=other)
+        yield Notice("other-data", tuple(place for place in first if place in causes), tuple(spoiled), other=other)
 
 
-def _is_right_for(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
+def _is_right_for(guide: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
     """Whether nearly all values that tell a classmate's assignment from the own one are right for the classmate's."""
     telling = met = 0
     for cell in cells.values():
@@ -195,7 +197,7 @@ def _is_right_for(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
 # --- classmates -----------------------------------------------------------------------------------
 
 
-def _copied(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> list[Flag]:
+def _copied(guide: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> list[Notice]:
     """Runs of values that a classmate's sheet or key has, by chapters, by positions and over the sheet."""
     step = _read_to(guide, cells)
     own = {place: cell for place, cell in cells.items() if cell.given is not None and _is_personal(guide, cell, step)}
@@ -208,7 +210,7 @@ def _copied(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> list
             runs.setdefault(place[1], []).append(place)
     parts = [*runs.values(), list(own)]
     compared = 2 * len(others) * len(parts)
-    flags: list[Flag] = []
+    flags: list[Notice] = []
     for classmate in others:
         meets = {place: _meets(guide, cell, classmate) for place, cell in own.items()}
         found: dict[Place, None] = {}
@@ -224,7 +226,7 @@ def _copied(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> list
                 found |= dict.fromkeys(met)
                 chance = min(chance, by_chance)
         if found:
-            flags.append(Flag("classmate", tuple(found), other=classmate.key.id, chance=chance))
+            flags.append(Notice("classmate", tuple(found), other=classmate.key.id, chance=chance))
     # Of several with the same values the nearest is named; a whole sheet is one whose values are nearly all met.
     flags.sort(key=lambda flag: -len(flag.places))
     by_id = {one.key.id: one for one in others}
@@ -235,7 +237,7 @@ def _copied(guide: Guide, cells: Cells, classmates: Sequence[Classmate]) -> list
     ]
 
 
-def _is_whole(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
+def _is_whole(guide: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
     """Whether a sheet has nearly all values of a classmate's that would be wrong on it."""
     telling = [
         cell
@@ -248,7 +250,7 @@ def _is_whole(guide: Guide, cells: Cells, classmate: Classmate) -> bool:
     return len(telling) > FEWEST_ROWS and met >= SAME * len(telling)
 
 
-def _is_source(guide: Guide, right: Sequence[Marked], classmate: Classmate) -> bool:
+def _is_source(guide: MarkingScheme, right: Sequence[Marked], classmate: Classmate) -> bool:
     """Whether it is the other sheet that has this one's values: those that are `right` here and wrong there.
 
     What depends on a scale says nothing: the classmate may have chosen another one than the key.
@@ -264,18 +266,18 @@ def _is_source(guide: Guide, right: Sequence[Marked], classmate: Classmate) -> b
     return taken >= FEWEST_ROWS
 
 
-def _is_drawn(row: Row) -> bool:
+def _is_drawn(row: KeyRow) -> bool:
     """Whether it is a scale or a length on paper."""
     return row.role is Role.scale or bool(vocabulary.plan(row.id))
 
 
-def _row(classmate: Classmate, cell: Marked) -> Row | None:
+def _row(classmate: Classmate, cell: Marked) -> KeyRow | None:
     """The row of a classmate's key for a cell, if it has a value there."""
     row = classmate.key.find(cell.id)
     return row if row is not None and row.has(cell.position) and cell.position <= len(row.values) else None
 
 
-def _apart(guide: Guide, cell: Marked, one: float, other: float) -> float:
+def _apart(guide: MarkingScheme, cell: Marked, one: float, other: float) -> float:
     """How far two values of a cell lie apart, in printed units."""
     unit = guide.ledger[cell.id].how.scale
     return float(guide.distance(cell.id, one * unit, other * unit)) / unit
@@ -290,7 +292,7 @@ def _equal(cell: Marked, value: float | None) -> bool:
     return value is not None and cell.given is not None and math.isclose(cell.given, value, rel_tol=1e-9)
 
 
-def _read_to(guide: Guide, cells: Cells) -> float:
+def _read_to(guide: MarkingScheme, cells: Cells) -> float:
     """The step (mm) to which the lengths on paper of a sheet are read."""
     lengths = [cell.given for cell in cells.values() if cell.given and guide.ledger[cell.id].kind == "segment"]
     for step in STEPS:
@@ -299,7 +301,7 @@ def _read_to(guide: Guide, cells: Cells) -> float:
     return TENTH
 
 
-def _is_personal(guide: Guide, cell: Marked, step: float) -> bool:
+def _is_personal(guide: MarkingScheme, cell: Marked, step: float) -> bool:
     """Whether a value is neither the key's nor what the student's own give, as far as it is written down.
 
     Two who read one length to `step` (mm) write the same, of a short one not even a second figure.  One that was
@@ -320,7 +322,7 @@ def _is_near(cell: Marked) -> bool:
     return cell.verdict is Verdict.right
 
 
-def _meets(guide: Guide, cell: Marked, classmate: Classmate) -> bool | None:
+def _meets(guide: MarkingScheme, cell: Marked, classmate: Classmate) -> bool | None:
     """Whether a value is the classmate's; None where that says nothing."""
     row, theirs = _row(classmate, cell), _theirs(classmate, (cell.id, cell.position))
     if row is None:

@@ -31,7 +31,7 @@ from reportgen.marking.bands import (
     is_workable,
     trapezoid_errors,
 )
-from reportgen.report.case import INSTANT, Calculation, Key, Opened, Role, Row, Span
+from reportgen.report.case import INSTANT, Calculation, Key, KeyRow, Opened, Role, Span
 from reportgen.report.equations import heading_words
 from reportgen.report.report import Report
 
@@ -41,12 +41,12 @@ def words_of(key: Key) -> Mapping[str, Any]:
     return load_words(search_path(key.language, key.kind))
 
 
-def symbol_text(row: Row, key: Key) -> str:
+def symbol_text(row: KeyRow, key: Key) -> str:
     """A quantity's symbol in one line of plain text, e.g. v_BA."""
     return formula(row.symbol, key.language)
 
 
-def shown_number(row: Row, value: float) -> Number:
+def shown_number(row: KeyRow, value: float) -> Number:
     """A number of a row as the report prints it: to its decimals, or without the dust of floats."""
     return Number(value if row.decimals is not None else float(f"{value:.12g}"), row.decimals)
 
@@ -70,7 +70,7 @@ def make_key(case: Opened, ledger: Ledger, span: Span = INSTANT, sense_of: Calla
     on_paper, by_rounding = drawn_bands(ledger), computed_bands(ledger)
     complete = set(worked) == set(range(1, len(span.labels) + 1))
 
-    def row(id: str) -> Row:
+    def row(id: str) -> KeyRow:
         family = ledger[id]
         scale = family.how.scale
         values = np.array([family.at(k + 1).real for k in range(len(family.values))])
@@ -88,7 +88,7 @@ def make_key(case: Opened, ledger: Ledger, span: Span = INSTANT, sense_of: Calla
         workable = id != "M.difference" and (len(values) > 1 or not integral)
         workable = workable and (part is not Chapter.cycle or complete) and is_workable(ledger, id, by_rule)
         asked = (role is Role.scale and not is_round_scale(family)) or (role is Role.asked and workable)
-        return Row(
+        return KeyRow(
             id=id,
             part=part,
             role=role,
@@ -291,7 +291,7 @@ class Ask:
     def __str__(self) -> str:
         return ", ".join((*self.patterns, *(("by section",) if self.by_section else ())))
 
-    def wants(self, row: Row) -> bool:
+    def wants(self, row: KeyRow) -> bool:
         """Whether a row that can be asked for is."""
         wanted = False
         for pattern in _whole(self.patterns):
@@ -327,7 +327,7 @@ class Ask:
             raise as_error(placed(read_source(self.file), findings), language)
 
 
-def _fits(pattern: str, row: Row) -> bool:
+def _fits(pattern: str, row: KeyRow) -> bool:
     """Whether a pattern, with or without `NOT`, is the section of a row or fits its id."""
     bare = pattern.removeprefix(NOT)
     return bare == row.part or (bare not in set(Chapter) and fnmatchcase(row.id, bare))

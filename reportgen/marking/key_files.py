@@ -28,7 +28,7 @@ from reportgen.marking.paper import (
 )
 from reportgen.marking.sheet import Filling, grid, info_page, number_format, page
 from reportgen.report import Cell, Column, Document, InlineMath, Inlines, Table, Text
-from reportgen.report.case import Key, Row
+from reportgen.report.case import Key, KeyRow
 from reportgen.workbook import Book, Entry
 
 FORMAT = "reportgen-key/1"
@@ -44,7 +44,7 @@ FINER, FINEST = 3, 7
 """Decimals of a band beyond those of its row; those of one whose row is exact."""
 
 
-def band(row: Row, width: float) -> float | None:
+def band(row: KeyRow, width: float) -> float | None:
     """A band's half width to two significant figures; one that is negligible beside the row is 0."""
     if width != width:
         return None
@@ -68,10 +68,10 @@ def key_book(key: Key) -> Book:
     positions = range(1, len(key.labels) + 1)
     turning = [row for row in key.rows if any(row.sense)]
 
-    def filling(entry: Callable[[Row, int], Entry]) -> Filling:
+    def filling(entry: Callable[[KeyRow, int], Entry]) -> Filling:
         return lambda row, position: entry(row, row.at(position)) if row.has(position) else None
 
-    pages: list[tuple[str, Callable[[Row, int], Entry], Sequence[Row]]] = [
+    pages: list[tuple[str, Callable[[KeyRow, int], Entry], Sequence[KeyRow]]] = [
         (words["answers"], _value_entry, key.rows),
         (words["drawn"], lambda row, index: Entry(band(row, float(row.drawn[index]))), key.rows),
         (words["computed"], lambda row, index: Entry(band(row, float(row.computed[index]))), key.rows),
@@ -81,7 +81,7 @@ def key_book(key: Key) -> Book:
     return Book((*sheets, info_page(key)), f"{words['title']} {key.id}")
 
 
-def _value_entry(row: Row, index: int) -> Entry:
+def _value_entry(row: KeyRow, index: int) -> Entry:
     """A number that shows the report's decimals; an empty cell for one that does not exist."""
     value = float(row.values[index])
     return Entry(value, format=number_format(row)) if value == value else Entry()
@@ -174,7 +174,7 @@ def key_document(key: Key, title: str) -> Document:
     return paper(key.language, words, f"{words['key']['title']} – {key.id}", blocks, variant=key.variant)
 
 
-def _tables(key: Key, words: Mapping[str, Any], name: str, rows: Sequence[Row]) -> Iterator[Table]:
+def _tables(key: Key, words: Mapping[str, Any], name: str, rows: Sequence[KeyRow]) -> Iterator[Table]:
     """The tables of a part: single values in a list, then quantities beside one another by position."""
     singles = [row for row in rows if row.single]
     if singles:
@@ -189,7 +189,7 @@ def _tables(key: Key, words: Mapping[str, Any], name: str, rows: Sequence[Row]) 
             yield _by_position(key, words, name, group[start : start + most], shared)
 
 
-def _list(words: Mapping[str, Any], name: str, rows: Sequence[Row]) -> Table:
+def _list(words: Mapping[str, Any], name: str, rows: Sequence[KeyRow]) -> Table:
     """Single values, a quantity a row."""
     heads, shared = words["table"], shared_symbols(rows)
     senses = any(any(row.sense) for row in rows)
@@ -206,7 +206,7 @@ def _list(words: Mapping[str, Any], name: str, rows: Sequence[Row]) -> Table:
 
 
 def _by_position(
-    key: Key, words: Mapping[str, Any], name: str, rows: Sequence[Row], shared: Container[Symbol]
+    key: Key, words: Mapping[str, Any], name: str, rows: Sequence[KeyRow], shared: Container[Symbol]
 ) -> Table:
     """Quantities beside one another, positions below one another."""
     heads, senses = words["key"], any(any(row.sense) for row in rows)
@@ -223,13 +223,13 @@ def _by_position(
     return Table(columns, head, tuple(body), (Text(name),))
 
 
-def _title(row: Row, with_id: bool) -> Inlines:
+def _title(row: KeyRow, with_id: bool) -> Inlines:
     """Symbol and unit of a quantity, perhaps with its id; below, what it is."""
     text = (f", {row.unit}" if row.unit else "") + (f" ({row.id})" if with_id else "")
     return (InlineMath(row.symbol), *((Text(text),) if text else ()), tree.LineBreak(), Text(row.described))
 
 
-def _values(row: Row, index: int, senses: bool) -> tuple[Number | str, ...]:
+def _values(row: KeyRow, index: int, senses: bool) -> tuple[Number | str, ...]:
     """A value, its two bands, and perhaps its direction in words."""
     value = float(row.values[index])
     widths = (float(row.drawn[index]), float(row.computed[index]))
@@ -237,7 +237,7 @@ def _values(row: Row, index: int, senses: bool) -> tuple[Number | str, ...]:
     return (shown_number(row, value), *bands, *((row.sense[index],) if senses else ()))
 
 
-def _band_number(row: Row, width: float) -> Number | str:
+def _band_number(row: KeyRow, width: float) -> Number | str:
     """A band; far below the last figure of its row it is 0."""
     shown = band(row, width)
     if shown is None:

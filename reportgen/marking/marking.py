@@ -21,22 +21,22 @@ from reportgen.marking.guard import Classmate, guard, not_from_own
 from reportgen.marking.key import Ask, symbol_text, words_of
 from reportgen.marking.marks import (
     Cells,
-    Flag,
-    Guide,
     Marked,
     Marking,
+    MarkingScheme,
+    Notice,
     Place,
     Policy,
     Submission,
     Values,
     Verdict,
-    open_guide,
+    marking_scheme,
 )
 from reportgen.marking.misread import misread_by_many, misread_data, mistakes_of_plans
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, mistakes_of_working, slips_of_writing
 from reportgen.marking.sheet import read_submission
 from reportgen.marking.working import Working, lay_out
-from reportgen.report.case import Case, Row
+from reportgen.report.case import Case, KeyRow
 
 SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
     slips_of_writing,
@@ -48,7 +48,7 @@ SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
 """What looks for names, one after the other."""
 
 
-def mark(guide: Guide, submission: Submission, classmates: Sequence[Classmate] = ()) -> Marking:
+def mark(guide: MarkingScheme, submission: Submission, classmates: Sequence[Classmate] = ()) -> Marking:
     """The verdicts on a submission; `classmates` are those that none of its values should come from."""
     working = lay_out(guide, submission)
     possible = [working.own_values(blank_from_key=True), working.own_values(blank_from_key=False)]
@@ -65,7 +65,7 @@ def mark(guide: Guide, submission: Submission, classmates: Sequence[Classmate] =
             cells[place] = replace(cells[place], mistake=mistake.name, where=mistake.where)
         cells |= _charged_once(working, cells, found)
     cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
-    flags: tuple[Flag, ...] = ()
+    flags: tuple[Notice, ...] = ()
     if guide.policy.guard:
         cells, flags = guard(guide, cells, classmates)
     order = {row.id: index for index, row in enumerate(guide.key.rows)}
@@ -73,7 +73,7 @@ def mark(guide: Guide, submission: Submission, classmates: Sequence[Classmate] =
     return Marking(guide.key, submission, tuple(in_order), flags)
 
 
-def _judged(working: Working, submission: Submission, row: Row, position: int, possible: Sequence[Values]) -> Marked:
+def _judged(working: Working, submission: Submission, row: KeyRow, position: int, possible: Sequence[Values]) -> Marked:
     """The verdict on one cell; `possible` are values that follow from the student's own."""
     guide, place = working.guide, (row.id, position)
     family, index = guide.ledger[row.id], row.at(position)
@@ -114,7 +114,7 @@ def _own(ledger: Ledger, values: Values, id: str, index: int) -> float:
     return own if size is None else float(np.copysign(abs(size[index].real), own))
 
 
-def _follows(guide: Guide, id: str, value: float, own: float, band: float) -> bool:
+def _follows(guide: MarkingScheme, id: str, value: float, own: float, band: float) -> bool:
     """Whether a student's value (SI) is what the earlier ones give.
 
     The band grows in proportion where that is larger than any right value.
@@ -168,7 +168,7 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
 
     Raises `AssignmentError` if the sheet cannot be read.
     """
-    guide = open_guide(case, Policy(guard=False))
+    guide = marking_scheme(case, Policy(guard=False))
     submission = read_submission(sheet, guide.key, guide.key.language)
     # What the sheet has no row for is not missing.
     guide = replace(guide, key=Ask(()).of(guide.key, submission.rows))
@@ -178,7 +178,7 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
     return tuple(_lines(guide, marking, hint, agrees)), agrees
 
 
-def _lines(guide: Guide, marking: Marking, hint: bool, agrees: bool) -> Iterator[str]:
+def _lines(guide: MarkingScheme, marking: Marking, hint: bool, agrees: bool) -> Iterator[str]:
     """A line for each first divergence, with the cell it stands in; `hint` adds where to look, never the answer."""
     words = words_of(marking.key)["compare"]
     for problem in marking.submission.problems.values():
@@ -200,7 +200,7 @@ def _lines(guide: Guide, marking: Marking, hint: bool, agrees: bool) -> Iterator
         yield words["agrees"].format(count=counted[Verdict.right] + counted[Verdict.follows])
 
 
-def _hint(guide: Guide, marking: Marking, cell: Marked) -> str:
+def _hint(guide: MarkingScheme, marking: Marking, cell: Marked) -> str:
     """The mistake by name; else what the value is worked out from, and whether it is too large."""
     words = words_of(marking.key)
     if cell.mistake:

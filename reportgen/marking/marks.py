@@ -15,8 +15,7 @@ import numpy as np
 from pydantic import Field
 
 from reportgen.assignment.common import Part
-from reportgen.assignment.fields import Decimal, Interval, Text, Whole, quantity
-from reportgen.assignment.fields import Flag as TrueOrFalse
+from reportgen.assignment.fields import Decimal, Flag, Interval, TypedText, Whole, quantity
 from reportgen.assignment.reading import read_model
 from reportgen.base.errors import Mark, Problem
 from reportgen.base.units import Given, Language
@@ -24,7 +23,7 @@ from reportgen.formula import Product, Ref, vocabulary
 from reportgen.formula.ledger import Ledger, standing_on
 from reportgen.marking.bands import DIGITS, PAPER_ERROR, computed_bands, drawn_bands, is_chosen_length, is_direction
 from reportgen.marking.key import Ask
-from reportgen.report.case import Case, Key, Pitfalls, Role, Row
+from reportgen.report.case import Case, Key, KeyRow, Pitfalls, Role
 
 Place = tuple[str, int]
 """A quantity's id and a position from 1; 0 for a quantity that is the same at all positions."""
@@ -107,7 +106,7 @@ def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
 
 
 @dataclass(frozen=True, slots=True)
-class Flag:
+class Notice:
     """Something that the lecturer should look at: a `kind` (a key of `warnings` in words) and the places that show it.
 
     `spoiled` are places whose marks the policy may take for it, `taken` those where it did.  `other` is the assignment
@@ -134,7 +133,7 @@ class Marking:
     key: Key
     submission: Submission
     cells: tuple[Marked, ...]
-    flags: tuple[Flag, ...] = ()
+    flags: tuple[Notice, ...] = ()
 
     @property
     def elsewhere(self) -> list[Marked]:
@@ -233,16 +232,16 @@ class _Mark(Part):
 
 
 class _PolicyFile(Part):
-    ask: Annotated[tuple[Annotated[str, Text()], ...], Field(min_length=1)] = Ask().patterns
-    by_section: Annotated[bool, TrueOrFalse()] = False
+    ask: Annotated[tuple[Annotated[str, TypedText()], ...], Field(min_length=1)] = Ask().patterns
+    by_section: Annotated[bool, Flag()] = False
     tolerance: _Tolerance = _Tolerance()
     points: _Points = _Points()
     weights: dict[str, Annotated[float, Decimal(Interval(least=0, most=1000))]] = {}  # noqa: RUF012
     mark: _Mark = _Mark()
-    guard: Annotated[bool, TrueOrFalse()] = True
-    take: dict[str, Annotated[bool, TrueOrFalse()]] = {}  # noqa: RUF012
-    overrule: dict[str, Annotated[str, Text()]] = {}  # noqa: RUF012
-    show_answers: Annotated[bool, TrueOrFalse()] = True
+    guard: Annotated[bool, Flag()] = True
+    take: dict[str, Annotated[bool, Flag()]] = {}  # noqa: RUF012
+    overrule: dict[str, Annotated[str, TypedText()]] = {}  # noqa: RUF012
+    show_answers: Annotated[bool, Flag()] = True
 
 
 def read_policy(path: Path, language: Language | None = None) -> Policy:
@@ -295,7 +294,7 @@ ALMOST = 1e-12
 
 
 @dataclass(frozen=True)
-class Guide:
+class MarkingScheme:
     """An assignment opened for marking."""
 
     key: Key
@@ -358,12 +357,12 @@ class Guide:
         return self.ledger[id].arm or (row is not None and row.open_sense)
 
     @cached_property
-    def rows(self) -> dict[str, Row]:
+    def rows(self) -> dict[str, KeyRow]:
         """The rows that a sheet may fill in."""
         return {row.id: row for row in self.key.asked}
 
     @cached_property
-    def judged(self) -> tuple[Row, ...]:
+    def judged(self) -> tuple[KeyRow, ...]:
         """The rows that earn marks, in the ledger's order; how long the crank is drawn is the student's own choice."""
         order = {id: index for index, id in enumerate(self.ledger.families)}
         kept = (row for row in self.key.asked if row.kind != "segment" or row.role is not Role.scale)
@@ -433,20 +432,20 @@ class Guide:
             for row in self.key.rows
         }
 
-    def repeats(self, row: Row) -> bool:
+    def repeats(self, row: KeyRow) -> bool:
         """Whether a quantity is asked for in the first turn only, because all turns are the same."""
         return self._repeated[row.id]
 
-    def place(self, row: Row, position: int) -> int:
+    def place(self, row: KeyRow, position: int) -> int:
         """The position at which the sheet asks for a quantity that one at `position` stands on."""
         if row.single:
             return 0
         return (position - 1) % self.count + 1 if self.repeats(row) else position
 
 
-def open_guide(case: Case, policy: Policy | None = None) -> Guide:
+def marking_scheme(case: Case, policy: Policy | None = None) -> MarkingScheme:
     """The marking guide of an assignment, computed as its report is."""
-    return Guide(case.key(), case.ledger, case.pitfalls, case.positions_of_a_turn, policy or Policy())
+    return MarkingScheme(case.key(), case.ledger, case.pitfalls, case.positions_of_a_turn, policy or Policy())
 
 
 def makes_scale(ledger: Ledger, id: str, scale: str) -> bool:

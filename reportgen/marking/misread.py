@@ -16,7 +16,7 @@ import numpy as np
 from reportgen.formula import ids, refs, vocabulary
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import half_unit, is_direction
-from reportgen.marking.marks import Cells, Guide, Marked, Place, Verdict
+from reportgen.marking.marks import Cells, Marked, MarkingScheme, Place, Verdict
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, foreseen, unseen_mistakes
 from reportgen.marking.working import Change, Working, last_half_unit
 
@@ -84,7 +84,7 @@ def _times(factor: float) -> Change:
     return lambda value, _: value * factor
 
 
-def _data(guide: Guide) -> Iterator[str]:
+def _data(guide: MarkingScheme) -> Iterator[str]:
     """Given data, and loads of a given size, that are not asked for."""
     for id, family in guide.ledger.families.items():
         # A ratio is given as 1/3.6, which the ledger works out.
@@ -215,7 +215,7 @@ def _is_slip(working: Working, cell: Marked, datum: _Datum) -> bool:
     return abs(abs(datum.value - right) - last) < last / 10 and abs(with_it - _given(working, cell)) <= written
 
 
-def _is_contradicted(guide: Guide, cells: Cells, datum: _Datum) -> bool:
+def _is_contradicted(guide: MarkingScheme, cells: Cells, datum: _Datum) -> bool:
     """Whether a value that is right, and stands on nothing wrong, would lie far off with this value of the datum.
 
     Lengths on paper prove nothing: they are read at the student's own scale.
@@ -233,12 +233,12 @@ def _is_contradicted(guide: Guide, cells: Cells, datum: _Datum) -> bool:
     return False
 
 
-def _is_on_paper(guide: Guide, id: str) -> bool:
+def _is_on_paper(guide: MarkingScheme, id: str) -> bool:
     kind = guide.ledger[id].kind
     return kind == "segment" or kind.endswith("scale") or is_direction(id)
 
 
-def _at(guide: Guide, cell: Marked, id: str, values: np.ndarray) -> np.ndarray:
+def _at(guide: MarkingScheme, cell: Marked, id: str, values: np.ndarray) -> np.ndarray:
     """A quantity (SI) over values of a datum [M]."""
     wanted = {*guide.before[cell.id], cell.id}
     result = follow(guide.ledger, {id: values[:, None]}, only=wanted)[cell.id].real
@@ -249,11 +249,11 @@ def _given(working: Working, cell: Marked) -> float:
     return float(working.values[cell.id][_index(working.guide, cell)])
 
 
-def _index(guide: Guide, cell: Marked) -> int:
+def _index(guide: MarkingScheme, cell: Marked) -> int:
     return guide.rows[cell.id].at(cell.position)
 
 
-def _neat(guide: Guide, id: str, value: float) -> float:
+def _neat(guide: MarkingScheme, id: str, value: float) -> float:
     """The nearest number (SI) as round as the right one in the datum's printed unit; for 1/3.6 that of its inverse."""
     family = guide.ledger[id]
     # Lengths stand in metres in the ledger and in millimetres on the page: the same figures.
@@ -316,7 +316,7 @@ def behind_many(
     return found
 
 
-def _vectors_laid(guide: Guide) -> Iterator[Mistake]:
+def _vectors_laid(guide: MarkingScheme) -> Iterator[Mistake]:
     """Each vector that is laid in a plan, and each load as a whole, left out or reversed."""
     ledger = guide.ledger
     for id, family in ledger.families.items():

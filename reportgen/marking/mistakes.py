@@ -18,7 +18,7 @@ from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
 from reportgen.formula.sheet import Family
 from reportgen.marking.bands import is_direction
-from reportgen.marking.marks import Cells, Guide, Marked, Place, Values, Verdict
+from reportgen.marking.marks import Cells, Marked, MarkingScheme, Place, Values, Verdict
 from reportgen.marking.working import Change, Working
 from reportgen.report.case import Role
 
@@ -50,7 +50,7 @@ class Mistake:
     changes: Mapping[str, Change]
 
 
-def mistakes_in(guide: Guide, id: str, scales: Values) -> Iterator[Mistake]:
+def mistakes_in(guide: MarkingScheme, id: str, scales: Values) -> Iterator[Mistake]:
     """All mistakes that can be made in working out one quantity; `scales` are the student's own, in SI.
 
     What stands printed for every position (the crank's angle) can only be taken at another one.
@@ -62,7 +62,7 @@ def mistakes_in(guide: Guide, id: str, scales: Values) -> Iterator[Mistake]:
         yield Mistake(name, id, {id: change})
 
 
-def general_mistakes(guide: Guide) -> Iterator[Mistake]:
+def general_mistakes(guide: MarkingScheme) -> Iterator[Mistake]:
     """Mistakes about the positions as such, and a Coriolis acceleration that is left out."""
     ledger = guide.ledger
     read = [id for id, family in ledger.families.items() if family.definition is None and len(family.values) > 1]
@@ -80,7 +80,7 @@ def general_mistakes(guide: Guide) -> Iterator[Mistake]:
             yield Mistake(NO_CORIOLIS, id, {id: _times(0)})
 
 
-def _changes_of(guide: Guide, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
+def _changes_of(guide: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
     """What one quantity becomes with each mistake, by name."""
     id = family.id
     if family.definition is not None:
@@ -101,7 +101,7 @@ def _changes_of(guide: Guide, family: Family, scales: Values) -> Iterator[tuple[
 
 
 def _in_a_definition(
-    guide: Guide, family: Family, definition: Expression, scales: Values
+    guide: MarkingScheme, family: Family, definition: Expression, scales: Values
 ) -> Iterator[tuple[str, Change]]:
     used = [guide.ledger[ref] for ref in dict.fromkeys(refs(definition))]
     for given in used:
@@ -117,7 +117,7 @@ def _in_a_definition(
 
 
 def _with_a_wrong_input(
-    guide: Guide, family: Family, definition: Expression, given: Family, scales: Values
+    guide: MarkingScheme, family: Family, definition: Expression, given: Family, scales: Values
 ) -> Iterator[tuple[str, Change]]:
     """Mistakes about one input of a definition."""
     ledger, id = guide.ledger, given.id
@@ -152,13 +152,13 @@ def _with_a_wrong_input(
         yield "scale-twice", _times(number**power)
 
 
-def _weight(guide: Guide, mass: Family) -> str:
+def _weight(guide: MarkingScheme, mass: Family) -> str:
     """The weight of the link that a mass is of, "" if it has none."""
     weights = (one for one in guide.ledger.families.values() if one.kind == "weight")
     return next((one.id for one in weights if one.symbol.sub == mass.symbol.sub), "")
 
 
-def _power(guide: Guide, definition: Expression, scale: str) -> int:
+def _power(guide: MarkingScheme, definition: Expression, scale: str) -> int:
     """The power (±1) in which a scale stands in a definition as a whole; 0 if it does not."""
     values = {id: guide.ledger[id].values for id in refs(definition)}
     with np.errstate(all="ignore"):
@@ -268,7 +268,7 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
     return {place: Mistake(name, place[0], {}) for name, place in found}
 
 
-def _is_other_scale(guide: Guide, cell: Marked) -> bool:
+def _is_other_scale(guide: MarkingScheme, cell: Marked) -> bool:
     """Whether a scale is the task's, or chosen freely, but not that of the drawing."""
     usual = float(guide.key.row(cell.id).values[0])
     return cell.equals(usual, cell.band) or guide.ledger[cell.id].kind == "force scale"
@@ -283,7 +283,7 @@ def _has_too_few_figures(cell: Marked) -> bool:
     )
 
 
-def _misplaced(guide: Guide, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:
+def _misplaced(guide: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:
     """Two values of one unit in each other's rows; a value beside its own cell, which was left empty."""
     for (one, mine), (other, theirs) in combinations(first.items(), 2):
         same = one[1] == other[1] and guide.rows[one[0]].unit == guide.rows[other[0]].unit

@@ -15,7 +15,7 @@ from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import words_of
 from reportgen.marking.sheet import asked_positions, info_rows, open_cells
 from reportgen.report import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
-from reportgen.report.case import Calculation, Key, Opened, Role, Row
+from reportgen.report.case import Calculation, Key, KeyRow, Opened, Role
 from reportgen.report.numbering import number
 from reportgen.report.outline import names as names_of
 from reportgen.report.report import PLATES_UP_TO, Report
@@ -105,18 +105,18 @@ def _inlines(content: str | Number | Inlines) -> Inlines:
     return content if isinstance(content, tuple) else (Text(content),) if content else ()
 
 
-def symbol_inlines(row: Row, with_id: bool) -> Inlines:
+def symbol_inlines(row: KeyRow, with_id: bool) -> Inlines:
     """A quantity's symbol, perhaps with its id below."""
     return (InlineMath(row.symbol), *((tree.LineBreak(), Text(row.id)) if with_id else ()))
 
 
-def symbol_width(rows: Iterable[Row], shared: Container[Symbol], least: float) -> float:
+def symbol_width(rows: Iterable[KeyRow], shared: Container[Symbol], least: float) -> float:
     """The width (mm) of a column of symbols, those that are `shared` with their ids below."""
     ids = (row.id for row in rows if row.symbol in shared)
     return max((least, *(box(id, TABLE_SIZE).width + PADDING for id in ids)))
 
 
-def shared_symbols(rows: Iterable[Row]) -> frozenset[Symbol]:
+def shared_symbols(rows: Iterable[KeyRow]) -> frozenset[Symbol]:
     """Symbols that several of the rows have."""
     return frozenset(symbol for symbol, count in Counter(row.symbol for row in rows).items() if count > 1)
 
@@ -202,7 +202,7 @@ def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
         yield Table(columns, (cells(head),), tuple(body), caption)
 
 
-def _known_number(row: Row, position: int) -> Number:
+def _known_number(row: KeyRow, position: int) -> Number:
     """A given number short enough for a column: an angle may be one that follows from lengths."""
     return Number(float(f"{row.values[row.at(position)]:.{KNOWN_DIGITS}g}"), None)
 
@@ -225,7 +225,7 @@ def _heads(key: Key, words: Mapping[str, Any], positions: Sequence[int]) -> tupl
 
 def _answer_table(
     heads: Sequence[str],
-    rows: Sequence[Row],
+    rows: Sequence[KeyRow],
     positions: Sequence[int],
     shared: Container[Symbol],
     open_at: Mapping[str, Container[int]],

@@ -21,7 +21,7 @@ from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.forces import Load
 from reportgen.report.case import Calculation, Opened
-from reportgen.workbook import Book, Sheet, write_csv, write_xlsx
+from reportgen.workbook import Book, BookSheet, write_csv, write_xlsx
 
 FORMAT = "reportgen-results/1"
 
@@ -248,7 +248,7 @@ def result_file(results: Mapping[str, Any], format: str) -> bytes:
     if format == "csv":
         return write_csv(rows)
     name = f"{results['kind']} {results['variant']}".strip()
-    return write_xlsx(Book((Sheet(name, rows, (WIDTH,) * len(rows[0]), (1, 1)),), name))
+    return write_xlsx(Book((BookSheet(name, rows, (WIDTH,) * len(rows[0]), (1, 1)),), name))
 
 
 def result_rows(results: Mapping[str, Any]) -> list[list[Cell]]:

@@ -24,8 +24,8 @@ from reportgen.base.words import as_error, as_problem, load_words, search_path
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.marking.key import shown_number, symbol_text, words_of
 from reportgen.marking.marks import Answer, Place, Submission
-from reportgen.report.case import Key, Role, Row
-from reportgen.workbook import Book, Cell, Entry, Page, Sheet, read
+from reportgen.report.case import Key, KeyRow, Role
+from reportgen.workbook import Book, BookSheet, Entry, Page, SheetCell, read
 
 NAMES = 5
 """Columns before those of the positions: id, symbol, what it is, unit, single value."""
@@ -35,7 +35,7 @@ HEAD = 3
 WHAT = 48.0
 """Width (characters) of the column that says what a row is."""
 
-Filling = Callable[[Row, int], Entry | None]
+Filling = Callable[[KeyRow, int], Entry | None]
 """What stands in the cell of a row at a position (0 for a single value); None where it has no cell."""
 
 
@@ -44,7 +44,7 @@ def asked_positions(key: Key) -> tuple[int, ...]:
     return tuple(sorted({k for row in key.asked for k in row.positions if k}))
 
 
-def rows_shown(key: Key) -> tuple[Row, ...]:
+def rows_shown(key: Key) -> tuple[KeyRow, ...]:
     """The rows of the sheet: what is given, what is asked, scales; formulas show their data if they are asked for."""
     formulas = any(row.part is Chapter.formulas for row in key.asked)
     given = (row.id for row in key.rows if row.role is Role.given and (formulas or row.part is not Chapter.formulas))
@@ -52,7 +52,7 @@ def rows_shown(key: Key) -> tuple[Row, ...]:
     return tuple(row for row in key.rows if row.positions or row.id in shown)
 
 
-def number_format(row: Row) -> str:
+def number_format(row: KeyRow) -> str:
     """A spreadsheet's format with the report's decimals."""
     decimals = row.decimals
     return "General" if decimals is None else f"0.{'0' * decimals}" if decimals > 0 else "0"
@@ -74,7 +74,7 @@ def open_cells(key: Key) -> Mapping[str, frozenset[int]]:
     }
 
 
-def given_entry(row: Row, position: int) -> Entry | None:
+def given_entry(row: KeyRow, position: int) -> Entry | None:
     """A given value as the sheet shows it filled in; None where there is none."""
     if row.role is not Role.given or not row.has(position):
         return None
@@ -87,10 +87,10 @@ def grid(
     title: str,
     note: str,
     filling: Filling,
-    rows: Sequence[Row],
+    rows: Sequence[KeyRow],
     positions: Sequence[int],
     tail_head: Sequence[str] = (),
-    tail: Callable[[Row], Sequence[Entry]] | None = None,
+    tail: Callable[[KeyRow], Sequence[Entry]] | None = None,
 ) -> tuple[tuple[Entry, ...], ...]:
     """The rows of a page in the sheet's layout; `tail` are further cells behind each row, under `tail_head`."""
     words = words_of(key)
@@ -115,14 +115,14 @@ def grid(
     return tuple(lines)
 
 
-def page(name: str, rows: Sequence[Sequence[Entry]], by_section: bool = False) -> Sheet:
+def page(name: str, rows: Sequence[Sequence[Entry]], by_section: bool = False) -> BookSheet:
     """A protected page in the sheet's layout, printed with each section on pages of its own if that is asked for."""
     columns = len(rows[HEAD - 1])
     longest = max((len(str(row[0].value or "")) for row in rows[HEAD:]), default=0)
     widths = (max(longest + 1.0, 11.0), 11.0, WHAT, 13.0, *(12.0,) * (columns - NAMES + 1))
     # A section begins with its name in bold, behind an empty id.
     begins = [number for number, row in enumerate(rows[HEAD:], start=HEAD) if len(row) == 2 and row[1].style == "bold"]
-    return Sheet(name, rows, widths, (HEAD, NAMES - 1), protected=True, breaks=begins[1:] if by_section else ())
+    return BookSheet(name, rows, widths, (HEAD, NAMES - 1), protected=True, breaks=begins[1:] if by_section else ())
 
 
 def info_rows(key: Key) -> tuple[tuple[str, str], ...]:
@@ -139,17 +139,17 @@ def info_rows(key: Key) -> tuple[tuple[str, str], ...]:
     )
 
 
-def info_page(key: Key) -> Sheet:
+def info_page(key: Key) -> BookSheet:
     """The page that names assignment and student."""
     rows = tuple((Entry(label, "bold"), Entry(text)) for label, text in info_rows(key))
-    return Sheet(words_of(key)["answer_sheet"]["info"], rows, (24.0, 44.0), protected=True)
+    return BookSheet(words_of(key)["answer_sheet"]["info"], rows, (24.0, 44.0), protected=True)
 
 
 def answer_book(key: Key, by_section: bool = False) -> Book:
     """The empty sheet as a workbook: given values filled in, cells to fill in unlocked, the rest protected."""
     sheet, cells = words_of(key)["answer_sheet"], open_cells(key)
 
-    def filling(row: Row, position: int) -> Entry | None:
+    def filling(row: KeyRow, position: int) -> Entry | None:
         if position in cells.get(row.id, ()):
             return Entry(None, "input", unlocked=True)
         return given_entry(row, position)
@@ -220,7 +220,7 @@ def _words(name: str) -> frozenset[str]:
     return frozenset(str(words[name]).casefold() for words in sheets)
 
 
-def _says(cell: Cell, name: str) -> bool:
+def _says(cell: SheetCell, name: str) -> bool:
     return cell.text.strip().rstrip(":").casefold() in _words(name)
 
 
@@ -245,7 +245,7 @@ def _beside(pages: Sequence[Page], label: str) -> tuple[str, Mark] | None:
     return None
 
 
-def _titled(rows: Sequence[Sequence[Cell]]) -> tuple[str, Mark] | None:
+def _titled(rows: Sequence[Sequence[SheetCell]]) -> tuple[str, Mark] | None:
     """The assignment that the title of the sheet ends with; it is all that is left of a page saved as CSV."""
     for cell in (cell for row in rows for cell in row):
         title, dash, name = cell.text.partition("–")
@@ -272,7 +272,7 @@ class _Reading:
         """Read all rows below the head."""
         columns = self.columns(page.rows[head])
         at = next(number for number, cell in enumerate(page.rows[head]) if _says(cell, "id"))
-        found: dict[Place, Cell] = {}
+        found: dict[Place, SheetCell] = {}
         for place, cell in self.cells(page.rows[head + 1 :], at, columns):
             if place not in found:
                 found[place] = cell
@@ -285,7 +285,7 @@ class _Reading:
             if place not in self.problems:
                 self.value(place, cell, mark, agreed)
 
-    def columns(self, head: Sequence[Cell]) -> dict[int, int]:
+    def columns(self, head: Sequence[SheetCell]) -> dict[int, int]:
         """Positions (0 for single values) by the indices of their columns."""
         labels = {label.casefold(): k for k, label in enumerate(self.key.labels, start=1)}
         columns: dict[int, int] = {}
@@ -300,8 +300,8 @@ class _Reading:
         return columns
 
     def cells(
-        self, rows: Sequence[Sequence[Cell]], at: int, columns: Mapping[int, int]
-    ) -> Iterator[tuple[Place, Cell]]:
+        self, rows: Sequence[Sequence[SheetCell]], at: int, columns: Mapping[int, int]
+    ) -> Iterator[tuple[Place, SheetCell]]:
         """The cells with an answer, each with its place; what is not asked for is left out."""
         asked = {row.id: row for row in self.key.asked}
         known = {row.id for row in self.key.rows}
@@ -315,7 +315,7 @@ class _Reading:
                 mark = cells[at].mark if id else answers[0][1].mark
                 self.note(Fault("cell-unknown-row" if id else "cell-no-row", mark, {"text": id}))
 
-    def value(self, place: Place, cell: Cell, mark: DecimalMark, agreed: bool) -> None:
+    def value(self, place: Place, cell: SheetCell, mark: DecimalMark, agreed: bool) -> None:
         """Read one cell: a number, or a problem at its place."""
         row = self.key.row(place[0])
         if cell.kind in _UNREADABLE:
@@ -345,7 +345,7 @@ class _Reading:
         self.notes.append(as_problem(fault, self.language))
 
 
-def _is_empty(cell: Cell) -> bool:
+def _is_empty(cell: SheetCell) -> bool:
     return cell.kind == "empty" or (isinstance(cell.value, str) and is_blank(cell.value))
 
 

@@ -11,8 +11,8 @@ import numpy as np
 from reportgen.formula import ids, vocabulary
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import half_unit
-from reportgen.marking.marks import Guide, Place, Submission, Values, makes_scale
-from reportgen.report.case import Role, Row
+from reportgen.marking.marks import MarkingScheme, Place, Submission, Values, makes_scale
+from reportgen.report.case import KeyRow, Role
 
 Change = Callable[[np.ndarray, Values], np.ndarray]
 """A quantity's value (SI) from what it comes to and all values before it."""
@@ -30,7 +30,7 @@ class Working:
     are the tolerances of such drawings.
     """
 
-    guide: Guide
+    guide: MarkingScheme
     submission: Submission
     values: Values
     scales: Values
@@ -95,7 +95,7 @@ class Working:
         values = follow(ledger, {**unseen, **{id: entered(id) for id in self.entered_ids}})
         return result, values
 
-    def also(self, row: Row, position: int) -> list[float]:
+    def also(self, row: KeyRow, position: int) -> list[float]:
         """What a quantity may be taken to be as well: another like it, or what another way of drawing gives.
 
         Whoever takes a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was.  On the lever M = F h′ μ_l
@@ -110,7 +110,7 @@ class Working:
         found += self._by_length_scale(row, index)
         return [one for one in found if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)]
 
-    def _by_length_scale(self, row: Row, index: int) -> list[float]:
+    def _by_length_scale(self, row: KeyRow, index: int) -> list[float]:
         """The moment of a load on the lever by its drawn arm and μ_l as it is written down."""
         found = ids.lever_moment.read(row.id)
         if found is None:
@@ -125,7 +125,7 @@ class Working:
         """A scale (SI) as it is written down, right or not."""
         return float(self.values[scale][0] * self.factors.get(scale, np.ones(1))[0])
 
-    def _is_right(self, row: Row, known: float, value: float) -> bool:
+    def _is_right(self, row: KeyRow, known: float, value: float) -> bool:
         return bool(np.isclose(known, value, rtol=1e-9))
 
     def unrounded(self, right: Container[Place]) -> Working:
@@ -169,7 +169,7 @@ def last_half_unit(value: float) -> float:
     return float(half_unit(np.array([value]), max(LEAST_FIGURES, len(written)))[0])
 
 
-def lay_out(guide: Guide, submission: Submission) -> Working:
+def lay_out(guide: MarkingScheme, submission: Submission) -> Working:
     """The working of a submission, with every plan read as it was drawn.
 
     The scale of a plan is what its first length stands for (μ = v_A/pa), the one written down, or the
@@ -205,7 +205,7 @@ def lay_out(guide: Guide, submission: Submission) -> Working:
     return Working(guide, submission, values, scales, shown)
 
 
-def _column(guide: Guide, row: Row, submission: Submission) -> np.ndarray:
+def _column(guide: MarkingScheme, row: KeyRow, submission: Submission) -> np.ndarray:
     """A row's values in SI; those of the first turn hold for every turn where all turns are the same."""
     column = np.full(len(row.values), np.nan)
     scale = guide.ledger[row.id].how.scale
@@ -235,7 +235,7 @@ CONFIRMED = 0.02
 """Two scales nearer than this are one: a millimetre in the length of a drawn crank."""
 
 
-def in_use(guide: Guide, values: Values, scale: str, place: slice, stated: float) -> float | None:
+def in_use(guide: MarkingScheme, values: Values, scale: str, place: slice, stated: float) -> float | None:
     """The scale (SI) that a plan was drawn at by what was read from it: most sizes over their lengths, if these agree.
 
     Only a scale that is chosen freely shows so; `place` is the part of the columns that is drawn at it.  Where they
@@ -263,7 +263,7 @@ def in_use(guide: Guide, values: Values, scale: str, place: slice, stated: float
 
 
 def drawn_at(
-    guide: Guide, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice
+    guide: MarkingScheme, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice
 ) -> tuple[float, bool]:
     """The scale of a plan over the report's: of those `tried` the first that another confirms, else the best.
 

@@ -12,7 +12,7 @@ from html import escape as escaped
 from itertools import groupby
 
 from reportgen.base.units import Language
-from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene, Stroke, style
+from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import POINT, SCRIPT, box, frame
 from reportgen.drawing.style import Bezier, Triangle, arc_with_head, arrow_head, clip_hatch, decimal
 from reportgen.formula import Expression, Sum, Symbol, VectorEquation, setting
@@ -22,10 +22,10 @@ from reportgen.formula.setting import (
     NEGATIVE,
     PRIMES,
     Fence,
+    MathRow,
     Role,
-    Row,
     Sign,
-    Source,
+    TextSetter,
     Written,
     columns,
     displayed,
@@ -72,10 +72,10 @@ class Pens:
 
     def __init__(self, letter: str = "p") -> None:
         self._letter = letter
-        self._names: dict[tuple[Stroke | None, str | None], str] = {}
+        self._names: dict[tuple[Pen | None, str | None], str] = {}
         self._sizes: dict[float, str] = {}
 
-    def name(self, stroke: Stroke | None, fill: str | None = None) -> str:
+    def name(self, stroke: Pen | None, fill: str | None = None) -> str:
         """The class of a pen with a fill."""
         return self._names.setdefault((stroke, fill), f"{self._letter}{len(self._names)}")
 
@@ -137,7 +137,7 @@ class Painter:
         def path(points: Sequence[complex], end: str = "") -> str:
             return "M" + "L".join(map(at, points)) + end
 
-        def head(triangle: Triangle | None, stroke: Stroke) -> Iterator[tuple[str, bool, str]]:
+        def head(triangle: Triangle | None, stroke: Pen) -> Iterator[tuple[str, bool, str]]:
             if triangle:
                 yield self.pens.name(None, stroke.colour), True, path(triangle, "Z")
 
@@ -168,7 +168,7 @@ class Painter:
             case Label():
                 yield "", False, self.label(item, height)
 
-    def _closed(self, data: str, closed: bool, outline: Stroke | None, fill: str | None) -> str:
+    def _closed(self, data: str, closed: bool, outline: Pen | None, fill: str | None) -> str:
         data += "Z" * closed
         return data if fill is None else f'<path class="{self.pens.name(outline, fill)}" d="{data}"/>'
 
@@ -206,7 +206,7 @@ class Painter:
         letters = box(replace(content, sub="", sup="", over=""), size)
         top = base + 1j * (letters.height + OVER * em)
         width = max(letters.width, 0.45 * em)
-        stroke = Stroke(0.13)
+        stroke = Pen(0.13)
         if content.over == "segment":
             return self.items((Line(top, top + box(replace(content, over=""), size).width, stroke),), height)
         start = top + 0.05 * em
@@ -245,7 +245,7 @@ class Runs(setting.Setter[tuple[Run, ...]]):
                 return text(part.text(setting.NARROW))
             case setting.Sign():
                 return text(part.text)
-            case setting.Row(parts):
+            case setting.MathRow(parts):
                 return tuple(run for one in parts for run in of(one))
             case setting.Raised(base, exponent):
                 return (*of(base), *_raised(of(exponent)))
@@ -255,7 +255,7 @@ class Runs(setting.Setter[tuple[Run, ...]]):
                 return (*text("√"), *of(inner))
             case setting.Fence(left, inner, right):
                 return (*text(left), *of(inner), *text(right))
-            case setting.Applied(name, exponent, to):
+            case setting.Function(name, exponent, to):
                 return (*text(name), *(_raised(of(exponent)) if exponent else ()), *of(to))
             case setting.Grid(rows):
                 lines = (_parted([of(entry) for entry in row], "; ") for row in rows)
@@ -312,7 +312,7 @@ def row(*parts: str) -> str:
     return f"<mrow>{''.join(parts)}</mrow>"
 
 
-class MathmlFormulas(Source):
+class MathmlFormulas(TextSetter):
     """Expressions as MathML, in one language."""
 
     BELOW = "<msub><mrow>%s</mrow>%s</msub>"
@@ -393,7 +393,7 @@ class MathmlFormulas(Source):
         if isinstance(node, Sum):
             return [self.part(piece).lstrip() for piece in pieces(laid(node, self.language))]
         first, *others = sides(node, self.language)
-        return [self.part(first), *(self.part(Row((EQUALS, side))) for side in others)]
+        return [self.part(first), *(self.part(MathRow((EQUALS, side))) for side in others)]
 
     def row(self, node: Expression) -> tuple[str, list[str]]:
         """A displayed row: what stands left of its first "=", and the pieces between which the rest may break.

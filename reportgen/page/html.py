@@ -33,7 +33,7 @@ STYLES, SCRIPTS = ("page.css",), ("page.js",)
 
 
 @dataclass(frozen=True)
-class Report:
+class WrittenReport:
     """The report as elements, with the style sheet's rules for its pens and papers."""
 
     body: str
@@ -62,7 +62,7 @@ class Live:
     styles: Sequence[str] = ("live.css",)
 
 
-def report(document: tree.Document) -> Report:
+def report(document: tree.Document) -> WrittenReport:
     """The elements of a document; raises `TypesetterError` for a formula that cannot be set."""
     pens = Pens()
     blocks = Blocks(document, pens)
@@ -71,7 +71,7 @@ def report(document: tree.Document) -> Report:
         f"@page {name}{{size:{width:g}mm {height:g}mm;margin:12mm}}.{name}{{page:{name}}}"
         for name, (width, height) in blocks.papers.items()
     )
-    return Report(body, "\n".join((pens.rules(), *papers)))
+    return WrittenReport(body, "\n".join((pens.rules(), *papers)))
 
 
 def write(
@@ -79,7 +79,7 @@ def write(
     words: Mapping[str, Any],
     panel: Panel | None = None,
     live: Live | None = None,
-    written: Report | None = None,
+    written: WrittenReport | None = None,
 ) -> str:
     """The whole page; `words` are those of its buttons (`page` in `words.yaml`).
 

@@ -16,7 +16,18 @@ import numpy as np
 
 from reportgen.base.units import Language, write
 from reportgen.drawing import Content, Label
-from reportgen.drawing.film import LAYERS, Carried, Chart, Film, MovingItem, Name, Stage, Still, Track, Vector
+from reportgen.drawing.film import (
+    LAYERS,
+    Carried,
+    Chart,
+    Film,
+    MovingItem,
+    MovingName,
+    MovingVector,
+    Stage,
+    Still,
+    Track,
+)
 from reportgen.drawing.geometry import frame
 from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, decimal
 from reportgen.formula import Symbol
@@ -198,9 +209,9 @@ class _Writer:
                 if angle is not None:
                     follows["turn"] = self.tracks.number(angle)
                 return self.element(self.painter.items(items), item.layer, follows)
-            case Vector():
+            case MovingVector():
                 return self.vector(item)
-            case Name(content, at, neighbours, gap):
+            case MovingName(content, at, neighbours, gap):
                 return self.element(
                     self.label(content, LABEL),
                     item.layer,
@@ -222,7 +233,7 @@ class _Writer:
             attributes += f' data-of-layer="{layer}"' + (" hidden" if layer != LAYERS[0] else "")
         return f"<g{attributes}>{body}</g>" if body else ""
 
-    def vector(self, item: Vector) -> str:
+    def vector(self, item: MovingVector) -> str:
         follows: dict[str, Any] = {"from": self.tracks.number(item.start), "to": self.tracks.number(item.end)}
         stroke = item.stroke
         dash = tuple(round(part * self.grown, 3) for part in stroke.dash)

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.base.units import nice_up, significant_decimals
-from reportgen.drawing import Circle, Content, Stroke, style
+from reportgen.drawing import Circle, Content, Pen, style
 from reportgen.drawing.charts import Plotted
 from reportgen.drawing.film import (
     LAYERS,
@@ -23,14 +23,14 @@ from reportgen.drawing.film import (
     Curve,
     Errors,
     Film,
+    MomentValue,
     MovingItem,
-    Name,
+    MovingName,
+    MovingVector,
     Scales,
     Spot,
     Stage,
     Track,
-    Value,
-    Vector,
     extent,
     linkage_items,
     path_items,
@@ -224,7 +224,7 @@ class _Samples:
             return []
         per = ARROW / greatest
         return [
-            Vector(
+            MovingVector(
                 Track(p.p * scale),
                 Track(p.p * scale + getattr(p, rate) * per),
                 style.RELATIVE if base == "v" else style.FOUND,
@@ -246,10 +246,10 @@ class _Samples:
             centre = Track(at)
             for name in (link.base, link.point):
                 start = Track(self._one_turn.points[name].p * scale)
-                items.append(Vector(start, centre, style.NORMAL, 0.0, layer="centres"))
-            mark = Circle(0j, 0.55, Stroke(0.2, style.RED), style.PAPER)
+                items.append(MovingVector(start, centre, style.NORMAL, 0.0, layer="centres"))
+            mark = Circle(0j, 0.55, Pen(0.2, style.RED), style.PAPER)
             items.append(Carried((mark,), centre, layer="centres"))
-            items.append(Name(centre_symbol(link.link), centre, (), 1.0, "centres"))
+            items.append(MovingName(centre_symbol(link.link), centre, (), 1.0, "centres"))
         return items
 
     def _forces(self, scale: float) -> tuple[list[MovingItem], float]:
@@ -272,7 +272,7 @@ class _Samples:
             return [], 0.0
         per = nice_up(greatest / ARROW)
         return [
-            Vector(
+            MovingVector(
                 Track(at * scale),
                 Track(at * scale + force / per),
                 style.REACTION if layer == "reactions" else style.ACTIVE,
@@ -341,7 +341,7 @@ class _Samples:
             tracks = tuple(Curve(symbol, Track(values)) for symbol, values in pressures)
             yield _chart(report, over_the_cycle(report, pressures, title, half=True), tracks, title)
 
-    def values(self) -> Iterator[Value]:
+    def values(self) -> Iterator[MomentValue]:
         """Positions, speeds and accelerations of points by their sizes, rotations, forces and what balances them."""
         motion, found, ledger = self._one_turn, self.analysis, self.report.ledger
         moving = [name for name in motion.points if name not in self.machine.linkage.ground]
@@ -413,12 +413,12 @@ def _told(report: Report, shown: Content) -> str:
     return shown if isinstance(shown, str) else formula(shown, report.assignment.language)
 
 
-def _value(symbol: Symbol, kind: str, values: np.ndarray) -> Value:
+def _value(symbol: Symbol, kind: str, values: np.ndarray) -> MomentValue:
     how = KINDS[kind]
     shown = values / how.scale
     greatest = float(np.nanmax(np.abs(shown), initial=0.0))
     decimals = min(max(significant_decimals(greatest, DIGITS), 0), MOST_DECIMALS)
-    return Value(symbol, how.unit, Track(shown), decimals)
+    return MomentValue(symbol, how.unit, Track(shown), decimals)
 
 
 def _scalar(symbol: Symbol) -> Symbol:

@@ -25,7 +25,7 @@ from reportgen.base.files import reported
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, templates, unexpected
 from reportgen.page import html, panel
-from reportgen.page.html import Live, Panel, Report
+from reportgen.page.html import Live, Panel, WrittenReport
 from reportgen.report import Document
 from reportgen.report.case import Case
 
@@ -47,7 +47,7 @@ class Edition:
     language: Language
     words: Mapping[str, Any]
     panel: Panel | None = None
-    report: Report | None = None
+    report: WrittenReport | None = None
     document: tree.Document | None = None
     fault: str = ""
     moving: int = 0

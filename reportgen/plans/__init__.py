@@ -28,7 +28,7 @@ TERMS = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Written:
+class PlannedLedger:
     """What stands of an analysis: its ledger, the force plans that are laid out in it, and its flywheel if it has one.
 
     There is a plan for each group, the driver's is the last; none without loads.
@@ -36,12 +36,12 @@ class Written:
 
     ledger: Ledger
     polygons: tuple[Polygon, ...] = ()
-    flywheel: flywheel.Flywheel | None = None
+    flywheel: flywheel.RegulatedCycle | None = None
 
 
 def write_ledger(
     analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = (), printed: bool = True
-) -> Written:
+) -> PlannedLedger:
     """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
 
     The plans of the `worked` positions fill their paper, of all positions if none is named.  For numbers that are
@@ -49,7 +49,7 @@ def write_ledger(
     """
     machine = analysis.machine
     q, polygons = enter_plans(analysis, worked, machine.formulas)
-    regulated: flywheel.Flywheel | None = None
+    regulated: flywheel.RegulatedCycle | None = None
     if analysis.loads:
         with q.within(Chapter.cycle):
             _cycle(q, analysis)
@@ -69,7 +69,7 @@ def write_ledger(
         units=units or {},
         lines=q.lines,
     )
-    return Written(ledger, polygons, regulated)
+    return PlannedLedger(ledger, polygons, regulated)
 
 
 def enter_plans(
@@ -190,7 +190,7 @@ def _without_dust(value: float, size: float) -> float:
 # --- the flywheel -----------------------------------------------------------------------------------
 
 
-def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.Flywheel) -> None:
+def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.RegulatedCycle) -> None:
     """Enter the flywheel of a machine; δ is `unevenness`.
 
     What is integrated over the cycle is what the trapezoid rule makes of the positions, and the rest of the integral.

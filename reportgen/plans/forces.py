@@ -22,9 +22,9 @@ from reportgen.plans.loads import (
     FAINT,
     Applied,
     Edge,
+    ForceChain,
     LoadOn,
     Origin,
-    Path,
     Polygon,
     Statics,
     above,
@@ -214,7 +214,7 @@ def _close(
     `first` and `second` are the directions in which n is sought: from the last known vertex (or from b), and
     from e; `laid` instead is a force laid on from b.
     """
-    path = Path(g.q)
+    path = ForceChain(g.q)
     if tangents[1]:
         path.lay(ids.reaction_force(g.end, "t"), g.j)
     after = path.last
@@ -335,8 +335,8 @@ def _driving_slide(statics: Statics, pin: str, own: tuple[LoadOn, ...]) -> Polyg
     return Polygon("1", (*path.edges, *unknown))
 
 
-def _laid(statics: Statics, own: tuple[LoadOn, ...]) -> Path:
-    path = Path(statics.q)
+def _laid(statics: Statics, own: tuple[LoadOn, ...]) -> ForceChain:
+    path = ForceChain(statics.q)
     for load in own:
         if load.point:
             path.lay(load.name, DRIVER)

@@ -294,7 +294,7 @@ class Polygon:
         return tuple(edge for edge in self.edges if edge.is_reaction and not edge.unknown and not edge.part)
 
 
-class Path:
+class ForceChain:
     """The known forces of a plan laid head to tail from vertex e."""
 
     def __init__(self, q: Sheet) -> None:
@@ -316,7 +316,7 @@ Closing = Callable[[Mapping[str, Expression], Expression], Expression]
 """Where the unknown edges meet, from the vertices of the known ones and the scale that they are drawn at."""
 
 
-def force_plan(statics: Statics, name: str, title: str, path: Path, closing: Closing | None = None) -> None:
+def force_plan(statics: Statics, name: str, title: str, path: ForceChain, closing: Closing | None = None) -> None:
     """Choose μ_R for each position so that its plan fills its space; lay the known forces and close the plan at n.
 
     Enters their drawn lengths and, on paper, the forces as they are laid (`laid.23.P3`) and the vertices.

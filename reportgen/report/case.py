@@ -23,7 +23,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, word
 from reportgen.base.words import title as kind_title
 from reportgen.drawing.film import Film
-from reportgen.drawing.sheet import Sheet
+from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 
     from reportgen.formula.ledger import Ledger
     from reportgen.machine.analysis import Analysis
-    from reportgen.machine.flywheel import Flywheel
-    from reportgen.plans import Written
+    from reportgen.machine.flywheel import RegulatedCycle
+    from reportgen.plans import PlannedLedger
     from reportgen.plans.loads import Polygon
 
 
@@ -117,7 +117,7 @@ class Case(Protocol):
     def film(self) -> Film | None:
         """What moves on its page, if anything does."""
 
-    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[Sheet]:
+    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
         """Its drawing sheets; raises `SheetError` where there is nothing to draw or a plate is too large."""
 
 
@@ -166,7 +166,7 @@ class Opened:
 class Calculation(Opened):
     """A machine: its assignment with all that is computed of it."""
 
-    found: tuple[Analysis, Written] | None = field(default=None, compare=False, repr=False)
+    found: tuple[Analysis, PlannedLedger] | None = field(default=None, compare=False, repr=False)
     """What is known already of a calculation whose drawings alone are others."""
 
     @cached_property
@@ -186,11 +186,11 @@ class Calculation(Opened):
         return analyse(machine(self.assignment))
 
     @cached_property
-    def written(self) -> Written:
+    def written(self) -> PlannedLedger:
         """Every number with the force plans, in the symbols and units of the assignment's language."""
         return self._write(printed=True) if self.found is None else self.found[1]
 
-    def _write(self, printed: bool) -> Written:
+    def _write(self, printed: bool) -> PlannedLedger:
         from reportgen.plans import write_ledger
 
         written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions, printed)
@@ -207,7 +207,7 @@ class Calculation(Opened):
         return self.written.polygons
 
     @property
-    def flywheel(self) -> Flywheel | None:
+    def flywheel(self) -> RegulatedCycle | None:
         """The flywheel, if the assignment asks for one."""
         return self.written.flywheel
 
@@ -237,7 +237,7 @@ class Role(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class KeyRow:
     """One quantity over the positions, in its printed unit.
 
     `values` [N] have the sign that is printed; NaN where the quantity does not exist (the direction of a
@@ -299,27 +299,27 @@ class Key:
     language: Language
     student: Mapping[str, str]
     labels: tuple[str, ...]
-    rows: tuple[Row, ...]
+    rows: tuple[KeyRow, ...]
     printed: tuple[int, ...] = ()
 
     def label(self, position: int) -> str:
         """What a position (from 1) is called; "" for 0, the one of single values."""
         return self.labels[position - 1] if position else ""
 
-    def find(self, id: str) -> Row | None:
+    def find(self, id: str) -> KeyRow | None:
         """The row of a quantity, or of the signed rotation whose size it is; None if there is none."""
         return self._by_id.get(id)
 
-    def row(self, id: str) -> Row:
+    def row(self, id: str) -> KeyRow:
         """The row of a quantity.  Raises `KeyError` if there is none."""
         return self._by_id[id]
 
     @cached_property
-    def _by_id(self) -> Mapping[str, Row]:
+    def _by_id(self) -> Mapping[str, KeyRow]:
         return {row.size: row for row in self.rows} | {row.id: row for row in self.rows}
 
     @property
-    def asked(self) -> tuple[Row, ...]:
+    def asked(self) -> tuple[KeyRow, ...]:
         """The rows of the answer sheet, in order."""
         return tuple(row for row in self.rows if row.positions)
 

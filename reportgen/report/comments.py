@@ -136,18 +136,18 @@ def _joined(report: Report, alike: Sequence[Peak]) -> Peak:
 
 
 @dataclass(frozen=True, slots=True)
-class Slider:
+class GuidedLink:
     """A link that slides along a fixed guide, and the pin that moves with it."""
 
     link: int
     pin: str
 
 
-def sliders(report: Report) -> tuple[Slider, ...]:
+def sliders(report: Report) -> tuple[GuidedLink, ...]:
     """What slides along fixed guides, a sliding driver apart."""
     slides = report.analysis.motion.slides
     both = ((link, group.Q) for group in report.groups for link in (group.i, group.j))
-    return tuple(Slider(link, pin) for link, pin in both if (GROUND, link) in slides)
+    return tuple(GuidedLink(link, pin) for link, pin in both if (GROUND, link) in slides)
 
 
 def slider_rates(report: Report, what: str) -> list[str]:
@@ -230,7 +230,7 @@ def chief_load(report: Report, at: Peak) -> Peak | None:
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class TorqueSigns:
     """At which positions the balancing torque acts with the motion, against it, and not at all, by their numbers."""
 
     along: tuple[int, ...]
@@ -240,14 +240,14 @@ class Course:
     """What the machine does with energy over the cycle: "taken", "given", or "even"."""
 
 
-def balance_course(report: Report) -> Course:
+def balance_course(report: Report) -> TorqueSigns:
     """The senses of the balancing torque, or force, at all positions."""
     with_motion = report.machine.turn if not report.machine.span else np.sign(report.machine.speed)
     values = shown(report, "M.eq", report.all_positions) * with_motion
     mean = float(report.ledger.number("M.mean").value) * with_motion
     every = np.array(report.all_positions)
     along, against, none = (tuple(map(int, every[chosen])) for chosen in (values > 0, values < 0, values == 0))
-    return Course(along, against, none, "taken" if mean > 0 else "given" if mean < 0 else "even")
+    return TorqueSigns(along, against, none, "taken" if mean > 0 else "given" if mean < 0 else "even")
 
 
 def balance_senses(report: Report) -> list[Inlines]:

@@ -15,11 +15,11 @@ from reportgen.formula import Chain, Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank
 from reportgen.machine.analysis import FULL_TURN
-from reportgen.machine.flywheel import Flywheel
+from reportgen.machine.flywheel import RegulatedCycle
 from reportgen.plans.sides import scheme
 from reportgen.report.comments import sliders
 from reportgen.report.equations import heading_words
-from reportgen.report.figures import MM, Drawn
+from reportgen.report.figures import MM, FigureScenes
 from reportgen.report.report import SAME, Report, lower_digits
 
 THINNED = 4
@@ -53,10 +53,10 @@ Shown = tuple[Symbol, np.ndarray]
 """A curve: its symbol and its values in the unit of its axis."""
 
 
-def motion(report: Report) -> Drawn:
+def motion(report: Report) -> FigureScenes:
     """Displacement, velocity and acceleration of what slides on the ground, ω and ε of what turns, over one turn."""
     shown = curves_of_motion(report)
-    return Drawn(tuple(over_a_turn(report, curves, title, half=len(shown) > 1).scene for curves, title in shown))
+    return FigureScenes(tuple(over_a_turn(report, curves, title, half=len(shown) > 1).scene for curves, title in shown))
 
 
 def curves_of_motion(report: Report) -> list[tuple[list[Shown], Chain]]:
@@ -127,13 +127,13 @@ def over_a_turn(report: Report, curves: Sequence[Shown], title: Chain, half: boo
     count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME))
     slides = bool(report.machine.span)
     x, marks = _across(report)[:count], _marks(report)[: len(report.positions)]
-    series = [charts.Series(shown, x, values[:count], marks) for shown, values in curves]
+    series = [charts.PlottedCurve(shown, x, values[:count], marks) for shown, values in curves]
     return charts.plotted(series, _driver_axis(report, "angle"), title, turn=not slides, half=half, area=report.area)
 
 
 def over_the_cycle(report: Report, curves: Sequence[Shown], title: Chain, half: bool = False) -> charts.Plotted:
     """Curves over the whole cycle, the numbered positions marked."""
-    series = [charts.Series(shown, _across(report), values, _marks(report)) for shown, values in curves]
+    series = [charts.PlottedCurve(shown, _across(report), values, _marks(report)) for shown, values in curves]
     turn = not report.machine.span
     return charts.plotted(series, _driver_axis(report), title, turn=turn, half=half, area=report.area)
 
@@ -141,15 +141,15 @@ def over_the_cycle(report: Report, curves: Sequence[Shown], title: Chain, half: 
 # --- torque and forces over the cycle
 
 
-def torque(report: Report) -> Drawn:
+def torque(report: Report) -> FigureScenes:
     """What balances the driver: a torque over the angle of a crank, a force over the way of a slider."""
-    return Drawn((torque_chart(report).scene,))
+    return FigureScenes((torque_chart(report).scene,))
 
 
 def torque_chart(report: Report, half: bool = False) -> charts.Plotted:
     """The curve of what balances the driver, with its mean."""
     ledger, slides = report.ledger, bool(report.machine.span)
-    curve = charts.Series(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
+    curve = charts.PlottedCurve(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
     levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),)
     driver = report.machine.linkage.driver
     sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
@@ -158,7 +158,7 @@ def torque_chart(report: Report, half: bool = False) -> charts.Plotted:
     return charts.plotted((curve,), across, title, levels=levels, turn=not slides, half=half, area=report.area)
 
 
-def polar(report: Report) -> Drawn:
+def polar(report: Report) -> FigureScenes:
     """The load of each crank pin in axes that turn with the crank, its radius upwards.
 
     Where several links hang on one pin, each of their reactions has its diagram, and their resultant.
@@ -181,22 +181,22 @@ def polar(report: Report) -> Drawn:
             shown[" + ".join(parts)] = np.sum(list(parts.values()), axis=0)
         along = names["along_crank"].format(arm=lower_digits(f"{report.driver.centre}{name}"))
         for forces, load in shown.items():
-            series = charts.Series("", load.real, load.imag, _marks(report), numbers)
+            series = charts.PlottedCurve("", load.real, load.imag, _marks(report), numbers)
             title = f"{names['pin']} {lower_digits(name)}: {forces}"
             diagrams.append(partial(charts.polar, series, names["across_crank"], along, title=title, area=report.area))
     if len(diagrams) == 1 or report.area is not None:
-        return Drawn(tuple(draw() for draw in diagrams))
+        return FigureScenes(tuple(draw() for draw in diagrams))
     for size in charts.POLAR_PAIRS:
         scenes = tuple(draw(size=size) for draw in diagrams)
         if all(scene.width <= charts.HALF_WIDTH for scene in scenes):
-            return Drawn(scenes)
-    return Drawn(tuple(draw() for draw in diagrams))
+            return FigureScenes(scenes)
+    return FigureScenes(tuple(draw() for draw in diagrams))
 
 
 # --- the flywheel
 
 
-def _wheel(report: Report) -> Flywheel:
+def _wheel(report: Report) -> RegulatedCycle:
     assert report.flywheel is not None
     return report.flywheel
 
@@ -209,43 +209,45 @@ def _over_cycle(
     half: bool = False,
 ) -> Scene:
     kept = np.union1d(np.arange(0, values.size, THINNED), values.size - 1)
-    curve = charts.Series("", np.degrees(_wheel(report).angle[kept]), values[kept])
+    curve = charts.PlottedCurve("", np.degrees(_wheel(report).angle[kept]), values[kept])
     return charts.chart((curve,), _driver_axis(report), title, levels=levels, half=half, area=report.area)
 
 
-def flywheel_torque(report: Report) -> Drawn:
+def flywheel_torque(report: Report) -> FigureScenes:
     """M_r and the torque that balances its mean."""
     wheel = _wheel(report)
     level = (-wheel.constant, Symbol("−M", "c"))
-    return Drawn((_over_cycle(report, wheel.torque, _axis_of(report, "M.r"), (level,)),))
+    return FigureScenes((_over_cycle(report, wheel.torque, _axis_of(report, "M.r"), (level,)),))
 
 
-def flywheel_work(report: Report) -> Drawn:
+def flywheel_work(report: Report) -> FigureScenes:
     """J_r, if moving links have mass, and A over the cycle."""
     wheel = _wheel(report)
     drawings = [(wheel.inertia, "J.r")] if report.has_reduced_inertia else []
     drawings.append((wheel.work, "A.excess"))
     half = len(drawings) > 1
-    return Drawn(tuple(_over_cycle(report, values, _axis_of(report, id), half=half) for values, id in drawings))
+    return FigureScenes(tuple(_over_cycle(report, values, _axis_of(report, id), half=half) for values, id in drawings))
 
 
-def wittenbauer(report: Report) -> Drawn:
+def wittenbauer(report: Report) -> FigureScenes:
     """A over J_r with the two lines whose slopes are half the squares of the bounds of speed."""
     wheel = _wheel(report)
     ends = np.array([wheel.inertia.min(), wheel.inertia.max()])
     if np.ptp(ends) < NARROW * ends[1]:
         ends = np.array([0.0, 1.2 * ends[1]])
     lines = [
-        charts.Series(report.ledger.symbol(id), ends, height + bound**2 / 2 * ends)
+        charts.PlottedCurve(report.ledger.symbol(id), ends, height + bound**2 / 2 * ends)
         for id, height, bound in (("omega.max", wheel.upper, wheel.fastest), ("omega.min", wheel.lower, wheel.slowest))
     ]
-    curve = charts.Series(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
+    curve = charts.PlottedCurve(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
     across, up = _axis_of(report, "J.r"), _axis_of(report, "A.excess")
-    return Drawn((charts.chart((curve, *lines), across, up, turn=False, area=report.area),))
+    return FigureScenes((charts.chart((curve, *lines), across, up, turn=False, area=report.area),))
 
 
-def flywheel_speed(report: Report) -> Drawn:
+def flywheel_speed(report: Report) -> FigureScenes:
     """How far the speed is from its mean, in percent, with the flywheel."""
     wheel = _wheel(report)
     mean = (wheel.fastest + wheel.slowest) / 2
-    return Drawn((_over_cycle(report, (wheel.speed / mean - 1) * 100, report.words["figure"]["speed_deviation"]),))
+    return FigureScenes(
+        (_over_cycle(report, (wheel.speed / mean - 1) * 100, report.words["figure"]["speed_deviation"]),)
+    )

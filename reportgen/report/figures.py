@@ -17,8 +17,8 @@ from reportgen.drawing import positions as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
 from reportgen.drawing.forces import Sliding
 from reportgen.drawing.forces import coriolis as coriolis_figure
-from reportgen.drawing.labels import Draft, sheets
-from reportgen.drawing.positions import Centre, PlaneMotion, PositionPlan, centre_plan, position_plan
+from reportgen.drawing.labels import Canvas, sheets
+from reportgen.drawing.positions import DrawnCentre, PlaneMotion, PositionPlan, centre_plan, position_plan
 from reportgen.drawing.scheme import Looks
 from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
 from reportgen.machine.analysis import FULL_TURN, Machine, motion_at
@@ -51,7 +51,7 @@ SHOWN_AT = 1
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class FigureScenes:
     """The scenes of a figure; `paper` (mm) asks for a page of its own for each."""
 
     scenes: tuple[Scene, ...]
@@ -70,21 +70,21 @@ def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
     return width <= paper[0] - WHITE[0] and height <= paper[1] - WHITE[1]
 
 
-def on_paper(*scenes: Scene) -> Drawn:
+def on_paper(*scenes: Scene) -> FigureScenes:
     """Scenes in the text if they fit there in true size, else each on a page large enough for all of them."""
     if all(map(in_text, scenes)):
-        return Drawn(scenes)
+        return FigureScenes(scenes)
     width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
     papers = (paper for paper in (A4_ACROSS, A3_ACROSS, A3_UPRIGHT, *LARGER) if fits(width, height, paper))
-    return Drawn(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
+    return FigureScenes(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
 
 
-def beside_one_another(*scenes: Scene) -> Drawn:
+def beside_one_another(*scenes: Scene) -> FigureScenes:
     """Scenes close together if they fit a text block so, else as they are; on pages of their own if they must."""
     together = sheets(scenes, *TEXT_BLOCK, trim=CLOSE)
     if in_text(*together):
-        return Drawn(together)
-    return Drawn(scenes, None if all(map(in_text, scenes)) else A3_ACROSS)
+        return FigureScenes(together)
+    return FigureScenes(scenes, None if all(map(in_text, scenes)) else A3_ACROSS)
 
 
 def drawing_scale(report: Report) -> float:
@@ -115,16 +115,16 @@ def short(number: Number) -> Number:
     return replace(number, value=float(f"{number.value:.6g}"), decimals=None)
 
 
-def line_styles(report: Report) -> Drawn:
+def line_styles(report: Report) -> FigureScenes:
     """The legend of all lines of the report."""
-    return Drawn((scheme_figure.line_styles(report.words["line_styles"]),))
+    return FigureScenes((scheme_figure.line_styles(report.words["line_styles"]),))
 
 
 # --- the machine at one position and over a turn
 
 
-def scheme(report: Report) -> Drawn:
-    return Drawn((scheme_scene(report, _reduction(report)),))
+def scheme(report: Report) -> FigureScenes:
+    return FigureScenes((scheme_scene(report, _reduction(report)),))
 
 
 def scheme_scene(report: Report, factor: float) -> Scene:
@@ -133,14 +133,14 @@ def scheme_scene(report: Report, factor: float) -> Scene:
     return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, SHOWN_AT, scale, look)
 
 
-def groups(report: Report) -> Drawn:
+def groups(report: Report) -> FigureScenes:
     """The driver and each group by itself."""
     factor = _reduction(report)
     scale, words = drawing_scale(report) * factor, report.words["figure"]
     titles = (words["driver"], *(words["group"].format(i=group.i, j=group.j) for group in report.groups))
     look = replace(looks(report, scale, factor), scale=None)
     motion = report.analysis.motion
-    return Drawn(scheme_figure.groups(report.machine.linkage, motion, SHOWN_AT, scale, look, titles))
+    return FigureScenes(scheme_figure.groups(report.machine.linkage, motion, SHOWN_AT, scale, look, titles))
 
 
 def _reduction(report: Report) -> float:
@@ -151,7 +151,7 @@ def _reduction(report: Report) -> float:
     return next(factor for factor in REDUCTIONS if 1 / factor >= needed)
 
 
-def positions(report: Report) -> Drawn:
+def positions(report: Report) -> FigureScenes:
     return on_paper(positions_scene(report))
 
 
@@ -160,7 +160,7 @@ def plan_in_text(report: Report) -> bool:
     return positions(report).paper is None
 
 
-def positions_scene(report: Report, beside: Draft | None = None) -> Scene:
+def positions_scene(report: Report, beside: Canvas | None = None) -> Scene:
     """The numbered positions of one turn, alone with the paths of points or beside another drawing."""
     machine = report.machine
     shows = PositionPlan(
@@ -173,7 +173,7 @@ def positions_scene(report: Report, beside: Draft | None = None) -> Scene:
     return _position_plan(report, one_turn, shows, beside)
 
 
-def extremes(report: Report) -> Drawn:
+def extremes(report: Report) -> FigureScenes:
     """The mechanism where its first slider turns back: I as its stroke begins, II as it ends."""
     course = report.machine.sliders[0]
     motion = motion_at(report.machine, course.dead_centres[:2] - course.phase)
@@ -181,7 +181,7 @@ def extremes(report: Report) -> Drawn:
     return on_paper(_position_plan(report, motion, shows))
 
 
-def _position_plan(report: Report, motion: Motion, shows: PositionPlan, beside: Draft | None = None) -> Scene:
+def _position_plan(report: Report, motion: Motion, shows: PositionPlan, beside: Canvas | None = None) -> Scene:
     dense = _motion(report.machine, np.linspace(0.0, FULL_TURN, DENSE))
     scale = drawing_scale(report)
     notes = looks(report, scale).notes
@@ -205,7 +205,7 @@ def _numbered(report: Report) -> tuple[str, ...]:
 # --- the gas
 
 
-def indicator(report: Report) -> Drawn:
+def indicator(report: Report) -> FigureScenes:
     """The diagram in line with the first piston's stroke, every piston's positions read from it."""
     machine, gases = report.machine, report.analysis.gas
     first = machine.pistons[0]
@@ -270,7 +270,7 @@ def _branches(
 # --- Coriolis acceleration
 
 
-def coriolis(report: Report, k: int, group: GroupView, side: Side) -> Drawn:
+def coriolis(report: Report, k: int, group: GroupView, side: Side) -> FigureScenes:
     """The relative velocity in a turning guide, turned by 90° in the sense of its ω."""
     ledger, points = report.ledger, report.analysis.motion.points
     omega = float(ledger[ids.signed("omega", side.turning)].at(k).real)
@@ -281,7 +281,7 @@ def coriolis(report: Report, k: int, group: GroupView, side: Side) -> Drawn:
         (report.named(Symbol("a", side.pair, "k", "vector")), 1j * omega * relative),
         (ledger.symbol(side.omega), float(np.sign(omega))),
     )
-    return Drawn((coriolis_figure(sliding),))
+    return FigureScenes((coriolis_figure(sliding),))
 
 
 # --- instant centres of velocity ------------------------------------------------------------------
@@ -306,7 +306,7 @@ def _place(report: Report, link: PlaneLink, k: int) -> complex:
     return complex(report.ledger[ids.centre(link.link)].at(k)) * drawing_scale(report)
 
 
-def centres(report: Report, k: int) -> Drawn:
+def centres(report: Report, k: int) -> FigureScenes:
     """The mechanism at a position, true to μ_l: normals that meet in the centres, velocities and their angles.
 
     Centres stand together on a sheet as far as one holds them.
@@ -315,7 +315,7 @@ def centres(report: Report, k: int) -> Drawn:
     angles = [_plane_motion(report, link, k) for link in report.plane_links]
 
     def scene(links: Sequence[PlaneLink], first: bool) -> Scene:
-        marks = [Centre(centre_symbol(one.link), _place(report, one, k), (one.base, one.point)) for one in links]
+        marks = [DrawnCentre(centre_symbol(one.link), _place(report, one, k), (one.base, one.point)) for one in links]
         own = angles if first else ()
         return centre_plan(linkage, motion, k - 1, scale, centres=marks, looks=looks(report, scale), moving=own)
 

@@ -12,14 +12,14 @@ from reportgen.drawing import Circle, Item, Line, Scene
 from reportgen.drawing.forces import ArmOf, Couple, Force
 from reportgen.drawing.forces import bodies as bodies_figure
 from reportgen.drawing.forces import lever as lever_figure
-from reportgen.drawing.labels import Draft, label
+from reportgen.drawing.labels import Canvas, label
 from reportgen.drawing.plan import plan
 from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.formula import Chain, Expression, Symbol, constructions, ids, size, vocabulary
 from reportgen.machine import DRIVER
 from reportgen.machine.forces import Load, as_single_force, percussion_meeting
 from reportgen.plans.loads import Polygon
-from reportgen.report.figures import HALF, MM, Drawn, beside_one_another, drawing_scale, looks, on_paper
+from reportgen.report.figures import HALF, MM, FigureScenes, beside_one_another, drawing_scale, looks, on_paper
 from reportgen.report.groups import BodyView, GroupView
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
@@ -135,7 +135,7 @@ def drawn_sense(report: Report, name: str, k: int) -> complex:
 # --- groups and the driver
 
 
-def bodies(report: Report, k: int, group: GroupView) -> Drawn:
+def bodies(report: Report, k: int, group: GroupView) -> FigureScenes:
     """The group with all its forces, at half size; then each link that moments are taken of, with the arms."""
     return beside_one_another(*separated(report, k, group))
 
@@ -177,7 +177,7 @@ def _moments(report: Report, group: GroupView, k: int) -> tuple[tuple[int, str],
     return tuple(dict.fromkeys((*solved.get(group.kind, ()), *placed)))
 
 
-def driver(report: Report, k: int) -> Drawn:
+def driver(report: Report, k: int) -> FigureScenes:
     """The driver with the reactions on it and what balances it, of a crank with arms about its centre; their plan."""
     polygon = report.driver_polygon
     assert polygon is not None
@@ -229,12 +229,12 @@ def _percussion_points(report: Report, body: BodyView, k: int) -> tuple[complex,
     return (s + (s - a) / abs(s - a) * l_sk, q) if np.isfinite(q) and abs(q - s) < near else None
 
 
-def _percussion(report: Report, link: int, k: int) -> Draft:
+def _percussion(report: Report, link: int, k: int) -> Canvas:
     """K on a link, and the two lines of construction that meet in Q."""
     body = next((body for body in report.couples if body.link == link), None)
     points = body and _percussion_points(report, body, k)
     if not body or not points or report.is_zero(body.couple, k):
-        return Draft()
+        return Canvas()
     scale, number = drawing_scale(report), str(link)
     known, meeting = (point * scale for point in points)
     marks: tuple[Item, ...] = (
@@ -244,25 +244,25 @@ def _percussion(report: Report, link: int, k: int) -> Draft:
         Circle(meeting, 0.6, VISIBLE, PAPER),
     )
     labels = label(known, Symbol("K", number), gap=1.2), label(meeting, Symbol("Q", number), gap=1.2)
-    return Draft(marks, labels)
+    return Canvas(marks, labels)
 
 
-def _foot(report: Report, group: GroupView, link: int, k: int) -> Draft:
+def _foot(report: Report, group: GroupView, link: int, k: int) -> Canvas:
     """On a slotted link beside its pin T the foot H of T on the slot's line, from which the block is measured."""
     if not (group.offset and link == group.j):
-        return Draft()
+        return Canvas()
     scale, ledger = drawing_scale(report), report.ledger
     pivot, block = (complex(report.analysis.motion.points[name].p[k - 1]) * scale for name in (group.T, group.Q))
     along = complex(ledger[ids.slot(link)].at(k))
     at = complex(constructions.foot(pivot, block, along))
     marks = (Line(pivot, at, CONSTRUCTION), Line(at, block, CONSTRUCTION), Circle(at, 0.6, VISIBLE, PAPER))
-    return Draft(marks, (label(at, Symbol("H", str(link)), gap=1.2),))
+    return Canvas(marks, (label(at, Symbol("H", str(link)), gap=1.2),))
 
 
 # --- Zhukovsky's lever
 
 
-def lever(report: Report, k: int) -> Drawn:
+def lever(report: Report, k: int) -> FigureScenes:
     """The velocity plan turned by 90° against ω1, every load at its image, arms about the pole."""
     ledger, machine, motion, index = report.ledger, report.machine, report.analysis.motion, k - 1
     per = -1j * machine.turn * MM / float(ledger["mu.v"].values[0])

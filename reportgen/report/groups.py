@@ -1,6 +1,6 @@
 """The moving parts of a machine as templates, tables and figures see them, with the ids of their quantities.
 
-Names of points are `PointName`s, which templates print as symbols.
+Names of points are `NamedPoint`s, which templates print as symbols.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from reportgen.formula.ledger import Ledger
 from reportgen.machine import DRIVER, Crank, Dyad, Guide, Linkage
 from reportgen.plans.loads import Polygon
 from reportgen.plans.sides import Scheme, Side, image, sides
-from reportgen.report.prose import PointName
+from reportgen.report.prose import NamedPoint
 
 
 @dataclass(frozen=True, slots=True)
 class PointView:
     """A named point on a link, e.g. a mass centre."""
 
-    name: PointName
+    name: NamedPoint
     link: int
 
     def __str__(self) -> str:
@@ -30,7 +30,7 @@ class PointView:
 
 def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
     """The named points of a link."""
-    return tuple(PointView(PointName(place.name), link) for place in linkage.points if place.link == link)
+    return tuple(PointView(NamedPoint(place.name), link) for place in linkage.points if place.link == link)
 
 
 class DriverView:
@@ -46,8 +46,8 @@ class DriverView:
 
     def __init__(self, linkage: Linkage, ledger: Ledger) -> None:
         moved = linkage.driver
-        self.centre = PointName(moved.centre if isinstance(moved, Crank) else "")
-        self.pin = PointName(moved.pin)
+        self.centre = NamedPoint(moved.centre if isinstance(moved, Crank) else "")
+        self.pin = NamedPoint(moved.pin)
         self.others = points_on(linkage, DRIVER)
         self.names = (self.pin, *(place.name for place in self.others))
         self.arm = f"{self.centre}{self.pin}" if self.centre else ""
@@ -70,9 +70,9 @@ class CarriedPoint:
     frame, `swings` whether the link has an angular acceleration.
     """
 
-    name: PointName
+    name: NamedPoint
     link: int
-    origin: PointName
+    origin: NamedPoint
     relative: str
     still: bool
     swings: bool
@@ -97,7 +97,7 @@ class Contact:
     """
 
     digits: str
-    pin: PointName
+    pin: NamedPoint
     link: int
     moment: str
     place: str
@@ -129,10 +129,10 @@ class GroupView:
         self.kind, (self.i, self.j), self.ledger = dyad.kind, dyad.links, ledger
         i, j = dyad.links
         self.one, self.two = self.sides = sides(plan, dyad)
-        self.P = PointName(dyad.start if isinstance(dyad.start, str) else dyad.middle)
-        self.Q = PointName(dyad.middle)
-        self.T = PointName(dyad.end if isinstance(dyad.end, str) else "")
-        self.M, self.relative, self.rod = PointName(self.one.point), self.one.relative, self.one.rod
+        self.P = NamedPoint(dyad.start if isinstance(dyad.start, str) else dyad.middle)
+        self.Q = NamedPoint(dyad.middle)
+        self.T = NamedPoint(dyad.end if isinstance(dyad.end, str) else "")
+        self.M, self.relative, self.rod = NamedPoint(self.one.point), self.one.relative, self.one.rod
         self.carrier, last = (end.link if isinstance(end, Guide) else plan.owner[end] for end in (dyad.start, dyad.end))
         self.outer, self.inner = ids.joint(self.carrier, i), ids.joint(j, i)
         self.guide, self.across = ids.joint(last, j), ids.joint(i, j)
@@ -248,7 +248,7 @@ class GroupView:
         rods = [side.rod for side in self.sides if side.measured]
         return [name(rod) for rod in rods for name in (ids.drawn, ids.length)]
 
-    def _origin(self, link: int) -> PointName:
+    def _origin(self, link: int) -> NamedPoint:
         """The joint that a link's points are measured from."""
         return self.P if link == self.i else self.T or self.Q
 
@@ -345,7 +345,7 @@ class GroupView:
         found = {"RRP": [last], "RPR": [first], "PRP": [(self.outer, self.Q, self.i), last], "RPP": [first, last]}
         return [self._contact(*slide) for slide in found.get(self.kind, [])]
 
-    def _contact(self, digits: str, pin: PointName, link: int) -> Contact:
+    def _contact(self, digits: str, pin: NamedPoint, link: int) -> Contact:
         moment, arms = ids.reaction_couple(digits), self.arms(pin, link)
         displaced = moment in self.ledger and self.ledger[moment].definition is not None
         moments = [*arms, moment] if displaced else arms
@@ -397,8 +397,8 @@ class BodyView:
     """A link with an inertia couple: its number, mass centre, the pin it is measured from, the ids to show."""
 
     link: int
-    centre: PointName
-    start: PointName
+    centre: NamedPoint
+    start: NamedPoint
     ids: list[str]
     still: bool
     """Whether that pin is fixed to the frame."""
@@ -420,7 +420,7 @@ class PlaneLink:
 
     def __init__(self, turn: Side, group: str) -> None:
         self.link, self.rod, self.group = turn.link, turn.rod, group
-        self.base, self.point = PointName(turn.base), PointName(turn.point)
+        self.base, self.point = NamedPoint(turn.base), NamedPoint(turn.point)
         self.omega = ids.angular_velocity(self.link)
         self.rates = [ids.centre_omega(self.link), ids.centre_velocity(self.link)]
         self.distances, self.angles, self.projections = (
@@ -436,11 +436,11 @@ def displaced_inertia(linkage: Linkage, groups: Iterable[GroupView], ledger: Led
     """Links whose inertia is a force and a couple, which one force off the mass centre replaces."""
     # A block turns about no base of a plan: the pin it sits on is its first joint.
     starts = {group.i: group.P for group in groups}
-    starts |= {side.link: PointName(side.base) for group in groups for side in group.sides if side.turns}
+    starts |= {side.link: NamedPoint(side.base) for group in groups for side in group.sides if side.turns}
     found = []
     for body in linkage.inertias:
         shown = ledger.known((ids.inertia_offset(body.link), ids.percussion(body.centre, body.link)))
         if len(shown) == 2:
             start = starts[body.link]
-            found.append(BodyView(body.link, PointName(body.centre), start, shown, start in linkage.ground))
+            found.append(BodyView(body.link, NamedPoint(body.centre), start, shown, start in linkage.ground))
     return tuple(found)

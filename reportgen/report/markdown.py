@@ -26,7 +26,7 @@ TOKEN = re.compile(f"\ue000{SECRET}:(\\d+)\ue001")
 
 
 @dataclass(frozen=True, slots=True)
-class Key:
+class SectionKey:
     """Names the section whose heading it ends."""
 
     name: str
@@ -37,7 +37,7 @@ class Unnumbered:
     """Keeps the section whose heading it ends out of the count."""
 
 
-Emitted = tree.Inline | tree.Block | Key | Unnumbered
+Emitted = tree.Inline | tree.Block | SectionKey | Unnumbered
 Place = tuple[str, int]
 
 
@@ -138,7 +138,7 @@ class _Reader:
         items, key, numbered = self.items(node), "", True
         while items:
             match items[-1]:
-                case _Piece(Key(name)):
+                case _Piece(SectionKey(name)):
                     key = name
                 case _Piece(Unnumbered()):
                     numbered = False
@@ -160,7 +160,7 @@ class _Reader:
         match item:
             case str(text):
                 return tree.Text(text)
-            case _Piece(Key() | Unnumbered() as marker, index):
+            case _Piece(SectionKey() | Unnumbered() as marker, index):
                 name = type(marker).__name__.lower()
                 raise self.fault_at(index, f"{name}(…) belongs at the end of a heading")
             case _Piece(value, index):

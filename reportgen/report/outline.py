@@ -41,7 +41,7 @@ from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
 from reportgen.report import phrases as steps
 from reportgen.report.case import Calculation
-from reportgen.report.figures import Drawn
+from reportgen.report.figures import FigureScenes
 from reportgen.report.groups import GroupView
 from reportgen.report.numbering import number
 from reportgen.report.report import Report
@@ -144,7 +144,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
 
 VELOCITY, ACCELERATION = plans.MotionFigures("v"), plans.MotionFigures("a")
 
-FIGURES: Mapping[str, tuple[str, Callable[..., Drawn]]] = {
+FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "line-styles": ("fig.line-styles", figures.line_styles),
     # the machine
     "scheme": ("fig.scheme", figures.scheme),

@@ -16,7 +16,7 @@ from reportgen.plans.sides import Side
 from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
 from reportgen.report.groups import CarriedPoint, GroupView
-from reportgen.report.prose import PointName
+from reportgen.report.prose import NamedPoint
 from reportgen.report.report import Report, lower_digits
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def _members(about: Sequence[Any], name: str) -> Iterator[Any]:
 
 def inlines(of: Any) -> Inlines:
     """What fills a gap: points as symbols, numbers with their unit, formulas, inlines, else text."""
-    if isinstance(of, PointName):
+    if isinstance(of, NamedPoint):
         return (InlineMath(vocabulary.point(of)),)
     if isinstance(of, Number):
         return (Value(of),)
@@ -206,7 +206,7 @@ def drawn_group(report: Report, row: GroupRow) -> Inlines:
     """How a group of a declared linkage is drawn: its rods, its outer joints, the inner one."""
     drawn = [value(report, ids.drawn(rod)) for rod, _ in row.lengths]
     rods = dict(zip(("first", "second"), drawn, strict=False))
-    first, *others = map(PointName, row.joints)
+    first, *others = map(NamedPoint, row.joints)
     joints = {"start": first} | dict(zip(("inner", "end"), others, strict=False))
     words = report.words["linkage"]["drawing"][row.drawing]
     return say(report, words, row, last=row.links[1], **rods, **joints)
@@ -266,13 +266,13 @@ def base_step(report: Report, what: str, group: GroupView, side: Side, position:
 
 def known_sense(report: Report, side: Side) -> Inlines:
     """The sense of the relative acceleration that velocities give: towards the base, or as Coriolis turned it."""
-    ends = {"point": PointName(side.point), "base": PointName(side.base)}
+    ends = {"point": NamedPoint(side.point), "base": NamedPoint(side.base)}
     return say(report, report.words["plan"]["senses"]["centre" if side.turns else "coriolis"], **ends)
 
 
 def base_motion(report: Report, side: Side) -> Inlines:
     """What is known of a side's base: that it is fixed, or its velocity."""
-    return say(report, report.words["plan"]["bases"][side.state], base=PointName(side.base))
+    return say(report, report.words["plan"]["bases"][side.state], base=NamedPoint(side.base))
 
 
 def shows_coriolis(report: Report, group: GroupView, side: Side, position: int) -> bool:

@@ -31,7 +31,7 @@ from reportgen.plans.loads import Edge, Polygon
 from reportgen.plans.motion import POLES, What
 from reportgen.plans.sides import Side, image
 from reportgen.report import Inlines
-from reportgen.report.figures import A3_ACROSS, MM, TEXT_BLOCK, Drawn, on_paper, scale_note
+from reportgen.report.figures import A3_ACROSS, MM, TEXT_BLOCK, FigureScenes, on_paper, scale_note
 from reportgen.report.groups import GroupView
 from reportgen.report.phrases import counted
 from reportgen.report.report import Report
@@ -67,10 +67,10 @@ class MotionFigures:
 
     what: What
 
-    def whole(self, report: Report, k: int) -> Drawn:
+    def whole(self, report: Report, k: int) -> FigureScenes:
         return on_paper(_worked(report, self._plan(report, k), k))
 
-    def in_stages(self, report: Report, k: int, group: GroupView) -> Drawn:
+    def in_stages(self, report: Report, k: int, group: GroupView) -> FigureScenes:
         """The steps of one group's construction, numbered as in the text; what was drawn before is gray."""
         begin = STAGES * next(n for n, one in enumerate(report.groups) if one.name == group.name)
         bounds = np.cumsum([0, *_steps(group, self.what)])
@@ -83,7 +83,7 @@ class MotionFigures:
         until = self._plan(report, k).until(begin + STAGES - 1)
         return _stages(report, until, ids.scale(self.what), titles, begin)
 
-    def on_plates(self, report: Report) -> Drawn:
+    def on_plates(self, report: Report) -> FigureScenes:
         told = _mirrored(report, self.what).at
         return _plates(report, self._plan, [k for k in _one_turn(report) if k not in told], ids.scale(self.what))
 
@@ -154,7 +154,7 @@ def _steps(group: GroupView, what: What) -> tuple[int, int, int]:
 
 def _stages(
     report: Report, drawing: Plan, scale: str, titles: Titles = lettered, begin: int = 0, k: int | None = None
-) -> Drawn:
+) -> FigureScenes:
     """The stages of a plan at half its size or, for large plans, less, with the scale that makes."""
     number = report.ledger.number(scale, k)
     for share in SHARES[1:-1]:
@@ -164,12 +164,12 @@ def _stages(
         if widest <= PANEL and across <= PANELS[0] and highest <= PANELS[1]:
             break
     smaller = replace(number, value=float(f"{number.shown / share:.9g}"), decimals=None)
-    return Drawn(scenes, note=Chain((report.ledger.symbol(scale), smaller)))
+    return FigureScenes(scenes, note=Chain((report.ledger.symbol(scale), smaller)))
 
 
 def _plates(
     report: Report, drawing: Callable[[Report, int], Plan], positions: Sequence[int], scale: str, at: int | None = None
-) -> Drawn:
+) -> FigureScenes:
     """Plans of one scale, that of the position `at`, in rows, at the largest of the shares at which each has room.
 
     If none fits the text block, they stand on A3 sheets.  Insets are for worked plans.
@@ -194,8 +194,8 @@ def _plates(
                 break
             drawn.append(scene)
         else:
-            return Drawn(tuple(drawn), note=scale_note(report, scale, share, at))
-    return Drawn(sheets(tuple(scenes(share)), *SHEET, scale_note(report, scale, share, at), trim=0.0), A3_ACROSS)
+            return FigureScenes(tuple(drawn), note=scale_note(report, scale, share, at))
+    return FigureScenes(sheets(tuple(scenes(share)), *SHEET, scale_note(report, scale, share, at), trim=0.0), A3_ACROSS)
 
 
 class _Sketch:
@@ -254,12 +254,12 @@ class _Sketch:
 # --- forces
 
 
-def forces(report: Report, k: int, group: GroupView) -> Drawn:
+def forces(report: Report, k: int, group: GroupView) -> FigureScenes:
     assert group.polygon is not None
     return on_paper(_worked(report, force_plan(report, group.polygon, k), k))
 
 
-def force_stages(report: Report, k: int, group: GroupView) -> Drawn:
+def force_stages(report: Report, k: int, group: GroupView) -> FigureScenes:
     """The force plan step by step: loads, components found by moments, closing edges, what is read."""
     assert group.polygon is not None
     drawing = force_plan(report, group.polygon, k)
@@ -282,7 +282,7 @@ def force_stages(report: Report, k: int, group: GroupView) -> Drawn:
     return _stages(report, steps, group.scale, k=k)
 
 
-def force_plates(report: Report, group: GroupView) -> Drawn:
+def force_plates(report: Report, group: GroupView) -> FigureScenes:
     """The force plans of all positions at one scale: the largest of those that they have by themselves."""
     polygon = group.polygon
     assert polygon is not None

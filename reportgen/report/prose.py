@@ -40,7 +40,7 @@ from reportgen.base.units import MINUS
 from reportgen.base.words import find, home, refuse_strangers, version
 from reportgen.formula import Expression, Number, vocabulary
 from reportgen.report import BlankLine, Block, InlineMath, Inlines, Reference, Text, Value, markdown
-from reportgen.report.markdown import SECRET, Emitted, Key, Place, Rendered, Unnumbered
+from reportgen.report.markdown import SECRET, Emitted, Place, Rendered, SectionKey, Unnumbered
 
 _PRIVATE = re.compile("[\ue000-\ue004]")
 _PIECE = re.compile(
@@ -61,7 +61,7 @@ ENVIRONMENTS = 8
 """How many search paths (language, kind, school) keep their compiled templates."""
 
 
-class PointName(str):
+class NamedPoint(str):
     """The name of a point, which templates print as its symbol."""
 
 
@@ -210,7 +210,7 @@ def _emit(value: object) -> str:
     match value:
         case Undefined():
             return str(value)  # raises, naming what is undefined
-        case PointName():
+        case NamedPoint():
             return _store(InlineMath(vocabulary.point(value)))
         case str():
             return _emit_text(value)
@@ -263,8 +263,8 @@ def _ref(*key: object) -> Reference:
     return Reference(".".join(_plain(str(part)) for part in key))
 
 
-def _key(name: str) -> Key:
-    return Key(_plain(name))
+def _key(name: str) -> SectionKey:
+    return SectionKey(_plain(name))
 
 
 def _blank(label: str = "") -> BlankLine:

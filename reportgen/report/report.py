@@ -19,7 +19,7 @@ from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.machine import GROUND, Mobility, mobility
 from reportgen.machine.analysis import FULL_TURN, Analysis, Machine, Position, analyse
-from reportgen.machine.flywheel import Flywheel
+from reportgen.machine.flywheel import RegulatedCycle
 from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import links_in_plane_motion
@@ -76,7 +76,7 @@ class Report:
         return self.case.ledger
 
     @property
-    def flywheel(self) -> Flywheel | None:
+    def flywheel(self) -> RegulatedCycle | None:
         return self.case.flywheel
 
     @cached_property

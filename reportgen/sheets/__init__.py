@@ -12,7 +12,18 @@ from reportgen.base.errors import SheetError
 from reportgen.base.units import nice_down, nice_up
 from reportgen.base.words import word
 from reportgen.drawing import Scene
-from reportgen.drawing.sheet import ENLARGED, GAP, ROW, Form, Part, Room, Sheet, TooLargeError, headed, stretched
+from reportgen.drawing.sheet import (
+    ENLARGED,
+    GAP,
+    ROW,
+    DrawingSheet,
+    Form,
+    PlacedScene,
+    Room,
+    TooLargeError,
+    headed,
+    stretched,
+)
 from reportgen.plans.scales import PER_MM
 from reportgen.report.case import Calculation
 from reportgen.report.report import Report
@@ -25,7 +36,7 @@ USUAL_SIZES = ("A1", "A0")
 
 def drawing_sheets(
     case: Calculation, size: str = "", sets: Collection[str] = (), block: Path | None = None
-) -> list[Sheet]:
+) -> list[DrawingSheet]:
     """The finished drawing sheets of a case: of one `size`, else as the file says, else A1, or A0 if a plate needs it.
 
     `sets` are some of `SETS`, all if none is named; the title `block` is a file, else that of the language.  Raises
@@ -49,7 +60,7 @@ def drawing_sheets(
     )
 
 
-def sheets_of(plates: Plates, chosen: Sequence[int], size: str, block: TitleBlock) -> list[Sheet]:
+def sheets_of(plates: Plates, chosen: Sequence[int], size: str, block: TitleBlock) -> list[DrawingSheet]:
     """Sheets of a size with some series; raises `TooLargeError` for a plate that fits none."""
     space = room(size, block.margins, block.size)
     found = Search(plates, chosen, space).sheets()
@@ -67,10 +78,10 @@ def sheets_of(plates: Plates, chosen: Sequence[int], size: str, block: TitleBloc
         }
         corner = complex(space.high.real - block.size[0], space.low.imag)
         own = (
-            Part("frame", "frame", frame(size, block.margins, block.note(fields))),
-            Part("title block", "frame", block.scene(fields), corner),
+            PlacedScene("frame", "frame", frame(size, block.margins, block.note(fields))),
+            PlacedScene("title block", "frame", block.scene(fields), corner),
         )
-        result.append(Sheet(size, width, height, (*own, *parts)))
+        result.append(DrawingSheet(size, width, height, (*own, *parts)))
     return result
 
 
@@ -123,7 +134,7 @@ Key = tuple[str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
+class Arrangement:
     """Scales (SI per mm) of plates and, by the number of their series, forms of tables."""
 
     scales: Mapping[Key, float]
@@ -142,7 +153,7 @@ class Search:
         self.estimates = Estimates(plates)
         self.series = [plates.series[index] for index in chosen]
         self.tried: dict[tuple[object, ...], tuple[float, list[Laid]]] = {}
-        self.named: dict[tuple[int, float, Form], list[Part]] = {}
+        self.named: dict[tuple[int, float, Form], list[PlacedScene]] = {}
         size = space.high - space.low
         usual = max(USUAL * size.imag, LEAST)
         self.largest: dict[Key, Series] = {}
@@ -163,7 +174,7 @@ class Search:
             elif one.scale == CURVE:
                 self.forms[index] = [usual_form, *(replace(usual_form, shape=shape) for shape in SHAPES)]
 
-    def sheets(self) -> list[tuple[Part, ...]]:
+    def sheets(self) -> list[tuple[PlacedScene, ...]]:
         """The plates on sheets; raises `TooLargeError` for one that fits none.
 
         They stand in rows or columns throughout if that is found to fill the sheets.  On a small sheet few plates stand
@@ -190,7 +201,7 @@ class Search:
             raise TooLargeError(too_large(parts, self.space) or parts[0])
         return self._spread(sheets)
 
-    def _spread(self, sheets: Iterable[Laid]) -> list[tuple[Part, ...]]:
+    def _spread(self, sheets: Iterable[Laid]) -> list[tuple[PlacedScene, ...]]:
         """The sheets with tables stretched and the white shared out."""
         return [
             spread(one.with_parts(_stretched(part, one.stretch) for part in one.parts), self.space) for one in sheets
@@ -200,7 +211,7 @@ class Search:
     def is_large(self) -> bool:
         return (self.space.high - self.space.low).imag > LARGE
 
-    def _promising(self) -> Iterator[Choice]:
+    def _promising(self) -> Iterator[Arrangement]:
         """What may fill sheets enough, searched from plates of usual size, else from smaller or larger ones.
 
         Between two of them plates have been drawn, so that estimates are better.
@@ -216,7 +227,7 @@ class Search:
                 self.named.clear()
                 improved = self._improved(self._fitting(improved))
 
-    def _beginning(self, share: float) -> Choice:
+    def _beginning(self, share: float) -> Arrangement:
         """Plates so many times as large as usual."""
         scales = {}
         for key, one in self.largest.items():
@@ -224,19 +235,19 @@ class Search:
             # A round scale may leave a plan much smaller than meant.
             least = self._at_least(key, SMALLER, READABLE)
             scales[key] = scale if one.size / scale >= least else nice_down(one.size / least, one.steps)
-        return Choice(scales, dict.fromkeys(self.forms, self.usual_form))
+        return Arrangement(scales, dict.fromkeys(self.forms, self.usual_form))
 
-    def _fitting(self, choice: Choice) -> Choice:
+    def _fitting(self, choice: Arrangement) -> Arrangement:
         """Scales made coarser for plates that are larger than the sheet."""
         while large := too_large(self._estimated(choice), self.space):
             one = self.plates.series[int(large.name)]
             scale = choice.scales.get(one.scaled, 0.0)
             if not scale or self.largest[one.scaled].size / scale < TINY:
                 break
-            choice = Choice({**choice.scales, one.scaled: nice_up(1.01 * scale, one.steps)}, choice.forms)
+            choice = Arrangement({**choice.scales, one.scaled: nice_up(1.01 * scale, one.steps)}, choice.forms)
         return choice
 
-    def _improved(self, choice: Choice) -> Choice:
+    def _improved(self, choice: Arrangement) -> Arrangement:
         """One scale or form after the other changed as long as that leaves less white; where none does, two at once."""
         while self._missing(choice) > 0.0:
             better = self._first_better(choice, self._neighbours(choice)) or self._first_better(
@@ -247,7 +258,7 @@ class Search:
             choice = better
         return choice
 
-    def _first_better(self, choice: Choice, others: Iterable[Choice]) -> Choice | None:
+    def _first_better(self, choice: Arrangement, others: Iterable[Arrangement]) -> Arrangement | None:
         least = self._missing(choice) - LESS
         for other in islice(others, max(self.tries, 0)):
             self.tries -= 1
@@ -255,15 +266,15 @@ class Search:
                 return other
         return None
 
-    def _next_but_one(self, choice: Choice) -> Iterator[Choice]:
+    def _next_but_one(self, choice: Arrangement) -> Iterator[Arrangement]:
         """Two changes at once of what is on sheets that are too empty, or before them."""
         some = list(islice(self._neighbours(choice), PAIRED))
         for one, other in combinations(some, 2):
             scales = {key: at for key, at in other.scales.items() if at != choice.scales[key]}
             forms = {index: form for index, form in other.forms.items() if form != choice.forms[index]}
-            yield Choice({**one.scales, **scales}, {**one.forms, **forms})
+            yield Arrangement({**one.scales, **scales}, {**one.forms, **forms})
 
-    def _neighbours(self, choice: Choice) -> Iterator[Choice]:
+    def _neighbours(self, choice: Arrangement) -> Iterator[Arrangement]:
         """Each scale finer and coarser and each table in other forms, those on sheets that are too empty first.
 
         Then come those on the sheets before them, which may leave them more or less.
@@ -280,14 +291,14 @@ class Search:
             if index in here | before:
                 for changed in self.forms[index]:
                     if changed != form:
-                        yield Choice(choice.scales, {**choice.forms, index: changed})
+                        yield Arrangement(choice.scales, {**choice.forms, index: changed})
         yield from self._rescaled(choice, [key for key in choice.scales if key not in near])
 
-    def _rescaled(self, choice: Choice, keys: Iterable[Key]) -> Iterator[Choice]:
+    def _rescaled(self, choice: Arrangement, keys: Iterable[Key]) -> Iterator[Arrangement]:
         for key in keys:
             if key in choice.scales:
                 for other in self._steps(key, choice.scales[key]):
-                    yield Choice({**choice.scales, key: other}, choice.forms)
+                    yield Arrangement({**choice.scales, key: other}, choice.forms)
 
     def _steps(self, key: Key, scale: float) -> Iterator[float]:
         """Some finer scales and some coarser ones at which plates are still of usual size."""
@@ -303,16 +314,16 @@ class Search:
         """So many times the usual size of the largest plate at a scale, or the `least` size of plans (mm)."""
         return max(times * self.usual[key], least * LARGER_PLATES.get(self.largest[key].name, 1.0))
 
-    def _missing(self, choice: Choice) -> float:
+    def _missing(self, choice: Arrangement) -> float:
         """What sheets miss of being full, as far as can be told without drawing them."""
         key = choice.key
         if key not in self.tried:
             self.tried[key] = self.estimating.of(self._estimated(choice))
         return self.tried[key][0]
 
-    def _estimated(self, choice: Choice) -> list[Part]:
+    def _estimated(self, choice: Arrangement) -> list[PlacedScene]:
         """All plates in order, about as large as they will be, named by their series."""
-        parts: list[Part] = []
+        parts: list[PlacedScene] = []
         for number, index in enumerate(self.chosen, start=1):
             scale = choice.scales.get(self.plates.series[index].scaled, 0.0)
             form = choice.forms.get(index, self.usual_form)
@@ -323,16 +334,16 @@ class Search:
             parts += self.named[key]
         return parts
 
-    def _with_headings(self, number: int, index: int, plates: Sequence[tuple[str, Scene]]) -> Iterator[Part]:
+    def _with_headings(self, number: int, index: int, plates: Sequence[tuple[str, Scene]]) -> Iterator[PlacedScene]:
         one = self.plates.series[index]
         title = self.plates.report.words["plates"][one.name]
         for name, place, scene in _numbered(number, plates):
             width, height = _head(f"{name}. {title}", place)
-            yield Part(
+            yield PlacedScene(
                 str(index), one.layer, Scene(max(scene.width, width), scene.height + height), table=_table(one, scene)
             )
 
-    def _drawn(self, choice: Choice) -> list[Part]:
+    def _drawn(self, choice: Arrangement) -> list[PlacedScene]:
         """All plates in order, numbered."""
         parts = []
         for number, index in enumerate(self.chosen, start=1):
@@ -342,7 +353,7 @@ class Search:
             title = self.plates.report.words["plates"][one.name]
             for name, place, scene in _numbered(number, [(plate.place, plate.scene) for plate in drawn]):
                 whole = headed(scene, f"{name}. {title}", place)
-                parts.append(Part(name, one.layer, whole, table=_table(one, scene)))
+                parts.append(PlacedScene(name, one.layer, whole, table=_table(one, scene)))
         return parts
 
 
@@ -352,7 +363,7 @@ def _numbered(series: int, plates: Sequence[tuple[str, Scene]]) -> Iterator[tupl
         yield f"{series}.{number}" if len(plates) > 1 else f"{series}", place, scene
 
 
-def _stretched(part: Part, stretch: complex) -> Part:
+def _stretched(part: PlacedScene, stretch: complex) -> PlacedScene:
     return replace(part, scene=stretched(part.scene, part.table, stretch)) if part.table else part
 
 

@@ -13,9 +13,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from reportgen.base.units import Language
-from reportgen.drawing import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline, Stroke
+from reportgen.drawing import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline
 from reportgen.drawing.geometry import POINT
-from reportgen.drawing.sheet import CAPITAL, NARROW, Part, Sheet
+from reportgen.drawing.sheet import CAPITAL, NARROW, DrawingSheet, PlacedScene
 from reportgen.drawing.style import HEAD_SLENDERNESS, PAPER, arrow_head, clip_hatch
 from reportgen.formula import Symbol
 from reportgen.formula.plain import Plain
@@ -66,7 +66,7 @@ STACK = 0.7
 """Size of indices beside the letters they belong to."""
 
 
-def write_sheet(sheet: Sheet, language: Language) -> bytes:
+def write_sheet(sheet: DrawingSheet, language: Language) -> bytes:
     """The DXF file (R2010) of a sheet."""
     import ezdxf
 
@@ -90,7 +90,7 @@ def write_sheet(sheet: Sheet, language: Language) -> bytes:
     return stream.getvalue().encode("utf-8")
 
 
-def _draw(document: Drawing, part: Part, texts: MText) -> None:
+def _draw(document: Drawing, part: PlacedScene, texts: MText) -> None:
     """The items of a part in model space, as one named group."""
     group: list[Any]
     with document.groups.new(part.name).edit_data() as group:
@@ -98,7 +98,7 @@ def _draw(document: Drawing, part: Part, texts: MText) -> None:
             group.extend(_entities(document, item, part, texts))
 
 
-def _layout(document: Drawing, sheet: Sheet) -> None:
+def _layout(document: Drawing, sheet: DrawingSheet) -> None:
     """A page of the sheet's size with one window on all of it, 1:1."""
     paper: Any = document.layout("Layout1")
     paper.page_setup(size=(sheet.width, sheet.height), margins=(0, 0, 0, 0), units="mm")
@@ -109,14 +109,14 @@ def _layout(document: Drawing, sheet: Sheet) -> None:
 # --- items ----------------------------------------------------------------------------------------
 
 
-def _entities(document: Drawing, item: Item, part: Part, texts: MText) -> Iterator[Any]:
+def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) -> Iterator[Any]:
     model: Any = document.modelspace()
 
     def at(point: complex) -> tuple[float, float]:
         moved = point + part.at
         return round(moved.real, 6), round(moved.imag, 6)
 
-    def line(start: complex, end: complex, stroke: Stroke) -> Any:
+    def line(start: complex, end: complex, stroke: Pen) -> Any:
         return model.add_line(at(start), at(end), dxfattribs=_pen(part.layer, stroke))
 
     def head(start: complex, end: complex, length: float) -> Iterator[Any]:
@@ -188,7 +188,7 @@ def _disc(document: Drawing, radius: float) -> str:
     return name
 
 
-def _pen(layer: str, stroke: Stroke) -> dict[str, Any]:
+def _pen(layer: str, stroke: Pen) -> dict[str, Any]:
     """A pen's layer, weight and line type; narrow axes and lines of construction have layers of their own."""
     weight = min(WIDTHS, key=lambda width: abs(width - 100 * stroke.width))
     if not stroke.dash or layer == "frame":

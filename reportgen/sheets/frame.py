@@ -19,7 +19,7 @@ from reportgen.base.errors import Finding
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, templates
-from reportgen.drawing import Anchor, Item, Label, Line, Polyline, Scene, Stroke
+from reportgen.drawing import Anchor, Item, Label, Line, Pen, Polyline, Scene
 from reportgen.drawing.geometry import box
 from reportgen.drawing.sheet import Room, font_size
 from reportgen.report.case import Opened
@@ -32,7 +32,7 @@ SIZES: Mapping[str, tuple[float, float]] = {
 }
 """Width and height of each size of paper, lying, mm."""
 
-HEAVY, FINE, EDGE = Stroke(0.7), Stroke(0.35), Stroke(0.18)
+HEAVY, FINE, EDGE = Pen(0.7), Pen(0.35), Pen(0.18)
 CENTRING = 5.0
 """How far a centring mark reaches into the frame, mm."""
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)
@@ -49,7 +49,7 @@ Align = Literal["left", "center"]
 
 
 @dataclass(frozen=True, slots=True)
-class Cell:
+class BlockCell:
     """A box of a title block, its lower left corner from that of the block, with a printed text or a field."""
 
     x: float
@@ -98,7 +98,7 @@ def frame(size: str, margins: Margins, note: str = "") -> Scene:
     return Scene(width, height, items)
 
 
-def title_block(cells: Sequence[Cell], size: tuple[float, float]) -> Scene:
+def title_block(cells: Sequence[BlockCell], size: tuple[float, float]) -> Scene:
     """The title block with its cells filled in; the texts keep inside their cells."""
     items: list[Item] = []
     for cell in cells:
@@ -114,7 +114,7 @@ def _corners(low: complex, high: complex) -> tuple[complex, ...]:
     return low, complex(high.real, low.imag), high, complex(low.real, high.imag)
 
 
-def _letters(cell: Cell) -> Iterator[Label]:
+def _letters(cell: BlockCell) -> Iterator[Label]:
     """The cell's text in the largest letters, not above its own, with which it has room."""
     if not cell.text:
         return
@@ -130,7 +130,7 @@ def _letters(cell: Cell) -> Iterator[Label]:
         yield Label(complex(x, top - LEADING * height * number), line, anchor, font_size(height))
 
 
-def _lines(cell: Cell, height: float) -> list[str]:
+def _lines(cell: BlockCell, height: float) -> list[str]:
     """The text's words in lines no wider than the cell."""
     lines: list[str] = []
     for word in cell.text.split():
@@ -142,12 +142,12 @@ def _lines(cell: Cell, height: float) -> list[str]:
     return lines
 
 
-def _fits(lines: Sequence[str], cell: Cell, height: float) -> bool:
+def _fits(lines: Sequence[str], cell: BlockCell, height: float) -> bool:
     wide = max(_width(line, height) for line in lines) <= cell.width - 2 * PADDING
     return wide and (LEADING * (len(lines) - 1) + LINE) * height + 2 * PADDING <= cell.height
 
 
-def _shortened(cell: Cell, height: float) -> str:
+def _shortened(cell: BlockCell, height: float) -> str:
     """A name in one line: initials before its last word, without titles; cut where even that is too long."""
     *before, last = cell.text.split()
     short = " ".join([*(f"{word[0]}." for word in before if not word.endswith(".")), last])
@@ -219,7 +219,7 @@ class TitleBlock:
 
     size: tuple[float, float]
     margins: Margins
-    cells: tuple[Cell, ...]
+    cells: tuple[BlockCell, ...]
     below: str = ""
     """What is printed below the frame: the format."""
 
@@ -251,7 +251,7 @@ def read_block(path: Path, language: Language | None = None) -> TitleBlock:
     findings = [finding for index, cell in enumerate(content.cells) for finding in _findings(cell, index, content)]
     if findings:
         raise as_error(placed(read_source(path), findings), language)
-    cells = tuple(Cell(*(getattr(cell, name) for name in Cell.__slots__)) for cell in content.cells)
+    cells = tuple(BlockCell(*(getattr(cell, name) for name in BlockCell.__slots__)) for cell in content.cells)
     margins = Margins(content.margins.left, content.margins.other)
     return TitleBlock((content.width, content.height), margins, cells, content.format)
 

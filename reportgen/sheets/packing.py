@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from itertools import accumulate, chain, islice
 from typing import NamedTuple
 
-from reportgen.drawing.sheet import GAP, Part, Room
+from reportgen.drawing.sheet import GAP, PlacedScene, Room
 
 Spot = tuple[float, float]
 
@@ -54,7 +54,7 @@ class Size(NamedTuple):
     tall: float = 0.0
 
     @classmethod
-    def of(cls, part: Part) -> Size:
+    def of(cls, part: PlacedScene) -> Size:
         return cls(part.scene.width, part.scene.height, part.table.real, part.table.imag)
 
     def stretched(self, stretch: complex) -> Size:
@@ -164,12 +164,12 @@ def _fits(left: float, top: float, width: float, tall: float, paper: _Paper) -> 
 class Laid:
     """The parts of one sheet with their spots and the share they fill, if its tables are stretched."""
 
-    parts: tuple[Part, ...]
+    parts: tuple[PlacedScene, ...]
     spots: tuple[Spot, ...]
     share: float
     stretch: complex = UNSTRETCHED
 
-    def with_parts(self, parts: Iterable[Part]) -> Laid:
+    def with_parts(self, parts: Iterable[PlacedScene]) -> Laid:
         return replace(self, parts=tuple(parts))
 
 
@@ -198,7 +198,7 @@ class Dividing:
     def __post_init__(self) -> None:
         self.paper, self.area = _Paper.of(self.room), self.room.area
 
-    def of(self, parts: Sequence[Part]) -> tuple[float, list[Laid]]:
+    def of(self, parts: Sequence[PlacedScene]) -> tuple[float, list[Laid]]:
         """The parts on sheets, and what these miss of being full enough, in hundredths.
 
         What misses `NEVER` and more has a part that fits no sheet.
@@ -328,7 +328,7 @@ class _Remembered:
         return len(self._known) > so_far
 
 
-def too_large(parts: Sequence[Part], room: Room) -> Part | None:
+def too_large(parts: Sequence[PlacedScene], room: Room) -> PlacedScene | None:
     """The first part that has no place on an empty sheet."""
     paper = _Paper.of(room)
     return next((part for part in parts if not _spots([Size.of(part)], paper)), None)
@@ -337,7 +337,7 @@ def too_large(parts: Sequence[Part], room: Room) -> Part | None:
 # --- white shared out -----------------------------------------------------------------------------
 
 
-def spread(laid: Laid, room: Room) -> tuple[Part, ...]:
+def spread(laid: Laid, room: Room) -> tuple[PlacedScene, ...]:
     """The parts in their places, the white of the sheet shared out between them.
 
     Rows, which are the parts that begin at one height, move together; then each part moves between its neighbours.

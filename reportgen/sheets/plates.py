@@ -28,7 +28,7 @@ from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
 from reportgen.plans.scales import NOTHING, PER_MM, extents
 from reportgen.report.curves import flywheel_speed, flywheel_torque, flywheel_work, motion, polar, torque, wittenbauer
-from reportgen.report.figures import MM, Drawn, centre_state, centres, indicator, positions_scene, scheme_scene
+from reportgen.report.figures import MM, FigureScenes, centre_state, centres, indicator, positions_scene, scheme_scene
 from reportgen.report.force_figures import lever, separated, separated_driver
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
@@ -278,7 +278,7 @@ def applied(report: Report) -> list[str]:
 # --- curves and tables
 
 
-def _curve(name: str, belongs: Set, draw: Callable[[Report], Drawn]) -> Series:
+def _curve(name: str, belongs: Set, draw: Callable[[Report], FigureScenes]) -> Series:
     """A figure with curves, whose height can be chosen."""
 
     def drawings(report: Report) -> Iterator[Drawing]:

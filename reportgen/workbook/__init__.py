@@ -3,8 +3,8 @@
 `read` takes either; `write_csv` and `write_xlsx` give bytes that depend on their content alone.
 """
 
-from reportgen.workbook.package import Cell, Page
+from reportgen.workbook.package import Page, SheetCell
 from reportgen.workbook.reading import read
-from reportgen.workbook.writing import Book, Entry, Sheet, write_csv, write_xlsx
+from reportgen.workbook.writing import Book, BookSheet, Entry, write_csv, write_xlsx
 
-__all__ = ["Book", "Cell", "Entry", "Page", "Sheet", "read", "write_csv", "write_xlsx"]
+__all__ = ["Book", "BookSheet", "Entry", "Page", "SheetCell", "read", "write_csv", "write_xlsx"]

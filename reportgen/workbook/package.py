@@ -306,7 +306,7 @@ _NUMBER_CELL = re.compile(rf"{_NUMBER.pattern}(?:[{_SEPARATORS}]|$)")
 
 
 @dataclass(frozen=True, slots=True)
-class Cell:
+class SheetCell:
     """A cell as it shows: `value` is a number of kind "number", None of kind "empty", else text.
 
     A date is ISO text, a boolean TRUE or FALSE, an error its code (#DIV/0!).  Of a formula, `formula` is its
@@ -335,7 +335,7 @@ class Page:
     """A sheet, or a whole CSV file: rows from the first on, each as long as its last cell that holds something."""
 
     name: str
-    rows: tuple[tuple[Cell, ...], ...]
+    rows: tuple[tuple[SheetCell, ...], ...]
     hidden: bool = False
 
 

@@ -28,11 +28,11 @@ from reportgen.workbook.package import (
     CONTENT_TYPES,
     LONGEST_CELL,
     MOST_GROUPS,
-    Cell,
     CellKind,
     Package,
     Page,
     RefusedError,
+    SheetCell,
     exceeds,
     measure,
     too_large,
@@ -145,14 +145,14 @@ def _pages(values: Workbook, formulas: Workbook | None, counts: Sequence[int], f
     return tuple(pages)
 
 
-def _rows(read: Iterator[tuple[Row, Row]], count: int, mark: Marks) -> tuple[tuple[Cell, ...], ...]:
+def _rows(read: Iterator[tuple[Row, Row]], count: int, mark: Marks) -> tuple[tuple[SheetCell, ...], ...]:
     """All rows of a sheet from the first on, as long as their last cell that holds something.
 
     `read` gives each row twice, with formulas as typed and with stored values; `count` cells must be among them.
     """
     from openpyxl.cell.read_only import ReadOnlyCell
 
-    cells: dict[int, dict[int, Cell]] = {}
+    cells: dict[int, dict[int, SheetCell]] = {}
     found = 0
     for number, pair in enumerate(_whole(read, mark), start=1):
         if number > MOST_GROUPS:
@@ -179,7 +179,7 @@ def _rows(read: Iterator[tuple[Row, Row]], count: int, mark: Marks) -> tuple[tup
         raise too_large(mark(last, 1))
     return tuple(
         tuple(
-            cells[row].get(column) or Cell(None, mark(row, column), "empty")
+            cells[row].get(column) or SheetCell(None, mark(row, column), "empty")
             for column in range(1, lengths.get(row, 0) + 1)
         )
         for row in range(1, last + 1)
@@ -197,13 +197,13 @@ def _whole(read: Iterator[tuple[Row, Row]], mark: Marks) -> Iterator[tuple[Row, 
         raise RefusedError("sheet-damaged", mark(last + 1, 1)) from None
 
 
-def _cell(typed: Any, stored: Any, mark: CellMark) -> Cell:
+def _cell(typed: Any, stored: Any, mark: CellMark) -> SheetCell:
     value, kind = _value(stored.value, stored.data_type, mark)
     if typed.data_type != "f":
-        return Cell(value, mark, kind)
+        return SheetCell(value, mark, kind)
     # The formula of an array is an object with its text, that of a table of data one without.
     text = typed.value if isinstance(typed.value, str) else getattr(typed.value, "text", "=")
-    return Cell(value, mark, "formula", text)
+    return SheetCell(value, mark, "formula", text)
 
 
 def _value(value: object, type: str, mark: CellMark) -> tuple[str | float | None, CellKind]:
@@ -296,7 +296,7 @@ def _read_csv(data: bytes, file: str, name: str) -> Page:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as fault:
         raise RefusedError("encoding", mark_in(data, fault.start, file)) from None
-    rows: list[tuple[Cell, ...]] = []
+    rows: list[tuple[SheetCell, ...]] = []
     cells = 0
     for row in _csv_rows(text, file):
         rows.append(row)
@@ -306,7 +306,7 @@ def _read_csv(data: bytes, file: str, name: str) -> Page:
     return Page(name, tuple(rows))
 
 
-def _csv_rows(text: str, file: str) -> Iterator[tuple[Cell, ...]]:
+def _csv_rows(text: str, file: str) -> Iterator[tuple[SheetCell, ...]]:
     """The cells of each line; a quoted cell may hold separators and line ends."""
     stated = _STATED.match(text)
     separator = stated[1] if stated else _separator(text)
@@ -315,7 +315,7 @@ def _csv_rows(text: str, file: str) -> Iterator[tuple[Cell, ...]]:
     cell = re.compile(rf'"([^"]*+(?:""[^"]*+)*+)("?){plain}|{plain}')
     line, start = (2, stated.end()) if stated else (1, 0)
     at = start
-    row: list[Cell] = []
+    row: list[SheetCell] = []
     while at < len(text) or row:
         mark = Mark(file, line, at - start + 1)
         match = cell.match(text, at)
@@ -327,7 +327,7 @@ def _csv_rows(text: str, file: str) -> Iterator[tuple[Cell, ...]]:
         if len(content) > LONGEST_CELL:
             raise too_long(mark)
         shown = unguarded(unicodedata.normalize("NFC", content))
-        row.append(Cell(shown, mark, "text") if shown.strip() else Cell(None, mark, "empty"))
+        row.append(SheetCell(shown, mark, "text") if shown.strip() else SheetCell(None, mark, "empty"))
         for inner in _LINE_END.finditer(text, at, match.end()):
             line, start = line + 1, inner.end()
         at = match.end()

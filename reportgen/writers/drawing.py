@@ -11,9 +11,9 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 
-from reportgen.drawing import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline, Scene, Stroke
+from reportgen.drawing import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline, Scene
 from reportgen.drawing.style import Bezier, Triangle, arc_to_beziers, arc_with_head, arrow_head, clip_hatch, decimal
-from reportgen.formula.setting import Source
+from reportgen.formula.setting import TextSetter
 
 ANCHORS: dict[Anchor, tuple[str, float, float]] = {
     "center": ("center+horizon", 0.5, 0.5),
@@ -34,25 +34,25 @@ LABEL_SIZE = 9.0
 # --- Typst ----------------------------------------------------------------------------------------
 
 
-def paint_typst(scene: Scene, formulas: Source) -> str:
+def paint_typst(scene: Scene, formulas: TextSetter) -> str:
     """A Typst code expression that draws the scene in a box of `scene.width` × `scene.height` mm."""
     strokes = dict.fromkeys(
         item.stroke for item in scene.items if not isinstance(item, Label) and item.stroke is not None
     )
     lines = [f"let p{index}={_typst_pen(stroke)}" for index, stroke in enumerate(strokes)]
-    pens: dict[Stroke | None, str] = {stroke: f"p{index}" for index, stroke in enumerate(strokes)}
+    pens: dict[Pen | None, str] = {stroke: f"p{index}" for index, stroke in enumerate(strokes)}
     pens[None] = "none"
     lines += [line for item in scene.items for line in _calls(item, scene, pens, formulas)]
     return f"S({decimal(scene.width)},{decimal(scene.height)},{{" + "\n".join(lines) + "})"
 
 
-def _calls(item: Item, scene: Scene, pens: Mapping[Stroke | None, str], formulas: Source) -> list[str]:
+def _calls(item: Item, scene: Scene, pens: Mapping[Pen | None, str], formulas: TextSetter) -> list[str]:
     """The calls that draw an item; y is turned over here, once for all."""
 
     def at(*points: complex) -> str:
         return ",".join(f"{decimal(point.real)},{decimal(scene.height - point.imag)}" for point in points)
 
-    def head(triangle: Triangle | None, stroke: Stroke) -> list[str]:
+    def head(triangle: Triangle | None, stroke: Pen) -> list[str]:
         return [f"G({_rgb(stroke.colour)},{at(*triangle)})"] if triangle else []
 
     match item:
@@ -79,7 +79,7 @@ def _calls(item: Item, scene: Scene, pens: Mapping[Stroke | None, str], formulas
             return [_call_of_label(item, scene, formulas)]
 
 
-def _call_of_label(label: Label, scene: Scene, formulas: Source) -> str:
+def _call_of_label(label: Label, scene: Scene, formulas: TextSetter) -> str:
     options = (",turn:true" if label.turn else "") + (",paper:true" if label.background else "")
     anchor, across, down = ANCHORS[label.anchor]
     x = decimal(label.at.real - across * scene.width)
@@ -87,7 +87,7 @@ def _call_of_label(label: Label, scene: Scene, formulas: Source) -> str:
     return f"T({anchor},{x},{y},{label.size:g}pt,{formulas.content(label.content)}{options})"
 
 
-def _typst_pen(stroke: Stroke) -> str:
+def _typst_pen(stroke: Pen) -> str:
     dash = "".join(f"{decimal(length)}mm," for length in stroke.dash)
     return f"P({decimal(stroke.width)},{_rgb(stroke.colour)},{f'({dash})' if dash else 'none'})"
 
@@ -99,7 +99,7 @@ def _rgb(colour: str | None) -> str:
 # --- LaTeX ----------------------------------------------------------------------------------------
 
 
-def paint_latex(scene: Scene, formulas: Source) -> str:
+def paint_latex(scene: Scene, formulas: TextSetter) -> str:
     """The TeX source of one box, `scene.width` × `scene.height` mm, its reference point at the lower left.
 
     Raises `TypesetterError` for a label with a character the fonts do not have.
@@ -114,7 +114,7 @@ def paint_latex(scene: Scene, formulas: Source) -> str:
     return f"\\scene{{{decimal(scene.width)}}}{{{decimal(scene.height)}}}{{%\n{body}\n}}"
 
 
-def _box_of_label(label: Label, formulas: Source) -> str:
+def _box_of_label(label: Label, formulas: TextSetter) -> str:
     content = formulas.content(label.content)
     if label.size != LABEL_SIZE:
         content = rf"\fontsize{{{decimal(label.size)}}}{{{decimal(1.2 * label.size)}}}\selectfont {content}"
@@ -130,7 +130,7 @@ def _box_of_label(label: Label, formulas: Source) -> str:
 
 def _operators(items: Iterable[Item]) -> Iterator[str]:
     """PDF operators of items that are not labels; a pen is written only where it changes."""
-    pen: Stroke | None = None
+    pen: Pen | None = None
     paper: str | None = None
     for item in items:
         stroke, fill, path = _shape(item)
@@ -143,7 +143,7 @@ def _operators(items: Iterable[Item]) -> Iterator[str]:
         yield path
 
 
-def _shape(item: Item) -> tuple[Stroke | None, str | None, str]:
+def _shape(item: Item) -> tuple[Pen | None, str | None, str]:
     """(pen, fill colour, path with its painting operators) of an item."""
     match item:
         case Line(start, end, stroke):
@@ -182,11 +182,11 @@ def _head(triangle: Triangle | None) -> str:
     return "\n" + _path(triangle, "h f") if triangle else ""
 
 
-def _paint(pen: Stroke | None, fill: str | None) -> str:
+def _paint(pen: Pen | None, fill: str | None) -> str:
     return " B" if pen and fill else " f" if fill else " S" if pen else " n"
 
 
-def _pen(stroke: Stroke) -> str:
+def _pen(stroke: Pen) -> str:
     dash = " ".join(map(decimal, stroke.dash))
     return f"{decimal(stroke.width)} w {_colour(stroke.colour)} RG [{dash}] 0 d"
 

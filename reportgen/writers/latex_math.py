@@ -18,11 +18,11 @@ from reportgen.base.units import MINUS
 from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.setting import (
     NAMED,
-    Column,
     Fence,
     Role,
     Sign,
-    Source,
+    TermColumn,
+    TextSetter,
     Written,
     columns,
     is_tall,
@@ -95,7 +95,7 @@ def hexadecimal(text: str) -> str:
 # --- formulas -------------------------------------------------------------------------------------
 
 
-class LatexFormulas(Source):
+class LatexFormulas(TextSetter):
     r"""Formulas with the places where a line may break: \relbreak, \binbreak, \dotbreak."""
 
     BELOW = r"%s_{\scriptstyle{%s}}"
@@ -168,7 +168,7 @@ class LatexFormulas(Source):
 
     # --- vector equations -------------------------------------------------------------------------
 
-    def _vector_equation(self, terms: Sequence[Column], rows: Sequence[str]) -> str:
+    def _vector_equation(self, terms: Sequence[TermColumn], rows: Sequence[str]) -> str:
         """A grid; if it is too wide for the line, two grids of half the terms, one below the other."""
         whole = self._grid(terms, rows)
         if len(terms) <= NARROW_TERMS:
@@ -177,7 +177,7 @@ class LatexFormulas(Source):
         upper, lower = (self._vector_equation(part, rows) for part in (terms[:half], terms[half:]))
         return rf"\fitting{{{whole}}}{{\storeys{{{upper}}}{{{lower}}}}}"
 
-    def _grid(self, terms: Sequence[Column], rows: Sequence[str]) -> str:
+    def _grid(self, terms: Sequence[TermColumn], rows: Sequence[str]) -> str:
         """Terms on top, below each what is known of it; "?" marks an unknown."""
         signs = ("".join(self.SIGNS.get(sign.of, sign.of) for sign in one.signs) for one in terms)
         lines = ["&" + "&".join(f"{sign}&{self.part(one.term)}" for sign, one in zip(signs, terms, strict=True))]

@@ -19,14 +19,14 @@ from reportgen.base.units import Language
 from reportgen.base.words import templates
 from reportgen.drawing import Scene
 from reportgen.drawing.geometry import moved
-from reportgen.drawing.sheet import Sheet
+from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
 from reportgen.formula.setting import (
     NAMED,
     NARROW,
     PRIMES,
     Sign,
-    Source,
+    TextSetter,
     Written,
     columns,
     displayed,
@@ -45,7 +45,7 @@ def literal(text: str) -> str:
     return '"' + escaped.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t") + '"'
 
 
-class TypstFormulas(Source):
+class TypstFormulas(TextSetter):
     BELOW = "%s_(script(%s))"
     RAISED = POWER = "%s^(%s)"
     QUOTIENT, RADICAL = "frac(%s, %s)", "sqrt(%s)"
@@ -129,7 +129,7 @@ def write(document: tree.Document) -> str:
     return f"{_frame()}\n#show: report.with({opening})\n\n{body}\n"
 
 
-def write_sheet(sheet: Sheet, title: str, language: Language) -> str:
+def write_sheet(sheet: DrawingSheet, title: str, language: Language) -> str:
     """The Typst source of a drawing sheet, one page of its own size; it needs no other file."""
     items = tuple(moved(item, part.at) for part in sheet.parts for item in part.scene.items)
     drawing = paint_typst(Scene(sheet.width, sheet.height, items), TypstFormulas(language))

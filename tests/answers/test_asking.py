@@ -14,7 +14,7 @@ from reportgen.base.units import Language
 from reportgen.cases import open_case, opened
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import EVERYTHING, Ask
-from reportgen.marking.marks import Policy, Scale, Verdict, open_guide, read_policy
+from reportgen.marking.marks import Policy, Scale, Verdict, marking_scheme, read_policy
 from reportgen.marking.paper import answer_tables
 from reportgen.marking.sheet import answer_book, read_submission
 from reportgen.report import PageBreak, text_of
@@ -122,7 +122,7 @@ def test_what_is_not_asked_for_but_filled_in_is_judged_and_earns_nothing(tmp_pat
     assignment = tmp_path / "a" / "slider-crank-01.yaml"
     assignment.parent.mkdir()
     assignment.write_bytes(Path("assignments/slider-crank-01.yaml").read_bytes())
-    guide = open_guide(open_case(assignment))
+    guide = marking_scheme(open_case(assignment))
     work = students.written(guide, students.worked_out(guide, None, None))
     path = tmp_path / "slider-crank-01.xlsx"
     path.write_bytes(write_xlsx(students.filled_book(guide.key, work)))
@@ -142,7 +142,7 @@ def test_what_is_not_asked_for_but_filled_in_is_judged_and_earns_nothing(tmp_pat
 
 def test_a_sheet_made_before_rows_had_words_is_read(tmp_path: Path) -> None:
     """Its columns are found by their heads: without the words of the rows the values stand one column earlier."""
-    guide = open_guide(opened(students.assignment("four-bar-01", (2,))))
+    guide = marking_scheme(opened(students.assignment("four-bar-01", (2,))))
     rows = csv_rows(guide.key)
     head = next(row for row in rows if "Tên đại lượng" in row)
     at, last = head.index("Tên đại lượng"), len(head) - 1

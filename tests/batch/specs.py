@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from reportgen.base.errors import AssignmentError, Fault, Mark
-from reportgen.classes.draw import Draw, Drawn, Judge
-from reportgen.classes.roster import Roster, Student
+from reportgen.classes.draw import Draw, DrawnVariant, Judge
+from reportgen.classes.roster import Roster, RosterEntry
 from reportgen.classes.spec import Spec
 
 ROOT = Path(__file__).parents[2]
@@ -33,13 +33,13 @@ Put = Callable[..., Path]
 
 
 def classes(*ids: str) -> Roster:
-    return Roster(tuple(Student({"id": id}, {}, Mark("r", k)) for k, id in enumerate(ids, start=2)))
+    return Roster(tuple(RosterEntry({"id": id}, {}, Mark("r", k)) for k, id in enumerate(ids, start=2)))
 
 
 class Result(NamedTuple):
     """What a draw for a whole class came to."""
 
-    drawn: tuple[Drawn, ...]
+    drawn: tuple[DrawnVariant, ...]
     faults: tuple[Fault, ...]
     usable: int | None
 

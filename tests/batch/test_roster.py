@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from reportgen.base.errors import AssignmentError
 from reportgen.base.words import messages
 from reportgen.classes.roster import NAME_PARTS, PERSONAL, folded, folder_name, read_roster
-from reportgen.workbook import Book, Sheet, write_xlsx
+from reportgen.workbook import Book, BookSheet, write_xlsx
 
 Put = Callable[..., Path]
 
@@ -125,9 +125,11 @@ def test_blank_lines_quoted_commas_and_a_title_above(put: Put) -> None:
 def test_a_workbook_of_numbers_with_sheets_before_it(put: Put) -> None:
     book = Book(
         (
-            Sheet("Cũ", (("MSSV",), ("K0",)), hidden=True),
-            Sheet("Ghi chú", (("read me",),)),
-            Sheet("Lớp", (("MSSV", "Họ tên", "parameters.H (mm)"), (195520103001, "An", 95), ("007", "=1+1", None))),
+            BookSheet("Cũ", (("MSSV",), ("K0",)), hidden=True),
+            BookSheet("Ghi chú", (("read me",),)),
+            BookSheet(
+                "Lớp", (("MSSV", "Họ tên", "parameters.H (mm)"), (195520103001, "An", 95), ("007", "=1+1", None))
+            ),
         )
     )
     path = put(write_xlsx(book), "roster.xlsx")

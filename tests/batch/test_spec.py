@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reportgen.base.errors import AssignmentError, Mark
-from reportgen.base.source import List, Scalar, Table, plain, quoted, read_text, text_of
+from reportgen.base.source import MappingNode, Scalar, SequenceNode, plain, quoted, read_text, text_of
 from reportgen.classes.spec import Spec, read_spec
-from reportgen.workbook import Book, Sheet, write_xlsx
+from reportgen.workbook import Book, BookSheet, write_xlsx
 from tests.batch.specs import BARS, ROOT, Put, located
 
 
@@ -129,7 +129,7 @@ def test_a_table_of_variants(put_file: Put) -> None:
 def test_faults_of_a_table_of_variants_stand_in_its_cells(put_file: Put) -> None:
     base = BARS.replace("  BC: [340 mm, 350 mm]\n", "") + "variants: table.xlsx\n"
     rows = (("variant", "BC", "CD", "Cd"), ("I", 340, "1 mm", None), ("I", "350 mm", None, None))
-    table = put_file(write_xlsx(Book((Sheet("T", rows),))), "table.xlsx")
+    table = put_file(write_xlsx(Book((BookSheet("T", rows),))), "table.xlsx")
     spec = put_file(base)
     with pytest.raises(AssignmentError) as caught:
         read_spec(spec, "en")
@@ -153,7 +153,7 @@ PRINTABLE = st.text(st.characters(exclude_categories=("Cc", "Cs", "Co", "Zl", "Z
 def test_any_text_is_read_as_it_was_quoted(text: str) -> None:
     source = read_text(f"key: {quoted(text)}\n")
     assert source.faults == ()
-    assert isinstance(source.top, Table)
+    assert isinstance(source.top, MappingNode)
     assert plain(source.top) == {"key": text}
 
 
@@ -166,21 +166,21 @@ def test_any_text_is_read_as_it_was_quoted(text: str) -> None:
     )
 )
 def test_any_nodes_are_read_as_they_were_written(content: object) -> None:
-    def node(value: object) -> Scalar | List | Table:
+    def node(value: object) -> Scalar | SequenceNode | MappingNode:
         if isinstance(value, str):
             return Scalar(value, Mark(""))
         if isinstance(value, list):
-            return List(tuple(map(node, value)), Mark(""))
+            return SequenceNode(tuple(map(node, value)), Mark(""))
         assert isinstance(value, dict)
-        return Table(tuple((Scalar(key, Mark("")), node(item)) for key, item in value.items()), Mark(""))
+        return MappingNode(tuple((Scalar(key, Mark("")), node(item)) for key, item in value.items()), Mark(""))
 
     top = node({"a": content})
-    assert isinstance(top, Table)
+    assert isinstance(top, MappingNode)
 
     def composed(value: object) -> object:
         if isinstance(value, dict):
             return {unicodedata.normalize("NFC", key): composed(item) for key, item in value.items()}
         return [composed(item) for item in value] if isinstance(value, list) else value
 
-    got = plain(read_text(text_of(top, "", Table((), Mark("")))).top)
+    got = plain(read_text(text_of(top, "", MappingNode((), Mark("")))).top)
     assert got == composed(plain(top))

@@ -22,7 +22,7 @@ from reportgen import api
 from reportgen.cases import open_case, opened
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Policy, open_guide
+from reportgen.marking.marks import Policy, marking_scheme
 from reportgen.marking.sheet import answer_book
 from reportgen.workbook import write_xlsx
 from tests.grading import students
@@ -36,7 +36,7 @@ ROUNDS = 5
 
 def one_student(path: Path = SAMPLE) -> dict[str, float]:
     """Medians in ms of what is made for one student, from the assignment file on."""
-    guide = open_guide(open_case(path), Policy())
+    guide = marking_scheme(open_case(path), Policy())
     rng = np.random.default_rng(1)
     sheets = [students.written(guide, students.worked_out(guide, None, rng)) for _ in range(ROUNDS)]
     handed = iter(sheets)
@@ -44,7 +44,7 @@ def one_student(path: Path = SAMPLE) -> dict[str, float]:
         "solve": lambda: api.solve(api.load(path)),
         "key": lambda: opened(api.load(path)).key(),
         "sheet": lambda: write_xlsx(answer_book(Ask().of(guide.key))),
-        "guide": lambda: open_guide(open_case(path), Policy()),
+        "guide": lambda: marking_scheme(open_case(path), Policy()),
         "mark": lambda: mark(guide, next(handed)),
     }
     return {name: median(_timed(task) for _ in range(ROUNDS)) for name, task in tasks.items()}

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from reportgen import catalogue
 from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.conditions import belt, given_epsilon, given_omega, pin
-from reportgen.exercise.solving import Motion, System
+from reportgen.exercise.solving import InstantMotion, System
 
 DRIVE = """\
 kind: plane-motion
@@ -91,7 +91,7 @@ def test_a_belt_on_an_arm_that_turns(r1: float, r2: float, crossed: bool, arm: f
         given_epsilon("disc", 1, eps),
     )
     points = {"O": C1, "C": C2, "A": C2 + r2}
-    motion = Motion(System(points, {1: ("O",), 2: ("C", "A"), 3: ("O", "C")}, conditions))
+    motion = InstantMotion(System(points, {1: ("O",), 2: ("C", "A"), 3: ("O", "C")}, conditions))
     ratio = r1 / reach
     assert motion.velocities.omega(2) == pytest.approx(arm + ratio * (omega - arm), abs=1e-9)
     assert motion.epsilon(2) == pytest.approx(eps / 2 + ratio * (eps - eps / 2), abs=1e-8)

@@ -20,7 +20,7 @@ from reportgen.exercise.conditions import (
     pin,
     slot,
 )
-from reportgen.exercise.solving import Motion, System
+from reportgen.exercise.solving import InstantMotion, System
 
 
 def four_bar(a: float, b: float, c: float, d: float, angle: float) -> dict[str, complex]:
@@ -47,7 +47,7 @@ def test_rates_of_a_four_bar_are_the_differences_of_its_positions(angle: float, 
     lengths = (0.1, 0.35, 0.3, 0.3)
     points = four_bar(*lengths, angle)
     rates = (given_omega("omega", 1, omega), given_epsilon("eps", 1, eps))
-    motion = Motion(System(points, BODIES, (*pinned(points), *rates)))
+    motion = InstantMotion(System(points, BODIES, (*pinned(points), *rates)))
 
     def C(time: float) -> complex:
         return four_bar(*lengths, angle + omega * time + eps * time**2 / 2)["C"]
@@ -67,14 +67,14 @@ def test_what_is_not_held_stays_open() -> None:
     """Without the rocker's pivot the crank tells of B, but not of C."""
     points = four_bar(0.1, 0.35, 0.3, 0.3, 1.0)
     joints = tuple(one for one in pinned(points) if one.name != "pin D")
-    motion = Motion(System(points, BODIES, (*joints, given_omega("omega", 1, 2.0))))
+    motion = InstantMotion(System(points, BODIES, (*joints, given_omega("omega", 1, 2.0))))
     assert motion.velocity_conflicts == ()
     assert (motion.knows_velocity("B"), motion.knows_velocity("C"), motion.knows_omega(2)) == (True, False, False)
 
 
 def test_velocities_are_known_before_the_accelerations() -> None:
     points = four_bar(0.1, 0.35, 0.3, 0.3, 1.0)
-    motion = Motion(System(points, BODIES, (*pinned(points), given_omega("omega", 1, 2.0))))
+    motion = InstantMotion(System(points, BODIES, (*pinned(points), given_omega("omega", 1, 2.0))))
     assert (motion.knows_velocity("C"), motion.knows_acceleration("C"), motion.knows_epsilon(2)) == (True, False, False)
 
 
@@ -82,7 +82,7 @@ def test_contradictions_are_told_by_name() -> None:
     """The crank says what the velocity of C is; another one given for it is refused, with what it stands against."""
     points = four_bar(0.1, 0.35, 0.3, 0.3, 1.0)
     rates = (given_omega("omega 1", 1, 2.0), given_omega("omega 3", 3, 5.0))
-    (conflict,) = Motion(System(points, BODIES, (*pinned(points), *rates))).velocity_conflicts
+    (conflict,) = InstantMotion(System(points, BODIES, (*pinned(points), *rates))).velocity_conflicts
     assert conflict.name == "omega 3"
     assert set(conflict.others) == {"pin A", "pin B", "pin C", "pin D", "omega 1"}
 
@@ -92,7 +92,7 @@ def test_a_passive_condition_is_none() -> None:
     points = {"A": 0j, "B": 1j, "C": 2 + 1j, "D": 2 + 0j}
     rates = (given_omega("omega", 1, 3.0), given_epsilon("eps", 1, 1.0))
     conditions = (*pinned(points), *no_turning("translation", 2), *rates)
-    motion = Motion(System(points, BODIES, conditions))
+    motion = InstantMotion(System(points, BODIES, conditions))
     assert motion.velocity_conflicts == motion.acceleration_conflicts == ()
     assert motion.omega(2) == 0
     assert motion.centre(2) is None
@@ -107,7 +107,7 @@ def test_coriolis_in_a_slot_that_turns() -> None:
     # r' = 0.3 m/s, ω = 2 rad/s: the velocity of A is (0.3, 1), its acceleration (−2, 1.2).
     rates = (given_velocity("v", points["A"], 2, 1 + 0j, 0.3), given_acceleration("a", points["A"], 2, 1 + 0j, -2.0))
     turning = (given_omega("omega", 1, 2.0), given_epsilon("eps", 1, 0.0))
-    motion = Motion(System(points, bodies, (*held, *rates, *turning)))
+    motion = InstantMotion(System(points, bodies, (*held, *rates, *turning)))
     assert motion.v("A") == pytest.approx(0.3 + 1j)
     assert motion.a("A") == pytest.approx(-2 + 1.2j)
 
@@ -117,13 +117,15 @@ def test_a_taut_cord_bends_the_way_of_its_end() -> None:
     points = {"O": 0j, "A": 2 + 0j}
     cord = (*distance("cord", points["A"], 1, 0j, 0), *no_turning("weight", 1))
     rates = (given_velocity("v", points["A"], 1, 1j, 3.0), given_acceleration("a", points["A"], 1, 1j, 0.0))
-    assert Motion(System(points, {1: ("A",)}, (*cord, *rates))).a("A") == pytest.approx(-4.5)
+    assert InstantMotion(System(points, {1: ("A",)}, (*cord, *rates))).a("A") == pytest.approx(-4.5)
 
 
 def test_accelerations_alone_tell_how_fast_a_free_body_turns() -> None:
     """Two corners of a plate of 2 m that turns at 3 rad/s about the one at rest: only ω² is known."""
     points = {"A": 0j, "B": 2 + 0j}
     ways = (("a A", 0j, 1 + 0j, 0.0), ("a A", 0j, 1j, 0.0), ("a B", 2 + 0j, 1 + 0j, -18.0), ("a B", 2 + 0j, 1j, 1.0))
-    motion = Motion(System(points, {1: ("A", "B")}, tuple(given_acceleration(n, p, 1, u, s) for n, p, u, s in ways)))
+    motion = InstantMotion(
+        System(points, {1: ("A", "B")}, tuple(given_acceleration(n, p, 1, u, s) for n, p, u, s in ways))
+    )
     assert (motion.omega(1), motion.epsilon(1)) == (pytest.approx(3), pytest.approx(0.5))
     assert (motion.knows_omega(1), motion.knows_velocity("A")) == (True, False)

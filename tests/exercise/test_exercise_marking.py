@@ -14,7 +14,7 @@ from reportgen.classes import assess
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.marking.marking import compare
-from reportgen.marking.marks import Policy, open_guide
+from reportgen.marking.marks import Policy, marking_scheme
 from reportgen.marking.mistakes import Mistake
 from tests.grading import demo, students
 
@@ -58,7 +58,7 @@ def graded(drawn: tuple[str, Path]) -> Graded:
     name, folder = drawn
     (folder / "sheets").mkdir()
     for path in sorted((folder / "variants").glob("S*.yaml")):
-        guide = open_guide(open_case(path))
+        guide = marking_scheme(open_case(path))
         where = SLIP[name]
         slip = Mistake("doubled", where, {where: lambda value, _: value * 2}) if path.stem == "S01" else None
         sheet = students.written(guide, students.worked_out(guide, slip))

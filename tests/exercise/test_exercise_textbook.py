@@ -14,7 +14,7 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.exercise.case import ExerciseCase
-from reportgen.exercise.solving import Motion
+from reportgen.exercise.solving import InstantMotion
 from tests.exercise.displaced import Displaced
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
@@ -29,7 +29,7 @@ def case(name: str) -> ExerciseCase:
     return ExerciseCase(catalogue.load(FOLDER / f"{name}.yaml"))
 
 
-def motion(name: str) -> Motion:
+def motion(name: str) -> InstantMotion:
     return case(name).exercise.motion
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from reportgen.drawing import Circle, Label, Polyline, Scene
-from reportgen.drawing.charts import HEIGHT, WIDTH, Area, Series, bars, chart, histogram, polar
+from reportgen.drawing.charts import HEIGHT, WIDTH, Area, PlottedCurve, bars, chart, histogram, polar
 from reportgen.formula import Chain, Number, Symbol
 from tests.figures.overlaps import overlaps
 
@@ -22,7 +22,7 @@ def curves(scene: Scene) -> list[np.ndarray]:
 
 def torque() -> Scene:
     x = np.radians(ANGLE)
-    series = Series(Symbol("M", "cb"), ANGLE, 300 * np.sin(2 * x) - 120 * np.cos(x), tuple(range(0, 720, 45)))
+    series = PlottedCurve(Symbol("M", "cb"), ANGLE, 300 * np.sin(2 * x) - 120 * np.cos(x), tuple(range(0, 720, 45)))
     return chart([series], Symbol("φ", "1"), "M, N·m", levels=[(-120.0, Symbol("M", "m"))])
 
 
@@ -60,7 +60,7 @@ def test_the_simplified_curve_stays_within_the_pen() -> None:
 def test_a_name_longer_than_its_axis_is_set_in_two_lines(height: float) -> None:
     """On a sheet, where the height of a chart is chosen."""
     name = Chain((Symbol("ω"),), "rad/s; positive: anticlockwise, seen from above")
-    curve = Series("", ANGLE[:361], np.sin(np.radians(ANGLE[:361])))
+    curve = PlottedCurve("", ANGLE[:361], np.sin(np.radians(ANGLE[:361])))
     scene = chart([curve], Symbol("φ"), name, area=Area(60.0, height))
     turned = [item for item in scene.items if isinstance(item, Label) and item.turn == 90]
     assert len(turned) == (2 if height < 50 else 1)
@@ -71,7 +71,10 @@ def test_a_name_longer_than_its_axis_is_set_in_two_lines(height: float) -> None:
 
 def test_two_curves_are_told_apart_without_colour() -> None:
     x = ANGLE[:361]
-    series = [Series(Symbol("v", "B"), x, np.sin(np.radians(x))), Series(Symbol("v", "D"), x, np.cos(np.radians(x)))]
+    series = [
+        PlottedCurve(Symbol("v", "B"), x, np.sin(np.radians(x))),
+        PlottedCurve(Symbol("v", "D"), x, np.cos(np.radians(x))),
+    ]
     scene = chart(series, Symbol("φ", "1"), "v, m/s")
     assert overlaps(scene) == []
     pens = [item.stroke for item in scene.items if isinstance(item, Polyline) and not item.closed]
@@ -81,17 +84,17 @@ def test_two_curves_are_told_apart_without_colour() -> None:
 def test_a_gap_stays_a_gap() -> None:
     y = np.sin(np.radians(ANGLE))
     y[300:340] = np.nan
-    assert len(curves(chart([Series("y", ANGLE, y)], "x", "y"))) == 2
+    assert len(curves(chart([PlottedCurve("y", ANGLE, y)], "x", "y"))) == 2
 
 
 def test_nothing_finite_is_an_error() -> None:
     with pytest.raises(ValueError, match="finite"):
-        chart([Series("y", [0.0, 1.0], [np.nan, np.nan])], "x", "y")
+        chart([PlottedCurve("y", [0.0, 1.0], [np.nan, np.nan])], "x", "y")
 
 
 def test_a_polar_diagram_has_equal_scales() -> None:
     x = np.radians(ANGLE)
-    load = Series("", 4000 * np.cos(x), 9000 * np.sin(x) - 2000, tuple(range(0, 720, 90)), tuple("12345678"))
+    load = PlottedCurve("", 4000 * np.cos(x), 9000 * np.sin(x) - 2000, tuple(range(0, 720, 90)), tuple("12345678"))
     scene = polar(load, "N")
     assert overlaps(scene) == []
     curve = curves(scene)[0]
@@ -100,7 +103,7 @@ def test_a_polar_diagram_has_equal_scales() -> None:
 
 def test_figures_without_room_side_by_side_are_left_out() -> None:
     """At every step (10000) stands a grid line, a figure at every second one, 0 among them."""
-    load = Series("", [-22000.0, 8000.0], [-43000.0, 9000.0])
+    load = PlottedCurve("", [-22000.0, 8000.0], [-43000.0, 9000.0])
     scene = polar(load, "N", size=58.0)
     assert overlaps(scene) == []
     figures = [item for item in scene.items if isinstance(item, Label) and isinstance(item.content, Number)]

@@ -12,13 +12,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reportgen.drawing import Arc, Arrow, Circle, Hatch, Label, Line, Polyline, Scene, Stroke, style
+from reportgen.drawing import Arc, Arrow, Circle, Hatch, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import on_one_line
 from reportgen.drawing.plan import Plan, PlanVector, plan, set_apart
 from reportgen.drawing.scheme import ARROWS, LINES, line_styles
 from reportgen.drawing.style import clip_hatch
 from reportgen.formula import Symbol
-from reportgen.report.figures import Drawn
+from reportgen.report.figures import FigureScenes
 from reportgen.report.outline import FIGURES
 from reportgen.report.report import Report
 from tests.reports import built
@@ -35,7 +35,7 @@ def report(name: str) -> Report:
     return Report(built.case(ASSIGNMENTS / f"{name}.yaml", "en"))
 
 
-def draw(name: str, figure: str, *shown: object) -> Drawn:
+def draw(name: str, figure: str, *shown: object) -> FigureScenes:
     return FIGURES[figure][1](report(name), *shown)
 
 
@@ -193,7 +193,7 @@ def test_an_arrow_set_apart_keeps_its_length_and_is_tied_to_its_place() -> None:
 # --- without colour
 
 
-def look(pen: Stroke) -> tuple[float, tuple[float, ...]]:
+def look(pen: Pen) -> tuple[float, tuple[float, ...]]:
     """What a pen looks like in black and white."""
     return pen.width, pen.dash
 

@@ -17,7 +17,7 @@ import numpy as np
 from reportgen.cases import open_case
 from reportgen.classes.variants import make_variants
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.marks import Answer, Guide, Place, Submission, open_guide
+from reportgen.marking.marks import Answer, MarkingScheme, Place, Submission, marking_scheme
 from reportgen.marking.mistakes import mistakes_in
 from reportgen.marking.sheet import NAMES, asked_positions
 from reportgen.report.case import Key
@@ -28,21 +28,21 @@ from tests.grading.keys import csv_rows
 DEMO = students.ASSIGNMENTS / "class-demo"
 SHEETS = DEMO / "sheets"
 
-Story = Callable[[Guide, Submission], Submission]
+Story = Callable[[MarkingScheme, Submission], Submission]
 
 
-def as_told(guide: Guide, sheet: Submission) -> Submission:
+def as_told(guide: MarkingScheme, sheet: Submission) -> Submission:
     return sheet
 
 
-def half_done(guide: Guide, sheet: Submission) -> Submission:
+def half_done(guide: MarkingScheme, sheet: Submission) -> Submission:
     """Velocities and accelerations only."""
     kept = {Chapter.geometry, Chapter.velocity, Chapter.acceleration}
     values = {place: given for place, given in sheet.values.items() if guide.rows[place[0]].part in kept}
     return replace(sheet, values=values)
 
 
-def with_units(guide: Guide, sheet: Submission) -> Submission:
+def with_units(guide: MarkingScheme, sheet: Submission) -> Submission:
     """Units typed into the cells, centimetres where the sheet asks for millimetres, decimal commas."""
 
     def typed(place: Place, given: Answer) -> Answer:
@@ -53,11 +53,11 @@ def with_units(guide: Guide, sheet: Submission) -> Submission:
     return replace(sheet, values={place: typed(place, given) for place, given in sheet.values.items()})
 
 
-def nothing_but_zeros(guide: Guide, sheet: Submission) -> Submission:
+def nothing_but_zeros(guide: MarkingScheme, sheet: Submission) -> Submission:
     return replace(sheet, values={place: replace(given, value=0.0, text="0") for place, given in sheet.values.items()})
 
 
-def careless(guide: Guide, sheet: Submission) -> Submission:
+def careless(guide: MarkingScheme, sheet: Submission) -> Submission:
     """Words instead of numbers."""
     values = dict(sheet.values)
     for place, text in zip(list(values)[5:40:17], ("khoảng 30", "xem bản vẽ"), strict=False):
@@ -83,7 +83,7 @@ COPIED = {"K225520103023": "K225520103001"}
 """Who handed in whose values."""
 
 
-def filled(guide: Guide, id: str, name: str, story: Story, seed: int) -> Submission:
+def filled(guide: MarkingScheme, id: str, name: str, story: Story, seed: int) -> Submission:
     """A student's sheet as it was worked out and written down."""
     mistake = next(one for one in mistakes_in(guide, id, {}) if one.name == name) if name else None
     world = students.worked_out(guide, mistake, np.random.default_rng(seed))
@@ -118,7 +118,7 @@ def write() -> None:
     SHEETS.mkdir()
     with tempfile.TemporaryDirectory() as folder:
         make_variants(DEMO / "spec.yaml", DEMO / "roster.csv", Path(folder), False, None)
-        guides = {path.stem: open_guide(open_case(path)) for path in sorted(Path(folder).glob("*.yaml"))}
+        guides = {path.stem: marking_scheme(open_case(path)) for path in sorted(Path(folder).glob("*.yaml"))}
         sheets = {id: filled(guides[id], *slip, seed) for seed, (id, slip) in enumerate(sorted(SLIPS.items()))}
         sheets |= {id: sheets[source] for id, source in COPIED.items()}
         for number, (id, sheet) in enumerate(sorted(sheets.items())):

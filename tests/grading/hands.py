@@ -14,7 +14,7 @@ import numpy as np
 from reportgen.base.errors import Mark
 from reportgen.cases import opened
 from reportgen.marking.key import Ask
-from reportgen.marking.marks import Answer, Guide, Submission
+from reportgen.marking.marks import Answer, MarkingScheme, Submission
 from reportgen.report.case import Role
 from tests.grading import students
 from tests.grading.hand import Hand, Rod, Task
@@ -30,12 +30,12 @@ WRONG_AT = 4
 """The position at which one value is wrong."""
 
 
-def asked(guide: Guide) -> Guide:
+def asked(guide: MarkingScheme) -> MarkingScheme:
     """A guide to what a student hands in: the whole sheet if it was worked out by drawing, or what a class is asked."""
     return guide if guide.key.kind in DRAWING else replace(guide, key=Ask().of(guide.key))
 
 
-def task(guide: Guide, position: int) -> Task:
+def task(guide: MarkingScheme, position: int) -> Task:
     """What the assignment gives, as the student reads it at one position: data, the crank's angle, the diagram."""
     rows = {row.id: row for row in guide.key.rows}
 
@@ -56,7 +56,7 @@ def task(guide: Guide, position: int) -> Task:
     return Task(given, (Rod("B", "C", "S2", (2, 3), 0.0, force=si("P3")),), angle, 1 + 0j, "AB")
 
 
-def handed_in(guide: Guide, worked: Mapping[int, Student]) -> Submission:
+def handed_in(guide: MarkingScheme, worked: Mapping[int, Student]) -> Submission:
     """The sheet of a student who worked so at each position."""
     values = {}
     for row in guide.key.asked:
@@ -68,19 +68,19 @@ def handed_in(guide: Guide, worked: Mapping[int, Student]) -> Submission:
     return Submission(guide.key.id, "sheet.csv", values, {})
 
 
-def at_work(guide: Guide, position: int, **how: Any) -> Student:
+def at_work(guide: MarkingScheme, position: int, **how: Any) -> Student:
     """A student's work at one position: by drawing on the machines of `DRAWING`, by vectors on all others."""
     if guide.key.kind in DRAWING:
         return Hand(task(guide, position), **how)
     return vectors(guide, position, **how)
 
 
-def work(guide: Guide, positions: Iterable[int], seed: int = 0, **how: Any) -> Submission:
+def work(guide: MarkingScheme, positions: Iterable[int], seed: int = 0, **how: Any) -> Submission:
     """The sheet of a student who works every position alike, with other luck in drawing."""
     return handed_in(guide, {k: at_work(guide, k, seed=100 * seed + k, **how) for k in positions})
 
 
-def one_wrong(guide: Guide, id: str, factors: Iterable[float], **how: Any) -> Submission | None:
+def one_wrong(guide: MarkingScheme, id: str, factors: Iterable[float], **how: Any) -> Submission | None:
     """A sheet with one value so many times too large, at position 4 if it has several; None if none can be drawn so.
 
     Of the `factors` the first with which the machine still goes together is taken.
@@ -96,7 +96,7 @@ def one_wrong(guide: Guide, id: str, factors: Iterable[float], **how: Any) -> Su
     return None
 
 
-def vectors(guide: Guide, position: int, **how: Any) -> Vectors:
+def vectors(guide: MarkingScheme, position: int, **how: Any) -> Vectors:
     """The student's work on any machine of the book: data, the crank's angle and the loads as the task gives them."""
     ledger = guide.ledger
 
@@ -114,7 +114,7 @@ def vectors(guide: Guide, position: int, **how: Any) -> Vectors:
     return work
 
 
-def data_used(guide: Guide) -> list[str]:
+def data_used(guide: MarkingScheme) -> list[str]:
     """The data of the task that a student of the machine needs, in the order of the task."""
     work = at_work(guide, WRONG_AT)
     used = work.used if isinstance(work, Vectors) else {*task(guide, WRONG_AT).given}
@@ -187,7 +187,7 @@ DRAWN: Mapping[str, Mapping[str, tuple[str, ...]]] = {
 """The lists that the data of a class are drawn from, as a lecturer's table has them."""
 
 
-def variants(count: int, rng: np.random.Generator, name: str = TWIN) -> list[Guide]:
+def variants(count: int, rng: np.random.Generator, name: str = TWIN) -> list[MarkingScheme]:
     """The assignments of a class."""
     found = []
     for number in range(count):
@@ -197,13 +197,13 @@ def variants(count: int, rng: np.random.Generator, name: str = TWIN) -> list[Gui
     return found
 
 
-def possible(guide: Guide) -> list[str]:
+def possible(guide: MarkingScheme) -> list[str]:
     """The mistakes of `MISTAKES` that can be made on a sheet; a given speed needs no formula."""
     given = {row.id for row in guide.key.rows if row.role is Role.given} - {"omega.1"}
     return [id for id in MISTAKES if id in given or id in guide.rows]
 
 
-def honest(guide: Guide, rng: np.random.Generator, mistake: str = "") -> Submission:
+def honest(guide: MarkingScheme, rng: np.random.Generator, mistake: str = "") -> Submission:
     """The sheet of a member of a class who worked alone, with one mistake or none."""
     how = {"blunt": float(rng.choice(BLUNT)), "figures": int(rng.choice([3, 4])), "seed": int(rng.integers(1 << 30))}
     changes = {mistake: MISTAKES[mistake]} if mistake else {}

@@ -11,7 +11,7 @@ from reportgen.base.units import Language
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.sheet import HEAD, answer_book
-from reportgen.report.case import Key, Role, Row
+from reportgen.report.case import Key, KeyRow, Role
 
 LABELS = ("1", "2", "3", "4")
 
@@ -27,12 +27,12 @@ def row(
     positions: tuple[int, ...] | None = None,
     decimals: int | None = 2,
     sense: tuple[str, ...] = (),
-) -> Row:
+) -> KeyRow:
     """A row asked at all its positions unless said otherwise."""
     numbers = np.array(values, dtype=float)
     everywhere = (0,) if len(numbers) == 1 else tuple(range(1, len(numbers) + 1))
     asked = () if role is Role.given else everywhere if positions is None else positions
-    return Row(
+    return KeyRow(
         id,
         part,
         role,

@@ -21,10 +21,10 @@ from reportgen.cases import opened
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import PAPER_ERROR, measuring_errors
 from reportgen.marking.key import words_of
-from reportgen.marking.marks import Answer, Guide, Submission, open_guide
+from reportgen.marking.marks import Answer, MarkingScheme, Submission, marking_scheme
 from reportgen.marking.mistakes import Mistake
 from reportgen.marking.sheet import asked_positions, grid, info_page, page, rows_shown
-from reportgen.report.case import Key, Row
+from reportgen.report.case import Key, KeyRow
 from reportgen.workbook import Book, Entry
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -60,7 +60,7 @@ NAMES = {
 World = Mapping[str, np.ndarray]
 """All values (SI) by id, [N] or [1]."""
 
-Cell = Callable[[Row, int, float], float | None]
+Cell = Callable[[KeyRow, int, float], float | None]
 """What a student writes for a row at a position, given the right value in its printed unit."""
 
 
@@ -76,11 +76,11 @@ def assignment(name: str, worked: tuple[int, ...] | None = None, **parameters: s
 
 
 @cache
-def guide(name: str, worked: tuple[int, ...] | None = None) -> Guide:
-    return open_guide(opened(assignment(name, worked)))
+def guide(name: str, worked: tuple[int, ...] | None = None) -> MarkingScheme:
+    return marking_scheme(opened(assignment(name, worked)))
 
 
-def sheet(guide: Guide, cell: Cell) -> Submission:
+def sheet(guide: MarkingScheme, cell: Cell) -> Submission:
     """A sheet with what `cell` says in every place that is asked for."""
     values = {}
     for row in guide.key.asked:
@@ -91,7 +91,7 @@ def sheet(guide: Guide, cell: Cell) -> Submission:
     return Submission(guide.key.id, "sheet.csv", values, {})
 
 
-def right(row: Row, position: int, value: float) -> float:
+def right(row: KeyRow, position: int, value: float) -> float:
     return value
 
 
@@ -100,10 +100,10 @@ def figures(value: float, digits: int = 3) -> float:
     return float(f"{value:.{digits - 1}e}")
 
 
-def written(guide: Guide, world: World) -> Submission:
+def written(guide: MarkingScheme, world: World) -> Submission:
     """The sheet of a student for whom everything came out as in `world`, written with three figures."""
 
-    def cell(row: Row, position: int, _: float) -> float | None:
+    def cell(row: KeyRow, position: int, _: float) -> float | None:
         family = guide.ledger[row.id]
         value = float(world[row.id][row.at(position)].real) / family.how.scale
         if not np.isfinite(value):
@@ -115,7 +115,7 @@ def written(guide: Guide, world: World) -> Submission:
     return sheet(guide, cell)
 
 
-def worked_out(guide: Guide, mistake: Mistake | None = None, drawn: np.random.Generator | None = None) -> World:
+def worked_out(guide: MarkingScheme, mistake: Mistake | None = None, drawn: np.random.Generator | None = None) -> World:
     """The ledger run through with a mistake, and with lengths measured off by up to 0.5 mm at each end."""
     errors = measuring_errors(guide.ledger, PAPER_ERROR) if drawn is not None else {}
     changes: dict[str, Any] = {}
@@ -144,7 +144,7 @@ class Effect:
     positions: tuple[int, ...]
 
 
-def effect(guide: Guide, world: World) -> Effect | None:
+def effect(guide: MarkingScheme, world: World) -> Effect | None:
     """The first row that a mistake moves, None if it moves nothing that is asked for."""
     for row in guide.judged:
         moved = tuple(position for position in row.positions if off(guide, row, world, position) > 2)
@@ -153,7 +153,7 @@ def effect(guide: Guide, world: World) -> Effect | None:
     return None
 
 
-def off(guide: Guide, row: Row, world: World, position: int, other: World | None = None) -> float:
+def off(guide: MarkingScheme, row: KeyRow, world: World, position: int, other: World | None = None) -> float:
     """How far a value lies from the key's, or another world's, in bands."""
     family, index = guide.ledger[row.id], row.at(position)
     one = float(world[row.id][index].real)
@@ -168,7 +168,7 @@ def off(guide: Guide, row: Row, world: World, position: int, other: World | None
 def filled_book(key: Key, submission: Submission) -> Book:
     """The answer sheet as a workbook with a student's values as typed, numbers where they are numbers."""
 
-    def filling(row: Row, position: int) -> Entry | None:
+    def filling(row: KeyRow, position: int) -> Entry | None:
         given = submission.values.get((row.id, position))
         if given is None:
             return Entry(None, "input", unlocked=True) if position in row.positions else None

@@ -16,7 +16,7 @@ from reportgen.base.words import load_words, search_path
 from reportgen.drawing import Label
 from reportgen.marking.feedback import FIRST, STYLES, feedback_book, feedback_document, mistake_inlines, points_text
 from reportgen.marking.grades import class_document, grade_rows
-from reportgen.marking.marks import Answer, Flag, Marked, Marking, Submission, Verdict
+from reportgen.marking.marks import Answer, Marked, Marking, Notice, Submission, Verdict
 from reportgen.marking.mistakes import CONVENTIONS, WRONG_DATUM
 from reportgen.report import Figure, Table, plain, text_of
 from reportgen.workbook import write_csv, write_xlsx
@@ -63,7 +63,7 @@ def marking(language: Language = "en", student: str = "Nguyễn Văn A") -> Mark
         key,
         Submission(key.id, FILE, values, problems),
         cells,
-        (Flag("classmate", (("v.B", 3),), other="classmate-99"),),
+        (Notice("classmate", (("v.B", 3),), other="classmate-99"),),
     )
 
 

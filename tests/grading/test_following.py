@@ -8,7 +8,7 @@ import pytest
 from reportgen.formula import Ref, refs
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import is_direction
-from reportgen.marking.marks import Guide
+from reportgen.marking.marks import MarkingScheme
 from tests.grading import hands, students
 from tests.grading.hand import Hand
 from tests.grading.written import unit_of
@@ -36,7 +36,7 @@ CLOSE = 1e-7
 """A share of the quantity's size: far above rounding of 16 figures in some 30 steps, far below any formula's error."""
 
 
-def computed(guide: Guide) -> list[str]:
+def computed(guide: MarkingScheme) -> list[str]:
     """What is given or worked out by a formula, and what is laid off on paper; not what is measured or chosen."""
     laid = {family.of for family in guide.ledger.families.values() if family.hidden}
     return [
@@ -52,7 +52,7 @@ def is_on_paper(kind: str) -> bool:
     return kind == "segment" or kind.endswith("scale")
 
 
-def size(guide: Guide, id: str) -> float:
+def size(guide: MarkingScheme, id: str) -> float:
     """What a quantity is compared with: its largest value, or what is natural to it where all are nothing."""
     return max(guide.size(id), guide.ledger[id].scale)
 

@@ -14,7 +14,7 @@ from reportgen.cases import opened
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.guard import Classmate
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import FLAGS_ONLY, TAKES, Guide, Policy, Submission, Verdict
+from reportgen.marking.marks import FLAGS_ONLY, TAKES, MarkingScheme, Policy, Submission, Verdict
 from reportgen.marking.mistakes import Mistake
 from tests.grading import hands, students
 from tests.lanes import matrix
@@ -30,11 +30,11 @@ SIZE = 8
 
 
 @pytest.fixture(scope="module")
-def mine() -> Guide:
+def mine() -> MarkingScheme:
     return students.guide("engine-twin-05", WORKED)
 
 
-def other(**parameters: str) -> Guide:
+def other(**parameters: str) -> MarkingScheme:
     return students.open_guide(opened(students.assignment("engine-twin-05", WORKED, **parameters)))
 
 
@@ -42,7 +42,7 @@ def other(**parameters: str) -> Guide:
 class Room:
     """A class: its assignments and honest sheets without a mistake."""
 
-    guides: list[Guide]
+    guides: list[MarkingScheme]
     sheets: list[Submission]
 
     @property
@@ -61,13 +61,13 @@ def room() -> Room:
 
 
 @pytest.mark.parametrize("value", [0.0, 1.0, 50.0])
-def test_one_number_throughout(mine: Guide, value: float) -> None:
+def test_one_number_throughout(mine: MarkingScheme, value: float) -> None:
     marking = mark(mine, students.sheet(mine, lambda row, k, _: value))
     assert marking.points == 0
     assert "stock" in marking.warnings
 
 
-def test_few_equal_lengths_are_no_stock_answer(mine: Guide) -> None:
+def test_few_equal_lengths_are_no_stock_answer(mine: MarkingScheme) -> None:
     """Whoever has only drawn the crank and both poles has written 50 four times, rightly."""
     kept = {"seg.v.pa", "seg.a.pa", "seg.v.pc", "seg.a.pc", "drawn.O1C"}
     marking = mark(mine, students.sheet(mine, lambda row, k, value: value if row.id in kept else None))
@@ -75,7 +75,7 @@ def test_few_equal_lengths_are_no_stock_answer(mine: Guide) -> None:
 
 
 @pytest.mark.parametrize("parameters", OTHERS)
-def test_three_other_data_keep_what_does_not_depend_on_them(mine: Guide, parameters: dict[str, str]) -> None:
+def test_three_other_data_keep_what_does_not_depend_on_them(mine: MarkingScheme, parameters: dict[str, str]) -> None:
     copied = students.sheet(other(**parameters), lambda row, k, value: students.figures(value))
     marking = mark(mine, copied)
     assert marking.warnings == ("other-data", "taken")
@@ -87,7 +87,7 @@ def test_three_other_data_keep_what_does_not_depend_on_them(mine: Guide, paramet
     assert all(cell.points == cell.worth for cell in marking.cells if cell.verdict is Verdict.right)
 
 
-def test_two_data_are_enough_where_the_sheet_is_a_classmates(mine: Guide) -> None:
+def test_two_data_are_enough_where_the_sheet_is_a_classmates(mine: MarkingScheme) -> None:
     """Two data misread are mistakes, unless both are those of one classmate, and all else on the sheet too."""
     theirs = replace(other(G2="24 N", D="95 mm"), key=replace(other(G2="24 N", D="95 mm").key, id="SV01"))
     copied = students.sheet(theirs, lambda row, k, value: students.figures(value))
@@ -110,14 +110,14 @@ def test_lengths_read_to_the_same_step_are_no_copies(room: Room, step: float) ->
 
 
 @pytest.mark.parametrize(("datum", "factor"), [("n", 0.9), ("H", 1.1), ("G2", 1.2), ("D", 0.9), ("s", 1.1)])
-def test_a_misread_datum_is_one_mistake(mine: Guide, datum: str, factor: float) -> None:
+def test_a_misread_datum_is_one_mistake(mine: MarkingScheme, datum: str, factor: float) -> None:
     mistake = Mistake("", datum, {datum: lambda value, _: value * factor})
     marking = mark(mine, students.written(mine, students.worked_out(mine, mistake)))
     assert marking.flags == ()
     assert marking.points >= marking.out_of - 2
 
 
-def test_a_value_out_of_proportion_costs_its_own_mark(mine: Guide) -> None:
+def test_a_value_out_of_proportion_costs_its_own_mark(mine: MarkingScheme) -> None:
     """From a radius of 7.3 m everything follows; whoever worked it out did the work."""
     mistake = Mistake("", "R", {"R": lambda value, _: value * 0 + 7.3})
     marking = mark(mine, students.written(mine, students.worked_out(mine, mistake)))
@@ -125,7 +125,7 @@ def test_a_value_out_of_proportion_costs_its_own_mark(mine: Guide) -> None:
     assert marking.points >= marking.out_of - 2
 
 
-def test_constant_row_is_told(mine: Guide) -> None:
+def test_constant_row_is_told(mine: MarkingScheme) -> None:
     guide = students.guide("engine-twin-05")
     value = float(guide.key.row("v.B").values[3])
     marking = mark(guide, students.sheet(guide, lambda row, k, right: value if row.id == "v.B" else right))
@@ -144,7 +144,7 @@ def test_positions_copied_from_another(room: Room) -> None:
     assert not any(cell.verdict is Verdict.follows for cell in marking.cells if cell.position in (4, 7))
 
 
-def test_random_numbers_earn_next_to_nothing(mine: Guide) -> None:
+def test_random_numbers_earn_next_to_nothing(mine: MarkingScheme) -> None:
     rng = np.random.default_rng(7)
     marking = mark(mine, students.sheet(mine, lambda row, k, value: float(rng.uniform(0, 100))))
     assert marking.points < 0.06 * marking.out_of
@@ -174,7 +174,7 @@ def test_the_same_mistake_is_no_copy(room: Room, mistake: str) -> None:
         assert mark(guide, sheet, classmates).flags == ()
 
 
-COPIES: dict[str, Callable[[Guide, str, int], bool]] = {
+COPIES: dict[str, Callable[[MarkingScheme, str, int], bool]] = {
     "reactions": lambda guide, id, k: guide.rows[id].part is Chapter.forces,
     "loads and forces": lambda guide, id, k: guide.rows[id].part in (Chapter.loads, Chapter.forces, Chapter.torque),
     "a column": lambda guide, id, k: k == 4,

@@ -10,9 +10,9 @@ import pytest
 
 from reportgen.cases import opened
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, Policy, Verdict, open_guide
+from reportgen.marking.marks import Marking, Policy, Verdict, marking_scheme
 from reportgen.marking.mistakes import Mistake
-from reportgen.report.case import Row
+from reportgen.report.case import KeyRow
 from tests.grading import students
 from tests.lanes import matrix
 
@@ -121,7 +121,7 @@ def test_blank_value_is_replaced_by_the_key() -> None:
     """Whoever leaves v_BA out is judged on ω₂ from the key's v_BA, or from the own length it comes from."""
     guide = students.guide(TWIN, (AT,))
 
-    def cell(row: Row, k: int, value: float) -> float | None:
+    def cell(row: KeyRow, k: int, value: float) -> float | None:
         return None if row.id == "v.BA" else value
 
     found = verdicts(mark(guide, students.sheet(guide, cell)))
@@ -145,7 +145,7 @@ def test_own_scales_are_the_students_choice(factor: float) -> None:
     """Plans of velocity and force drawn at another μ: longer lengths, the same vectors."""
     guide = students.guide(TWIN, (AT,))
 
-    def cell(row: Row, k: int, value: float) -> float:
+    def cell(row: KeyRow, k: int, value: float) -> float:
         if row.id in ("mu.v", "mu.R23"):
             return value * factor
         on_plan = row.id.startswith(("seg.v.", "seg.23.")) or (row.id.startswith("h.") and row.id.endswith(".p"))
@@ -186,7 +186,7 @@ def test_computed_band_holds_three_figures_through_the_chain() -> None:
 
     All earn; two in a hundred may lie beyond three deviations, where long chains share their errors.
     """
-    guide = open_guide(opened(students.assignment(TWIN, (AT,))), Policy(paper=0.0))
+    guide = marking_scheme(opened(students.assignment(TWIN, (AT,))), Policy(paper=0.0))
 
     def rounding(value: np.ndarray, _: object) -> np.ndarray:
         return np.array([students.figures(one) for one in value])

@@ -10,7 +10,7 @@ import pytest
 
 from reportgen.cases import opened
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Guide, Marking, Submission
+from reportgen.marking.marks import Marking, MarkingScheme, Submission
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, general_mistakes, mistakes_in
 from tests.grading import students
 from tests.grading.students import NAMES, World
@@ -33,7 +33,7 @@ SAMPLE = 6
 """Mistakes drawn for each variant beside one of each name; `python -m tests.bench.mistakes` takes all."""
 
 
-def possible_mistakes(guide: Guide) -> list[Mistake]:
+def possible_mistakes(guide: MarkingScheme) -> list[Mistake]:
     """Every mistake at every place where it can occur, once where two names mean one deed.
 
     The sign of a rotation's size is the direction of the rotation.
@@ -48,7 +48,7 @@ def possible_mistakes(guide: Guide) -> list[Mistake]:
     return [*found, *general_mistakes(guide)]
 
 
-def is_found(guide: Guide, mistake: Mistake, world: World, first: students.Effect, marking: Marking) -> bool:
+def is_found(guide: MarkingScheme, mistake: Mistake, world: World, first: students.Effect, marking: Marking) -> bool:
     """Whether the first error is told where it shows, under its name or under one that gives the same values."""
     hits = [cell for cell in marking.first_errors if cell.id == first.id]
     if any(cell.mistake == mistake.name for cell in hits):
@@ -62,7 +62,7 @@ def is_found(guide: Guide, mistake: Mistake, world: World, first: students.Effec
     )
 
 
-def shows(guide: Guide, mistake: Mistake, first: students.Effect) -> bool:
+def shows(guide: MarkingScheme, mistake: Mistake, first: students.Effect) -> bool:
     """Whether a mistake shows where it is made, if that is asked for at all."""
     judged = {row.id for row in guide.judged}
     at = next((id for id in (mistake.where, f"turn.{mistake.where}") if id in judged), None)
@@ -76,7 +76,7 @@ class Rates:
     made: Counter[str] = field(default_factory=Counter)
     found: Counter[str] = field(default_factory=Counter)
 
-    def inject(self, guide: Guide, mistake: Mistake, rng: np.random.Generator) -> bool:
+    def inject(self, guide: MarkingScheme, mistake: Mistake, rng: np.random.Generator) -> bool:
         """One student with one mistake, drawing by hand; False for one that shows nowhere, which is none."""
         clean = students.worked_out(guide, mistake)
         first = students.effect(guide, clean)

@@ -14,8 +14,8 @@ import pytest
 
 from reportgen.cases import MachineCase
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Guide, Marking, Verdict, open_guide
-from reportgen.report.case import Row
+from reportgen.marking.marks import Marking, MarkingScheme, Verdict, marking_scheme
+from reportgen.report.case import KeyRow
 from tests.grading import students
 from tests.lanes import matrix
 
@@ -36,13 +36,13 @@ DEGREE = np.pi / 180
 TURN_OF_X = "positive along y, which is x turned by 90° in the direction of rotation"
 
 
-def opened(name: str) -> tuple[Guide, list[Position]]:
+def opened(name: str) -> tuple[MarkingScheme, list[Position]]:
     """The guide of an English sheet and the vectors at its positions."""
     assignment = students.assignment(name, WORKED).with_language("en")
     case = MachineCase(assignment)
     fixed = {name: {"p": [at.real, at.imag]} for name, at in case.analysis.machine.linkage.ground.items()}
     positions = case.results()["positions"]
-    return open_guide(case), [{**one, "points": {**fixed, **one["points"]}} for one in positions]
+    return marking_scheme(case), [{**one, "points": {**fixed, **one["points"]}} for one in positions]
 
 
 def vector(pair: list[float]) -> complex:
@@ -84,7 +84,7 @@ def place(one: Position, point: str) -> complex:
     return vector(one["points"][point]["p"])
 
 
-def of_the_v_engine(row: Row, one: Position) -> float | None:
+def of_the_v_engine(row: KeyRow, one: Position) -> float | None:
     """The joint D and its motion by the axis of cylinder E, at 70° from x; the engine turns anticlockwise."""
     axis = complex(np.exp(1j * np.radians(70.0)))
     side, joint = 1j * axis, one["points"]["D"]
@@ -99,7 +99,7 @@ def of_the_v_engine(row: Row, one: Position) -> float | None:
     return None
 
 
-def of_the_slotted_lever(row: Row, one: Position) -> float | None:
+def of_the_slotted_lever(row: KeyRow, one: Position) -> float | None:
     """The end D of the lever, and the Coriolis acceleration of the block, 2ω × v along CB."""
     across = 1j * (place(one, "D") - place(one, "C"))
     if row.id in ("f.v.D", "f.a.D.t"):
@@ -112,7 +112,7 @@ def of_the_slotted_lever(row: Row, one: Position) -> float | None:
     return None
 
 
-def of_the_four_bar(row: Row, one: Position) -> float | None:
+def of_the_four_bar(row: KeyRow, one: Position) -> float | None:
     """The entries of both matrices, from the closed loop AB + BC = AD + DC projected on x and y."""
     x = (place(one, "D") - place(one, "A")) / abs(place(one, "D") - place(one, "A"))
     bar = {"A.11": "BC", "A.21": "BC", "A.12": "DC", "A.22": "DC", "B.1": "AB", "B.2": "AB"}.get(row.id)
@@ -125,7 +125,7 @@ def of_the_four_bar(row: Row, one: Position) -> float | None:
     return float((-own.imag if bar == "BC" else own.imag) if first else (own.real if bar == "BC" else -own.real))
 
 
-OWN: dict[str, Callable[[Row, Position], float | None]] = {
+OWN: dict[str, Callable[[KeyRow, Position], float | None]] = {
     "engine-v-01": of_the_v_engine,
     "slotted-lever-02": of_the_slotted_lever,
     "four-bar-01": of_the_four_bar,
@@ -133,7 +133,7 @@ OWN: dict[str, Callable[[Row, Position], float | None]] = {
 """What one machine alone has."""
 
 
-def signed(name: str, row: Row, one: Position) -> float | None:
+def signed(name: str, row: KeyRow, one: Position) -> float | None:
     """A quantity with the sign that the words beside its row give it; None for one that is not tried."""
     points, kind = one["points"], row.id.split(".")
     if name in OWN and (own := OWN[name](row, one)) is not None:
@@ -168,7 +168,7 @@ def tried(name: str, turned: float = 1.0) -> tuple[Marking, list[tuple[str, int]
     guide, positions = opened(name)
     places: list[tuple[str, int]] = []
 
-    def cell(row: Row, position: int, value: float) -> float:
+    def cell(row: KeyRow, position: int, value: float) -> float:
         own = None if row.single else signed(name, row, positions[position - 1])
         if own is None or abs(own) < 1e-9:
             return value
@@ -201,7 +201,7 @@ def test_a_couple_of_inertia_has_either_sign(name: str) -> None:
     """It is asked for as a magnitude; anticlockwise positive, it has the sign that ε has not."""
     guide, positions = opened(name)
 
-    def cell(row: Row, position: int, value: float) -> float:
+    def cell(row: KeyRow, position: int, value: float) -> float:
         found = re.fullmatch(r"M\.Pqt(\d)", row.id)
         return -np.sign(positions[position - 1]["links"][found[1]]["epsilon"]) * value if found else value
 

@@ -8,7 +8,7 @@ import pytest
 
 from reportgen.cases import opened
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Guide, Marking, Policy
+from reportgen.marking.marks import Marking, MarkingScheme, Policy
 from reportgen.marking.mistakes import AGREED, Mistake
 from tests.grading import students
 
@@ -16,11 +16,11 @@ WORKED = (4, 12)
 
 
 @pytest.fixture(scope="module")
-def guide() -> Guide:
+def guide() -> MarkingScheme:
     return students.guide("engine-twin-05", WORKED)
 
 
-def marked(guide: Guide, cell: Callable[[students.Row, int, float], float | None]) -> Marking:
+def marked(guide: MarkingScheme, cell: Callable[[students.Row, int, float], float | None]) -> Marking:
     """A right sheet of three figures with what `cell` makes of it."""
     return mark(guide, students.sheet(guide, lambda row, k, value: cell(row, k, students.figures(value))))
 
@@ -29,7 +29,7 @@ def names(marking: Marking) -> set[str]:
     return {cell.mistake for cell in marking.first_errors}
 
 
-def test_two_figures_are_no_other_data(guide: Guide) -> None:
+def test_two_figures_are_no_other_data(guide: MarkingScheme) -> None:
     """Four intermediate results cut to two figures, all else from them: four marks, and no talk of other data."""
     cut = {"R", "F", "m.2", "m.3"}
     made = {id: (lambda value, _, id=id: value * _cut(guide, id)) for id in cut}
@@ -40,7 +40,7 @@ def test_two_figures_are_no_other_data(guide: Guide) -> None:
     assert marking.warnings == ()
 
 
-def _cut(guide: Guide, id: str) -> float:
+def _cut(guide: MarkingScheme, id: str) -> float:
     value = float(guide.key.row(id).values[0])
     return students.figures(value, 2) / value
 
@@ -53,18 +53,18 @@ def _cut(guide: Guide, id: str) -> float:
         ("angle-from-vertical", lambda angle: (angle - 90) % 360),
     ],
 )
-def test_angles_by_another_convention(guide: Guide, name: str, measured: Callable[[float], float]) -> None:
+def test_angles_by_another_convention(guide: MarkingScheme, name: str, measured: Callable[[float], float]) -> None:
     marking = marked(guide, lambda row, k, value: measured(value) if row.id.startswith("dir.") else value)
     found = [cell.mistake for cell in marking.first_errors]
     assert found.count(name) >= AGREED * len(found)
 
 
-def test_one_angle_shows_no_convention(guide: Guide) -> None:
+def test_one_angle_shows_no_convention(guide: MarkingScheme) -> None:
     marking = marked(guide, lambda row, k, value: -value % 360 if row.id == "dir.v.S2" else value)
     assert "angle-clockwise" not in names(marking)
 
 
-def test_rows_exchanged(guide: Guide) -> None:
+def test_rows_exchanged(guide: MarkingScheme) -> None:
     other = {"R.14": "R.05", "R.05": "R.14"}
 
     def cell(row: students.Row, k: int, value: float) -> float:
@@ -77,13 +77,13 @@ def test_rows_exchanged(guide: Guide) -> None:
     assert marking.points == marking.out_of - 2 * len(WORKED)
 
 
-def test_opposite_signs_are_no_exchange(guide: Guide) -> None:
+def test_opposite_signs_are_no_exchange(guide: MarkingScheme) -> None:
     """ω2 = −ω4 where the pins stand opposite: with clockwise as positive, both signs are wrong, not both rows."""
     marking = marked(guide, lambda row, k, value: -value if row.id.startswith("turn.omega") else value)
     assert names(marking) == {"direction-reversed"}
 
 
-def test_value_beside_its_cell(guide: Guide) -> None:
+def test_value_beside_its_cell(guide: MarkingScheme) -> None:
     row = guide.key.row("p.3")
     at = students.figures(float(row.values[row.at(4)]))
     marking = marked(guide, lambda row, k, value: value if row.id != "p.3" else None if k == 4 else at)
@@ -97,13 +97,13 @@ def test_slips_are_named_without_the_guard_too() -> None:
     assert names(marking) == {"too-few-figures"}
 
 
-def test_a_slip_of_arithmetic_is_no_other_datum(guide: Guide) -> None:
+def test_a_slip_of_arithmetic_is_no_other_datum(guide: MarkingScheme) -> None:
     """v_A 12.3 for 13.2 could come from another n or H, but ω1 and R, which stand on them too, are right."""
     marking = marked(guide, lambda row, k, value: value * 0.932 if row.id == "v.A" else value)
     assert [(one.id, one.mistake) for one in marking.first_errors] == [("v.A", "")]
 
 
-def test_two_slips_of_arithmetic_are_no_other_variant(guide: Guide) -> None:
+def test_two_slips_of_arithmetic_are_no_other_variant(guide: MarkingScheme) -> None:
     """Area and mass both worked out wrongly, all else from them: two marks, not the whole sheet."""
     made = {"F": lambda value, _: value * 0.79, "m.2": lambda value, _: value * 1.21}
     marking = mark(guide, students.written(guide, students.worked_out(guide, Mistake("", "F", made))))
@@ -112,7 +112,7 @@ def test_two_slips_of_arithmetic_are_no_other_variant(guide: Guide) -> None:
     assert marking.warnings == ()
 
 
-def test_a_plan_at_another_scale_than_the_one_written(guide: Guide) -> None:
+def test_a_plan_at_another_scale_than_the_one_written(guide: MarkingScheme) -> None:
     """All of the velocity plan 1.6 times as large, the task's μ kept: the plan is right, its scale is not."""
 
     def cell(row: students.Row, k: int, value: float) -> float:

@@ -13,7 +13,7 @@ from reportgen.drawing.plan import Plan
 from reportgen.marking.marking import mark
 from reportgen.plans.motion import What
 from reportgen.plans.scales import SHEET_BOXES, TEXT_BOX
-from reportgen.report.case import Row
+from reportgen.report.case import KeyRow
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
 from tests.grading import students
@@ -102,7 +102,7 @@ def test_marking_takes_each_force_plan_at_the_scale_of_its_position() -> None:
     assert guide.rows["mu.R45"].positions == (2, 18)
     assert scales[1] != scales[17]
 
-    def cell(row: Row, k: int, value: float) -> float:
+    def cell(row: KeyRow, k: int, value: float) -> float:
         if k != 18:
             return value
         return value * 2.5 if row.id == "mu.R45" else value / 2.5 if row.id.startswith("seg.45.") else value

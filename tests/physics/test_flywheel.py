@@ -14,7 +14,7 @@ from reportgen import api
 from reportgen.base.words import kinds
 from reportgen.formula.sheet import Sheet
 from reportgen.machine.analysis import FULL_TURN, Machine, analyse, motion_at
-from reportgen.machine.flywheel import Flywheel, accumulated, flywheel, reduced_inertia, regulate
+from reportgen.machine.flywheel import RegulatedCycle, accumulated, flywheel, reduced_inertia, regulate
 from reportgen.plans import write_ledger
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -197,7 +197,7 @@ def test_a_sine_torque_on_constant_inertia() -> None:
 
 
 def test_wittenbauers_lines_touch_the_curve(machine: Machine) -> None:
-    found: Flywheel = flywheel(machine, 1 / 30)
+    found: RegulatedCycle = flywheel(machine, 1 / 30)
     for bound, height, sign in ((found.fastest, found.upper, 1), (found.slowest, found.lower, -1)):
         line = height + bound**2 / 2 * found.inertia
         assert (sign * (line - found.work)).min() == pytest.approx(0, abs=1e-9 * np.abs(found.work).max())

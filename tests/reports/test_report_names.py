@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from reportgen import api
-from reportgen.assignment.common import Report, Student
+from reportgen.assignment.common import ReportSection, Student
 from reportgen.report import Section
 from tests.reports import built, pages
 from tests.reports.built import Written
@@ -51,7 +51,7 @@ def student_fields() -> list[str]:
 
 def test_every_field_that_takes_a_text_is_tried() -> None:
     others = {"language", "school", "student", "date", "worked_positions", "sheets"}
-    assert set(Report.model_fields) - others == set(FIELDS)
+    assert set(ReportSection.model_fields) - others == set(FIELDS)
 
 
 def strings(node: Any) -> list[str]:

@@ -13,7 +13,7 @@ from reportgen.drawing import Arc, Arrow, Scene
 from reportgen.drawing.forces import COUPLE_RADIUS
 from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, walk
 from reportgen.formula.evaluation import evaluate
-from reportgen.formula.setting import BOUND, Row, columns
+from reportgen.formula.setting import BOUND, MathRow, columns
 from reportgen.formula.vocabulary import vector
 from reportgen.machine import SlidingDriver
 from reportgen.report import Block, Equation, InlineMath, Paragraph, force_figures, plain, result_tables
@@ -194,5 +194,5 @@ def test_no_column_of_a_vector_equation_is_zero_alone(blocks: list[Block]) -> No
         found = columns(balance)
         # Rows are broken between columns, and every column has a force.
         assert len(found) == len(balance.sides[0])
-        assert isinstance(found[-1].term, Row)
+        assert isinstance(found[-1].term, MathRow)
         assert BOUND in found[-1].term.parts

@@ -6,7 +6,7 @@ from itertools import combinations
 
 from reportgen.drawing import Label
 from reportgen.drawing.geometry import POINT, SCRIPT, bounds
-from reportgen.drawing.sheet import CAPITAL, GAP, Part, Sheet
+from reportgen.drawing.sheet import CAPITAL, GAP, DrawingSheet, PlacedScene
 from reportgen.sheets.frame import SIZES as PAPER
 from tests.sheets.laid import block_of, laid, plates
 
@@ -58,14 +58,14 @@ def check_but_filling(name: str, size: str, only: str = "") -> list[float]:
     return [filled(name, sheet) for sheet in found]
 
 
-def filled(name: str, sheet: Sheet) -> float:
+def filled(name: str, sheet: DrawingSheet) -> float:
     """The area of plates with their captions over that inside the frame without the title block."""
     paper, block = PAPER[sheet.name], block_of(name).size
     free = (paper[0] - 30) * (paper[1] - 20) - block[0] * block[1]
     return sum(part.scene.width * part.scene.height for part in plates(sheet)) / free
 
 
-def plates_keep_apart(sheet: Sheet, where: str) -> None:
+def plates_keep_apart(sheet: DrawingSheet, where: str) -> None:
     """From one another, from the frame and from the title block; what a plate draws stays in its box."""
     block = next(part for part in sheet.parts if part.name == "title block")
     width, height = PAPER[sheet.name]
@@ -76,7 +76,7 @@ def plates_keep_apart(sheet: Sheet, where: str) -> None:
         assert apart(one, other) >= GAP - EDGE, (where, one.name, other.name)
 
 
-def letters_and_pens_are_standard(sheet: Sheet, where: str) -> None:
+def letters_and_pens_are_standard(sheet: DrawingSheet, where: str) -> None:
     for part in plates(sheet):
         sizes = [item.size for item in part.scene.items if isinstance(item, Label)]
         assert SCRIPT * CAPITAL * POINT * min(sizes) >= LEAST, (where, part.name)
@@ -92,7 +92,7 @@ def inside(box: Box, room: Box, name: str) -> None:
     assert min(below.real, below.imag, above.real, above.imag) >= -EDGE, name
 
 
-def apart(one: Part, other: Part) -> float:
+def apart(one: PlacedScene, other: PlacedScene) -> float:
     """How much white lies between two parts, across or upwards; negative where they overlap."""
     (low, high), (its_low, its_high) = one.box, other.box
     across = max(its_low.real - high.real, low.real - its_high.real)

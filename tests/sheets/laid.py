@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from reportgen.cases import MachineCase, open_case
-from reportgen.drawing.sheet import Part, Room, Sheet
+from reportgen.drawing.sheet import DrawingSheet, PlacedScene, Room
 from reportgen.report.report import Report
 from reportgen.sheets import sheets_of
 from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, read_block, room
@@ -27,7 +27,7 @@ class Laid:
     """A case with its sheets."""
 
     case: MachineCase
-    sheets: list[Sheet]
+    sheets: list[DrawingSheet]
 
 
 @cache
@@ -54,6 +54,6 @@ def space(name: str, size: str) -> Room:
     return room(size, block.margins, block.size)
 
 
-def plates(sheet: Sheet) -> list[Part]:
+def plates(sheet: DrawingSheet) -> list[PlacedScene]:
     """What a sheet shows, without frame and title block."""
     return [part for part in sheet.parts if part.layer != "frame"]

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from reportgen.drawing import Arrow
-from reportgen.drawing.sheet import Sheet
+from reportgen.drawing.sheet import DrawingSheet
 from reportgen.sheets import dxf
 from reportgen.writers import typst, typst_run
 from tests.lanes import matrix
@@ -141,7 +141,7 @@ def test_all_arrows_are_as_long_on_paper_as_in_cad(name: str) -> None:
         assert all(abs(one - other) < CAD for one, other in zip(in_file, expected, strict=True))
 
 
-def arrows(sheet: Sheet) -> Iterator[Arrow]:
+def arrows(sheet: DrawingSheet) -> Iterator[Arrow]:
     for part in sheet.parts:
         for item in part.scene.items:
             if isinstance(item, Arrow) and abs(item.end - item.start) > 0:

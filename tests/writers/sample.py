@@ -6,7 +6,7 @@ import cmath
 import math
 from dataclasses import replace
 
-from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Polyline, Scene, Stroke
+from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline, Scene
 from reportgen.formula import (
     PI,
     Call,
@@ -177,18 +177,18 @@ def scheme() -> Scene:
         130,
         80,
         (
-            Line(5 + 35j, 120 + 35j, Stroke(0.13, "#606060", (4.0, 1.0, 0.5, 1.0))),
+            Line(5 + 35j, 120 + 35j, Pen(0.13, "#606060", (4.0, 1.0, 0.5, 1.0))),
             Hatch(frame, 1.5),
-            Polyline(frame, Stroke(0.3), closed=True),
-            Line(o, a, Stroke(0.7)),
-            Line(a, b, Stroke(0.7)),
-            Polyline((75 + 30j, 95 + 30j, 95 + 40j, 75 + 40j), Stroke(0.35), closed=True, fill="#e8eef4"),
-            *(Circle(point, 1.0, Stroke(0.35), "#ffffff") for point in (o, a, b)),
-            Arc(o, 12, 0.2, 0.7, Stroke(0.2), head=2.0),
-            Arc(o, abs(a - o), -0.5, 2.4, Stroke(0.13, dash=(1.0, 1.0))),
-            Arrow(a, a + 18 * cmath.exp(2.2j), Stroke(0.35, "#b00000"), name="v_A"),
-            Arrow(b, b + 30, Stroke(0.35, "#0040b0"), name="P_3"),
-            Arrow(100 + 60j, 101 + 61j, Stroke(0.25), name="short"),
+            Polyline(frame, Pen(0.3), closed=True),
+            Line(o, a, Pen(0.7)),
+            Line(a, b, Pen(0.7)),
+            Polyline((75 + 30j, 95 + 30j, 95 + 40j, 75 + 40j), Pen(0.35), closed=True, fill="#e8eef4"),
+            *(Circle(point, 1.0, Pen(0.35), "#ffffff") for point in (o, a, b)),
+            Arc(o, 12, 0.2, 0.7, Pen(0.2), head=2.0),
+            Arc(o, abs(a - o), -0.5, 2.4, Pen(0.13, dash=(1.0, 1.0))),
+            Arrow(a, a + 18 * cmath.exp(2.2j), Pen(0.35, "#b00000"), name="v_A"),
+            Arrow(b, b + 30, Pen(0.35, "#0040b0"), name="P_3"),
+            Arrow(100 + 60j, 101 + 61j, Pen(0.25), name="short"),
             Label(o + 15 + 5j, Symbol("φ", "1"), "left"),
             Label(a + 2, Symbol("A"), "bottom-left"),
             Label(a + 18 * cmath.exp(2.2j), vector("v", "A"), "bottom"),
@@ -208,7 +208,7 @@ def star(size: float = 40.0, rays: int = 12, title: str = "") -> Scene:
     ends = [
         middle + size * (0.18 + 0.25 * ray / rays) * cmath.exp(2j * math.pi * ray / rays + 0.1j) for ray in range(rays)
     ]
-    items: list[Item] = [Arrow(middle, end, Stroke(0.25), name=f"pb{ray}") for ray, end in enumerate(ends)]
+    items: list[Item] = [Arrow(middle, end, Pen(0.25), name=f"pb{ray}") for ray, end in enumerate(ends)]
     items += [
         Label(end + (end - middle) / abs(end - middle) * 2, Symbol("b", str(ray))) for ray, end in enumerate(ends)
     ]

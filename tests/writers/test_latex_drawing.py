@@ -7,7 +7,7 @@ from dataclasses import replace
 import pymupdf
 import pytest
 
-from reportgen.drawing import Arc, Arrow, Circle, Hatch, Label, Line, Polyline, Scene, Stroke
+from reportgen.drawing import Arc, Arrow, Circle, Hatch, Label, Line, Pen, Polyline, Scene
 from reportgen.report import Figure
 from reportgen.writers.drawing import paint_latex
 from reportgen.writers.latex_math import LatexFormulas
@@ -19,7 +19,7 @@ def drawn(scene: Scene) -> tuple[pymupdf.Page, complex]:
     """The page with one scene alone, and the scene's origin on it in points (y up)."""
     frame = Polyline(
         (0j, complex(scene.width), complex(scene.width, scene.height), 1j * scene.height),
-        Stroke(0.1, "#00ff00"),
+        Pen(0.1, "#00ff00"),
         closed=True,
     )
     page = by_latex(Figure((replace(scene, items=(frame, *scene.items)),)))[0]
@@ -78,9 +78,9 @@ def test_labels_stand_at_their_anchors() -> None:
 @needs_tex
 def test_pens_are_as_wide_and_coloured_as_said() -> None:
     items = (
-        Line(5 + 5j, 55 + 5j, Stroke(0.5, "#ff0000", (2.0, 1.0))),
+        Line(5 + 5j, 55 + 5j, Pen(0.5, "#ff0000", (2.0, 1.0))),
         Circle(30 + 20j, 8, None, "#0000ff"),
-        Arc(30 + 20j, 10, 0.0, 3.0, Stroke(0.35, "#800000"), head=2.0),
+        Arc(30 + 20j, 10, 0.0, 3.0, Pen(0.35, "#800000"), head=2.0),
         Hatch((5 + 35j, 25 + 35j, 25 + 45j, 5 + 45j), 2.0),
     )
     page, origin = drawn(Scene(60, 60, items))

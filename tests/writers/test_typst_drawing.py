@@ -10,7 +10,7 @@ from typing import Any
 import pymupdf
 import pytest
 
-from reportgen.drawing import Arc, Arrow, Label, Line, Polyline, Scene, Stroke
+from reportgen.drawing import Arc, Arrow, Label, Line, Pen, Polyline, Scene
 from reportgen.report import Figure
 from tests.writers import sample
 from tests.writers.pages import MM, by_typst
@@ -19,7 +19,7 @@ from tests.writers.pages import MM, by_typst
 def drawn(scene: Scene) -> tuple[complex, list[dict[str, Any]]]:
     """(PDF position of the scene's lower left corner, its drawings), found by a red frame around it."""
     w, h = scene.width, scene.height
-    frame = Polyline((0j, complex(w, 0), complex(w, h), complex(0, h)), Stroke(0.1, "#ff0000"), closed=True)
+    frame = Polyline((0j, complex(w, 0), complex(w, h), complex(0, h)), Pen(0.1, "#ff0000"), closed=True)
     page = by_typst(Figure((replace(scene, items=(frame, *scene.items)),)))[0]
     drawings = [drawing for drawing in page.get_drawings() if drawing["rect"].y0 > 21 * MM]
     (red,) = (drawing for drawing in drawings if drawing["color"] == (1.0, 0.0, 0.0))
