@@ -2,7 +2,8 @@
 
 A quantity that is one of its kind has its id as text (`mu.l`, `omega.1`, `M.eq`).  No two families read the same id,
 but that the distance of a centre of percussion is a length, too, and that those which put a word before any other id
-read more: where two do, the one that stands first means it.
+read more: where two do, the one that stands first means it.  One template has two names where machines differ: s.3 is
+the way of a slider, or where the mass centre lies on a rod.
 """
 
 from __future__ import annotations
