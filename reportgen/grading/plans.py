@@ -69,7 +69,7 @@ def _candidates(guide: Guide) -> Iterator[Mistake]:
             elif source.definition is not None:
                 yield from _either("part-left-out", "part-reversed", refs(source.definition)[0], id)
     for load in guide.analysis.loads if guide.analysis else ():
-        vector = ids.vector(load.name)
+        vector = ids.force_vector(load.name)
         yield from _either("load-forgotten", "load-reversed", load.name, vector if vector in ledger else load.name)
 
 

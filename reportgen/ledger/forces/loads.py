@@ -86,7 +86,7 @@ class Statics:
         return NOWHERE if self.scheme.still(name) else self.q[ids.plan_point(what, image(name))]
 
     def vector(self, load: LoadOn) -> Ref:
-        return self.q[ids.vector(load.name)]
+        return self.q[ids.force_vector(load.name)]
 
     def couple(self, load: LoadOn) -> Ref | None:
         """A load's couple, None if it has none."""
@@ -111,7 +111,7 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
         if body.mass > 0:
             down = linkage.gravity / abs(linkage.gravity) if linkage.gravity else -1j
             downwards = q.give(ids.down(link), complex(down), "g", "ratio")
-            q.construct(ids.vector(name), q[name] * downwards, of=name)
+            q.construct(ids.force_vector(name), q[name] * downwards, of=name)
             loads.append(LoadOn(name, link, centre, q[name], Origin.weight, name))
         still_driver = link == DRIVER and isinstance(linkage.driver, Crank) and centre == linkage.driver.centre
         if (body.mass > 0 or body.moment > 0) and not still_driver:
@@ -119,7 +119,7 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
     for name, (link, place, sense) in applied.items():
         # The machine has entered the sense of a force along a guide that is given by its angle.
         positive = q.find(ids.sense(name)) or q.give(ids.sense(name), np.asarray(sense, dtype=complex), name, "ratio")
-        q.construct(ids.vector(name), q[name] * positive, of=name)
+        q.construct(ids.force_vector(name), q[name] * positive, of=name)
         loads.append(LoadOn(name, link, place, q[name], Origin.applied, name))
     loads += [LoadOn(name, link, "", q[name], Origin.applied) for name, link in torques.items()]
     return tuple(sorted(loads, key=lambda load: (load.link, load.origin)))
@@ -133,7 +133,7 @@ def _inertia(statics: Statics, body: Inertia) -> LoadOn:
     size = 0.0 if nothing else q[ids.mass(link)] * q[ids.acceleration(centre)]
     force = q.define(name, size, scale=body.mass * statics.sizes.acceleration)
     vector = Number(0.0) if nothing else -(q[ids.mass(link)] * q["mu.a"] * statics.image("a", centre))
-    q.construct(ids.vector(name), vector, of=name)
+    q.construct(ids.force_vector(name), vector, of=name)
     if ids.signed("eps", link) in q and body.moment > 0:
         J = q[ids.inertia(link)]
         couple = q.define(
@@ -184,7 +184,7 @@ def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn,
 def opposite(q: Sheet, here: str, there: str, link: int, point: str) -> LoadOn:
     """Enter a reaction as that of the other link turned round: R42 = −R24."""
     size = q.define(ids.reaction(here), q[ids.reaction(there)], scale=q.families[ids.reaction(there)].scale)
-    q.construct(ids.vector(ids.reaction_force(here)), -q[ids.vector(ids.reaction_force(there))], of=size.id)
+    q.construct(ids.force_vector(ids.reaction_force(here)), -q[ids.force_vector(ids.reaction_force(there))], of=size.id)
     return LoadOn(ids.reaction_force(here), link, point, size, Origin.reaction, here)
 
 

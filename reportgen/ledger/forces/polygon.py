@@ -73,7 +73,7 @@ class Path:
     def lay(self, name: str, link: int) -> None:
         """Lay the force `F.name` on from the last vertex."""
         letter = next(self._letters)
-        self.corners[letter] = self.corners[self.last] + self._q[ids.vector(name)]
+        self.corners[letter] = self.corners[self.last] + self._q[ids.force_vector(name)]
         self.edges.append(Edge(name, self.last, letter, link=link))
         self.last = letter
 
@@ -94,9 +94,11 @@ def force_plan(statics: Statics, name: str, title: str, path: Path, closing: Clo
     μ = q.give(ids.force_scale(name), own_scales(sizes, LEAST_FORCES), Symbol("μ", title))
     vertices: dict[str, Expression] = {path.first: q.construct(ids.force_corner(name, path.first), Number(0.0))}
     for edge in path.edges:
-        laid = q.construct(ids.laid_force(name, edge.name), q[ids.vector(edge.name)] / μ)
+        laid = q.construct(ids.laid_force(name, edge.name), q[ids.force_vector(edge.name)] / μ)
         letters = segment(edge.start, edge.end)
-        q.define(ids.force_segment(name, edge.name), abs(laid), letters, scale=LEAST_FORCES, of=ids.vector(edge.name))
+        q.define(
+            ids.force_segment(name, edge.name), abs(laid), letters, scale=LEAST_FORCES, of=ids.force_vector(edge.name)
+        )
         vertices[edge.end] = q.construct(ids.force_corner(name, edge.end), vertices[edge.start] + laid)
     if closing is not None:
         q.construct(ids.force_corner(name, "n"), closing(vertices, μ))
@@ -107,8 +109,8 @@ def read(statics: Statics, plan: str, name: str, symbol: Symbol, id: str, start:
     q, scale = statics.q, statics.force
     μ, along = q[ids.force_scale(plan)], q[ids.force_corner(plan, end)] - q[ids.force_corner(plan, start)]
     drawn = q.define(
-        ids.force_segment(plan, name), abs(along), segment(start, end), scale=LEAST_FORCES, of=ids.vector(name)
+        ids.force_segment(plan, name), abs(along), segment(start, end), scale=LEAST_FORCES, of=ids.force_vector(name)
     )
     q.define(id, μ * drawn, symbol, scale=scale)
-    vector = q.construct(ids.vector(name), μ * along, of=id)
+    vector = q.construct(ids.force_vector(name), μ * along, of=id)
     q.define(ids.force_direction(name), heading(vector), Symbol("α", symbol.sub), scale=1.0, of=id)
