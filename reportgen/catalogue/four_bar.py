@@ -334,14 +334,7 @@ def machine(assignment: Assignment) -> Machine:
     points = tuple(point for point in linkage.points if point.link == 2)
     names = [point.name for point in points]
     φ1 = turn * (start + turn * even_angles(positions) - frame)
-    plans = (
-        "omega.2",
-        "omega.3",
-        *(ids.velocity(name) for name in names),
-        "eps.2",
-        "eps.3",
-        *(ids.acceleration(name) for name in names),
-    )
+    plans = ("omega.2", "omega.3", *map(ids.velocity, names), "eps.2", "eps.3", *map(ids.acceleration, names))
     return driven(
         assignment,
         q,

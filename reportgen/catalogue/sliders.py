@@ -99,8 +99,8 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
         x, y = R * (1 - s / q["L"]) * sin(φ), y + s * cos(q["beta.2"])
     place = ids.formula_coordinate("x", joint), ids.formula_coordinate("y", joint)
     rates = {what: tuple(ids.formula_component(axis, joint, what) for axis in "xy") for what in "va"}
-    for coordinate, value in zip(place, (x, y), strict=True):
-        line(coordinate, value)
+    line(place[0], x)
+    line(place[1], y)
 
     def across(x: str, y: str) -> Expression:
         return q[x] * cos(δ) - q[y] * sin(δ)

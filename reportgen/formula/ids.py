@@ -2,7 +2,8 @@
 
 A quantity that is one of its kind has its id as text (`mu.l`, `omega.1`, `M.eq`).  No two families read the same id,
 but that the distance of a centre of percussion is a length, too, and that those which put a word before any other id
-read more: where two do, the one that stands first means it.
+read more: where two do, the one that stands first means it.  One template has two names where machines differ: s.3 is
+the way of a slider, or where the mass centre lies on a rod.
 """
 
 from __future__ import annotations
@@ -126,7 +127,7 @@ guide = Name("guide.{link}")
 guide_on_link = Name("guide.{link}.local")
 guide_place = Name("guide.{link}.at")
 guide_place_on_link = Name("guide.{link}.at.local")
-similar = Name("similar.{point}")
+similar = Name("similar.{point}")  # its image by the similarity theorem
 angle = Name("phi.{of}")
 inclination = Name("beta.{link}")
 slope = Name("eta.{point}")
@@ -206,13 +207,13 @@ given_force = Name("P[{point}].given")
 inertia_force = Name("Pqt{link}")
 inertia_couple = Name("M.Pqt{link}")
 inertia_offset = Name("e.Pqt{link}")
-vector = Name("F.{force}")
+force_vector = Name("F.{force}")
 couple = Name("couple.{force}")
-lone_couple = Name("lone.{force}")
-beside = Name("beside.{force}")
+lone_couple = Name("lone.{force}")  # where its force is nothing
+beside = Name("beside.{force}")  # from the mass centre to where an inertia force acts
 sense = Name("sense.{force}")
-assumed = Name("assumed.{force}")
-down = Name("down.{link}")
+assumed = Name("assumed.{force}")  # the sense that its formula assumes
+down = Name("down.{link}")  # the direction of its weight
 
 # --- reactions
 
@@ -236,11 +237,11 @@ figure_of_balance = Name("M.{figure}")  # over the cycle, or of the reduced torq
 
 # --- a word before the id of another quantity
 
-formula = Name("f.{id}")
-far = Name("far.{id}")
-unit = Name("unit.{id}")
-rule = Name("rule.{id}")
-rest = Name("rest.{id}")
+formula = Name("f.{id}")  # the same by a closed formula
+far = Name("far.{id}")  # how far a fixed place is from the origin
+unit = Name("unit.{id}")  # in which direction
+rule = Name("rule.{id}")  # what a rule for the positions makes of an integral
+rest = Name("rest.{id}")  # of that integral
 
 # --- names that are no ids: of the forces of a plan and of the corners of a plan of accelerations
 

@@ -366,12 +366,13 @@ def words_of(table: Mapping[str, str], id: str, kind: str, shown: Symbol) -> Ite
     it means only quantities of that kind, and all of them by `:force`.  Where two keys name the same, the first counts.
     """
     said: dict[str, str] = {}
-    for names, text in table.items():
-        said = dict.fromkeys(names.split(", "), text) | said
+    for key, text in table.items():
+        for name in key.split(", "):
+            said.setdefault(name, text)
     found, parts = _found(id)
-    families = (f"{found.name}.{parts.get('axis')}", wording(id, shown)[0])
-    named = (one for name in (id, *families) for one in (f"{name}:{kind}", name))
-    return (said[one] for one in (*named, f":{kind}") if one in said)
+    named = id, f"{found.name}.{parts.get('axis', '')}", wording(id, shown)[0]
+    nearest = (*(one for name in named if name for one in (f"{name}:{kind}", name)), f":{kind}")
+    return (said[one] for one in nearest if one in said)
 
 
 @lru_cache(maxsize=4096)

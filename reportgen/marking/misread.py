@@ -328,7 +328,7 @@ def _vectors_laid(guide: MarkingScheme) -> Iterator[Mistake]:
             elif source.definition is not None:
                 yield from _either("part-left-out", "part-reversed", refs(source.definition)[0], id)
     for load in guide.pitfalls.loads:
-        vector = ids.vector(load)
+        vector = ids.force_vector(load)
         yield from _either("load-forgotten", "load-reversed", load, vector if vector in ledger else load)
 
 

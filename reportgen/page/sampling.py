@@ -285,7 +285,7 @@ class _Samples:
         ], per
 
     def _force_symbol(self, name: str) -> Symbol:
-        entered = ids.vector(name) in self.report.ledger
+        entered = ids.force_vector(name) in self.report.ledger
         return self.report.force_vector(name) if entered else vocabulary.vector(vocabulary.symbol(ids.of_force(name)))
 
     def _plan_of_motion(self, what: What) -> list[MovingItem]:

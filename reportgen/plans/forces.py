@@ -151,7 +151,7 @@ def _rpr(g: Group) -> Polygon:
     size = total(known) / _reach(g) if known else 0.0
     found = q.define(ids.reaction(across, "s"), size, Symbol("R", across), scale=g.statics.force)
     assumed = q.construct(ids.assumed(ids.reaction_force(across, "s")), -float(g.dyad.sign) * turned(q[ids.slot(g.j)]))
-    laid = q.construct(ids.vector(ids.reaction_force(across, "s")), found * assumed, of=found.id)
+    laid = q.construct(ids.force_vector(ids.reaction_force(across, "s")), found * assumed, of=found.id)
     polygon = _close(g, None, None, laid=laid)
     _offset(g, g.inner)
     return polygon
@@ -186,7 +186,7 @@ def _tangential(g: Group, link: int, digits: str, pin: str, middle: str, loads: 
     moment = moments(g.statics, loads, middle)
     size = q.define(ids.reaction(digits, "t"), 0.0 if moment is None else moment / length, scale=g.statics.force)
     assumed = q.construct(ids.assumed(ids.reaction_force(digits, "t")), turned(unit(q[ids.rod(link)])))
-    q.construct(ids.vector(ids.reaction_force(digits, "t")), size * assumed, of=size.id)
+    q.construct(ids.force_vector(ids.reaction_force(digits, "t")), size * assumed, of=size.id)
 
 
 def _reach(g: Group) -> Ref:

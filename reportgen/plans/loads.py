@@ -88,7 +88,7 @@ class Statics:
         return NOWHERE if self.scheme.still(name) else self.q[ids.plan_point(what, image(name))]
 
     def vector(self, load: LoadOn) -> Ref:
-        return self.q[ids.vector(load.name)]
+        return self.q[ids.force_vector(load.name)]
 
     def couple(self, load: LoadOn) -> Ref | None:
         """A load's couple, None if it has none."""
@@ -113,7 +113,7 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
         if body.mass > 0:
             down = linkage.gravity / abs(linkage.gravity) if linkage.gravity else -1j
             downwards = q.give(ids.down(link), complex(down), "g", "ratio")
-            q.construct(ids.vector(name), q[name] * downwards, of=name)
+            q.construct(ids.force_vector(name), q[name] * downwards, of=name)
             loads.append(LoadOn(name, link, centre, q[name], Origin.weight, name))
         still_driver = link == DRIVER and isinstance(linkage.driver, Crank) and centre == linkage.driver.centre
         if (body.mass > 0 or body.moment > 0) and not still_driver:
@@ -121,7 +121,7 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
     for name, (link, place, sense) in applied.items():
         # The machine has entered the sense of a force along a guide that is given by its angle.
         positive = q.find(ids.sense(name)) or q.give(ids.sense(name), np.asarray(sense, dtype=complex), name, "ratio")
-        q.construct(ids.vector(name), q[name] * positive, of=name)
+        q.construct(ids.force_vector(name), q[name] * positive, of=name)
         loads.append(LoadOn(name, link, place, q[name], Origin.applied, name))
     loads += [LoadOn(name, link, "", q[name], Origin.applied) for name, link in torques.items()]
     return tuple(sorted(loads, key=lambda load: (load.link, load.origin)))
@@ -135,7 +135,7 @@ def _inertia(statics: Statics, body: Inertia) -> LoadOn:
     size = 0.0 if nothing else q[ids.mass(link)] * q[ids.acceleration(centre)]
     force = q.define(name, size, scale=body.mass * statics.sizes.acceleration)
     vector = Number(0.0) if nothing else -(q[ids.mass(link)] * q["mu.a"] * statics.image("a", centre))
-    q.construct(ids.vector(name), vector, of=name)
+    q.construct(ids.force_vector(name), vector, of=name)
     if ids.signed("eps", link) in q and body.moment > 0:
         J = q[ids.inertia(link)]
         couple = q.define(
@@ -186,7 +186,7 @@ def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn,
 def opposite(q: Sheet, here: str, there: str, link: int, point: str) -> LoadOn:
     """Enter a reaction as that of the other link turned round: R42 = −R24."""
     size = q.define(ids.reaction(here), q[ids.reaction(there)], scale=q.families[ids.reaction(there)].scale)
-    q.construct(ids.vector(ids.reaction_force(here)), -q[ids.vector(ids.reaction_force(there))], of=size.id)
+    q.construct(ids.force_vector(ids.reaction_force(here)), -q[ids.force_vector(ids.reaction_force(there))], of=size.id)
     return LoadOn(ids.reaction_force(here), link, point, size, Origin.reaction, here)
 
 
@@ -307,7 +307,7 @@ class ForceChain:
     def lay(self, name: str, link: int) -> None:
         """Lay the force `F.name` on from the last vertex."""
         letter = next(self._letters)
-        self.corners[letter] = self.corners[self.last] + self._q[ids.vector(name)]
+        self.corners[letter] = self.corners[self.last] + self._q[ids.force_vector(name)]
         self.edges.append(Edge(name, self.last, letter, link=link))
         self.last = letter
 
@@ -328,9 +328,11 @@ def force_plan(statics: Statics, name: str, title: str, path: ForceChain, closin
     μ = q.give(ids.force_scale(name), own_scales(sizes, LEAST_FORCES), Symbol("μ", title))
     vertices: dict[str, Expression] = {path.first: q.construct(ids.force_corner(name, path.first), Number(0.0))}
     for edge in path.edges:
-        laid = q.construct(ids.laid_force(name, edge.name), q[ids.vector(edge.name)] / μ)
+        laid = q.construct(ids.laid_force(name, edge.name), q[ids.force_vector(edge.name)] / μ)
         letters = segment(edge.start, edge.end)
-        q.define(ids.force_segment(name, edge.name), abs(laid), letters, scale=LEAST_FORCES, of=ids.vector(edge.name))
+        q.define(
+            ids.force_segment(name, edge.name), abs(laid), letters, scale=LEAST_FORCES, of=ids.force_vector(edge.name)
+        )
         vertices[edge.end] = q.construct(ids.force_corner(name, edge.end), vertices[edge.start] + laid)
     if closing is not None:
         q.construct(ids.force_corner(name, "n"), closing(vertices, μ))
@@ -341,8 +343,8 @@ def read(statics: Statics, plan: str, name: str, symbol: Symbol, id: str, start:
     q, scale = statics.q, statics.force
     μ, along = q[ids.force_scale(plan)], q[ids.force_corner(plan, end)] - q[ids.force_corner(plan, start)]
     drawn = q.define(
-        ids.force_segment(plan, name), abs(along), segment(start, end), scale=LEAST_FORCES, of=ids.vector(name)
+        ids.force_segment(plan, name), abs(along), segment(start, end), scale=LEAST_FORCES, of=ids.force_vector(name)
     )
     q.define(id, μ * drawn, symbol, scale=scale)
-    vector = q.construct(ids.vector(name), μ * along, of=id)
+    vector = q.construct(ids.force_vector(name), μ * along, of=id)
     q.define(ids.force_direction(name), heading(vector), Symbol("α", symbol.sub), scale=1.0, of=id)

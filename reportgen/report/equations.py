@@ -172,7 +172,7 @@ def opposites(report: Report, polygon: Polygon, position: int) -> Equation:
     rows: list[Expression] = []
     for edge in polygon.carried:
         size = report.force_symbol(edge.name)
-        (source,) = refs(report.ledger[ids.vector(edge.name)].definition or Number(0.0))
+        (source,) = refs(report.ledger[ids.force_vector(edge.name)].definition or Number(0.0))
         vectors = vocabulary.vector(size), -vocabulary.vector(report.ledger.symbol(report.ledger[source].of))
         rows += [Chain(vectors), report.ledger.chain(ids.of_force(edge.name), position)]
     return Equation(tuple(rows))

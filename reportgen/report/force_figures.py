@@ -125,10 +125,10 @@ def drawn_sense(report: Report, name: str, k: int) -> complex:
 
     The formula's value times the arrow drawn is then the true force.
     """
-    ledger, vector = report.ledger, report.ledger[ids.vector(name)]
+    ledger, vector = report.ledger, report.ledger[ids.force_vector(name)]
     if report.is_zero(vector.of, k):
         return 0j
-    assumed = ledger.known((ids.assumed(name), ids.vector(name)))[0]
+    assumed = ledger.known((ids.assumed(name), ids.force_vector(name)))[0]
     return complex(ledger[assumed].at(k))
 
 

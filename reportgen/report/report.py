@@ -401,7 +401,7 @@ class Report:
 
     def force_symbol(self, name: str) -> Symbol:
         """The symbol of a force of a plan: of a load, or of a reaction R12, R12.t."""
-        return self.ledger.symbol(self.ledger[ids.vector(name)].of)
+        return self.ledger.symbol(self.ledger[ids.force_vector(name)].of)
 
     def force_vector(self, name: str) -> Symbol:
         return vocabulary.vector(self.force_symbol(name))

@@ -264,9 +264,9 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
             found[name] = (max(differences), "")
     if analysis.loads:
         forces = [
-            float(np.nanmax(np.abs(reaction.force - values[ids.vector(name)].values)))
+            float(np.nanmax(np.abs(reaction.force - values[ids.force_vector(name)].values)))
             for name, reaction in analysis.forces.reactions.items()
-            if ids.vector(name) in values
+            if ids.force_vector(name) in values
         ]
         found["ledger"] = (max(forces), "N")
         difference = float(np.nanmax(np.abs(analysis.torque - analysis.torque_by_work)))

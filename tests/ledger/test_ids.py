@@ -13,7 +13,7 @@ from reportgen.formula import ids, vocabulary
 from reportgen.formula.ids import Name
 
 FILES = sorted(path for folder in ("", "plane-motion") for path in (Path("assignments") / folder).glob("*.yaml"))
-FAMILIES = {text: name for text, name in vars(ids).items() if isinstance(name, Name)}
+FAMILIES = list(dict.fromkeys(name for name in vars(ids).values() if isinstance(name, Name)))
 BEFORE_OTHERS = frozenset({ids.formula, ids.far, ids.unit, ids.rule, ids.rest})
 """These put a word before any other id: all but the first of them are the only ones that read such an id."""
 ONES_OF_THEIR_KIND = frozenset(
@@ -30,7 +30,7 @@ def every_id() -> frozenset[str]:
 
 
 def readers(id: str) -> list[Name]:
-    return [name for name in FAMILIES.values() if name.read(id) is not None]
+    return [name for name in FAMILIES if name.read(id) is not None]
 
 
 def test_every_id_is_made_again_from_what_is_read_of_it() -> None:
