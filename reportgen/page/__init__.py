@@ -8,16 +8,16 @@ from reportgen.report import Document
 from reportgen.report.case import Case
 
 
-def panel(case: Case) -> Panel | None:
+def moving_part(case: Case) -> Panel | None:
     """What moves on the page of a case, if anything does."""
     film = case.film()
     if film is None:
         return None
-    from reportgen.page.panel import panel as panel_of
+    from reportgen.page.panel import moving_part as panel_of
 
     return panel_of(film, case.assignment.language, case.words["page"])
 
 
 def page(case: Case, document: Document | None = None, live: Live | None = None) -> str:
     """The whole page of a case, of its `document` if that is composed already."""
-    return html.write(document or case.document(), case.words["page"], panel(case), live)
+    return html.write(document or case.document(), case.words["page"], moving_part(case), live)

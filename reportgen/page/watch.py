@@ -24,7 +24,7 @@ from reportgen.base.errors import AssignmentError, ReportgenError
 from reportgen.base.files import reported
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, templates, unexpected
-from reportgen.page import html, panel
+from reportgen.page import html, moving_part
 from reportgen.page.html import Live, Panel, WrittenReport
 from reportgen.report import Document
 from reportgen.report.case import Case
@@ -46,7 +46,7 @@ class Edition:
 
     language: Language
     words: Mapping[str, Any]
-    panel: Panel | None = None
+    moving_part: Panel | None = None
     report: WrittenReport | None = None
     document: tree.Document | None = None
     fault: str = ""
@@ -108,14 +108,14 @@ class Desk:
         number = self._asked
         try:
             case = self.opens()
-            moving = panel(case)
+            moving = moving_part(case)
             language, words = case.assignment.language, case.words
         except Exception as error:
             self._to_write = None
             self._publish(fault=self._in_words(error), busy=False)
             return
         count = self.edition.moving + 1
-        self._publish(language=language, words=words, panel=moving, moving=count, fault="", busy=True)
+        self._publish(language=language, words=words, moving_part=moving, moving=count, fault="", busy=True)
         with self.changed:
             self._to_write = number, case
             self.changed.notify_all()

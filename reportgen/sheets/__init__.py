@@ -27,7 +27,7 @@ from reportgen.drawing.sheet import (
 from reportgen.plans.scales import PER_MM
 from reportgen.report.case import Calculation
 from reportgen.report.report import Report
-from reportgen.sheets.frame import DEFAULT, SIZES, TitleBlock, blocks, fields_of, frame, read_block, room
+from reportgen.sheets.frame import DEFAULT, SIZES, TitleBlock, blocks, fields_of, frame_scene, read_block, room
 from reportgen.sheets.packing import NEVER, Dividing, Laid, spread, too_large
 from reportgen.sheets.plates import CURVE, Estimates, Plates, Series
 
@@ -78,7 +78,7 @@ def sheets_of(plates: Plates, chosen: Sequence[int], size: str, block: TitleBloc
         }
         corner = complex(space.high.real - block.size[0], space.low.imag)
         own = (
-            PlacedScene("frame", "frame", frame(size, block.margins, block.note(fields))),
+            PlacedScene("frame", "frame", frame_scene(size, block.margins, block.note(fields))),
             PlacedScene("title block", "frame", block.scene(fields), corner),
         )
         result.append(DrawingSheet(size, width, height, (*own, *parts)))

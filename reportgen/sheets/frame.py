@@ -78,7 +78,7 @@ def room(size: str, margins: Margins, block: tuple[float, float]) -> Room:
     return Room(low, high, complex(*block))
 
 
-def frame(size: str, margins: Margins, note: str = "") -> Scene:
+def frame_scene(size: str, margins: Margins, note: str = "") -> Scene:
     """The edge of the paper, the frame and its centring marks; the format as a `note` below it."""
     width, height = SIZES[size]
     low, high = complex(margins.left, margins.other), complex(width - margins.other, height - margins.other)

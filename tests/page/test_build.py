@@ -14,7 +14,7 @@ import pytest
 
 from reportgen import api
 from reportgen.cases import MachineCase, opened
-from reportgen.page import page, panel
+from reportgen.page import moving_part, page
 from reportgen.workbook import read
 from tests.page.made import made
 from tests.page.text import elements
@@ -42,7 +42,7 @@ def test_what_moves_is_the_same_before_and_behind_the_report() -> None:
     assignment = built.assignment(SLIDE)
     with_ledger, without = MachineCase(assignment), MachineCase(assignment)
     assert with_ledger.ledger.decimals
-    assert panel(with_ledger) == panel(without)
+    assert moving_part(with_ledger) == moving_part(without)
     assert "ledger" not in vars(without)
 
 
