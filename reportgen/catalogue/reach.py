@@ -13,10 +13,9 @@ import numpy as np
 
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import nice_down
-from reportgen.formula.constructions import cross
 from reportgen.machine import GROUND, Crank, Dyad, Guide, Linkage
 from reportgen.machine.loads import FULL_TURN, Flags, MotionAt, NotToAndFro, course, halved
-from reportgen.machine.motion import SINGULAR, Complexes, Floats, Motion, solve_motion, unit
+from reportgen.machine.motion import SINGULAR, Complexes, Floats, Motion, cross, solve_motion, unit
 
 MM = 1e3
 STEPS = 720

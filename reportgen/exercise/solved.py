@@ -61,8 +61,9 @@ class LiteralGeometry(Geometry):
     def point(self, x: Algebraic, y: Algebraic) -> Plane:
         return Plane(x, y)
 
-    def root(self, of: Algebraic) -> Algebraic:
-        return algebra.root(of)
+    def root(self, of: Algebraic) -> Plane:
+        """A vector along x, which is turned as a number is."""
+        return Plane.of(algebra.root(of))
 
     def is_inner(self, joint: file.RollingOnCircle | file.Gears) -> bool:
         return self.numbers.is_inner(joint)

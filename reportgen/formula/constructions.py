@@ -33,12 +33,6 @@ def cross(a: Value, b: Value) -> Value:
     return (a.conjugate() * b).imag
 
 
-def shares(whole: Value, u: Value, w: Value) -> tuple[Value, Value]:
-    """The real x, y with x·u + y·w = whole."""
-    area = cross(u, w)
-    return cross(whole, w) / area, cross(u, whole) / area
-
-
 def foot(point: Value, p: Value, u: Value) -> Value:
     """The foot of the perpendicular from a point on the line through p along u, of length 1."""
     return p + u * dot(u, point - p)
@@ -46,12 +40,7 @@ def foot(point: Value, p: Value, u: Value) -> Value:
 
 def meet(p: Value, u: Value, q: Value, w: Value) -> Value:
     """Where the line through p along u meets the line through q along w."""
-    return p + u * (cross(q - p, w) / cross(u, w))
-
-
-def leg(hypotenuse: Value, other: Value, root: SquareRoot = real_root) -> Value:
-    """The second leg of a right triangle, √((c − a)(c + a)): so a short one keeps its figures."""
-    return root((hypotenuse - other) * (hypotenuse + other))
+    return p + u * cross(q - p, w) / cross(u, w)
 
 
 def along_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value, root: SquareRoot = real_root) -> Value:
@@ -59,12 +48,13 @@ def along_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value, ro
 
     The sign +1 takes the farther end along u.
     """
-    return dot(u, centre - p) + sign * leg(radius, cross(u, centre - p), root)
+    return dot(u, centre - p) + sign * root(radius**2 - cross(u, centre - p) ** 2)
 
 
 def circle_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value, root: SquareRoot = real_root) -> Value:
     """Where a circle meets the line through p along u, of length 1; sign +1 takes the farther end along u."""
-    return p + u * along_line(centre, radius, p, u, sign, root)
+    middle = foot(centre, p, u)
+    return middle + u * (sign * root(radius**2 - abs(centre - middle) ** 2))
 
 
 def circle_circle(c1: Value, r1: Value, c2: Value, r2: Value, sign: Value, root: SquareRoot = real_root) -> Value:
@@ -72,4 +62,4 @@ def circle_circle(c1: Value, r1: Value, c2: Value, r2: Value, sign: Value, root:
     span = abs(c2 - c1)
     u = (c2 - c1) / span
     along = (r1**2 - r2**2 + span**2) / (2 * span)
-    return c1 + u * along + 1j * u * (sign * leg(r1, along, root))
+    return c1 + u * (along + 1j * (sign * root(r1**2 - along**2)))

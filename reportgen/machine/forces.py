@@ -16,9 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from reportgen.formula import ids
-from reportgen.formula.constructions import cross, dot
 from reportgen.machine import DRIVER, GROUND, Dyad, Joint, Linkage, joints
-from reportgen.machine.motion import Complexes, Floats, Motion, solve2
+from reportgen.machine.motion import Complexes, Floats, Motion, cross, dot, solve2
 
 CONVERGED = 1e-12
 ORDER = 16
@@ -40,7 +39,7 @@ class Load:
 
     def moment(self, about: Complexes | complex) -> Floats:
         """Moment about a point: (point − about) × force + couple."""
-        return np.asarray(cross(self.point - about, self.force) + self.couple)
+        return cross(self.point - about, self.force) + self.couple
 
 
 def weights(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
@@ -198,7 +197,7 @@ class _Wrench(NamedTuple):
     couple: Floats | float
 
     def moment(self, about: Complexes) -> Floats:
-        return np.asarray(cross(self.point - about, self.force) + self.couple)
+        return cross(self.point - about, self.force) + self.couple
 
 
 def reaction_name(source: int, target: int) -> str:

@@ -14,7 +14,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reportgen.formula.constructions import SquareRoot, along_line, circle_circle, cross, shares
+from reportgen.formula.constructions import SquareRoot, along_line, circle_circle
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage
 
 Floats = NDArray[np.float64]
@@ -46,10 +46,24 @@ def unit(angle: Floats | float) -> Complexes:
     return np.asarray(np.exp(1j * np.asarray(angle, dtype=np.float64)), dtype=np.complex128)
 
 
+def cross(a: Complexes | complex, b: Complexes | complex) -> Floats:
+    """a × b = aₓb_y − a_y bₓ, the component along z."""
+    a, b = np.asarray(a), np.asarray(b)
+    return np.asarray(a.real * b.imag - a.imag * b.real, dtype=np.float64)
+
+
+def dot(a: Complexes | complex, b: Complexes | complex) -> Floats:
+    """a · b = aₓbₓ + a_y b_y."""
+    a, b = np.asarray(a), np.asarray(b)
+    return np.asarray(a.real * b.real + a.imag * b.imag, dtype=np.float64)
+
+
 def solve2(u: Complexes | complex, w: Complexes | complex, rhs: Complexes | complex) -> tuple[Floats, Floats]:
     """The real x, y with x·u + y·w = rhs; nan where u and w are parallel to within `SINGULAR`."""
-    regular = np.abs(cross(u, w)) > SINGULAR * np.abs(u) * np.abs(w)
-    return shares(rhs, np.where(regular, u, np.nan), w)
+    area = cross(u, w)
+    regular = np.abs(area) > SINGULAR * np.abs(u) * np.abs(w)
+    area = np.where(regular, area, np.nan)
+    return cross(rhs, w) / area, cross(u, rhs) / area
 
 
 # --- groups ---------------------------------------------------------------------------------------

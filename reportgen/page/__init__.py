@@ -13,7 +13,7 @@ def moving_part(case: Case) -> Panel | None:
     film = case.film()
     if film is None:
         return None
-    from reportgen.page.panel import moving_part as panel_of
+    from reportgen.page.panel import panel as panel_of
 
     return panel_of(film, case.assignment.language, case.words["page"])
 

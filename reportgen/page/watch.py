@@ -46,7 +46,7 @@ class Edition:
 
     language: Language
     words: Mapping[str, Any]
-    moving_part: Panel | None = None
+    panel: Panel | None = None
     report: WrittenReport | None = None
     document: tree.Document | None = None
     fault: str = ""
@@ -115,7 +115,7 @@ class Desk:
             self._publish(fault=self._in_words(error), busy=False)
             return
         count = self.edition.moving + 1
-        self._publish(language=language, words=words, moving_part=moving, moving=count, fault="", busy=True)
+        self._publish(language=language, words=words, panel=moving, moving=count, fault="", busy=True)
         with self.changed:
             self._to_write = number, case
             self.changed.notify_all()

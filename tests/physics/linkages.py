@@ -14,10 +14,9 @@ import newton_euler as ne
 import numpy as np
 from hypothesis import strategies as st
 
-from reportgen.formula.constructions import cross, dot
 from reportgen.machine import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 from reportgen.machine.forces import Load
-from reportgen.machine.motion import Motion, solve_motion
+from reportgen.machine.motion import Motion, cross, dot, solve_motion
 
 KINDS: tuple[DyadKind, ...] = ("RRR", "RRP", "RPR", "PRP", "RPP")
 REFERENCE = 0.7

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reportgen.formula.constructions import cross
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints, mobility
 from reportgen.machine.forces import (
     Load,
@@ -20,7 +19,7 @@ from reportgen.machine.forces import (
     virtual_work_torque,
     weights,
 )
-from reportgen.machine.motion import Motion, solve_motion
+from reportgen.machine.motion import Motion, cross, solve_motion
 
 COUNT = 256
 """Positions of a turn: the machines' spectra fall below rounding long before the 128th harmonic."""
