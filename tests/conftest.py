@@ -16,7 +16,7 @@ import pytest
 from xdist.scheduler import LoadScopeScheduling
 
 from reportgen.cli import COLLECTED
-from tests.reports import built
+from tests.report import built
 
 # As commands have it: what tests share lasts, and there is ever more of it to be looked through.
 gc.set_threshold(COLLECTED)

@@ -1,6 +1,6 @@
 """How safely a class is marked, by students who work by hand: `python -m tests.bench.hands [SHEETS]`.
 
-Their chains are independent of the ledger and of marking (`tests.grading.hand`, `tests.grading.vectors`).  Each mistake
+Their chains are independent of the ledger and of marking (`tests.marking.hand`, `tests.marking.vectors`).  Each mistake
 is made in one value of one sheet; the table says, for each kind of machine and over all, how many are located, named
 and charged, and how many honest sheets lose or are flagged.  3,000 sheets with no flag bound its rate to 1 in 1,000.
 """
@@ -16,11 +16,11 @@ from statistics import median
 import numpy as np
 
 from reportgen.marking.marking import mark
-from tests.grading import hands, students
-from tests.grading.machines import ASSIGNMENTS
-from tests.grading.rates import WORKED, Tally, injected, lost, misread, share
-from tests.grading.test_guard import COPIES, Room
-from tests.grading.test_losses import SCALES
+from tests.marking import hands, students
+from tests.marking.machines import ASSIGNMENTS
+from tests.marking.rates import WORKED, Tally, injected, lost, misread, share
+from tests.marking.test_guard import COPIES, Room
+from tests.marking.test_losses import SCALES
 
 MACHINES = (hands.TWIN, hands.SLIDER, *ASSIGNMENTS)
 CLASS = 40

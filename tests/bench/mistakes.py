@@ -11,8 +11,8 @@ import sys
 import numpy as np
 
 from reportgen.cases import opened
-from tests.grading import students
-from tests.grading.test_mistakes import MACHINES, WORKED, Rates, possible_mistakes
+from tests.marking import students
+from tests.marking.test_mistakes import MACHINES, WORKED, Rates, possible_mistakes
 
 
 def main(variants: int) -> None:

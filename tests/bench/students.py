@@ -25,7 +25,7 @@ from reportgen.marking.marking import mark
 from reportgen.marking.marks import Policy, marking_scheme
 from reportgen.marking.sheet import answer_book
 from reportgen.workbook import write_xlsx
-from tests.grading import students
+from tests.marking import students
 
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"

@@ -16,7 +16,7 @@ from reportgen.classes.variants import make_variants
 from reportgen.marking.marking import compare
 from reportgen.marking.marks import Policy, marking_scheme
 from reportgen.marking.mistakes import Mistake
-from tests.grading import demo, students
+from tests.marking import demo, students
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 STUDENTS = 12

@@ -18,7 +18,7 @@ from reportgen.formula import Chain
 from reportgen.marking.results import print_tables
 from reportgen.report import Document, Equation, text_of
 from tests.lanes import matrix
-from tests.reports import built
+from tests.report import built
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 FILES = sorted(FOLDER.glob("*.yaml"))

@@ -19,7 +19,7 @@ from reportgen.page import page
 from reportgen.page.sampling import film
 from reportgen.report.report import Report
 from tests.lanes import matrix
-from tests.reports import built
+from tests.report import built
 
 MACHINES = [*built.PRINTED, (built.SLIDE, built.own_language(built.SLIDE))]
 """Every kind in its file's language, the sample in both, and a machine that a slider drives."""

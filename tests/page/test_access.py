@@ -12,7 +12,7 @@ from reportgen.page import page
 from tests.lanes import proof
 from tests.page import made
 from tests.page.browser import Browser, axe
-from tests.reports import built
+from tests.report import built
 
 EXERCISE = built.ROOT / "assignments" / "plane-motion" / "05.yaml"
 PHONE, DESK = 390, 1440

@@ -18,7 +18,7 @@ from reportgen.page import moving_part, page
 from reportgen.workbook import read
 from tests.page.made import made
 from tests.page.text import elements
-from tests.reports import built
+from tests.report import built
 
 SLIDE = built.SLIDE
 EXERCISE = built.ROOT / "assignments" / "plane-motion" / "01.yaml"

@@ -11,7 +11,7 @@ from reportgen.cases import opened
 from reportgen.page import page
 from tests.lanes import proof
 from tests.page.browser import Browser
-from tests.reports import built
+from tests.report import built
 
 pytestmark = proof
 NAMES = (

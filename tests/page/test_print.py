@@ -14,7 +14,7 @@ from reportgen.report import Plate
 from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.page.made import made
-from tests.reports import built
+from tests.report import built
 
 MM = 72 / 25.4
 ALLOWED = 0.2

@@ -12,8 +12,8 @@ from reportgen.base.units import Language
 from reportgen.page import html
 from tests.lanes import matrix
 from tests.page.text import Text
-from tests.reports import built, pages
-from tests.reports.test_report_agreement import EXEMPT, compared, prose
+from tests.report import built, pages
+from tests.report.test_report_agreement import EXEMPT, compared, prose
 
 pytest.importorskip("pymupdf")
 

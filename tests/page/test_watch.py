@@ -23,7 +23,7 @@ from reportgen.cli import app
 from reportgen.page.watch import Desk, Server
 from tests.lanes import proof
 from tests.page.browser import Browser
-from tests.reports import built
+from tests.report import built
 
 FILE = built.ROOT / "assignments" / "slider-crank-02.yaml"
 PATIENCE = 20.0

@@ -15,7 +15,7 @@ from reportgen.base.units import Language
 from reportgen.cli import app
 from reportgen.drawing import Label
 from reportgen.sheets.frame import DEFAULT, FIELDS, blocks, read_block
-from tests.batch.classes import here, write_class
+from tests.classes.classes import here, write_class
 from tests.sheets.laid import ROOT
 
 SMALL = ROOT / "assignments" / "four-bar-02.yaml"

@@ -19,7 +19,7 @@ from tests.sheets.laid import MACHINES, Laid, laid, plates
 
 ezdxf = pytest.importorskip("ezdxf")
 pymupdf = pytest.importorskip("pymupdf")
-pages = pytest.importorskip("tests.reports.pages")
+pages = pytest.importorskip("tests.report.pages")
 
 TELLING = ("shaper-02", "linkage-slide")
 """A crank with a sliding block and a rod, and a sliding driver; the drawings of the others are for `make proof`."""

@@ -1,0 +1,284 @@
+"""The processes of a batch: one that dies takes no other along, and a killed batch loses nothing."""
+
+from __future__ import annotations
+
+import io
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import closing
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from reportgen.api import Engine, Maker
+from reportgen.base.files import put_file
+from reportgen.base.units import Language
+from reportgen.classes import pool as pools
+from reportgen.classes.pool import Job, local, making, run_job
+from reportgen.classes.run import Order, run_batch
+from tests.classes.classes import Batch, tree, write_class
+from tests.classes.little import little
+from tests.lanes import proof
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_a_dead_worker_costs_only_its_own_job(tmp_path: Path) -> None:
+    flag = tmp_path / "died"
+    students = {f"K{k}": "seconds: 0" for k in range(4)}
+    batch = Batch(tmp_path, {**students, "K1": "dies: always", "K3": f"dies: {flag}"})
+    done = batch.run(pool=local(2))
+    assert sorted(batch.students("done")) == ["K0", "K2", "K3"]
+    assert sorted(batch.students("retried")) == ["K1", "K3"]
+    assert [failure.student for failure in done.failures] == ["K1"]
+    assert done.exit_code == 3
+
+
+def test_a_job_that_hangs_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pools, "LIMIT", 1.5)
+    batch = Batch(tmp_path, {"K1": "seconds: 600", "K2": "seconds: 0", "K3": "seconds: 0"})
+    done = batch.run(pool=local(2))
+    assert [event for event in batch.events if event[0] == "K1"][-2:] == [
+        ("K1", "little", "retried"),
+        ("K1", "little", "failed"),
+    ]
+    assert (done.made, done.exit_code) == (2, 3)
+
+
+def jobs_of(maker: Maker, *names: str) -> list[Job]:
+    return [Job(name, name, "little", maker, f"{name}.yaml", b"", making("typst", "en")) for name in names]
+
+
+def retried_never(job: Job) -> None:
+    raise AssertionError(f"{job.student} had to begin anew")
+
+
+class Deadly:
+    """Kills the process that sends it."""
+
+    def __reduce__(self) -> str:
+        os.kill(os.getpid(), signal.SIGKILL)
+        return ""
+
+
+def deadly_result(path: Path, _engine: Engine, _language: Language | None) -> Mapping[str, Any]:
+    return {"a.pdf": Deadly() if path.stem == "K1" else b""}
+
+
+def test_a_worker_that_dies_as_it_sends_leaves_the_way_free_for_others() -> None:
+    """With a pipe or a lock that workers share, half a result or a lock held for ever would stop them all."""
+    retried: list[str] = []
+    jobs = jobs_of(deadly_result, *(f"K{k}" for k in range(5)))
+    results = local(2)(jobs, lambda job: retried.append(job.student))
+    assert {job.student: outcome.exit_code for job, outcome in results} == {"K0": 0, "K1": 3, "K2": 0, "K3": 0, "K4": 0}
+    assert retried == ["K1"]
+
+
+def processes(_path: Path, _engine: Engine, _language: Language | None) -> Mapping[str, bytes]:
+    """Which process made it, and which one started that."""
+    return {"ids": f"{os.getpid()} {os.getppid()}".encode()}
+
+
+def test_each_job_has_a_process_of_its_own() -> None:
+    """So no memory is kept from one to the next; all come from one that has everything loaded."""
+    jobs = jobs_of(processes, *(f"K{k}" for k in range(6)))
+    made = [outcome.files["ids"].split() for _, outcome in local(2)(jobs, retried_never)]
+    assert len({process for process, _ in made}) == len(jobs)
+    starters = {int(starter) for _, starter in made}
+    assert len(starters) == 1
+    if "forkserver" in multiprocessing.get_all_start_methods():
+        assert os.getpid() not in starters
+
+
+def deaf(_path: Path, _engine: Engine, _language: Language | None) -> Mapping[str, bytes]:
+    """Whether Ctrl-C was held back from this process when it began."""
+    return {"deaf": b"yes" if signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()) else b"no"}
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="no signals to hold back")
+def test_ctrl_c_reaches_no_worker_even_as_it_starts() -> None:
+    ((_, outcome),) = local(1)(jobs_of(deaf, "K1"), retried_never)
+    assert outcome.files["deaf"] == b"yes"
+
+
+def lingering(path: Path, _engine: Engine, _language: Language | None) -> Mapping[str, bytes]:
+    """K2 tells in a file where it works and goes on for ever; K1 ends once it has been told."""
+    told_in = Path(path.read_text(encoding="utf-8"))
+    if path.stem == "K2":
+        put_file(told_in, str(path.parent).encode())
+        time.sleep(600)
+    while not told_in.exists():
+        time.sleep(0.01)
+    return {}
+
+
+def test_who_is_no_longer_waited_for_ends_and_tidies_up(tmp_path: Path) -> None:
+    told_in = tmp_path / "where"
+    jobs = [replace(job, content=str(told_in).encode()) for job in jobs_of(lingering, "K1", "K2")]
+    with closing(local(2)(jobs, retried_never)) as results:
+        job, _ = next(results)
+        assert job.student == "K1"
+        scratch = Path(told_in.read_text(encoding="utf-8"))
+        assert scratch.is_dir()
+    assert not scratch.exists()
+    assert [child for child in multiprocessing.active_children() if child.name == pools.NAME] == []
+
+
+def test_a_worker_with_other_templates_makes_nothing() -> None:
+    job = Job("K1", "K1", "little", little, "K1.yaml", b"seconds: 0", making("typst", "en"))
+    other = replace(job, making=replace(job.making, templates="0"))
+    assert run_job(job).exit_code == 0
+    assert (run_job(other).exit_code, run_job(other).files) == (3, {})
+
+
+class Process:
+    """A batch in a process group of its own, to be killed."""
+
+    def __init__(self, tmp_path: Path, out: Path) -> None:
+        command = (sys.executable, "-m", "tests.classes.little", tmp_path / "roster.csv", tmp_path / "given", out)
+        self.process = subprocess.Popen(
+            list(map(str, command)), cwd=ROOT, stderr=subprocess.PIPE, text=True, start_new_session=True
+        )
+
+    def events(self, count: int) -> list[list[str]]:
+        assert self.process.stderr is not None
+        return [self.process.stderr.readline().split() for _ in range(count)]
+
+    def finish(self, seconds: float = 60) -> int:
+        assert self.process.stderr is not None
+        self.process.stderr.read()
+        return self.process.wait(seconds)
+
+
+def putting(monkeypatch: pytest.MonkeyPatch, put: Callable[[Path, bytes], None]) -> None:
+    """Let a batch put its files and its manifest in place so."""
+    monkeypatch.setattr("reportgen.classes.run.put_file", put)
+    monkeypatch.setattr("reportgen.classes.run.put_file", put)
+
+
+class Killed(BaseException):
+    """What nothing in the program catches, as it could not catch its end."""
+
+
+@pytest.mark.parametrize("placed", [False, True], ids=["half a file", "a whole file"])
+def test_an_end_at_any_file_is_made_good(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, placed: bool) -> None:
+    """Three students with two files each and two manifests: the run ends at each of them in turn."""
+    students = {f"K{k}": "seconds: 0" for k in range(3)}
+    straight = Batch(tmp_path, students, "straight")
+    straight.run()
+    put = put_file
+    ends = 0
+    for end in range(100):
+        puts = iter(range(100))
+
+        def ending(target: Path, content: bytes, end: int = end, puts: Iterator[int] = puts) -> None:
+            last = next(puts) == end
+            if last and not placed:
+                target.with_name(f".{target.name}.a1b2c3d4").write_bytes(content[:5])
+                raise Killed
+            put(target, content)
+            if last:
+                raise Killed
+
+        batch = Batch(tmp_path, students, f"ended at {end}")
+        putting(monkeypatch, ending)
+        try:
+            batch.run()
+        except Killed:
+            ends += 1
+        else:
+            break
+        done = batch.students("done")
+        putting(monkeypatch, put)
+        batch.run()
+        assert set(done) <= set(batch.students("kept"))
+        assert tree(batch.out) == tree(straight.out)
+    assert ends == 3 * 2 + 2
+
+
+@proof
+def test_killed_again_and_again_nothing_is_lost(tmp_path: Path) -> None:
+    """Whatever was told as done before the kill is not made again; the tree ends as if nothing had happened."""
+    log, count = tmp_path / "log", 8
+    write_class(tmp_path, {f"K{k}": f"log: {log}\nseconds: 0.05" for k in range(count)})
+    out = tmp_path / "out"
+    told: dict[str, int] = {}
+
+    def begun() -> list[str]:
+        return [line.split()[0] for line in log.read_text().splitlines()]
+
+    for _ in range(3):
+        batch = Process(tmp_path, out)
+        while (event := batch.events(1)[0])[2] != "done":
+            assert event[2] == "kept"
+        batch.process.kill()
+        batch.finish()
+        told[event[0]] = len(begun())
+        (out / event[0] / ".a.pdf.abc_d3fg").write_bytes(b"half of it")
+    assert Process(tmp_path, out).finish() == 0
+    assert len(told) == 3
+    assert all(student not in begun()[since:] for student, since in told.items())
+    # At most what the two workers had in hand at each kill, and one result on its way, was begun again.
+    assert len(begun()) <= count + 3 * 3
+    assert len(set(begun())) == count
+    assert Process(tmp_path, tmp_path / "straight").finish() == 0
+    assert tree(out) == tree(tmp_path / "straight")
+
+
+def test_ctrl_c_ends_all_processes_and_keeps_what_is_done(tmp_path: Path) -> None:
+    text = (ROOT / "assignments" / "slotted-lever-01.yaml").read_text(encoding="utf-8")
+    roster, given = write_class(tmp_path, {f"K{k}": text for k in range(9)})
+    command = (sys.executable, "-m", "reportgen.cli", "batch", roster, "--assignments", given)
+    with subprocess.Popen(
+        [*map(str, command), "--out", str(tmp_path / "out"), "--jobs", "2", "--lang", "en", "--make", "report"],
+        cwd=ROOT,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        # A shell's background jobs, this test run perhaps, ignore the key.
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),
+    ) as process:
+        assert process.stderr is not None
+        student, product, event = process.stderr.readline().split()
+        assert (product, event) == ("report", "done")
+        # To all of the terminal's foreground processes, as a terminal does.
+        os.killpg(process.pid, signal.SIGINT)
+        *_, last = process.stderr.read().splitlines()
+        assert last == "reportgen: stopped; run the same command again to go on"
+        assert process.wait(20) == 130
+    assert (tmp_path / "out" / student / "report.pdf").read_bytes().startswith(b"%PDF")
+    deadline = time.monotonic() + 10
+    while lives(process.pid):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+def lives(group: int) -> bool:
+    """Whether there still is a process in the group."""
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+@proof
+def test_reports_are_the_same_whoever_makes_them(tmp_path: Path) -> None:
+    """Two real reports, by one process and by two."""
+    text = (ROOT / "assignments" / "slotted-lever-01.yaml").read_text(encoding="utf-8")
+    roster, given = write_class(tmp_path, {"K1": text, "K2": text.replace("variant:", "variant: 9 #", 1)})
+    for jobs in (1, 2):
+        order = Order(roster, None, given, tmp_path / str(jobs), ("report",), jobs=jobs)
+        assert run_batch(order, io.StringIO()).exit_code == 0
+    one, two = (tree(tmp_path / str(jobs)) for jobs in (1, 2))
+    assert one == two
+    assert one["K1/report.pdf"].startswith(b"%PDF")
+    assert one["K1/report.pdf"] != one["K2/report.pdf"]

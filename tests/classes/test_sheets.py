@@ -1,0 +1,59 @@
+"""A sheet that takes too long or too much memory to read is told as its student's fault; the others are marked."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from reportgen.classes import platforms as sheets
+from reportgen.classes.platforms import Handed
+from reportgen.classes.pool import Limits
+from reportgen.cli import app
+from tests.marking import demo
+
+GREEDY = '"x",' * 19 + '"x"\n'
+"""A row of a table; as many as are allowed take a hundred times the time and memory of a filled sheet."""
+ROWS = 9_999
+
+
+@pytest.fixture
+def handed(tmp_path: Path) -> list[Path]:
+    """A sheet, a greedy file, another sheet."""
+    files = [shutil.copy(demo.SHEETS / f"{id}.csv", tmp_path) for id in ("K225520103004", "K225520103012")]
+    greedy = tmp_path / "K225520103007.csv"
+    greedy.write_text(GREEDY * ROWS, encoding="utf-8")
+    return [Path(files[0]), greedy, Path(files[1])]
+
+
+@pytest.mark.parametrize(
+    "limits", [Limits(seconds=0.4, megabytes=1000), Limits(seconds=60, megabytes=24)], ids=["time", "memory"]
+)
+def test_a_greedy_sheet_is_given_up(handed: list[Path], limits: Limits, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sheets, "LIMITS", limits)
+    found = list(sheets.read_sheets(map(Handed, handed), "en"))
+    assert [one.path for one, _ in found] == handed
+    first, greedy, last = (pages for _, pages in found)
+    assert isinstance(greedy, list)
+    assert [(problem.code, problem.mark.file) for problem in greedy] == [("sheet-beyond-limits", str(handed[1]))]
+    assert isinstance(first, tuple)
+    assert isinstance(last, tuple)
+
+
+def test_the_rest_of_a_class_is_marked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The file's name and the limits are told, the exit code is that of a file that cannot be read."""
+    given, variants, out = tmp_path / "given", tmp_path / "variants", tmp_path / "out"
+    given.mkdir()
+    for id in ("K225520103004", "K225520103012"):
+        shutil.copy(demo.SHEETS / f"{id}.csv", given)
+    (given / "K225520103007.csv").write_text(GREEDY * ROWS, encoding="utf-8")
+    run = CliRunner().invoke
+    made = run(app, ["variants", str(demo.DEMO / "spec.yaml"), str(demo.DEMO / "roster.csv"), "-o", str(variants)])
+    assert made.exit_code == 0
+    monkeypatch.setattr(sheets, "LIMITS", Limits(seconds=60, megabytes=24))
+    result = run(app, ["grade", str(given), "--assignments", str(variants), "--out", str(out), "--lang", "en"])
+    assert result.exit_code == 1
+    assert "K225520103007.csv:1:1: error[sheet-beyond-limits]: it cannot be read within 60 s and 24 MB" in result.output
+    assert {path.name for path in out.iterdir() if path.is_dir()} == {"K225520103004", "K225520103012"}

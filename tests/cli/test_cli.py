@@ -1,0 +1,192 @@
+"""The command line: exit codes, where things are printed, no traceback; checked as a user's shell sees it."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from reportgen.base.words import kinds
+
+ROOT = Path(__file__).parents[2]
+SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
+
+
+def reportgen(*arguments: object, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "reportgen.cli", *map(str, arguments)]
+    done = subprocess.run(
+        command,
+        cwd=cwd,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        timeout=300,
+        check=False,
+        env={"PYTHONPATH": str(ROOT), "PATH": "/usr/bin:/bin:/usr/local/bin", "COLUMNS": "100"},
+    )
+    assert "Traceback" not in done.stderr + done.stdout
+    return done
+
+
+@pytest.fixture
+def faulty(tmp_path: Path) -> Path:
+    file = tmp_path / "faulty.yaml"
+    text = SAMPLE.read_text(encoding="utf-8")
+    file.write_text(text.replace("lambda: 1/3.6", "lambda: 3.6").replace("95 mm", "95"), encoding="utf-8")
+    return file
+
+
+def test_check_is_silent_when_all_is_well() -> None:
+    done = reportgen("check", SAMPLE)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def test_check_and_help_leave_heavy_libraries_alone() -> None:
+    """They answer at once: pint alone takes longer to import than all of `check`."""
+    script = (
+        "import sys\nfrom pathlib import Path\nimport reportgen.cli, reportgen.api\n"
+        f"assert reportgen.api.check(Path({str(SAMPLE)!r})) == []\n"
+        "print(*{'pint', 'matplotlib', 'pylatex', 'typst', 'jinja2'} & set(sys.modules))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == ""
+
+
+def test_the_command_line_itself_loads_next_to_nothing() -> None:
+    """`--help` asks for no assignment; what reads one is loaded by the commands that do."""
+    script = "import sys, reportgen.cli\nprint(*{'numpy', 'pydantic', 'yaml', 'reportgen.api'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == ""
+
+
+def test_the_package_offers_its_functions_by_name() -> None:
+    script = (
+        "import reportgen\nfrom reportgen import analyse, build, check, load, solve\n"
+        f"print(load({str(SAMPLE)!r}).kind, all(callable(getattr(reportgen, name)) for name in reportgen.__all__))\n"
+        "print(hasattr(reportgen, 'nothing'))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["engine-twin", "True", "False"]
+
+
+def test_check_prints_all_faults_with_hints(faulty: Path) -> None:
+    done = reportgen("check", faulty, SAMPLE, "--lang", "en")
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.splitlines() == [
+        f"{faulty}:21:6: error[missing-unit]: “95” has no unit",
+        "    hint: write for example “95 mm”",
+        f"{faulty}:22:11: error[out-of-range]: “3.6” is out of range: ≥ 0.001, < 1",
+        "    hint: λ is R/L; did you mean 1/3.6?",
+    ]
+
+
+def test_faults_speak_the_language_of_the_file(faulty: Path) -> None:
+    assert "thiếu đơn vị" in reportgen("check", faulty).stderr
+
+
+def test_a_file_of_wrong_syntax_still_tells_its_language(tmp_path: Path) -> None:
+    file = tmp_path / "a.yaml"
+    file.write_text("report: {language: en}\nkind: [\n", encoding="utf-8")
+    assert reportgen("check", file).stderr.startswith(f"{file}:3:1: error[syntax]: this is no valid YAML")
+
+
+def test_a_missing_file_is_a_fault_of_input(tmp_path: Path) -> None:
+    done = reportgen("check", "none.yaml", cwd=tmp_path)
+    assert done.returncode == 1
+    assert done.stderr.startswith("none.yaml:1:1: error[unreadable]: ")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("check",),
+        ("check", SAMPLE, "--lang", "fr"),
+        ("build",),
+        ("build", SAMPLE, "--engine", "word"),
+        ("build", SAMPLE, f"x/{SAMPLE.name}"),
+        ("solve", SAMPLE, "--positions", "3"),
+        ("solve", SAMPLE, SAMPLE),
+        ("new", "time-machine"),
+        ("fly",),
+        ("kinds", "--all"),
+    ],
+)
+def test_wrong_usage_ends_with_2(arguments: tuple[object, ...]) -> None:
+    done = reportgen(*arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr
+
+
+def test_help_names_every_command() -> None:
+    done = reportgen("--help")
+    assert done.returncode == 0
+    assert all(name in done.stdout for name in ("build", "solve", "check", "new", "kinds", "schema"))
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+def test_new_writes_a_file_that_check_accepts(tmp_path: Path, language: str) -> None:
+    file = tmp_path / "mine.yaml"
+    assert reportgen("new", "engine-twin", "-o", file, "--lang", language).returncode == 0
+    assert reportgen("new", "engine-twin", "--lang", language).stdout == file.read_text(encoding="utf-8")
+    assert reportgen("check", file).returncode == 0
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_new_where_nothing_can_be_written_ends_with_3(tmp_path: Path) -> None:
+    done = reportgen("new", "engine-twin", "-o", tmp_path / "none" / "a.yaml")
+    assert done.returncode == 3
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_kinds_gives_a_line_each() -> None:
+    done = reportgen("kinds", "--lang", "en")
+    assert [line.split()[0] for line in done.stdout.splitlines()] == list(kinds())
+
+
+def test_schema_is_json() -> None:
+    assert "oneOf" in json.loads(reportgen("schema").stdout)
+
+
+def solved(*arguments: object) -> dict[str, Any]:
+    done = reportgen("solve", *arguments, "--json", "-")
+    assert (done.returncode, done.stderr) == (0, "")
+    results: dict[str, Any] = json.loads(done.stdout)
+    return results
+
+
+def test_solve_as_json() -> None:
+    results = solved(SAMPLE)
+    assert (results["format"], results["kind"], results["variant"]) == ("reportgen-results/1", "engine-twin", "5")
+    assert [position["number"] for position in results["positions"]] == list(range(1, 17))
+    fourth = results["positions"][3]
+    # Printed at position 4, drawn by hand: 0.5 %.
+    assert abs(fourth["points"]["B"]["v"][1]) == pytest.approx(6.173, rel=0.005)
+    assert fourth["links"]["2"]["omega"] == pytest.approx(46.0, rel=0.005)
+
+
+def test_solve_at_other_positions_and_to_a_file(tmp_path: Path) -> None:
+    assert len(solved(SAMPLE, "--positions", 12)["positions"]) == 24
+    file = tmp_path / "r.json"
+    assert reportgen("solve", SAMPLE, "--json", file).stdout == ""
+    assert json.loads(file.read_text(encoding="utf-8")) == solved(SAMPLE)
+
+
+def test_solve_as_tables() -> None:
+    done = reportgen("solve", SAMPLE, "--lang", "en")
+    assert done.returncode == 0
+    assert "by virtual work" in done.stdout
+    assert "R14" in done.stdout
+
+
+def test_build_goes_on_after_a_faulty_file(faulty: Path, tmp_path: Path) -> None:
+    done = reportgen("build", faulty, SAMPLE, "--out", tmp_path / "out")
+    report = tmp_path / "out" / "engine-twin-05" / "report.pdf"
+    assert done.returncode == 1
+    assert done.stdout.split() == [str(report)]
+    assert report.read_bytes().startswith(b"%PDF")
+    assert f"{faulty}:21:6: error[missing-unit]" in done.stderr
+    assert not (tmp_path / "out" / "faulty").exists()

@@ -1,0 +1,168 @@
+"""Named mistakes are found where they are made: injected everywhere they can occur, in drawn variants."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+
+from reportgen.cases import opened
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import Marking, MarkingScheme, Submission
+from reportgen.marking.mistakes import WRONG_DATUM, Mistake, general_mistakes, mistakes_in
+from tests.lanes import proof
+from tests.marking import students
+from tests.marking.students import NAMES, World
+
+MACHINES = (
+    "engine-twin-05",
+    "engine-single-III",
+    "slider-crank-01",
+    "four-bar-01",
+    "shaper-02",
+    "slotted-lever-01",
+    "lever-six-bar-01",
+)
+"""Two turning kinds of group, a slot, a guide, four strokes: each mistake can occur in some of them."""
+
+WORKED = (2, 3, 5, 8)
+
+SAMPLE = 6
+"""Mistakes drawn for each variant beside one of each name; `python -m tests.bench.mistakes` takes all."""
+
+
+def possible_mistakes(guide: MarkingScheme) -> list[Mistake]:
+    """Every mistake at every place where it can occur, once where two names mean one deed.
+
+    The sign of a rotation's size is the direction of the rotation.
+    """
+    found: list[Mistake] = []
+    for id, family in guide.ledger.families.items():
+        read = family.definition is None and len(family.values) > 1
+        if family.hidden or family.is_plane or (family.definition is None and not read):
+            continue
+        twin = f"turn.{id}" in guide.ledger
+        found += [one for one in mistakes_in(guide, id, {}) if not (twin and one.name == "sign-reversed")]
+    return [*found, *general_mistakes(guide)]
+
+
+def is_found(guide: MarkingScheme, mistake: Mistake, world: World, first: students.Effect, marking: Marking) -> bool:
+    """Whether the first error is told where it shows, under its name or under one that gives the same values."""
+    hits = [cell for cell in marking.first_errors if cell.id == first.id]
+    if any(cell.mistake == mistake.name for cell in hits):
+        return True
+    row = guide.rows[first.id]
+    named = {(cell.mistake, cell.where) for cell in hits if cell.mistake}
+    same = [other for other in possible_mistakes(guide) if (other.name, other.where) in named]
+    return any(
+        all(students.off(guide, row, students.worked_out(guide, other), k, world) <= 1 for k in first.positions)
+        for other in same
+    )
+
+
+def shows(guide: MarkingScheme, mistake: Mistake, first: students.Effect) -> bool:
+    """Whether a mistake shows where it is made, if that is asked for at all."""
+    judged = {row.id for row in guide.judged}
+    at = next((id for id in (mistake.where, f"turn.{mistake.where}") if id in judged), None)
+    return len(mistake.changes) > 1 or at is None or at == first.id or mistake.name == "no-coriolis"
+
+
+@dataclass
+class Rates:
+    """How many mistakes of each name were made, and how many of them were told."""
+
+    made: Counter[str] = field(default_factory=Counter)
+    found: Counter[str] = field(default_factory=Counter)
+
+    def inject(self, guide: MarkingScheme, mistake: Mistake, rng: np.random.Generator) -> bool:
+        """One student with one mistake, drawing by hand; False for one that shows nowhere, which is none."""
+        clean = students.worked_out(guide, mistake)
+        first = students.effect(guide, clean)
+        if first is None or not shows(guide, mistake, first):
+            return False
+        world = students.worked_out(guide, mistake, drawn=rng)
+        self.made[mistake.name] += 1
+        self.found[mistake.name] += is_found(guide, mistake, clean, first, mark(guide, students.written(guide, world)))
+        return True
+
+    @property
+    def rate(self) -> float:
+        return self.found.total() / self.made.total()
+
+    def __str__(self) -> str:
+        lines = [f"{name:20} {self.found[name]:5} of {self.made[name]:5}" for name in sorted(self.made)]
+        return "\n".join([*lines, f"{'all':20} {self.found.total():5} of {self.made.total():5}: {self.rate:.1%}"])
+
+
+@proof
+def test_named_mistakes_are_found() -> None:
+    """With drawn tolerances: the first error and its name in 95 of 100, as the specification aims."""
+    rng = np.random.default_rng(20261121)
+    rates = Rates()
+    for name in MACHINES:
+        guide = students.open_guide(opened(students.varied(name, rng, WORKED)))
+        possible = possible_mistakes(guide)
+        for name in sorted({mistake.name for mistake in possible}):
+            of_it = [mistake for mistake in possible if mistake.name == name]
+            # The first that shows, in any order.
+            any(rates.inject(guide, of_it[k], rng) for k in rng.permutation(len(of_it)))
+        for k in rng.choice(len(possible), SAMPLE, replace=False):
+            rates.inject(guide, possible[k], rng)
+    print(rates)
+    assert set(rates.made) == NAMES
+    assert rates.rate >= 0.95, str(rates)
+    # Each by itself is told in most of the places where it can be made.
+    assert all(rates.found[name] >= 0.5 * rates.made[name] for name in NAMES), str(rates)
+
+
+@pytest.mark.parametrize(
+    ("machine", "id", "name"),
+    [
+        ("engine-twin-05", "R", "stroke-for-radius"),
+        ("engine-twin-05", "L", "ratio-inverted"),
+        ("engine-twin-05", "omega.1", "rpm-for-radians"),
+        ("engine-twin-05", "omega.1", "minute-for-second"),
+        ("engine-twin-05", "m.3", "weight-for-mass"),
+        ("engine-twin-05", "Pqt3", "weight-for-mass"),
+        ("engine-twin-05", "F", "diameter-for-radius"),
+        ("engine-twin-05", "f.v.B", "degrees-for-radians"),
+        ("engine-twin-05", "beta.2", "radians-for-degrees"),
+        ("engine-twin-05", "turn.omega.2", "direction-reversed"),
+        ("engine-twin-05", "M.eq", "sign-reversed"),
+        ("engine-twin-05", "p.3", "other-piston"),
+        ("engine-twin-05", "p.3", "wrong-stroke"),
+        ("engine-twin-05", "l.AS2", "wrong-end"),
+        ("engine-twin-05", "v.BA", "scale-forgotten"),
+        ("engine-twin-05", "a.B", "scale-twice"),
+        ("engine-twin-05", "v.B", "thousands-mark"),
+        ("slotted-lever-01", "a.B3B.k", "no-coriolis"),
+    ],
+)
+def test_each_mistake_on_a_sheet_of_one_position(machine: str, id: str, name: str) -> None:
+    guide = students.guide(machine, (4,))
+    mistake = next(one for one in possible_mistakes(guide) if (one.where, one.name) == (id, name))
+    marking = mark(guide, students.written(guide, students.worked_out(guide, mistake)))
+    firsts = {(cell.id, cell.mistake, cell.where) for cell in marking.first_errors}
+    assert (id, name, id) in firsts
+
+
+def test_mistake_before_the_first_value_on_the_sheet() -> None:
+    """Who hands in velocities only, worked out with the stroke for the radius, is told so."""
+    guide = students.guide("engine-twin-05", (4,))
+    mistake = next(one for one in possible_mistakes(guide) if one.name == "stroke-for-radius")
+    world = students.worked_out(guide, mistake)
+    filled = students.written(guide, world)
+    kept = {place: given for place, given in filled.values.items() if place[0] in ("v.A", "v.B", "a.A")}
+    marking = mark(guide, Submission(filled.assignment, filled.file, kept, {}))
+    assert {(cell.id, cell.mistake, cell.where) for cell in marking.first_errors} >= {("v.A", "stroke-for-radius", "R")}
+
+
+@pytest.mark.parametrize(("datum", "taken"), [("H", 0.11), ("n", 2400.0), ("D", 0.09), ("G3", 28.0)])
+def test_misread_datum_is_told(datum: str, taken: float) -> None:
+    guide = students.guide("engine-twin-05", (4,))
+    mistake = Mistake("", datum, {datum: lambda value, _: value * 0 + taken})
+    marking = mark(guide, students.written(guide, students.worked_out(guide, mistake)))
+    assert {(cell.mistake, cell.where) for cell in marking.first_errors} == {(WRONG_DATUM, datum)}
+    assert marking.points == marking.out_of - len(marking.first_errors)

@@ -1,0 +1,41 @@
+"""Whoever integrates over the positions by the trapezoid rule is right, or is not asked for it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reportgen.formula.vocabulary import Chapter
+from tests.marking import students
+
+FILES = sorted(path.stem for path in Path("assignments").glob("*.yaml"))
+WITH_FLYWHEEL = [name for name in FILES if "unevenness" in Path("assignments", f"{name}.yaml").read_text("utf-8")]
+
+
+@pytest.mark.parametrize("name", WITH_FLYWHEEL)
+def test_the_rule_over_the_positions_gives_what_is_right_or_not_asked(name: str) -> None:
+    guide = students.guide(name)
+    rows = {row.id: np.array(row.values) for row in guide.key.rows}
+    count, turns = len(rows["M.r"]), len(rows["M.r"]) // guide.count
+    # By hand: the works of the intervals, the last one closing the cycle, less those of the mean torque.
+    torque, step = rows["M.r"], 2 * np.pi * turns / count
+    work = [0.0]
+    for one, other in zip(torque, [*torque[1:], torque[0]], strict=True):
+        work.append(work[-1] + (one + other) / 2 * step)
+    excess = np.array(work[:-1]) - work[-1] * np.arange(count) / count
+    J, ω, δ = rows.get("J.r", np.zeros(count)), float(rows["omega.1"][0]), float(rows["unevenness"][0])
+    high = max(excess - (ω * (1 + δ / 2)) ** 2 * J / 2)
+    low = min(excess - (ω * (1 - δ / 2)) ** 2 * J / 2)
+    asked = {row.id for row in guide.key.asked}
+    assert ("J.d" in asked) or name == "slotted-lever-02"
+    for id, values in (("J.d", np.array([(high - low) / (δ * ω**2)])), ("A.excess", excess)):
+        if id in asked:
+            assert (np.abs(values - rows[id]) <= guide.bands[id] / guide.ledger[id].how.scale).all()
+
+
+def test_some_positions_make_no_flywheel() -> None:
+    guide = students.guide("engine-single-III", (2, 4))
+    assert not {"J.d", "A.excess", "omega.of", "J.r"} & {row.id for row in guide.key.asked}
+    assert guide.key.row("J.d").part is Chapter.cycle

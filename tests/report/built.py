@@ -1,0 +1,205 @@
+"""Finished reports of every assignment file in the repository, each built once a run."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+import pytest
+
+from reportgen import api
+from reportgen.assignment import Assignment
+from reportgen.base.units import Language
+from reportgen.cases import MachineCase
+from reportgen.drawing import Scene
+from reportgen.formula import Chain
+from reportgen.formula.ledger import Ledger
+from reportgen.report import Block, Document, Figure, List, Plate, outline
+from tests.lanes import matrix
+from tests.report.pages import Glyph, Page
+
+ROOT = Path(__file__).parents[2]
+FILES = sorted((ROOT / "assignments").glob("*.yaml"))
+LANGUAGES: tuple[Language, ...] = ("vi", "en")
+ENGINES: tuple[api.Engine, ...] = ("typst", "latex")
+
+needs_tex = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex is not installed")
+MARKS = {"typst": (), "latex": (needs_tex,)}
+
+
+@cache
+def assignment(path: Path) -> Assignment:
+    """A file of the repository in its own language."""
+    return api.load(path)
+
+
+def own_language(path: Path) -> Language:
+    return assignment(path).language
+
+
+def _first_of_each_kind(files: Iterable[Path]) -> list[Path]:
+    kinds: dict[str, Path] = {}
+    for path in files:
+        kinds.setdefault(assignment(path).kind, path)
+    return list(kinds.values())
+
+
+TYPESET = _first_of_each_kind(FILES)
+"""One file a kind is made by both writers."""
+SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
+SIBLINGS = _first_of_each_kind(path for path in FILES if path not in TYPESET)
+"""Where a kind has further files, one of them is made by one writer; the others differ in numbers only."""
+
+SLIDE = ROOT / "assignments" / "linkage-slide.yaml"
+"""A machine of the user's own, which a slider drives; its file is in English."""
+
+ENGINE_CASES = [pytest.param(engine, marks=MARKS[engine], id=engine) for engine in ENGINES]
+WRITTEN = matrix(
+    [
+        pytest.param((path, language), id=f"{path.stem}-{language}")
+        for path in FILES
+        for language in (LANGUAGES if path in TYPESET else (own_language(path),))
+    ],
+    telling=[(SAMPLE, "en"), (SLIDE, own_language(SLIDE)), *((path, own_language(path)) for path in TYPESET)],
+)
+"""Each kind, the sample in both languages, a sliding driver; other numbers and translations are for `make proof`."""
+PRINTED = [
+    (path, language) for path in TYPESET for language in (LANGUAGES if path == SAMPLE else (own_language(path),))
+]
+"""The sample is printed in both languages, other kinds in their file's own; trees are compared in both."""
+BY_BOTH = [(SAMPLE, "en"), (ROOT / "assignments" / "shaper-01.yaml", "vi")]
+BY_ONE = [(ROOT / "assignments" / f"{name}-01.yaml", "vi") for name in ("lever-six-bar", "scotch-yoke")]
+TELLING = [path for path, _ in (*BY_BOTH, *BY_ONE)]
+"""What `make test` prints, by both writers and by typst alone: both languages, a sliding block, groups of all kinds."""
+CASES = matrix(
+    [
+        pytest.param((path, engine, language), marks=MARKS[engine], id=f"{path.stem}-{engine}-{language}")
+        for path, language in PRINTED
+        for engine in ENGINES
+    ],
+    telling=[
+        *((path, engine, language) for path, language in BY_BOTH for engine in ENGINES),
+        *((path, "typst", language) for path, language in BY_ONE),
+    ],
+)
+PAIRS = matrix(
+    [pytest.param((path, language), marks=(needs_tex,), id=f"{path.stem}-{language}") for path, language in PRINTED],
+    telling=BY_BOTH,
+)
+
+
+@dataclass(frozen=True)
+class Written:
+    """A report below the typesetter: what it was made of, and its tree."""
+
+    case: MachineCase
+    document: Document
+    lines: frozenset[tuple[str, int | None]]
+    """The quantities that have a worked line, with its position."""
+
+    @property
+    def language(self) -> Language:
+        return self.document.language
+
+
+@dataclass(frozen=True)
+class Report:
+    """A report on paper."""
+
+    written: Written
+    engine: api.Engine
+    source: str
+    pdf: bytes
+    overfull: tuple[str, ...]
+
+    @property
+    def document(self) -> Document:
+        return self.written.document
+
+    @property
+    def language(self) -> Language:
+        return self.written.language
+
+    @cached_property
+    def opened(self) -> Any:
+        """The open PDF."""
+        return pytest.importorskip("pymupdf").open(stream=self.pdf, filetype="pdf")
+
+    @cached_property
+    def pages(self) -> list[Page]:
+        return [Page(sheet) for sheet in self.opened]
+
+    @cached_property
+    def bodies(self) -> list[list[Glyph]]:
+        """The glyphs of each page without header and footer."""
+        return [page.body for page in self.pages]
+
+
+def compose(assignment: Assignment) -> Written:
+    """The tree of an assignment with all it stands on."""
+    return _composed(MachineCase(assignment))
+
+
+def _composed(case: MachineCase) -> Written:
+    lines: set[tuple[str, int | None]] = set()
+    chain = Ledger.chain
+
+    def watched(ledger: Ledger, id: str, position: int | None = None, note: str = "") -> Chain:
+        lines.add((id, None if position is None else int(position)))
+        return chain(ledger, id, position, note)
+
+    with mock.patch.object(Ledger, "chain", watched):
+        document = outline.compose(case)
+    return Written(case, document, frozenset(lines))
+
+
+@cache
+def case(path: Path, language: Language) -> MachineCase:
+    return MachineCase(assignment(path) if language == own_language(path) else api.load(path, language))
+
+
+@cache
+def written(path: Path, language: Language) -> Written:
+    """The tree of a file of the repository."""
+    return _composed(case(path, language))
+
+
+def typeset(tree: Written, engine: api.Engine) -> Report:
+    """A tree on paper; for LaTeX with what its log says of boxes that are too large."""
+    if engine == "latex":
+        from reportgen.writers import latex, pdflatex
+
+        source = latex.write(tree.document)
+        done = pdflatex.compile(source)
+        return Report(tree, engine, source, done.pdf, done.overfull)
+    return Report(tree, engine, *api.typeset(tree.document, engine), ())
+
+
+@cache
+def report(path: Path, engine: api.Engine, language: Language) -> Report:
+    return typeset(written(path, language), engine)
+
+
+def walk(blocks: tuple[Block, ...]) -> Iterator[Block]:
+    """All blocks in order, those inside lists too."""
+    for block in blocks:
+        yield block
+        if isinstance(block, List):
+            for item in block.items:
+                yield from walk(item)
+
+
+def scenes(document: Document) -> Iterator[tuple[str, Scene]]:
+    """(figure's key, scene) of every drawing, in printed order; plates that continue a figure have its key."""
+    key = ""
+    for block in walk(document.blocks):
+        if isinstance(block, Figure):
+            yield from ((block.key, scene) for scene in block.scenes)
+        elif isinstance(block, Plate):
+            key = key if block.continues else block.key
+            yield key, block.scene

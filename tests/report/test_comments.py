@@ -1,0 +1,135 @@
+"""The sentences after a table say what its numbers say: checked against the arrays, and in cases made for it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reportgen.formula import vocabulary
+from reportgen.report import Block, Paragraph, Table, comments, plain
+from reportgen.report import chapters as overview
+from reportgen.report.report import Report
+from tests.lanes import matrix
+from tests.report import built
+
+HALF = 0.5000001
+"""Half a unit of the last digit, with room for the rounding of binary numbers."""
+FILES = pytest.mark.parametrize("path", matrix(built.FILES, built.TYPESET), ids=lambda path: path.stem)
+
+
+def opened(path: Path) -> Report:
+    return Report(built.case(path, built.own_language(path)))
+
+
+def sizes(report: Report, id: str, count: int) -> np.ndarray:
+    """A quantity in the unit it is printed in, without its sign."""
+    family = report.ledger[id]
+    values = np.broadcast_to(family.values, report.machine.positions)[:count]
+    return np.where(np.abs(values) < 1e-9 * family.scale, 0.0, np.abs(values)) / family.how.scale
+
+
+@FILES
+def test_extremes_are_those_of_the_arrays(path: Path) -> None:
+    report = opened(path)
+    motion = [*comments.slider_rates(report, "v"), *comments.slider_rates(report, "a")]
+    motion += [*comments.turning_rates(report, "omega"), *comments.turning_rates(report, "eps")]
+    whole = [*comments.reaction_ids(report), *comments.inertia_forces(report), *comments.load_ids(report)]
+    for ids, positions in ((motion, report.positions), (whole, report.all_positions)):
+        for one in comments.each_peak(report, ids, positions):
+            values = sizes(report, one.ids[0], len(positions))
+            unit = HALF * 10.0 ** -(one.value.number.decimals or 0) if one.value.number.decimals is not None else 1e-9
+            assert one.value.number.value == pytest.approx(values.max(), abs=unit, rel=1e-9)
+            assert all(values[k - 1] == pytest.approx(values.max(), abs=2 * unit, rel=1e-9) for k in one.places)
+            assert one.zeros <= np.sum(values <= unit)
+        nothing = set(report.known(ids)) - {
+            id for one in comments.peaks(report, ids, positions is not report.positions) for id in one.ids
+        }
+        assert all(report.is_zero(id, k) for id in nothing for k in positions)
+
+
+@FILES
+def test_the_balancing_torque_has_each_position_once(path: Path) -> None:
+    report = opened(path)
+    if not report.has_forces:
+        pytest.skip("no forces")
+    course, motion = comments.balance_course(report), report.analysis.motion
+    power = report.analysis.torque * motion.rate
+    nothing = np.array([report.is_zero("M.eq", k) for k in report.all_positions])
+    for found, chosen in (
+        (course.along, (power > 0) & ~nothing),
+        (course.against, (power < 0) & ~nothing),
+        (course.none, nothing),
+    ):
+        assert list(found) == [k for k, here in zip(report.all_positions, chosen, strict=True) if here]
+        assert numbers(report, comments.labels(report, found)) == [str(report.machine.position(k)) for k in found]
+
+
+def numbers(report: Report, text: str) -> list[str]:
+    """The labels that a list of positions stands for."""
+    every = [str(k) for k in report.all_positions]
+    found: list[str] = []
+    for part in re.split(rf", | {report.words['and']} ", text) if text else ():
+        first, _, last = part.partition("–")
+        start = every.index(first)
+        found += every[start : every.index(last or first) + 1]
+    return found
+
+
+@pytest.mark.parametrize(
+    ("positions", "text"),
+    [((3,), "3"), ((1, 5), "1 và 5"), ((1, 2, 3), "1–3"), ((2, 4, 6, 7, 8), "2, 4 và 6–8"), ((), "")],
+)
+def test_positions_are_listed_as_a_reader_does(positions: tuple[int, ...], text: str) -> None:
+    assert comments.labels(opened(built.SAMPLE), positions) == text
+
+
+def test_quantities_that_go_alike_are_named_together() -> None:
+    """Both pistons of the twin are half a turn apart and have one greatest speed at the same positions."""
+    report = opened(built.SAMPLE)
+    (speed,) = comments.peaks(report, comments.slider_rates(report, "v"))
+    assert speed.ids == ("v.B", "v.D")
+    assert comments.reverses(report, speed)
+    tops = comments.greatest(report, comments.reaction_ids(report))
+    assert {id for top in tops for id in top.ids} == {"R.14", "R.12"}
+
+
+def remarks(blocks: tuple[Block, ...]) -> list[str]:
+    texts = [plain(block.inlines, "vi") for block in built.walk(blocks) if isinstance(block, Paragraph)]
+    return [text for text in texts if text.startswith(("Nhận xét.", "Remarks."))]
+
+
+def test_every_report_remarks_on_its_main_tables(written: built.Written) -> None:
+    report = Report(written.case)
+    found = remarks(written.document.blocks)
+    wanted = 2 + bool(report.has_forces) * 2 + bool(comments.inertia_forces(report)) + report.has_flywheel
+    wanted += bool(report.has_forces and comments.peaks(report, comments.load_ids(report), True))
+    assert len(found) == wanted
+    assert all(len(text) > len("Nhận xét. ") + 20 for text in found)
+
+
+def test_each_kind_of_symbol_has_its_meaning(written: built.Written) -> None:
+    """What the vocabulary has a letter for is in the list, but for what stands in the table of given data."""
+    report = Report(written.case)
+    listed = {id for ids in overview.symbol_kinds(report).values() for id in ids}
+    own = {"lambda", "theta", "K", "H", "e", "D", "s", "scale"}
+    parts = re.compile(r"f\..*|ic\..*|v\.(work|back)|.*\.lone.*|alpha.*|psi.*|q\..*|[AB]\..*|d[AB]\..*|frame\..*")
+    missing = [
+        id
+        for id, family in report.ledger.families.items()
+        if vocabulary.row(id).letter and not (family.hidden or family.is_plane or id in listed | own)
+        if not parts.fullmatch(id) and id not in report.given_names
+    ]
+    assert missing == []
+
+
+def test_a_page_of_results_follows_the_task(written: built.Written) -> None:
+    keys = [block.key for block in built.walk(written.document.blocks) if getattr(block, "key", "")]
+    order = [keys.index(key) for key in ("fig.scheme", "tab.main.figures", "tab.extremes", "tab.symbols")]
+    assert order == sorted(order)
+    tables = {block.key: block for block in built.walk(written.document.blocks) if isinstance(block, Table)}
+    symbols = [plain(row[1].inlines, written.language) for row in tables["tab.main.figures"].rows]
+    report = Report(written.case)
+    assert ("J.d" in report.ledger) == any(text.startswith("J_") for text in symbols)

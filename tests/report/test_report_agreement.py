@@ -1,0 +1,100 @@
+"""Both writers print the same: prose word by word, every number, every character."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+from itertools import groupby
+
+import pytest
+
+from reportgen.report import Document, Emph, Inlines, LineBreak, Paragraph, Reference, Strong, Text
+from tests.report import built, pages
+from tests.report.built import Report
+from tests.report.pages import Glyph
+from tests.report.test_report_files import contents_pages
+
+pytest.importorskip("pymupdf")
+
+EXEMPT = {
+    "•": "–",  # the mark of a list's item is the typesetter's
+    "⃗": "",  # an accent without width, which the PDF library drops or keeps as it comes
+}
+"""What the writers may print differently, and what it is compared as; all else must be equal.
+
+Not compared: cover (large type, broken differently), contents (its page numbers are checked by
+themselves), header and footer (as many as there are pages), heads of tables repeated on a next page,
+names of the rows below a vector equation (repeated where it takes two lines; the only italics of 9.5 pt).
+"""
+ROW_NAMES = 9.5
+
+
+def compared(report: Report) -> list[Glyph]:
+    skipped = {0, *contents_pages(report)}
+    return [
+        glyph
+        for page, before in zip(report.pages, [[], *report.bodies], strict=False)
+        if page.number not in skipped
+        for glyph in pages.without_repeated_head(page, before)
+        if not (glyph.italic and abs(glyph.size - ROW_NAMES) < 0.1)
+    ]
+
+
+def numbers(glyphs: list[Glyph]) -> Counter[str]:
+    """How often each number is printed; a raised figure beside a number is one of its own."""
+    runs = groupby(glyphs, key=lambda glyph: (glyph.word, round(glyph.size), round(glyph.origin[1])))
+    return Counter(number for _, run in runs for number in re.findall(r"\d+(?:[.,]\d+)*", pages.text(run)))
+
+
+def test_every_number_is_printed_by_both(pair: tuple[Report, Report]) -> None:
+    typst, latex = (numbers(compared(report)) for report in pair)
+    assert sum(typst.values()) > 500
+    assert typst == latex
+
+
+def test_every_character_is_printed_by_both(pair: tuple[Report, Report]) -> None:
+    typst, latex = (
+        Counter("".join(EXEMPT.get(char, char) for char in pages.text(compared(report)))) for report in pair
+    )
+    assert typst == latex
+
+
+def runs(inlines: Inlines) -> Iterator[str]:
+    """The words of inlines between formulas and numbers."""
+    words = ""
+    for inline in inlines:
+        match inline:
+            case Text(text) | Reference(text=text):
+                words += text
+            case Emph(of) | Strong(of):
+                words += "".join(runs(of))
+            case LineBreak():
+                words += " "
+            case _:
+                yield words
+                words = ""
+    yield words
+
+
+def prose(document: Document) -> Iterator[str]:
+    for block in built.walk(document.blocks):
+        if isinstance(block, Paragraph):
+            yield from filter(None, map(pages.squash_prose, runs(block.inlines)))
+
+
+def test_prose_is_printed_word_by_word_in_order(report: Report) -> None:
+    skipped = contents_pages(report)
+    printed = pages.text(
+        glyph
+        for page, found in enumerate(report.bodies)
+        if page not in skipped
+        for glyph in found
+        if pages.PROSE[0] < glyph.size < pages.PROSE[1] and glyph.char not in "₀₁₂₃₄₅₆₇₈₉"
+    )
+    at = 0
+    for words in prose(report.document):
+        found = printed.find(words, at)
+        # At once or after the formulas before it: a page holds about 2500 characters, never pages later.
+        assert 0 <= found - at < 2500, (words, printed[at : at + 80])
+        at = found + len(words)

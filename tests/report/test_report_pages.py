@@ -1,0 +1,114 @@
+"""The pages of a report: full, their figures behind what speaks of them, their tables continued by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from reportgen.report import Block, Emph, Figure, List, Paragraph, Plate, Reference, Strong, Table
+from tests.report import pages
+from tests.report.built import Report, Written
+from tests.report.test_report_figures import captions
+from tests.report.test_report_files import contents_pages
+from tests.report.thin_pages import thin
+
+pytest.importorskip("pymupdf")
+
+LEAST = 6.0
+"""Points: the smallest letter that is read without effort from paper."""
+ROUNDED = 0.03
+"""Points by which a size from a PDF may be off: sizes are products of rounded factors."""
+SHARE, FEW = 0.05, 2
+"""Of the pages, or so many of a short report, may be thin, cover, contents and last page apart: a page ends early
+before a figure as high as a page and where a section has no more text to let run on."""
+LATE = 3
+"""Pages from the first mention: plans of several groups are named together and follow the tables of their sentence."""
+
+
+def references(block: Block) -> Iterator[str]:
+    """The keys that a block of text refers to."""
+    match block:
+        case Paragraph(inlines):
+            rest = list(inlines)
+            while rest:
+                match rest.pop():
+                    case Reference(key):
+                        yield key
+                    case Emph(of) | Strong(of):
+                        rest += of
+        case List(items):
+            for item in items:
+                for inner in item:
+                    yield from references(inner)
+
+
+def test_a_figure_stands_behind_its_first_mention(written: Written) -> None:
+    mentioned: set[str] = set()
+    early = []
+    for block in written.document.blocks:
+        mentioned.update(references(block))
+        if isinstance(block, (Figure, Plate)) and block.key and block.key not in mentioned:
+            early.append(block.key)
+    assert early == []
+
+
+def test_few_pages_are_thin(report: Report) -> None:
+    own = {0, *contents_pages(report), len(report.pages) - 1}
+    found = [index for index in thin(report.pages) if index not in own]
+    assert len(found) <= max(SHARE * len(report.pages), FEW), [index + 1 for index in found]
+
+
+def test_no_letter_is_too_small_to_read(report: Report) -> None:
+    small = {
+        (page.number + 1, glyph.char, round(glyph.size, 2))
+        for page in report.pages
+        for glyph in page.glyphs
+        if glyph.size < LEAST - ROUNDED
+    }
+    assert small == set()
+
+
+def test_a_table_that_goes_on_says_so(report: Report) -> None:
+    """No page begins with the rules of a table's head; the label on a continued table names one of the pages before."""
+    tables = {block.number for block in report.document.blocks if isinstance(block, Table)}
+    for page in report.pages:
+        if page.is_plate:
+            continue
+        top = min((glyph.box[1] for glyph in page.body), default=0.0)
+        rules = [path["rect"] for path in page.drawings if path["rect"].width > 60 * pages.MM]
+        heads = [rule for rule in rules if rule.height < 1.5 and pages.BODY < rule.y0 < top]
+        assert heads == [], page.number + 1
+        if label := pages.continued(page.body):
+            match = pages.CONTINUED.fullmatch(pages.text(label))
+            assert match
+            assert match[1] in tables
+
+
+def test_a_figure_follows_its_mention_closely(report: Report) -> None:
+    """Pages of another size, which a figure passes over, are not counted."""
+    word = report.document.words.figure
+    a4 = [page.number for page in report.pages if not page.is_plate]
+    place: dict[str, int] = {}
+    for page in report.pages:
+        for number in captions(page, word):
+            place.setdefault(number, page.number)
+    prose: dict[str, int] = {}
+    for page in report.pages:
+        for link in page.sheet.get_links():
+            left, top, right, bottom = link["from"]
+            inside = (
+                glyph
+                for glyph in page.body
+                if left < sum(glyph.box[::2]) / 2 < right and top < glyph.origin[1] < bottom
+            )
+            text = "".join(glyph.char for glyph in inside).strip(" .,;()")
+            if text in place and link.get("page", -1) in (place[text], place[text] - 1, place[text] + 1):
+                prose.setdefault(text, page.number)
+    late = {
+        number: (prose[number] + 1, at + 1)
+        for number, at in place.items()
+        if number in prose and sum(prose[number] < page <= at for page in a4) > LATE
+    }
+    assert len(prose) > 0.8 * len(place)
+    assert late == {}

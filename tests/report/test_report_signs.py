@@ -1,0 +1,198 @@
+"""Signs: an arrow on a separated link times its formula's value is the true force; no number lacks its line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reportgen import api
+from reportgen.drawing import Arc, Arrow, Scene
+from reportgen.drawing.forces import COUPLE_RADIUS
+from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, walk
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.setting import BOUND, MathRow, columns
+from reportgen.formula.vocabulary import vector
+from reportgen.machine import SlidingDriver
+from reportgen.report import Block, Equation, InlineMath, Paragraph, force_figures, plain, result_tables
+from reportgen.report.report import Report
+from tests.report import built
+from tests.report.built import Written
+from tests.report.test_rare_groups import SLOTTED, TRANSLATED
+
+RARE = {"slotted": SLOTTED, "translated": TRANSLATED}
+SAME = 1e-9
+"""Of the largest load: two ways of calculation of some hundred operations each."""
+FURTHER = 4
+"""Positions looked at beside the worked ones."""
+
+
+@pytest.fixture(scope="module", params=[*built.FILES, *RARE], ids=lambda one: getattr(one, "stem", one))
+def written(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Written:
+    """Every file of the repository and the groups that none of them has."""
+    path = request.param
+    if isinstance(path, Path):
+        return built.written(path, built.own_language(path))
+    file = tmp_path_factory.mktemp(path) / "linkage.yaml"
+    file.write_text(RARE[path].strip() + "\n", encoding="utf-8")
+    return built.compose(api.load(file))
+
+
+@pytest.fixture(scope="module")
+def report(written: Written) -> Report:
+    """Machines with loads only."""
+    found = Report(written.case)
+    if not found.has_forces:
+        pytest.skip("nothing loads this machine")
+    return found
+
+
+@pytest.fixture(scope="module")
+def blocks(report: Report, written: Written) -> list[Block]:
+    return list(built.walk(written.document.blocks))
+
+
+def positions(report: Report) -> list[int]:
+    further = range(1, report.cycle_count + 1, max(report.cycle_count // FURTHER, 1))
+    return sorted({*map(int, report.worked_forces), *further})
+
+
+def value(report: Report, name: str, k: int) -> float:
+    """What the formula or the plan of a reaction gives: with the sign of its moments if it has one."""
+    ledger, digits = report.ledger, name.removeprefix("R")
+    if name == "Rcb":
+        return float(ledger["M.eq"].at(k))
+    both = (digits, digits[::-1])
+    ids = ledger.known([*(f"R.{one}.s" for one in both), *(f"R.{one}" for one in both)])
+    return float(ledger[ids[0]].at(k))
+
+
+def true(report: Report, name: str, k: int) -> complex:
+    """The force on the link by the equations of equilibrium, which know neither plans nor assumed senses."""
+    analysis = report.analysis
+    if name == "Rcb":
+        driver = report.machine.linkage.driver
+        assert isinstance(driver, SlidingDriver)
+        return complex(analysis.torque[k - 1] * np.exp(1j * driver.guide.angle))
+    digits = name.removeprefix("R").partition(".")[0]
+    reactions = analysis.forces.reactions
+    if f"R{digits}" in reactions:
+        return complex(reactions[f"R{digits}"].force[k - 1])
+    return -complex(reactions[f"R{digits[::-1]}"].force[k - 1])
+
+
+def off(report: Report, scene: Scene, k: int) -> list[str]:
+    """The reactions of a scene whose arrow, times the value, is not their true force along the arrow."""
+    wrong = []
+    for item in scene.items:
+        if isinstance(item, Arrow) and item.name.startswith("R"):
+            along = (item.end - item.start) / abs(item.end - item.start)
+            force = true(report, item.name, k)
+            largest = max(abs(force), np.nanmax(np.abs(report.analysis.loads[0].force)), 1.0)
+            if abs((force * along.conjugate()).real - value(report, item.name, k)) > 1e3 * SAME * largest:
+                wrong.append(f"{item.name} at {k}")
+    return wrong
+
+
+def test_an_arrow_times_its_value_is_the_true_force(report: Report) -> None:
+    found, seen = [], 0
+    for k in positions(report):
+        for group in report.groups:
+            for scene in force_figures.bodies(report, k, group).scenes:
+                found += off(report, scene, k)
+                seen += sum(isinstance(item, Arrow) and item.name.startswith("R") for item in scene.items)
+    assert found == []
+    assert seen > 0
+
+
+def test_what_balances_the_driver_is_drawn_in_the_sense_assumed(report: Report) -> None:
+    for k in positions(report):
+        drawing = force_figures.driver(report, k).scenes[0]
+        assert off(report, drawing, k) == []
+        if report.machine.span:
+            # The balancing force of a slide acts on the lever too.
+            assert off(report, force_figures.lever(report, k).scenes[0], k) == []
+        arcs = [item for item in drawing.items if isinstance(item, Arc) and item.radius == COUPLE_RADIUS]
+        if report.driver.centre and not report.is_zero("M.eq", k) and not report.machine.torques:
+            (arc,) = arcs
+            assert np.sign(arc.stop - arc.start) * report.ledger["M.eq"].at(k) == pytest.approx(
+                report.analysis.torque[k - 1], rel=1e-9
+            )
+
+
+# --- every number has its line
+
+
+def chains(blocks: list[Block]) -> Iterator[Chain]:
+    for block in blocks:
+        if isinstance(block, Equation):
+            yield from (row for row in block.rows if isinstance(row, Chain))
+
+
+def test_every_reaction_of_the_table_has_a_worked_line(report: Report, blocks: list[Block]) -> None:
+    printed = [chain.parts for chain in chains(blocks) if len(chain.parts) > 1]
+    first = {parts[0] for parts in printed}
+    symbols = {report.ledger.symbol(id) for id in result_tables.reactions(report)}
+    assert symbols <= first
+    relations = {parts[0] for parts in printed if len(parts) == 2 and parts[0] != parts[1]}
+    carried = {vector(report.force_symbol(edge.name)) for polygon in report.case.polygons for edge in polygon.carried}
+    assert carried <= relations
+
+
+def test_the_power_recomputes_from_its_line(report: Report, blocks: list[Block]) -> None:
+    (parts,) = [chain.parts for chain in chains(blocks) if chain.parts[0] == report.ledger.symbol("power")]
+    *_, numbers, result = parts
+    assert isinstance(result, Number)
+    factors = [node for node in walk(numbers) if isinstance(node, Number)]
+    if result.shown == 0:
+        return
+    assert len(factors) == 2
+    # Half a unit of the last digit of each printed number, by the product rule.
+    product = float(evaluate(numbers))
+    allowed = result.half_unit + sum(one.half_unit * abs(product / one.shown) for one in factors if one.shown)
+    assert abs(product - result.shown) <= allowed * (1 + 1e-9)
+
+
+def test_no_segment_is_used_before_it_is_measured(blocks: list[Block]) -> None:
+    known: set[Expression] = set()
+    for block in blocks:
+        if isinstance(block, Paragraph):
+            known |= {inline.expression for inline in block.inlines if isinstance(inline, InlineMath)}
+        if not isinstance(block, Equation):
+            continue
+        for row in block.rows:
+            if not isinstance(row, Chain):
+                continue
+            shown, formula = row.parts[0], row.parts[1] if len(row.parts) > 2 else Number(0.0)
+            if isinstance(shown, Symbol) and shown.over == "segment":
+                used = {node for node in walk(formula) if isinstance(node, Symbol) and node.over == "segment"}
+                assert used <= known, (shown, used - known)
+            known.add(shown)
+
+
+def test_inertia_forces_are_named_only_where_links_have_mass(report: Report, blocks: list[Block]) -> None:
+    words = {"en": "inertia forces included", "vi": "kể cả lực quán tính"}[report.assignment.language]
+    assert any(words in said(block) for block in blocks) == bool(report.inertia_lines)
+
+
+def said(block: Block) -> str:
+    return plain(block.inlines, "en") if isinstance(block, Paragraph) else ""
+
+
+# --- equations in one piece
+
+
+def test_no_column_of_a_vector_equation_is_zero_alone(blocks: list[Block]) -> None:
+    equations = [
+        row for block in blocks if isinstance(block, Equation) for row in block.rows if isinstance(row, VectorEquation)
+    ]
+    balances = [one for one in equations if one.sides[-1][0].symbol == Symbol("0", over="vector")]
+    assert balances
+    for balance in balances:
+        found = columns(balance)
+        # Rows are broken between columns, and every column has a force.
+        assert len(found) == len(balance.sides[0])
+        assert isinstance(found[-1].term, MathRow)
+        assert BOUND in found[-1].term.parts
