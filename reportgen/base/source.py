@@ -400,10 +400,10 @@ def _with_comment(entry: str, span: Sequence[str], value: Node) -> str:
 
 
 def _entry(key: Scalar, value: Node, depth: int) -> str:
-    """A key and its value, in one line if that is short."""
+    """A key and its value, in one line if that is short or there is nothing in it."""
     name, space = quoted(key.text), " " * depth
     flow = _flow(value)
-    if isinstance(value, Scalar) or len(space) + len(name) + len(flow) + 2 <= WIDTH:
+    if isinstance(value, Scalar) or flow in ("[]", "{}") or len(space) + len(name) + len(flow) + 2 <= WIDTH:
         return f"{space}{name}: {flow}".rstrip() + "\n"
     if isinstance(value, MappingNode):
         return f"{space}{name}:\n{_lines(value, depth + 2)}"

@@ -20,7 +20,7 @@ def main(variants: int) -> None:
     for name in MACHINES:
         rates = Rates()
         for _ in range(variants):
-            guide = students.open_guide(opened(students.varied(name, rng, WORKED)))
+            guide = students.marking_scheme(opened(students.varied(name, rng, WORKED)))
             for mistake in possible_mistakes(guide):
                 rates.inject(guide, mistake, rng)
         print(f"{name}, {variants} random variants\n{rates}\n", flush=True)

@@ -7,7 +7,7 @@ import unicodedata
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from reportgen.base.errors import AssignmentError, Mark
@@ -158,6 +158,8 @@ def test_any_text_is_read_as_it_was_quoted(text: str) -> None:
 
 
 @settings(max_examples=40)
+@example({"k" * 120: []})
+@example({"k" * 120: {}})
 @given(
     st.recursive(
         PRINTABLE,

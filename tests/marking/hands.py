@@ -192,7 +192,7 @@ def variants(count: int, rng: np.random.Generator, name: str = TWIN) -> list[Mar
     found = []
     for number in range(count):
         drawn = {id: str(rng.choice(values)) for id, values in DRAWN[name].items()}
-        guide = asked(students.open_guide(opened(students.assignment(name, PLACES, **drawn))))
+        guide = asked(students.marking_scheme(opened(students.assignment(name, PLACES, **drawn))))
         found.append(replace(guide, key=replace(guide.key, id=f"SV{number:02}")))
     return found
 

@@ -35,7 +35,7 @@ def mine() -> MarkingScheme:
 
 
 def other(**parameters: str) -> MarkingScheme:
-    return students.open_guide(opened(students.assignment("engine-twin-05", WORKED, **parameters)))
+    return students.marking_scheme(opened(students.assignment("engine-twin-05", WORKED, **parameters)))
 
 
 @dataclass(frozen=True)

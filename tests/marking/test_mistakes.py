@@ -102,7 +102,7 @@ def test_named_mistakes_are_found() -> None:
     rng = np.random.default_rng(20261121)
     rates = Rates()
     for name in MACHINES:
-        guide = students.open_guide(opened(students.varied(name, rng, WORKED)))
+        guide = students.marking_scheme(opened(students.varied(name, rng, WORKED)))
         possible = possible_mistakes(guide)
         for name in sorted({mistake.name for mistake in possible}):
             of_it = [mistake for mistake in possible if mistake.name == name]

@@ -92,7 +92,7 @@ def test_value_beside_its_cell(guide: MarkingScheme) -> None:
 
 
 def test_slips_are_named_without_the_guard_too() -> None:
-    guide = students.open_guide(opened(students.assignment("four-bar-01", (2,))), Policy(guard=False))
+    guide = students.marking_scheme(opened(students.assignment("four-bar-01", (2,))), Policy(guard=False))
     marking = marked(guide, lambda row, k, value: students.figures(value, 2) if row.id == "l.BE" else value)
     assert names(marking) == {"too-few-figures"}
 
