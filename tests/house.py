@@ -213,12 +213,15 @@ def ids_by_f_string(house: House) -> Counted:
 
 
 def class_names_twice(house: House) -> Counted:
-    """Names of classes, but for those of one module alone (`_Name`), that mean several things."""
+    """Names of classes, but for those of one module alone (`_Name`), that mean several things.
+
+    Every kind has its `Parameters`: one meaning, a model each.
+    """
     names = Counter(
         node.name
         for module in house.modules.values()
         for node in ast.walk(module.tree)
-        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_") and node.name != "Parameters"
     )
     return sorted(name for name, count in names.items() if count > 1)
 
@@ -251,19 +254,19 @@ def _called(call: ast.Call) -> str:
 
 
 LIMITS: Mapping[Callable[[House], Counted], int] = {
-    rooms: 29,
-    floors: 15,
-    arrows: 152,
+    rooms: 19,
+    floors: 10,
+    arrows: 95,
     arrows_back_up: 0,
     circles: 0,
-    modules: 218,
-    longest_module: 449,
-    lines_of_code: 30056,
-    template_files: 488,
-    words_of_architecture: 2923,
-    ids_by_f_string: 592,
-    class_names_twice: 41,
-    longest_positional_call: 22,
+    modules: 155,
+    longest_module: 500,
+    lines_of_code: 30000,
+    template_files: 50,
+    words_of_architecture: 1500,
+    ids_by_f_string: 170,
+    class_names_twice: 0,
+    longest_positional_call: 6,
 }
 """What no figure may pass."""
 
