@@ -53,7 +53,7 @@ def solve(assignment: Assignment, positions: int | None = None) -> dict[str, Any
 
 
 RESULT_FORMATS = ("csv", "xlsx", "json")
-FULL_TURN = 360
+DEGREES_OF_A_TURN = 360
 """Positions of the table of a full turn."""
 
 
@@ -64,7 +64,7 @@ def result_files(
     from reportgen.marking.results import result_file
 
     assignment = load(path, language)
-    wanted = positions or (FULL_TURN if catalogue.kind(assignment.kind).has_positions else None)
+    wanted = positions or (DEGREES_OF_A_TURN if catalogue.kind(assignment.kind).has_positions else None)
     found = solve(assignment, wanted)
     return {f"results.{name}": result_file(found, name) for name in formats}
 

@@ -22,11 +22,9 @@ from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import ids
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
+from reportgen.machine.loads import STEPS
 from reportgen.report import Document
 from reportgen.report.case import Calculation, Case, Key, Pitfalls
-
-STEPS = 720
-"""Places in a turn, half a degree apart, that a machine must reach."""
 
 
 def opened(assignment: Assignment) -> Case:

@@ -15,6 +15,9 @@ from decimal import ROUND_HALF_UP, Decimal
 from functools import cache
 from typing import Any, Literal
 
+MM = 1e3
+"""Millimetres of a metre."""
+
 Dimension = tuple[tuple[str, float], ...]
 """Powers of the SI base units by name, sorted: ((“kilogram”, 1), (“meter”, 1), (“second”, −2))."""
 

@@ -31,7 +31,7 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Inertia, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, Torque
+from reportgen.machine.loads import FULL_TURN, Applied, Torque
 
 OPENING = ("contents", "given", "scheme", "overview", "foreword", "symbols", "structure", "motion")
 CLOSING = ("conclusion", "references", "checks")
@@ -39,7 +39,6 @@ CRANK_DRAWN = 0.04
 """Drawn length of the crank (m on paper) when none is asked for."""
 MIDDLE = 0.5
 """Where the mass centre of a uniform bar lies."""
-FULL_TURN = 2 * np.pi
 
 Unevenness = Annotated[Given, Ratio(Interval(least=1e-4, most=0.5))]
 

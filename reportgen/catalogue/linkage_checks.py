@@ -17,12 +17,11 @@ from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue import reach
 from reportgen.catalogue.reach import Member
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, mobility
-from reportgen.machine.loads import crank_motion
+from reportgen.machine.loads import STEPS, crank_motion
 from reportgen.machine.motion import Motion, solve_motion
 
 TOP: Where = ("parameters",)
-STEPS = 720
-SAME = 1e-9
+AT_SLOT_END = 1e-9
 """A way (m) beyond a slot by less than this is at its end."""
 
 
@@ -298,7 +297,7 @@ def _along_the_way(
     start, end = driver.start, driver.end
     slot = driver.guide.slot
     for key, at in (("start", start), ("end", end)):
-        if slot is not None and not slot[0].si - SAME <= at.si <= slot[1].si + SAME:
+        if slot is not None and not slot[0].si - AT_SLOT_END <= at.si <= slot[1].si + AT_SLOT_END:
             words = {"text": at.text, "slot": f"{slot[0].text} … {slot[1].text}"}
             yield Finding("driver-out-of-slot", (*TOP, "driver", key), words)
     found = list(reach.findings(made, members, reach.Way(start.si, end.si, turning=False)))
@@ -340,7 +339,7 @@ def _stays(
     way = motion.slides[key].s
     beyond = np.maximum(slot[0].si - way, way - slot[1].si)
     worst = int(np.argmax(beyond))
-    if beyond[worst] > SAME:
+    if beyond[worst] > AT_SLOT_END:
         driver = float(motion.driver[worst])
         words = {
             "block": str(key[1]),

@@ -12,17 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.errors import Finding, Where
-from reportgen.base.units import nice_down
+from reportgen.base.units import MM, nice_down
 from reportgen.machine import GROUND, Crank, Dyad, Guide, Linkage
-from reportgen.machine.loads import FULL_TURN, Flags, MotionAt, NotToAndFro, course, halved
+from reportgen.machine.loads import FULL_TURN, STEPS, Flags, MotionAt, NotToAndFro, course, halved
 from reportgen.machine.motion import SINGULAR, Complexes, Floats, Motion, cross, solve_motion, unit
 
-MM = 1e3
-STEPS = 720
 HALVINGS = 40
-NEAR = 0.3
+SMALL_TRANSMISSION = 0.3
 """Only where the sine of a group's angle of transmission falls below this is its least value sought."""
-ROUND = 1e-12
+ROUND_OF_CLEARANCE = 1e-12
 """A clearance this little below 0 is rounding."""
 ZOOMS, NODES = 4, 41
 """How often a neighbourhood is looked at closer, and at how many places: 20⁴ times finer than the samples."""
@@ -72,7 +70,7 @@ def findings(linkage: Linkage, members: Mapping[tuple[int, int], Member], way: W
         member = members[dyad.links]
         about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "rods": member.rods}
         found = clearance(dyad, motion, size)
-        inside = found >= -ROUND
+        inside = found >= -ROUND_OF_CLEARANCE
 
         def clear(at: Floats, dyad: Dyad = dyad) -> Floats:
             return clearance(dyad, solve_motion(linkage, at, 1.0), size)
@@ -82,7 +80,7 @@ def findings(linkage: Linkage, members: Mapping[tuple[int, int], Member], way: W
             return
         gap = None if inside.all() else _first_gap(clear, way, places, inside)
         place, least = _least(clear, way, places, found) if gap is None else (0.0, 0.0)
-        if least < -ROUND:
+        if least < -ROUND_OF_CLEARANCE:
             step = (way.end - way.start) / STEPS
             around = np.array([place - step, place, place + step])
             gap = _gap(clear, around, np.array([True, False, True]))
@@ -170,7 +168,7 @@ def clearance(dyad: Dyad, motion: Motion, size: float) -> Floats:
         case "RPR", str(p), str(t):
             reach = np.abs(motion.points[p].p - motion.points[t].p)
             if two:
-                return np.asarray(1 - (two / np.maximum(reach, ROUND * size)) ** 2)
+                return np.asarray(1 - (two / np.maximum(reach, ROUND_OF_CLEARANCE * size)) ** 2)
             return np.asarray((reach / size) ** 2)
         case "PRP", Guide() as first, Guide() as second:
             return np.asarray(cross(_rail(first, motion)[1], _rail(second, motion)[1]) ** 2)
@@ -197,7 +195,7 @@ def _first_gap(clear: Clear, way: Way, places: Floats, inside: np.ndarray) -> tu
     """The ends of the first range where the group does not assemble; of a turn, the first after it assembles."""
     if way.turning:
         places = places + places[int(np.flatnonzero(inside)[0])] - way.start
-        inside = clear(places) >= -ROUND
+        inside = clear(places) >= -ROUND_OF_CLEARANCE
     return _gap(clear, places, inside)
 
 
@@ -230,7 +228,7 @@ def _least(clear: Clear, way: Way, places: Floats, found: Floats) -> tuple[float
     before, after = np.roll(found[:-1], 1), np.roll(found[:-1], -1)
     if not way.turning:
         before[0], after[-1] = np.inf, found[-1]
-    low = (found[:-1] < before) & (found[:-1] <= after) & (found[:-1] < NEAR**2)
+    low = (found[:-1] < before) & (found[:-1] <= after) & (found[:-1] < SMALL_TRANSMISSION**2)
     for k in np.flatnonzero(low):
         place, half = float(places[k]), abs(way.end - way.start) / STEPS
         for _ in range(ZOOMS):

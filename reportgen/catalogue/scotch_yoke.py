@@ -15,14 +15,13 @@ from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles, natural_lines
 from reportgen.formula import Chain, Symbol, cos, sin
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.sheet import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine
 from reportgen.machine.loads import FULL_TURN, Applied, Stroke, TableLaw
 
 TURNS = 1
 CHECKS = given_loads.FORCE_CHECKS
-ROUND = 1e-12
 
 
 class Parameters(Driven, masses=(2, 3), loads=("force",)):
@@ -60,7 +59,7 @@ def machine(assignment: Assignment) -> Machine:
         inertias=q.inertias({2: "A", 3: "B"}),
         gravity=-1j * given.g.si,
     )
-    phase = (start + ROUND) % FULL_TURN - ROUND
+    phase = (start + BELOW_A_TURN) % FULL_TURN - BELOW_A_TURN
     course = Stroke(
         link=3,
         rod=2,

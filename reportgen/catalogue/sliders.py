@@ -23,13 +23,12 @@ from functools import partial
 import numpy as np
 
 from reportgen.formula import Chain, Expression, Number, Ref, Symbol, asin, cos, ids, signed, sin, sqrt, tan
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.sheet import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.loads import FULL_TURN, Floats, Stroke, halved
 
 HALVINGS = 60
 """π halved so often is below the spacing of floats there."""
-ROUND = 1e-12
 
 
 def compared(plans: Iterable[str]) -> tuple[tuple[str, str], ...]:
@@ -188,7 +187,7 @@ class OffsetSlider:
             bottom=self.slider(self.l - self.r),
             top_angle=0.0,
             bottom_angle=self.folded - self.stretched,
-            phase=(start - self.stretched + ROUND) % (turns * FULL_TURN) - ROUND,
+            phase=(start - self.stretched + BELOW_A_TURN) % (turns * FULL_TURN) - BELOW_A_TURN,
         )
 
     @property

@@ -15,11 +15,10 @@ from dataclasses import dataclass
 
 from reportgen.catalogue.driven import natural_lines
 from reportgen.formula import PI, Chain, Expression, Number, Ref, Symbol, acos, asin, cos, ids, signed, sin, sqrt, tan
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.sheet import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.loads import FULL_TURN, Floats, Stroke
 
-ROUND = 1e-12
 DRAWN_CRANKS = (0.05, 0.04, 0.03, 0.025, 0.02, 0.015)
 """Drawn lengths of a crank (m on paper), the best first."""
 HIGHEST = 0.165
@@ -110,7 +109,7 @@ class Ram:
             bottom=self.end(-1),
             top_angle=0.0,
             bottom_angle=math.pi + 2 * self.crank.half_swing,
-            phase=(start - self.beginning + ROUND) % FULL_TURN - ROUND,
+            phase=(start - self.beginning + BELOW_A_TURN) % FULL_TURN - BELOW_A_TURN,
         )
 
     @property

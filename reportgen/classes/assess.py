@@ -40,15 +40,15 @@ class Classroom:
     """What a roster says of the students, by the stem of their files."""
     opened: dict[str, MarkingScheme] = field(default_factory=dict)
 
-    def guide(self, name: str) -> MarkingScheme:
-        """The marking guide of an assignment.  Raises `KeyError` for a name that no file has."""
+    def scheme(self, name: str) -> MarkingScheme:
+        """The marking scheme of an assignment.  Raises `KeyError` for a name that no file has."""
         stem = comparable(name)
         if stem not in self.opened:
-            guide = marking_scheme(open_case(self.files[stem], self.language), self.policy)
+            scheme = marking_scheme(open_case(self.files[stem], self.language), self.policy)
             known = self.people[stem].card if stem in self.people else {}
             student = {name: known[name] for name in ("name", "id", "class") if name in known}
-            student |= dict(guide.key.student)
-            self.opened[stem] = replace(guide, key=replace(guide.key, student=student))
+            student |= dict(scheme.key.student)
+            self.opened[stem] = replace(scheme, key=replace(scheme.key, student=student))
         return self.opened[stem]
 
     @cached_property
@@ -57,7 +57,7 @@ class Classroom:
         found = []
         for name in self.files:
             try:
-                found.append(self.guide(name).key)
+                found.append(self.scheme(name).key)
             except ReportgenError:
                 # Nobody's sheet can come from an assignment that cannot be worked out.
                 continue
@@ -121,8 +121,8 @@ def grade(
             problems += found
             continue
         try:
-            submission = read_submission(path, lambda name: room.guide(name).key, language, found)
-            name = room.guide(submission.assignment).key.student.get("name", "")
+            submission = read_submission(path, lambda name: room.scheme(name).key, language, found)
+            name = room.scheme(submission.assignment).key.student.get("name", "")
             if owner and not owner.may_be(name):
                 fault = Fault("sheet-other-hands", Mark(str(path)), {"text": name, "owner": owner.name})
                 problems.append(as_problem(fault, language))
@@ -146,7 +146,7 @@ def grade(
             problems += error.problems
     # Whose values a sheet has, shows beside all the others.
     classmates = [Classmate(key, sheets.get(key.id)) for key in room.keys] if policy.guard else []
-    markings = {name: mark(_asked(room.guide(name), sheet), sheet, classmates) for name, sheet in sheets.items()}
+    markings = {name: mark(_asked(room.scheme(name), sheet), sheet, classmates) for name, sheet in sheets.items()}
     missing = tuple(key for key in room.keys if key.id not in markings)
     order = {name: index for index, name in enumerate(room.files)}
     marked = sorted(markings.values(), key=lambda marking: order[comparable(marking.key.id)])
@@ -159,13 +159,13 @@ def grade(
     return Graded(tuple(marked), tuple(problems), missing, owners, emails)
 
 
-def _asked(guide: MarkingScheme, submission: Submission) -> MarkingScheme:
+def _asked(scheme: MarkingScheme, submission: Submission) -> MarkingScheme:
     """The guide with the cells that the policy asks for; what else is filled in is judged but earns no marks."""
-    policy = guide.policy
+    policy = scheme.policy
     filled = {id for id, _ in (*submission.values, *submission.problems)}
-    key = policy.ask.of(guide.key, filled)
+    key = policy.ask.of(scheme.key, filled)
     beyond = {row.id: 0.0 for row in key.asked if not policy.ask.wants(row)}
-    return replace(guide, key=key, policy=replace(policy, weights={**beyond, **policy.weights}))
+    return replace(scheme, key=key, policy=replace(policy, weights={**beyond, **policy.weights}))
 
 
 def _named(path: Path, known: Container[str]) -> str | None:

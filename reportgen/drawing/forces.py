@@ -23,7 +23,7 @@ from reportgen.machine.motion import Motion
 
 SHORTEST, STEP, LONGEST = 13.0, 6.5, 26.0
 """Drawn lengths of forces at one point, mm: of two in one direction the second is a step longer."""
-PARALLEL = math.radians(9)
+ON_EACH_OTHER = math.radians(9)
 """Arrows at one point closer than this in direction would lie on each other."""
 COUPLE_RADIUS = 6.0
 LEAST_ARM = 0.5
@@ -206,7 +206,7 @@ def foot(about: complex, start: complex, end: complex) -> complex:
 
 
 def _parallel(one: complex, other: complex) -> bool:
-    return abs(cmath.phase(unit(other) / unit(one))) < PARALLEL
+    return abs(cmath.phase(unit(other) / unit(one))) < ON_EACH_OTHER
 
 
 def _tips(forces: Sequence[Force]) -> list[complex]:

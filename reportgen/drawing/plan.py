@@ -24,7 +24,7 @@ Titles = Callable[[range, int], str]
 """What stands below a panel, of the stages that it draws and its own number from 0."""
 PENS: dict[Style, Pen] = {"known": style.KNOWN, "relative": style.RELATIVE, "found": style.FOUND}
 
-SAME = 0.05
+SAME_POINT = 0.05
 """Points nearer than this (mm) look like one point and share a label joined by ≡."""
 CROWDED = 1.2
 """Points nearer than this share a label joined by commas; an inset tells them apart."""
@@ -239,7 +239,7 @@ def kept_stages(drawing: Plan) -> list[int]:
     lines = [(k.stage, k.start, k.end) for k in drawing.lines if abs(k.end - k.start) > INVISIBLE]
 
     def repeats(stage: int, start: complex, end: complex) -> bool:
-        return any(s < stage and abs(start - p) + abs(end - q) < SAME for s, p, q in arrows)
+        return any(s < stage and abs(start - p) + abs(end - q) < SAME_POINT for s, p, q in arrows)
 
     return sorted({piece[0] for piece in lines} | {piece[0] for piece in arrows if not repeats(*piece)})
 
@@ -251,7 +251,7 @@ def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
         pen = replace(style.CONSTRUCTION, width=0.18, colour=style.NEW.colour) if new else style.CONSTRUCTION
         on = unit(line.end - line.start)
         # Of a line that an arrow covers only the piece beyond the tip is drawn.
-        covered = any(abs(v.start - line.start) + abs(v.end - line.end) < SAME for v in drawing.drawn())
+        covered = any(abs(v.start - line.start) + abs(v.end - line.end) < SAME_POINT for v in drawing.drawn())
         start = line.end if covered else line.start
         result.append(Line(start, line.end + BEYOND * on, pen))
     return result
@@ -284,7 +284,7 @@ def _on_one_line(one: PlanVector[complex], other: PlanVector[complex]) -> bool:
     if min(one.length, other.length) < TINY:
         return False
     # Two vectors with one start and one end are one arrow with two names.
-    if abs(one.start - other.start) + abs(one.end - other.end) < SAME:
+    if abs(one.start - other.start) + abs(one.end - other.end) < SAME_POINT:
         return False
     return on_one_line((one.start, one.end), (other.start, other.end), style.ON_LINE, style.HEAD)
 
@@ -320,7 +320,7 @@ def point_names(points: Sequence[PlanPoint[complex]]) -> list[Content]:
         if any(point.label == earlier.label for earlier in points[:n]):
             continue
         if parts:
-            parts.append(" ≡ " if abs(point.at - points[0].at) < SAME else ", ")
+            parts.append(" ≡ " if abs(point.at - points[0].at) < SAME_POINT else ", ")
         parts.append(point.label)
     return parts
 
@@ -436,7 +436,7 @@ def _inset(group: Sequence[PlanVector[complex]], drawing: Plan) -> Canvas:
     for vector in group:
         way = vector.end - vector.start
         for at, side in ((vector.start, -1), (vector.end, 1)):
-            names = point_names([point for point in drawing.points if abs(point.at - at) < SAME])
+            names = point_names([point for point in drawing.points if abs(point.at - at) < SAME_POINT])
             if names and names not in seen:
                 seen.append(names)
                 requests.append(label(enlarged(at), *names, prefer=(cmath.phase(side * way),), size=style.SMALL))

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from reportgen.exercise.centres import Layout
-from reportgen.exercise.places import SAME, direction_of, parallel
+from reportgen.exercise.places import SAME_DIRECTION, direction_of, parallel
 from reportgen.exercise.solving import InstantMotion
 from reportgen.formula import Chain, Expression, Negative, Number, Product, Ref, Symbol, cos, sqrt, total
 from reportgen.formula.sheet import Family, Sheet, is_short
@@ -166,10 +166,10 @@ class Board:
 def along(q: Sheet, vector: Vector, axis: complex) -> Expression | None:
     """The component of a vector along an axis, as it is written: v cos 30° with its sign; None where it is nothing."""
     cosine = (axis.conjugate() * vector.direction).real
-    if abs(cosine) < SAME or q.si(vector.id) == 0:
+    if abs(cosine) < SAME_DIRECTION or q.si(vector.id) == 0:
         return None
     size: Expression = q[vector.id]
-    if abs(cosine) < 1 - SAME**2 / 2 and not parallel(vector.direction, axis):
+    if abs(cosine) < 1 - SAME_DIRECTION**2 / 2 and not parallel(vector.direction, axis):
         size = Product((size, cos(angle(q, math.acos(min(abs(cosine), 1.0))))))
     return size if cosine > 0 else Negative(size)
 
@@ -220,7 +220,7 @@ def angle(q: Sheet, value: float) -> Expression:
     if abs(degrees - round(degrees, 2)) < 1e-9:
         return Number(round(degrees, 2), None, "°")
     others = [id for id in q.families if id.startswith("alpha.")]
-    same = (id for id in others if abs(q.si(id) - value) < SAME)
+    same = (id for id in others if abs(q.si(id) - value) < SAME_DIRECTION)
     id = next(same, "")
     number = str(len(others) + 1)
     return Ref(id) if id else q.give(f"alpha.{number}", value, Symbol("α", number), "angle", exact=False)

@@ -135,7 +135,7 @@ PLACES = (25.0, 35.0, 35.0)
 """Widths (mm) of the columns of the coordinates."""
 COMPARED = (25.0, 135.0)
 """Of the comparison of methods: its first column, and all others together."""
-AGREED = 1e-9
+METHODS_AGREE = 1e-9
 """Values that differ by less than this share are one."""
 ANSWER = (25.0, 65.0, 70.0)
 """Widths (mm) of the columns of the answers."""
@@ -341,7 +341,7 @@ class SolutionPage(Solution):
             found = [float(ledger[one.id].values[0]) for ledger in ledgers if one.id in ledger]
             if one.what not in ("v", "omega"):
                 continue
-            if max(found) - min(found) > AGREED * max(found):
+            if max(found) - min(found) > METHODS_AGREE * max(found):
                 raise ValueError(f"methods disagree on {one.id}: {found}")
             shown = [(Value(ledger.number(one.id, AT)),) if one.id in ledger else (Text("–"),) for ledger in ledgers]
             rows.append((Cell((InlineMath(ledgers[0].symbol(one.id)),)), *map(Cell, shown)))

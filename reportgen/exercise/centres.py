@@ -18,7 +18,7 @@ from reportgen.exercise.solving import InstantMotion
 from reportgen.formula.constructions import meet
 
 Rule = Literal["pivot", "contact", "normals", "rate", "translation"]
-NEAR = 1e-9
+SAME_PLACE = 1e-9
 """Points nearer than this (m) are one."""
 LETTERS = "PQIK"
 
@@ -71,7 +71,7 @@ class Layout:
     def point_at(self, at: complex, letter: str) -> str:
         """The name of the point at a place, a new one if none is declared there."""
         for name, place in self.points.items():
-            if abs(place - at) < NEAR:
+            if abs(place - at) < SAME_PLACE:
                 return name
         number = next(n for n in range(1, 100) if f"{letter}{n}" not in self.points)
         self.points[f"{letter}{number}"] = at
@@ -99,7 +99,7 @@ class Layout:
         return self.points[point] - centre.at
 
     def is_centre(self, centre: InstantCentre, point: str) -> bool:
-        return abs(self.arm(centre, point)) < NEAR
+        return abs(self.arm(centre, point)) < SAME_PLACE
 
 
 def lay_out(given: file.Parameters, motion: InstantMotion) -> Layout:
@@ -195,7 +195,7 @@ def _next_centre(found: Layout) -> bool:
 def _by_normals(found: Layout, body: int, one: str, other: str) -> InstantCentre | None:
     p, q, u, w = found.points[one], found.points[other], found.directions[one], found.directions[other]
     if parallel(u, w):
-        if abs(p - q) < NEAR or perpendicular(u, (p - q) / abs(p - q)):
+        if abs(p - q) < SAME_PLACE or perpendicular(u, (p - q) / abs(p - q)):
             return None
         return InstantCentre(body, "translation", points=(one, other), direction=u)
     at = meet(p, 1j * u, q, 1j * w)
@@ -205,7 +205,7 @@ def _by_normals(found: Layout, body: int, one: str, other: str) -> InstantCentre
 def name_of_centre(found: Layout, body: int, at: complex) -> str:
     """The name of the point that an instant centre is, or one of its own."""
     letter = next(one for one in LETTERS if not any(name[0] == one for name in found.given.points))
-    return next((name for name, place in found.points.items() if abs(place - at) < NEAR), f"{letter}{body}")
+    return next((name for name, place in found.points.items() if abs(place - at) < SAME_PLACE), f"{letter}{body}")
 
 
 def _next_directions(found: Layout) -> bool:
@@ -230,7 +230,7 @@ def _by_projection(found: Layout) -> Iterator[tuple[str, complex]]:
             if name not in found.directions:
                 for other in known:
                     line = found.points[name] - found.points[other]
-                    if abs(line) > NEAR and perpendicular(found.directions[other], line / abs(line)):
+                    if abs(line) > SAME_PLACE and perpendicular(found.directions[other], line / abs(line)):
                         yield name, found.directions[other]
 
 

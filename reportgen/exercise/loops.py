@@ -20,13 +20,13 @@ import numpy as np
 from reportgen.exercise.accelerations import Parts
 from reportgen.exercise.board import Board, Step
 from reportgen.exercise.places import direction_of
+from reportgen.exercise.solving import NEGLIGIBLE
 from reportgen.exercise.speeds import derive, is_across
 from reportgen.formula import Chain, Expression, Fraction, Negative, Number, Product, Ref, Symbol, call, signed, total
 from reportgen.formula.sheet import Sheet
 
 FIGURES = 4
 """Significant figures of the numbers in a system."""
-SMALL = 1e-9
 
 Known = tuple[str, int]
 """A quantity of the board and its power: v.A, or ω² as omega.2 with 2."""
@@ -169,7 +169,7 @@ def _independent(left: np.ndarray) -> list[int]:
     largest = np.abs(left).max(initial=0.0)
     for index in range(len(left)):
         trial = left[[*kept, index]]
-        if np.linalg.matrix_rank(trial, tol=SMALL * max(largest, SMALL)) == len(trial):
+        if np.linalg.matrix_rank(trial, tol=NEGLIGIBLE * max(largest, NEGLIGIBLE)) == len(trial):
             kept.append(index)
         if len(kept) == left.shape[1]:
             break
@@ -182,7 +182,7 @@ def _enter_rotation(loops: Loops, body: int, shares: Mapping[Known, float]) -> s
     rate = motion.omega(body) if loops.what == "omega" else motion.epsilon(body)
     terms: list[Expression] = []
     for (of, power), share in shares.items():
-        if abs(share) > SMALL:
+        if abs(share) > NEGLIGIBLE:
             factor = q.give(f"share.{id}.{of}", math.copysign(1.0, rate) * share, Symbol("c"), "ratio", hidden=True)
             terms.append(Product((factor, q[of] if power == 1 else q[of] ** power)))
     # As a construction it has no line of its own: the system is set out, and its solution told.
@@ -199,7 +199,7 @@ def _row(what: str, bodies: list[int], factors: np.ndarray, value: float) -> Cha
     largest = float(np.abs(factors).max())
     terms: list[Expression] = []
     for body, factor in zip(bodies, factors, strict=True):
-        if abs(factor) > SMALL * largest:
+        if abs(factor) > NEGLIGIBLE * largest:
             term = Product((_number(abs(float(factor))), _symbol(what, body)))
             terms.append(term if factor > 0 else Negative(term))
     return Chain((total(sorted(terms, key=lambda one: isinstance(one, Negative))), _number(value)))

@@ -20,8 +20,8 @@ TOP: Where = ("parameters",)
 TOUCHING = 1e-6
 """Discs and lines whose distance is off by less than this share of the radius touch."""
 PARALLEL = 1e-9
-ROUND = 1e-12
-SAME = 1e-9
+DUST = 1e-12
+SAME_DIRECTION = 1e-9
 """Directions nearer than this (radians) are one."""
 
 
@@ -48,12 +48,12 @@ def direction_of(vector: complex) -> complex:
 
 def perpendicular(one: complex, other: complex) -> bool:
     """Whether two directions are at a right angle."""
-    return abs((one.conjugate() * other).real) < SAME
+    return abs((one.conjugate() * other).real) < SAME_DIRECTION
 
 
 def parallel(one: complex, other: complex) -> bool:
     """Whether two directions are one or opposite."""
-    return abs((one.conjugate() * other).imag) < SAME
+    return abs((one.conjugate() * other).imag) < SAME_DIRECTION
 
 
 class Geometry:
@@ -193,7 +193,7 @@ def _require_place(name: str, point: file.PointAt, geometry: Geometry) -> None:
         first, second = (at(end.from_, "distances", index, "from") for index, end in enumerate(point.distances))
         r1, r2 = (end.distance.si for end in point.distances)
         span = abs(second - first)
-        if span < PARALLEL or not abs(r1 - r2) <= span * (1 + ROUND) or span * (1 - ROUND) > r1 + r2:
+        if span < PARALLEL or not abs(r1 - r2) <= span * (1 + DUST) or span * (1 - DUST) > r1 + r2:
             raise MisplacedError("circles-apart", *where, "distances", text=name)
     elif point.from_ is not None and point.distance is not None:
         centre = at(point.from_, "from")

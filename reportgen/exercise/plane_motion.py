@@ -16,7 +16,7 @@ from pydantic import ValidationError
 from reportgen.assignment.common import Draft
 from reportgen.base.errors import Finding, Where
 from reportgen.exercise import file, symbols
-from reportgen.exercise.centres import NEAR, Layout, lay_out
+from reportgen.exercise.centres import SAME_PLACE, Layout, lay_out
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.places import TOP, MisplacedError, direction_of, named, perpendicular, system
 from reportgen.exercise.solving import InstantMotion
@@ -336,7 +336,7 @@ def _pairs_across(layout: Layout, body: int) -> Iterator[tuple[bool, bool]]:
     """Of each two guided points of a body, whether they move across the line between them."""
     for one, other in combinations(_guided(layout, body), 2):
         line = layout.points[other] - layout.points[one]
-        if abs(line) > NEAR:
+        if abs(line) > SAME_PLACE:
             u = direction_of(line)
             yield perpendicular(layout.directions[one], u), perpendicular(layout.directions[other], u)
 

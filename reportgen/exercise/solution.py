@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from reportgen.exercise.accelerations import Parts, about_points, by_slots, enter_accelerations
 from reportgen.exercise.board import Board, Quantities, Step
-from reportgen.exercise.centres import NEAR, InstantCentre, Layout, lay_out, name_of_centre
+from reportgen.exercise.centres import SAME_PLACE, InstantCentre, Layout, lay_out, name_of_centre
 from reportgen.exercise.file import Asked, Method
 from reportgen.exercise.loops import enter_proportion, solve_accelerations_together, solve_velocities_together
 from reportgen.exercise.places import Exercise
@@ -33,9 +33,9 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Sheet
 from reportgen.plans.decimals import choose_decimals
 
-ROUND = 1e-9
+BELOW_A_TURN = 1e-9
 """An angle this little below a whole turn (degrees) is none."""
-SAME, NOTHING = 1e-6, 1e-9
+SAME_SHARE, SAME_SI = 1e-6, 1e-9
 """Values that differ by this share, or in SI units by this much, are one."""
 POSITIONS = 1
 """The instant."""
@@ -116,7 +116,7 @@ def _leads_to(board: Board, asked: Asked) -> bool:
             value = motion.epsilon(asked.body)
         case what:
             value = motion.v(asked.of) if what == "v" else motion.a(asked.of)
-    return math.isclose(board.q.si(asked.id), abs(value), rel_tol=SAME, abs_tol=NOTHING)
+    return math.isclose(board.q.si(asked.id), abs(value), rel_tol=SAME_SHARE, abs_tol=SAME_SI)
 
 
 def _signed(board: Board, id: str) -> None:
@@ -133,7 +133,7 @@ def _directed(board: Board, asked: Asked) -> None:
     motion = board.motion
     vector = motion.v(asked.of) if asked.what == "v" else motion.a(asked.of)
     if vector and asked.id in board.q and board.q.families[asked.id].definition is not None:
-        angle = (math.degrees(cmath.phase(vector)) + ROUND) % 360.0 - ROUND
+        angle = (math.degrees(cmath.phase(vector)) + BELOW_A_TURN) % 360.0 - BELOW_A_TURN
         turned = board.q.give(f"way.{asked.id}", math.radians(angle), Symbol("α"), "angle", hidden=True)
         board.q.define(f"dir.{asked.id}", turned, scale=1.0, of=asked.id)
 
@@ -249,7 +249,7 @@ def _from_rate(board: Board, body: int) -> None:
         layout.centres[body] = InstantCentre(body, "translation")
         return
     name = name_of_centre(layout, body, at)
-    away = next((one for one in known if abs(layout.points[one] - at) > NEAR), "")
+    away = next((one for one in known if abs(layout.points[one] - at) > SAME_PLACE), "")
     layout.centres[body] = InstantCentre(body, "rate", name, at, (away,) if away else ())
     if away:
         length = q.define(f"l.{name}{away}", q[f"v.{away}"] / q[f"omega.{body}"])

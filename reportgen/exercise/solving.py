@@ -16,7 +16,7 @@ import numpy as np
 
 from reportgen.exercise.conditions import GROUND, STILL, Component, Condition, Rates, Velocities
 
-SMALL = 1e-9
+NEGLIGIBLE = 1e-9
 """Below this share of its scale a number is nothing."""
 
 Row = np.ndarray
@@ -63,7 +63,7 @@ class Solved:
         return all(self._fixed(self.unknowns.row(axis)) for axis in axes)
 
     def _fixed(self, row: Row) -> bool:
-        return bool(np.all(np.abs(self.free @ row) < SMALL * max(float(np.linalg.norm(row)), SMALL)))
+        return bool(np.all(np.abs(self.free @ row) < NEGLIGIBLE * max(float(np.linalg.norm(row)), NEGLIGIBLE)))
 
 
 @dataclass(frozen=True)
@@ -172,7 +172,7 @@ def solve_accelerations(system: System, velocities: Solved) -> Accelerations:
         body: replace(rates, origin=rates.origin + squares.get(body, motion.omega(body) ** 2) * unknowns.middle)
         for body, rates in solved.rates.items()
     }
-    least = -SMALL * float(np.abs(found).max(initial=0.0)) / unknowns.size
+    least = -NEGLIGIBLE * float(np.abs(found).max(initial=0.0)) / unknowns.size
     parting = () if solved.free.size else tuple(body for body, square in squares.items() if square < least)
     return Accelerations(replace(solved, rates=at_origin), replace(velocities, rates=turned), parting)
 
@@ -195,9 +195,9 @@ def _names(condition: Condition, body: int) -> bool:
 def _solve(unknowns: Unknowns, told: Sequence[tuple[Condition, float]]) -> tuple[Solved, np.ndarray]:
     matrix = np.array([unknowns.row(one) for one, _ in told]).reshape(len(told), unknowns.count)
     values = np.array([unknowns.scaled(one, value) for one, value in told])
-    found = np.linalg.lstsq(matrix, values, rcond=SMALL)[0] if len(told) else np.zeros(unknowns.count)
+    found = np.linalg.lstsq(matrix, values, rcond=NEGLIGIBLE)[0] if len(told) else np.zeros(unknowns.count)
     _, sizes, motions = np.linalg.svd(matrix) if len(told) else (None, np.zeros(0), np.eye(unknowns.count))
-    rank = int((sizes > SMALL * max(sizes, default=0.0)).sum())
+    rank = int((sizes > NEGLIGIBLE * max(sizes, default=0.0)).sum())
     conflicts = tuple(_conflicts([one.name for one, _ in told], matrix, values))
     return Solved(unknowns.rates(found), conflicts, motions[rank:], unknowns), found
 
@@ -208,11 +208,11 @@ def _conflicts(names: Sequence[str], matrix: np.ndarray, values: np.ndarray) -> 
     largest = float(np.abs(values).max(initial=0.0))
     for index, row in enumerate(matrix):
         above = matrix[kept]
-        shares = np.linalg.lstsq(above.T, row, rcond=SMALL)[0] if kept else np.zeros(0)
-        if float(np.linalg.norm(row - shares @ above if kept else row)) > SMALL:
+        shares = np.linalg.lstsq(above.T, row, rcond=NEGLIGIBLE)[0] if kept else np.zeros(0)
+        if float(np.linalg.norm(row - shares @ above if kept else row)) > NEGLIGIBLE:
             kept.append(index)
-        elif abs(values[index] - shares @ values[kept]) > SMALL * max(largest, SMALL):
-            others = (names[one] for one, share in zip(kept, shares, strict=True) if abs(share) > SMALL)
+        elif abs(values[index] - shares @ values[kept]) > NEGLIGIBLE * max(largest, NEGLIGIBLE):
+            others = (names[one] for one, share in zip(kept, shares, strict=True) if abs(share) > NEGLIGIBLE)
             yield Conflict(names[index], tuple(name for name in dict.fromkeys(others) if name != names[index]))
 
 
@@ -335,6 +335,6 @@ class InstantMotion:
 
 def _without_dust(value: complex, scale: float) -> complex:
     """A vector whose components are 0 where they are nothing beside the scale."""
-    least = SMALL * scale
+    least = NEGLIGIBLE * scale
     value = complex(value)
     return complex(value.real if abs(value.real) > least else 0.0, value.imag if abs(value.imag) > least else 0.0)

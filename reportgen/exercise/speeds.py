@@ -10,7 +10,7 @@ from itertools import combinations, permutations
 
 from reportgen.exercise import file
 from reportgen.exercise.board import Board, Projected, Step, Vector, towards
-from reportgen.exercise.centres import NEAR, InstantCentre
+from reportgen.exercise.centres import SAME_PLACE, InstantCentre
 from reportgen.exercise.places import direction_of, parallel, perpendicular
 from reportgen.formula import Symbol
 
@@ -149,7 +149,7 @@ def is_across(board: Board, *names: str) -> bool:
     line = direction_of(points[names[1]] - points[names[0]])
     if not line or any(name not in directions for name in names):
         return False
-    in_line = all(abs((line.conjugate() * (points[name] - points[names[0]])).imag) < NEAR for name in names)
+    in_line = all(abs((line.conjugate() * (points[name] - points[names[0]])).imag) < SAME_PLACE for name in names)
     return in_line and all(perpendicular(directions[name], line) for name in names)
 
 
@@ -186,7 +186,7 @@ def _slot(board: Board, joint: file.SlotJoint) -> bool:
         return False
     u = layout.geometry.direction(joint)
     arm_way = layout.points[point] - layout.points[base]
-    if abs(arm_way) < NEAR or (not board.knows(f"omega.{body}") and perpendicular(u, arm_way / abs(arm_way))):
+    if abs(arm_way) < SAME_PLACE or (not board.knows(f"omega.{body}") and perpendicular(u, arm_way / abs(arm_way))):
         # As the body turns, its own point moves along the line alone, which tells nothing of how fast.
         return False
     known_rate, new = board.knows(f"omega.{body}"), not board.knows(f"v.{point}")

@@ -12,8 +12,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from reportgen.base.units import MM
 from reportgen.exercise.board import Axis, Step, Vector
-from reportgen.exercise.centres import NEAR
+from reportgen.exercise.centres import SAME_PLACE
 from reportgen.exercise.places import parallel
 from reportgen.exercise.solution import Worked
 from reportgen.exercise.solved import SolvedExercise
@@ -24,7 +25,6 @@ from reportgen.report.prose import NamedPoint
 
 AT = 1
 """The one position of an exercise."""
-MM = 1e3
 COORDINATES = ("x", "y")
 
 
@@ -294,7 +294,7 @@ class Axes:
         """Where points of the body lie on an axis, which is to show beyond them."""
         for name in self.solutions[0].layout.members.get(body, ()):
             there = direction.conjugate() * (self._at(name) - at)
-            if abs(there.imag) < NEAR:
+            if abs(there.imag) < SAME_PLACE:
                 yield there.real
 
     def _of(self, accelerations: bool | None = None) -> Iterator[tuple[Step, Axis]]:
@@ -317,7 +317,7 @@ class Axes:
     def _same(self, one: Axis, other: Axis) -> bool:
         """Whether the ξ of both lie on one line."""
         apart = self._at(other.point) - self._at(one.point)
-        return parallel(one.along, other.along) and abs((one.along.conjugate() * apart).imag) < NEAR
+        return parallel(one.along, other.along) and abs((one.along.conjugate() * apart).imag) < SAME_PLACE
 
     def _first(self, axis: Axis) -> Axis:
         return next((one for one in self._lines() if self._same(axis, one)), axis)

@@ -26,7 +26,7 @@ from reportgen.formula.vocabulary import KINDS, MAX_DIGITS, Chapter, QuantityKin
 ZERO = 1e-9
 """A value below this share of its own scale is nothing: it prints as 0."""
 
-ROUND = 1e-12
+BELOW_A_TURN = 1e-12
 """An angle this little below a whole turn (rad) is one."""
 
 CONSTRUCTIONS = frozenset(
@@ -183,7 +183,7 @@ class Sheet:
 
     def angle(self, id: str, values: np.ndarray, symbol: Symbol | str = "") -> Ref:
         """Enter an angle at every position [N], within one turn; whole hundredths of a degree print as they are."""
-        turned = np.mod(values + ROUND, 2 * np.pi) - ROUND
+        turned = np.mod(values + BELOW_A_TURN, 2 * np.pi) - BELOW_A_TURN
         hundredths = np.degrees(turned) * 100
         whole = bool(np.allclose(hundredths, np.round(hundredths), rtol=0, atol=1e-7))
         return self.give(id, turned, symbol, "angle", exact=whole, scale=1.0)

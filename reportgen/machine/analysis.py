@@ -15,10 +15,8 @@ from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.forces import Forces, Load, inertia_loads, mean_over, solve_forces, virtual_work_torque, weights
 from reportgen.machine.gas import indicated_work, stroke_at
-from reportgen.machine.loads import Applied, Piston, Stroke, Torque
+from reportgen.machine.loads import FULL_TURN, Applied, Piston, Stroke, Torque
 from reportgen.machine.motion import Motion, solve_motion
-
-FULL_TURN = 2 * np.pi
 
 
 @dataclass(frozen=True)
@@ -224,7 +222,7 @@ def _extreme(machine: Machine, angles: np.ndarray, torque: np.ndarray, sense: in
 # Plain data that the rest of the house reads.
 # A catalogue file gives a `Machine`; nothing downstream asks which kind it is.
 
-NEAR = 1e-6
+SAME_POSITION = 1e-6
 """Positions nearer than this (rad) are one."""
 
 
@@ -339,8 +337,8 @@ def lettered(count: int, turns: int, extra: Iterable[float]) -> tuple[tuple[floa
     go on from turn to turn, as the numbers do.
     """
     even = np.arange(count) * (2 * np.pi / count)
-    turned = np.mod(np.asarray(list(extra)) + NEAR, 2 * np.pi) - NEAR
-    new = [float(angle) for angle in turned if np.abs(even - angle).min() > NEAR]
+    turned = np.mod(np.asarray(list(extra)) + SAME_POSITION, 2 * np.pi) - SAME_POSITION
+    new = [float(angle) for angle in turned if np.abs(even - angle).min() > SAME_POSITION]
     places = sorted([*map(float, even), *new])
     numbers, letters = iter(range(count * turns)), iter(ascii_lowercase)
     labels = [next(letters) if place in new else str(next(numbers)) for _ in range(turns) for place in places]

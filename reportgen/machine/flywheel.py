@@ -15,8 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from reportgen.machine.analysis import FULL_TURN, Analysis, Machine, analyse, breaks
+from reportgen.machine.analysis import Analysis, Machine, analyse, breaks
 from reportgen.machine.forces import Load, virtual_work_torque
+from reportgen.machine.loads import FULL_TURN
 from reportgen.machine.motion import Motion
 
 Floats = NDArray[np.float64]
@@ -93,7 +94,7 @@ def regulate(
 
 SAMPLES = 1440
 """Angles of a turn at which the extremes of energy are looked for: a quarter degree misses less than 1e-5."""
-SAME = 1e-9
+SAME_ANGLE = 1e-9
 """Angles nearer than this (rad) are one; a torque below this share of what the loads could do is none."""
 
 
@@ -128,9 +129,9 @@ def flywheel(machine: Machine, unevenness: float) -> RegulatedCycle:
     own = np.concatenate((machine.cycle_angles, breaks(machine), [0.0, whole]))
     grid = np.linspace(0.0, whole, machine.turns * SAMPLES + 1)
     every = np.sort(np.concatenate((grid, own)))
-    angle = every[np.concatenate(([True], np.diff(every) > SAME))]
+    angle = every[np.concatenate(([True], np.diff(every) > SAME_ANGLE))]
     analysis = analyse(machine, angle)
-    torque, least = reduced_torque(analysis), SAME * possible(analysis, (*analysis.weights, *analysis.applied))
+    torque, least = reduced_torque(analysis), SAME_ANGLE * possible(analysis, (*analysis.weights, *analysis.applied))
     idle = np.abs(torque).max() <= least
     return regulate(
         angle,

@@ -161,7 +161,7 @@ def _gauss(function: Callable[[Floats], Floats], low: Floats, high: Floats) -> t
     return np.sum(parts * values, axis=1), np.sum(parts * np.abs(values), axis=1)
 
 
-NOTHING = 1e-12
+NO_FORCE = 1e-12
 """A force across a guide below this part of the group's largest is rounding."""
 
 
@@ -220,7 +220,7 @@ def solve_forces(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> For
         wrenches = _balance(dyad, own, motion, carried)
         largest = max(float(np.max(np.abs(wrench.force), initial=0.0, where=motion.reachable)) for wrench in wrenches)
         for joint, wrench in zip(own, wrenches, strict=True):
-            _enter(reactions, joint, wrench, motion, NOTHING * largest)
+            _enter(reactions, joint, wrench, motion, NO_FORCE * largest)
             source = joint.links[0]
             if source not in dyad.links and source != GROUND:
                 carried[source].append(_Wrench(-wrench.force, wrench.point, -wrench.couple))
@@ -243,7 +243,7 @@ def _balance(dyad: Dyad, own: tuple[Joint, ...], motion: Motion, carried: Mappin
 
     # Joints that lie in one point do so but for rounding.
     reach, whole = farthest(joint.point for joint in own), farthest(motion.points)
-    length = reach if reach > NOTHING * whole else whole or 1.0
+    length = reach if reach > NO_FORCE * whole else whole or 1.0
     matrix = np.zeros((6, 6, pole.size))
     known = np.zeros((6, pole.size))
     columns = [column for joint in own for column in _unknowns(joint, motion, length)]

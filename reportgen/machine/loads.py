@@ -27,14 +27,14 @@ Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 FULL_TURN = 2 * np.pi
 STEPS = 720
-"""Steps of a turn in which a link is watched for turning back."""
+"""Places in a turn, half a degree apart: whether a machine gets there, whether a link turns back."""
 HALVINGS = 50
 AT_ONCE = 5
 """Halvings made in one step."""
-ROUND = 1e-9
+BEFORE_A_TURN = 1e-9
 """Angles (rad) this near below the end of the cycle, or below a turning point, belong to what begins there."""
 
-EDGE = 1e-9
+EDGE_OF_CUT = 1e-9
 """A share of the stroke this near to the tool's way in or out is rounding of it."""
 
 MotionAt = Callable[[Floats], Motion]
@@ -155,7 +155,7 @@ class AngleLaw:
     values: tuple[float, ...]
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
-        within = np.maximum(np.mod(angle + ROUND, self.angles[-1]) - ROUND, 0.0)
+        within = np.maximum(np.mod(angle + BEFORE_A_TURN, self.angles[-1]) - BEFORE_A_TURN, 0.0)
         return np.asarray(np.interp(within, self.angles, self.values))
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
@@ -198,10 +198,10 @@ class CuttingLaw:
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
         """The force (N) [N]; at a dead centre that of the stroke which begins there."""
-        turned = np.mod(self.course.phase + angle + ROUND, FULL_TURN) - ROUND
-        working = turned < self.course.bottom_angle - ROUND
+        turned = np.mod(self.course.phase + angle + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN
+        working = turned < self.course.bottom_angle - BEFORE_A_TURN
         share = self.course.fraction(motion)
-        cuts = (share >= self.free - EDGE) & (share <= 1 - self.free + EDGE)
+        cuts = (share >= self.free - EDGE_OF_CUT) & (share <= 1 - self.free + EDGE_OF_CUT)
         return np.where(working & cuts, self.force, 0.0)
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
@@ -245,7 +245,7 @@ class Opposing:
     before: float
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
-        passed = np.searchsorted(self.reversals, np.mod(angle + ROUND, FULL_TURN), side="right")
+        passed = np.searchsorted(self.reversals, np.mod(angle + BEFORE_A_TURN, FULL_TURN), side="right")
         return np.where(passed % 2, 1.0, -1.0) * self.before * self.size
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
@@ -282,7 +282,7 @@ def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
         return np.asarray(np.sign(rate(angle.ravel()).reshape(angle.shape)) == first[:, None])
 
     _, high = halved(edges[changes], edges[changes + 1], unchanged, halvings)
-    found = np.sort(np.mod(high + ROUND, FULL_TURN) - ROUND)
+    found = np.sort(np.mod(high + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN)
     # The first of them in the turn is where the sign before it ends.
     after = rate(np.array([(found[0] + found[1]) / 2])) if found.size > 1 else -rate(np.array([0.0]))
     return Opposing(size, tuple(map(float, found)), -float(np.sign(after[0])))
@@ -348,10 +348,10 @@ def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top
         raise NotToAndFro(len(reversals))
     ends = motion_at(np.array(reversals)).points[dyad.middle].p
     high = int(np.argmax(np.real(np.conj(along) * ends)))
-    first = float(np.mod(reversals[high] + ROUND, FULL_TURN) - ROUND)
+    first = float(np.mod(reversals[high] + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN)
     way = (reversals[1 - high] - reversals[high]) % FULL_TURN
     whole = turns * FULL_TURN
-    phase = (-(first + FULL_TURN * (top - 1)) + ROUND) % whole - ROUND
+    phase = (-(first + FULL_TURN * (top - 1)) + BEFORE_A_TURN) % whole - BEFORE_A_TURN
     crank_pin = dyad.start if isinstance(dyad.start, str) else dyad.middle
     other = dyad.links[0] if dyad.links[1] == link else dyad.links[1]
     return Stroke(

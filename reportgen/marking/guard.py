@@ -28,7 +28,7 @@ from reportgen.marking.mistakes import WRONG_DATUM
 from reportgen.marking.working import Working, last_half_unit
 from reportgen.report.case import Key, KeyRow, Role
 
-SAME = 0.8
+FOREIGN_SHARE = 0.8
 """The share of a sheet's, a column's or a chapter's values that are not its own."""
 
 ALL = 0.95
@@ -82,17 +82,17 @@ class Classmate:
 
 
 def guard(
-    guide: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
+    scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
 ) -> tuple[dict[Place, Marked], tuple[Notice, ...]]:
     """The cells without what the policy takes, and everything that was found."""
     result, flags = dict(cells), []
     for search in (_one_number, _same_columns, _constant_rows):
-        flags += list(search(guide, cells))
-    flags += _other_data(guide, cells, classmates)
-    flags += _copied(guide, cells, classmates)
-    policy = guide.policy
+        flags += list(search(scheme, cells))
+    flags += _other_data(scheme, cells, classmates)
+    flags += _copied(scheme, cells, classmates)
+    policy = scheme.policy
     for number, flag in enumerate(flags):
-        places = flag.spoiled if policy.takes(flag.kind, guide.key.id) else ()
+        places = flag.spoiled if policy.takes(flag.kind, scheme.key.id) else ()
         taken = [place for place in places if result[place].points]
         if taken:
             flags[number] = replace(flag, taken=tuple(taken))
@@ -111,17 +111,17 @@ def _filled(cells: Cells) -> list[Place]:
 # --- the sheet alone ------------------------------------------------------------------------------
 
 
-def _one_number(guide: MarkingScheme, cells: Cells) -> Iterator[Notice]:
+def _one_number(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
     """Nearly all cells hold one number, which most of them should not."""
     filled = _filled(cells)
     number, _ = Counter(cells[place].given for place in filled).most_common(1)[0] if filled else (None, 0)
     same = tuple(place for place in filled if cells[place].given == number)
     wrong = [place for place in same if cells[place].verdict is not Verdict.right]
-    if len(same) >= SAME * len(filled) and len(wrong) >= max(FEWEST, len(same) / 2):
+    if len(same) >= FOREIGN_SHARE * len(filled) and len(wrong) >= max(FEWEST, len(same) / 2):
         yield Notice("stock", same, tuple(filled))
 
 
-def _constant_rows(guide: MarkingScheme, cells: Cells) -> Iterator[Notice]:
+def _constant_rows(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
     """Rows of one number throughout where the key varies by more than its bands."""
     rows: dict[str, list[Place]] = {}
     for place in _filled(cells):
@@ -133,14 +133,14 @@ def _constant_rows(guide: MarkingScheme, cells: Cells) -> Iterator[Notice]:
             yield Notice("constant", tuple(places))
 
 
-def _same_columns(guide: MarkingScheme, cells: Cells) -> Iterator[Notice]:
+def _same_columns(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
     """A position whose values are those of another one, figure for figure, where the key tells them apart."""
     positions = sorted({position for _, position in _filled(cells) if position})
     copies: set[int] = set()
     for one, other in combinations(positions, 2):
         telling = [id for id, position in cells if position == one and _differ(cells, (id, one), (id, other))]
         same = [id for id in telling if cells[id, one].given == cells[id, other].given]
-        if len(telling) < FEWEST_ROWS or len(same) < SAME * len(telling) or {one, other} <= copies:
+        if len(telling) < FEWEST_ROWS or len(same) < FOREIGN_SHARE * len(telling) or {one, other} <= copies:
             continue
         right = {k: sum(cells[id, k].verdict is Verdict.right for id in same) for k in (one, other)}
         copy = one if one in copies or (other not in copies and right[one] < right[other]) else other
@@ -158,7 +158,7 @@ def _differ(cells: Cells, one: Place, other: Place) -> bool:
     return abs(cells[one].expected - cells[other].expected) >= APART * band
 
 
-def _other_data(guide: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> Iterator[Notice]:
+def _other_data(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> Iterator[Notice]:
     """Values that belong to other data than the assignment's: what follows from them is work on another one.
 
     Two data are enough where the whole sheet is right for a classmate's assignment, from which it has them.
@@ -166,21 +166,21 @@ def _other_data(guide: MarkingScheme, cells: Cells, classmates: Sequence[Classma
     first = [place for place, cell in cells.items() if cell.first and cell.position == 0]
     named = [place for place in first if cells[place].mistake == WRONG_DATUM]
     # What is worked out from given data alone, wrongly and nobody knows how, may be of other data too.
-    alone = [place for place in first if not any(id in guide.rows for id in guide.before[place[0]])]
+    alone = [place for place in first if not any(id in scheme.rows for id in scheme.before[place[0]])]
     unnamed = [place for place in alone if not cells[place].mistake]
     misread = {cells[place].where for place in named}
     other = ""
     if len(misread) >= NAMED:
-        other = next((one.key.id for one in classmates if _is_right_for(guide, cells, one)), "")
+        other = next((one.key.id for one in classmates if _is_right_for(scheme, cells, one)), "")
     if other or len(misread) + len(unnamed) >= (OTHER_DATA if len(misread) >= NAMED else INVENTED):
         causes = {*named, *unnamed}
         follows = (place for place, cell in cells.items() if cell.verdict is Verdict.follows)
-        spoiled = (one for one in follows if guide.stands_on(one, causes) or misread & {*guide.before[one[0]]})
+        spoiled = (one for one in follows if scheme.stands_on(one, causes) or misread & {*scheme.before[one[0]]})
         # In the order of the sheet, which is the same in every run.
         yield Notice("other-data", tuple(place for place in first if place in causes), tuple(spoiled), other=other)
 
 
-def _is_right_for(guide: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
+def _is_right_for(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
     """Whether nearly all values that tell a classmate's assignment from the own one are right for the classmate's."""
     telling = met = 0
     for cell in cells.values():
@@ -188,38 +188,38 @@ def _is_right_for(guide: MarkingScheme, cells: Cells, classmate: Classmate) -> b
         if cell.given is None or row is None or _is_drawn(row):
             continue
         theirs = float(row.values[row.at(cell.position)])
-        if _apart(guide, cell, theirs, cell.expected) >= APART * cell.band:
+        if _apart(scheme, cell, theirs, cell.expected) >= APART * cell.band:
             telling += 1
-            met += _apart(guide, cell, cell.given, theirs) <= cell.band
+            met += _apart(scheme, cell, cell.given, theirs) <= cell.band
     return telling >= FEWEST_ROWS and met >= ALL * telling
 
 
 # --- classmates -----------------------------------------------------------------------------------
 
 
-def _copied(guide: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> list[Notice]:
+def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> list[Notice]:
     """Runs of values that a classmate's sheet or key has, by chapters, by positions and over the sheet."""
-    step = _read_to(guide, cells)
-    own = {place: cell for place, cell in cells.items() if cell.given is not None and _is_personal(guide, cell, step)}
+    step = _read_to(scheme, cells)
+    own = {place: cell for place, cell in cells.items() if cell.given is not None and _is_personal(scheme, cell, step)}
     right = [cell for cell in cells.values() if cell.verdict is Verdict.right]
-    others = [one for one in classmates if one.key.id != guide.key.id and not _is_source(guide, right, one)]
+    others = [one for one in classmates if one.key.id != scheme.key.id and not _is_source(scheme, right, one)]
     runs: dict[Chapter | int, list[Place]] = {}
     for place in own:
-        runs.setdefault(guide.rows[place[0]].part, []).append(place)
+        runs.setdefault(scheme.rows[place[0]].part, []).append(place)
         if place[1]:
             runs.setdefault(place[1], []).append(place)
     parts = [*runs.values(), list(own)]
     compared = 2 * len(others) * len(parts)
     flags: list[Notice] = []
     for classmate in others:
-        meets = {place: _meets(guide, cell, classmate) for place, cell in own.items()}
+        meets = {place: _meets(scheme, cell, classmate) for place, cell in own.items()}
         found: dict[Place, None] = {}
         chance = 1.0
         wrong = [[place for place in part if not _is_near(own[place])] for part in parts]
         for part in (*parts, *wrong):
             telling = [place for place in part if meets[place] is not None]
             met = [place for place in telling if meets[place]]
-            if len(met) < max(FEWEST, SAME * len(telling)):
+            if len(met) < max(FEWEST, FOREIGN_SHARE * len(telling)):
                 continue
             by_chance = compared * _tail([NEAR if _is_near(own[place]) else FAR for place in telling], len(met))
             if by_chance < CHANCE:
@@ -232,25 +232,25 @@ def _copied(guide: MarkingScheme, cells: Cells, classmates: Sequence[Classmate])
     by_id = {one.key.id: one for one in others}
     filled = tuple(_filled(cells))
     return [
-        replace(flag, kind="classmate-sheet", spoiled=filled) if _is_whole(guide, cells, by_id[flag.other]) else flag
+        replace(flag, kind="classmate-sheet", spoiled=filled) if _is_whole(scheme, cells, by_id[flag.other]) else flag
         for flag in flags
     ]
 
 
-def _is_whole(guide: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
+def _is_whole(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
     """Whether a sheet has nearly all values of a classmate's that would be wrong on it."""
     telling = [
         cell
         for place, cell in cells.items()
         if cell.given is not None
         and (theirs := _theirs(classmate, place)) is not None
-        and _apart(guide, cell, theirs, cell.expected) > cell.band
+        and _apart(scheme, cell, theirs, cell.expected) > cell.band
     ]
     met = sum(_equal(cell, _theirs(classmate, (cell.id, cell.position))) for cell in telling)
-    return len(telling) > FEWEST_ROWS and met >= SAME * len(telling)
+    return len(telling) > FEWEST_ROWS and met >= FOREIGN_SHARE * len(telling)
 
 
-def _is_source(guide: MarkingScheme, right: Sequence[Marked], classmate: Classmate) -> bool:
+def _is_source(scheme: MarkingScheme, right: Sequence[Marked], classmate: Classmate) -> bool:
     """Whether it is the other sheet that has this one's values: those that are `right` here and wrong there.
 
     What depends on a scale says nothing: the classmate may have chosen another one than the key.
@@ -262,7 +262,7 @@ def _is_source(guide: MarkingScheme, right: Sequence[Marked], classmate: Classma
             continue
         row = _row(classmate, cell)
         if row is not None and not _is_drawn(row):
-            taken += _apart(guide, cell, float(row.values[row.at(cell.position)]), cell.expected) >= APART * cell.band
+            taken += _apart(scheme, cell, float(row.values[row.at(cell.position)]), cell.expected) >= APART * cell.band
     return taken >= FEWEST_ROWS
 
 
@@ -277,10 +277,10 @@ def _row(classmate: Classmate, cell: Marked) -> KeyRow | None:
     return row if row is not None and row.has(cell.position) and cell.position <= len(row.values) else None
 
 
-def _apart(guide: MarkingScheme, cell: Marked, one: float, other: float) -> float:
+def _apart(scheme: MarkingScheme, cell: Marked, one: float, other: float) -> float:
     """How far two values of a cell lie apart, in printed units."""
-    unit = guide.ledger[cell.id].how.scale
-    return float(guide.distance(cell.id, one * unit, other * unit)) / unit
+    unit = scheme.ledger[cell.id].how.scale
+    return float(scheme.distance(cell.id, one * unit, other * unit)) / unit
 
 
 def _theirs(classmate: Classmate, place: Place) -> float | None:
@@ -292,16 +292,17 @@ def _equal(cell: Marked, value: float | None) -> bool:
     return value is not None and cell.given is not None and math.isclose(cell.given, value, rel_tol=1e-9)
 
 
-def _read_to(guide: MarkingScheme, cells: Cells) -> float:
+def _read_to(scheme: MarkingScheme, cells: Cells) -> float:
     """The step (mm) to which the lengths on paper of a sheet are read."""
-    lengths = [cell.given for cell in cells.values() if cell.given and guide.ledger[cell.id].kind == "segment"]
+    lengths = [cell.given for cell in cells.values() if cell.given and scheme.ledger[cell.id].kind == "segment"]
     for step in STEPS:
-        if sum(math.isclose(one, round(one / step) * step, rel_tol=1e-9) for one in lengths) >= SAME * len(lengths):
+        on_it = sum(math.isclose(one, round(one / step) * step, rel_tol=1e-9) for one in lengths)
+        if on_it >= FOREIGN_SHARE * len(lengths):
             return step
     return TENTH
 
 
-def _is_personal(guide: MarkingScheme, cell: Marked, step: float) -> bool:
+def _is_personal(scheme: MarkingScheme, cell: Marked, step: float) -> bool:
     """Whether a value is neither the key's nor what the student's own give, as far as it is written down.
 
     Two who read one length to `step` (mm) write the same, of a short one not even a second figure.  One that was
@@ -311,18 +312,18 @@ def _is_personal(guide: MarkingScheme, cell: Marked, step: float) -> bool:
     if cell.verdict is Verdict.follows or (cell.mistake and cell.mistake != WRONG_DATUM) or cell.given == 0:
         return False
     last = 2 * last_half_unit(cell.given)
-    if guide.ledger[cell.id].kind == "segment":
+    if scheme.ledger[cell.id].kind == "segment":
         last = max(last, step)
     elif is_direction(cell.id):
         last = max(last, DEGREE)
-    return all(_apart(guide, cell, cell.given, value) > LAST * last for value in (cell.expected, cell.own))
+    return all(_apart(scheme, cell, cell.given, value) > LAST * last for value in (cell.expected, cell.own))
 
 
 def _is_near(cell: Marked) -> bool:
     return cell.verdict is Verdict.right
 
 
-def _meets(guide: MarkingScheme, cell: Marked, classmate: Classmate) -> bool | None:
+def _meets(scheme: MarkingScheme, cell: Marked, classmate: Classmate) -> bool | None:
     """Whether a value is the classmate's; None where that says nothing."""
     row, theirs = _row(classmate, cell), _theirs(classmate, (cell.id, cell.position))
     if row is None:
@@ -334,9 +335,9 @@ def _meets(guide: MarkingScheme, cell: Marked, classmate: Classmate) -> bool | N
         return None if theirs is None else _equal(cell, theirs)
     # A direction that is a little wrong has few whole degrees to be; any other value has a hundred.
     far = APART if is_direction(cell.id) else 1.0
-    if _apart(guide, cell, value, cell.expected) < far * cell.band:
+    if _apart(scheme, cell, value, cell.expected) < far * cell.band:
         return None
-    return _equal(cell, theirs) or _apart(guide, cell, cell.given, value) <= last_half_unit(cell.given) * (1 + 1e-9)
+    return _equal(cell, theirs) or _apart(scheme, cell, cell.given, value) <= last_half_unit(cell.given) * (1 + 1e-9)
 
 
 def _tail(chances: Sequence[float], met: int) -> float:
@@ -369,7 +370,7 @@ def not_from_own(working: Working, cells: Cells) -> frozenset[Place]:
 
 
 def _differs(working: Working, cell: Marked) -> bool:
-    ledger, world = working.guide.ledger, working.world
+    ledger, world = working.scheme.ledger, working.world
     id = ledger.size_of(cell.id)
     definition = ledger[id].definition
     assert cell.given is not None, "only a given value is right"
@@ -378,7 +379,7 @@ def _differs(working: Working, cell: Marked) -> bool:
         return _differs_on_plan(working, cell)
     if definition is None or id in ledger.constructed or kind.endswith("scale"):
         return False
-    index = working.guide.rows[cell.id].at(cell.position)
+    index = working.scheme.rows[cell.id].at(cell.position)
 
     def at(name: str) -> float:
         values = world[name]
@@ -404,38 +405,38 @@ def _differs(working: Working, cell: Marked) -> bool:
 
 def _differs_on_plan(working: Working, cell: Marked) -> bool:
     """Whether a length on a force plan is not that of the own forces, all of which stand on the sheet."""
-    guide, plan = working.guide, vocabulary.plan(cell.id)
-    if guide.ledger[plan].kind != "force scale" or not _stands(working, plan, cell.position):
+    scheme, plan = working.scheme, vocabulary.plan(cell.id)
+    if scheme.ledger[plan].kind != "force scale" or not _stands(working, plan, cell.position):
         return False
-    known = (guide.ledger[one.of].of for id, one in guide.ledger.families.items() if vocabulary.plan(id) == plan)
-    laid = [id for id in known if id in guide.rows and plan not in guide.before[id]]
+    known = (scheme.ledger[one.of].of for id, one in scheme.ledger.families.items() if vocabulary.plan(id) == plan)
+    laid = [id for id in known if id in scheme.rows and plan not in scheme.before[id]]
     assert cell.given is not None, "only a given value is right"
     if not all(_stands(working, id, cell.position) for id in laid):
         return False
     apart = abs(abs(cell.given) - abs(cell.own))
     # What is rounded in the forces shows as well where the plan is large.
-    forces = (working.submission.values[id, guide.place(guide.rows[id], cell.position)].value for id in laid)
-    scale = working.submission.values[plan, guide.place(guide.rows[plan], cell.position)].value
+    forces = (working.submission.values[id, scheme.place(scheme.rows[id], cell.position)].value for id in laid)
+    scale = working.submission.values[plan, scheme.place(scheme.rows[plan], cell.position)].value
     rounding = sum(map(last_half_unit, forces)) / abs(scale) if scale else np.inf
-    error = 2 * guide.policy.paper / guide.ledger[cell.id].how.scale
+    error = 2 * scheme.policy.paper / scheme.ledger[cell.id].how.scale
     return bool(apart > CLOSES * error + rounding)
 
 
 def _stands(working: Working, id: str, position: int) -> bool:
     """Whether a value that is asked for was filled in."""
-    row = working.guide.rows.get(id)
-    return row is not None and (id, working.guide.place(row, position)) in working.submission.values
+    row = working.scheme.rows.get(id)
+    return row is not None and (id, working.scheme.place(row, position)) in working.submission.values
 
 
 def _rounding(working: Working, id: str, position: int) -> float | None:
     """The share by which a value that was gone on from may be rounded: 0 if it was given; None if it is not known."""
-    guide = working.guide
-    row = guide.key.find(id)
-    if row is None or row.id not in guide.rows:
-        family = guide.ledger[id]
-        given = not guide.ledger.inputs[id]
+    scheme = working.scheme
+    row = scheme.key.find(id)
+    if row is None or row.id not in scheme.rows:
+        family = scheme.ledger[id]
+        given = not scheme.ledger.inputs[id]
         return 0.0 if given and not (family.hidden or family.is_plane) and row is not None else None
-    answer = working.submission.values.get((row.id, guide.place(row, position)))
+    answer = working.submission.values.get((row.id, scheme.place(row, position)))
     if answer is None:
         return None
     return last_half_unit(answer.value) / abs(answer.value) if answer.value else 0.0

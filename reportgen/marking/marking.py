@@ -48,17 +48,17 @@ SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
 """What looks for names, one after the other."""
 
 
-def mark(guide: MarkingScheme, submission: Submission, classmates: Sequence[Classmate] = ()) -> Marking:
+def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Classmate] = ()) -> Marking:
     """The verdicts on a submission; `classmates` are those that none of its values should come from."""
-    working = lay_out(guide, submission)
+    working = lay_out(scheme, submission)
     possible = [working.own_values(blank_from_key=True), working.own_values(blank_from_key=False)]
     cells = {
         (row.id, position): _judged(working, submission, row, position, possible)
-        for row in guide.judged
+        for row in scheme.judged
         for position in row.positions
     }
     wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
-    cells |= {place: replace(cells[place], first=True) for place in wrong if not guide.stands_on(place, wrong)}
+    cells |= {place: replace(cells[place], first=True) for place in wrong if not scheme.stands_on(place, wrong)}
     for search in SEARCHES:
         found = search(working, cells)
         for place, mistake in found.items():
@@ -66,22 +66,22 @@ def mark(guide: MarkingScheme, submission: Submission, classmates: Sequence[Clas
         cells |= _charged_once(working, cells, found)
     cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
     flags: tuple[Notice, ...] = ()
-    if guide.policy.guard:
-        cells, flags = guard(guide, cells, classmates)
-    order = {row.id: index for index, row in enumerate(guide.key.rows)}
+    if scheme.policy.guard:
+        cells, flags = guard(scheme, cells, classmates)
+    order = {row.id: index for index, row in enumerate(scheme.key.rows)}
     in_order = sorted(cells.values(), key=lambda cell: order[cell.id])
-    return Marking(guide.key, submission, tuple(in_order), flags)
+    return Marking(scheme.key, submission, tuple(in_order), flags)
 
 
 def _judged(working: Working, submission: Submission, row: KeyRow, position: int, possible: Sequence[Values]) -> Marked:
     """The verdict on one cell; `possible` are values that follow from the student's own."""
-    guide, place = working.guide, (row.id, position)
-    family, index = guide.ledger[row.id], row.at(position)
-    unit, worth = float(working.unit(row.id)[index]), guide.policy.worth(row.id)
+    scheme, place = working.scheme, (row.id, position)
+    family, index = scheme.ledger[row.id], row.at(position)
+    unit, worth = float(working.unit(row.id)[index]), scheme.policy.worth(row.id)
     bands = working.bands[row.id]
     band = float(bands[index if len(bands) > 1 else 0])
     key = float(family.at(position).real)
-    following = [_own(guide.ledger, values, row.id, index) for values in possible]
+    following = [_own(scheme.ledger, values, row.id, index) for values in possible]
     following += working.also(row, position)
     value = float(working.values[row.id][index]) if row.id in working.values else float("nan")
     verdict, points, own = Verdict.wrong, 0.0, following[0]
@@ -89,10 +89,10 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
         verdict = Verdict.unreadable
     elif np.isnan(value):
         verdict = Verdict.blank
-    elif guide.distance(row.id, value, key) <= band:
-        verdict, points = Verdict.right, worth * guide.policy.right
-    elif met := [one for one in following if _follows(guide, row.id, value, one, band)]:
-        verdict, points, own = Verdict.follows, worth * guide.policy.follows, met[0]
+    elif scheme.distance(row.id, value, key) <= band:
+        verdict, points = Verdict.right, worth * scheme.policy.right
+    elif met := [one for one in following if _follows(scheme, row.id, value, one, band)]:
+        verdict, points, own = Verdict.follows, worth * scheme.policy.follows, met[0]
     return Marked(
         row.id,
         position,
@@ -102,7 +102,7 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
         own=own / unit,
         band=band / unit,
         points=points,
-        worth=worth * guide.policy.right,
+        worth=worth * scheme.policy.right,
     )
 
 
@@ -114,15 +114,15 @@ def _own(ledger: Ledger, values: Values, id: str, index: int) -> float:
     return own if size is None else float(np.copysign(abs(size[index].real), own))
 
 
-def _follows(guide: MarkingScheme, id: str, value: float, own: float, band: float) -> bool:
+def _follows(scheme: MarkingScheme, id: str, value: float, own: float, band: float) -> bool:
     """Whether a student's value (SI) is what the earlier ones give.
 
     The band grows in proportion where that is larger than any right value.
     """
-    size = guide.size(id)
+    size = scheme.size(id)
     if size and np.isfinite(own):
-        band = band * max(1.0, abs(own) / size) + float(half_unit(np.array([own]), guide.policy.digits)[0])
-    return bool(guide.distance(id, value, own) <= band)
+        band = band * max(1.0, abs(own) / size) + float(half_unit(np.array([own]), scheme.policy.digits)[0])
+    return bool(scheme.distance(id, value, own) <= band)
 
 
 def _charged_once(working: Working, cells: Cells, found: Mapping[Place, Mistake]) -> dict[Place, Marked]:
@@ -131,15 +131,15 @@ def _charged_once(working: Working, cells: Cells, found: Mapping[Place, Mistake]
     Whoever took the stroke for the radius without writing the radius down went wrong once, though no
     value on the sheet stands on another that shows it.
     """
-    guide, policy = working.guide, working.guide.policy
-    order = {row.id: index for index, row in enumerate(guide.judged)}
+    scheme, policy = working.scheme, working.scheme.policy
+    order = {row.id: index for index, row in enumerate(scheme.judged)}
     changed: dict[Place, Marked] = {}
     unseen = {
         (one.name, one.where): one for one in found.values() if not any(map(working.shows, one.changes or [one.where]))
     }
     for (name, where), mistake in unseen.items():
         own_values = working.own_values(changes=mistake.changes)
-        once = len(guide.ledger[where].values) == 1 or name == WRONG_DATUM
+        once = len(scheme.ledger[where].values) == 1 or name == WRONG_DATUM
         caused = [place for place, one in found.items() if (one.name, one.where) == (name, where)]
         charged: dict[int, Place] = {}
         for place in sorted(caused, key=lambda place: order[place[0]]):
@@ -148,10 +148,10 @@ def _charged_once(working: Working, cells: Cells, found: Mapping[Place, Mistake]
         for place, cell in cells.items():
             if cell.verdict is not Verdict.wrong or place in charged.values() or place in changed:
                 continue
-            index = guide.rows[cell.id].at(cell.position)
+            index = scheme.rows[cell.id].at(cell.position)
             unit = float(working.unit(cell.id)[index])
-            own = _own(guide.ledger, own_values, cell.id, index)
-            if _follows(guide, cell.id, float(working.values[cell.id][index]), own, cell.band * unit):
+            own = _own(scheme.ledger, own_values, cell.id, index)
+            if _follows(scheme, cell.id, float(working.values[cell.id][index]), own, cell.band * unit):
                 points = policy.worth(cell.id) * policy.follows
                 changed[place] = replace(
                     cell, verdict=Verdict.follows, own=own / unit, points=points, first=False, mistake="", where=""
@@ -168,17 +168,17 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
 
     Raises `AssignmentError` if the sheet cannot be read.
     """
-    guide = marking_scheme(case, Policy(guard=False))
-    submission = read_submission(sheet, guide.key, guide.key.language)
+    scheme = marking_scheme(case, Policy(guard=False))
+    submission = read_submission(sheet, scheme.key, scheme.key.language)
     # What the sheet has no row for is not missing.
-    guide = replace(guide, key=Ask(()).of(guide.key, submission.rows))
-    marking = mark(guide, submission)
+    scheme = replace(scheme, key=Ask(()).of(scheme.key, submission.rows))
+    marking = mark(scheme, submission)
     # A blank value does not disagree, nor does one that follows from a right one.
     agrees = not (marking.submission.problems or any(cell.verdict is Verdict.wrong for cell in marking.cells))
-    return tuple(_lines(guide, marking, hint, agrees)), agrees
+    return tuple(_lines(scheme, marking, hint, agrees)), agrees
 
 
-def _lines(guide: MarkingScheme, marking: Marking, hint: bool, agrees: bool) -> Iterator[str]:
+def _lines(scheme: MarkingScheme, marking: Marking, hint: bool, agrees: bool) -> Iterator[str]:
     """A line for each first divergence, with the cell it stands in; `hint` adds where to look, never the answer."""
     words = words_of(marking.key)["compare"]
     for problem in marking.submission.problems.values():
@@ -188,7 +188,7 @@ def _lines(guide: MarkingScheme, marking: Marking, hint: bool, agrees: bool) -> 
         given = marking.submission.values[(cell.id, cell.position)]
         yield words["first"].format(mark=given.mark, symbol=_named(marking, cell), text=given.text)
         if hint:
-            yield f"    {_hint(guide, marking, cell)}"
+            yield f"    {_hint(scheme, marking, cell)}"
     later = counted[Verdict.wrong] - len(marking.first_errors)
     if later:
         yield words["later"].format(count=later)
@@ -200,7 +200,7 @@ def _lines(guide: MarkingScheme, marking: Marking, hint: bool, agrees: bool) -> 
         yield words["agrees"].format(count=counted[Verdict.right] + counted[Verdict.follows])
 
 
-def _hint(guide: MarkingScheme, marking: Marking, cell: Marked) -> str:
+def _hint(scheme: MarkingScheme, marking: Marking, cell: Marked) -> str:
     """The mistake by name; else what the value is worked out from, and whether it is too large."""
     words = words_of(marking.key)
     if cell.mistake:
@@ -209,7 +209,7 @@ def _hint(guide: MarkingScheme, marking: Marking, cell: Marked) -> str:
         return str(words["mistakes"][cell.mistake]).format(symbol=symbol)
     assert cell.given is not None, "only a given value diverges"
     size = words["compare"]["larger" if abs(cell.given) > abs(cell.own) else "smaller"]
-    shown = (marking.key.find(id) for id in guide.before[cell.id])
+    shown = (marking.key.find(id) for id in scheme.before[cell.id])
     nearest = [symbol_text(row, marking.key) for row in shown if row is not None][:NEAREST]
     return f"{size} {words['compare']['from'].format(symbols=', '.join(dict.fromkeys(nearest)))}" if nearest else size
 

@@ -444,7 +444,7 @@ class MarkingScheme:
 
 
 def marking_scheme(case: Case, policy: Policy | None = None) -> MarkingScheme:
-    """The marking guide of an assignment, computed as its report is."""
+    """The marking scheme of an assignment, computed as its report is."""
     return MarkingScheme(case.key(), case.ledger, case.pitfalls, case.positions_of_a_turn, policy or Policy())
 
 

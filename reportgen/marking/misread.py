@@ -27,7 +27,7 @@ WIDE = np.geomspace(1 / 5, 5, 400)
 FEWEST = 3
 """Fewer values may agree in a datum by chance."""
 
-NEAR = 0.04
+SAME_DATUM = 0.04
 """Values of a datum that are nearer than this share are one: each is found from a drawing."""
 
 UNLIKE = 0.005
@@ -54,22 +54,22 @@ def misread_by_many(working: Working, cells: Cells) -> dict[Place, Mistake]:
 
 def _worked_out(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
     """Mistakes with a name in what is worked out before some of the places: one that explains as much goes first."""
-    guide = working.guide
-    before = Counter(id for place in places for id in guide.before[place[0]])
-    for id in guide.ledger.families:
-        if before[id] >= FEWEST and guide.ledger[id].definition is not None:
+    scheme = working.scheme
+    before = Counter(id for place in places for id in scheme.before[place[0]])
+    for id in scheme.ledger.families:
+        if before[id] >= FEWEST and scheme.ledger[id].definition is not None:
             yield from unseen_mistakes(working, id)
 
 
 def _candidates(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
     """Each datum that some of the places stand on, at the values in which most of them agree."""
-    for id in _data(working.guide):
-        behind = [place for place in places if id in working.guide.before[place[0]]]
+    for id in _data(working.scheme):
+        behind = [place for place in places if id in working.scheme.before[place[0]]]
         if len(behind) < FEWEST:
             continue
         found = list(_crossings(working, id, behind))
         factors = np.array([factor for factor, _ in found])
-        near = np.abs(factors[:, None] / factors[None, :] - 1) < NEAR
+        near = np.abs(factors[:, None] / factors[None, :] - 1) < SAME_DATUM
         if not found or near.sum(axis=1).max() < FEWEST:
             continue
         together = near[near.sum(axis=1).argmax()]
@@ -84,26 +84,26 @@ def _times(factor: float) -> Change:
     return lambda value, _: value * factor
 
 
-def _data(guide: MarkingScheme) -> Iterator[str]:
+def _data(scheme: MarkingScheme) -> Iterator[str]:
     """Given data, and loads of a given size, that are not asked for."""
-    for id, family in guide.ledger.families.items():
+    for id, family in scheme.ledger.families.items():
         # A ratio is given as 1/3.6, which the ledger works out.
-        given = not guide.ledger.inputs[id]
-        unseen = not (family.hidden or family.is_plane or id in guide.rows)
-        if given and unseen and (len(family.values) == 1 or id in guide.pitfalls.applied) and np.any(family.values):
+        given = not scheme.ledger.inputs[id]
+        unseen = not (family.hidden or family.is_plane or id in scheme.rows)
+        if given and unseen and (len(family.values) == 1 or id in scheme.pitfalls.applied) and np.any(family.values):
             yield id
 
 
 def _crossings(working: Working, id: str, places: Sequence[Place]) -> Iterator[tuple[float, bool]]:
     """The multiples of a datum at which quantities pass through the student's values, and whether these are single."""
-    guide = working.guide
-    wanted = {name for place in places for name in (place[0], *guide.before[place[0]])}
-    worlds = follow(guide.ledger, {id: FACTORS[:, None] * guide.ledger[id].values}, only=wanted)
+    scheme = working.scheme
+    wanted = {name for place in places for name in (place[0], *scheme.before[place[0]])}
+    worlds = follow(scheme.ledger, {id: FACTORS[:, None] * scheme.ledger[id].values}, only=wanted)
     for row, position in places:
-        index = guide.rows[row].at(position)
-        column = np.broadcast_to(worlds[row].real, (len(FACTORS), len(guide.ledger[row].values)))[:, index]
+        index = scheme.rows[row].at(position)
+        column = np.broadcast_to(worlds[row].real, (len(FACTORS), len(scheme.ledger[row].values)))[:, index]
         given = float(working.values[row][index])
-        if guide.is_unsigned(row):
+        if scheme.is_unsigned(row):
             column, given = np.abs(column), abs(given)
         apart = column - given
         for at in np.flatnonzero(np.diff(np.sign(apart)) != 0):
@@ -136,15 +136,15 @@ def misread_data(working: Working, cells: Cells) -> dict[Place, Mistake]:
 
     Only what is the same at all positions is traced back: a length, a mass, the crank's speed.
     """
-    guide = working.guide
-    left = [place for place, cell in cells.items() if cell.first and not cell.mistake and guide.rows[place[0]].single]
+    scheme = working.scheme
+    left = [place for place, cell in cells.items() if cell.first and not cell.mistake and scheme.rows[place[0]].single]
     possible = {
         place: [one for one in _possible_data(working, cells[place]) if _explains(working, cells[place], one)]
         for place in left
     }
     found: dict[Place, Mistake] = {}
     candidates = list(dict.fromkeys(one for data in possible.values() for one in data))
-    candidates = [one for one in candidates if not _is_contradicted(guide, cells, one)]
+    candidates = [one for one in candidates if not _is_contradicted(scheme, cells, one)]
     while left and candidates:
         explained = {one: [place for place in left if _explains(working, cells[place], one)] for one in candidates}
         most = max(map(len, explained.values()))
@@ -166,96 +166,96 @@ def misread_data(working: Working, cells: Cells) -> dict[Place, Mistake]:
 
 def _following(working: Working, cells: Cells, datum: _Datum) -> int:
     """How many of the wrong values follow from the student's own with this value of the datum."""
-    values, guide = working.own_values(changes=datum.mistake.changes), working.guide
+    values, scheme = working.own_values(changes=datum.mistake.changes), working.scheme
     count = 0
     for cell in cells.values():
         if cell.verdict is Verdict.wrong:
-            index = _index(guide, cell)
-            apart = guide.distance(cell.id, values[cell.id][index].real, _given(working, cell))
+            index = _index(scheme, cell)
+            apart = scheme.distance(cell.id, values[cell.id][index].real, _given(working, cell))
             count += bool(apart <= cell.band * float(working.unit(cell.id)[index]))
     return count
 
 
 def _possible_data(working: Working, cell: Marked) -> Iterator[_Datum]:
     """Neat values of each datum at which a quantity passes through the student's value."""
-    guide = working.guide
-    for id in guide.before[cell.id]:
-        family = guide.ledger[id]
+    scheme = working.scheme
+    for id in scheme.before[cell.id]:
+        family = scheme.ledger[id]
         single = len(family.values) == 1 and not (family.hidden or family.is_plane)
-        if not single or id in guide.rows or not family.values[0] > 0:
+        if not single or id in scheme.rows or not family.values[0] > 0:
             continue
         right = float(family.values[0])
-        values = _at(guide, cell, id, WIDE * right) - _given(working, cell)
+        values = _at(scheme, cell, id, WIDE * right) - _given(working, cell)
         crossing = np.flatnonzero(np.diff(np.sign(values)) != 0)
         for index in crossing[np.isfinite(values[crossing]) & np.isfinite(values[crossing + 1])]:
             one, other = values[index], values[index + 1]
             share = one / (one - other)
             factor = float(WIDE[index : index + 2] @ (1 - share, share))
-            yield _Datum(id, _neat(guide, id, right * factor))
+            yield _Datum(id, _neat(scheme, id, right * factor))
 
 
 def _explains(working: Working, cell: Marked, datum: _Datum) -> bool:
     """Whether the quantity comes to the student's value, not the key's, with this value of the datum."""
-    guide = working.guide
-    if datum.id not in guide.before[cell.id]:
+    scheme = working.scheme
+    if datum.id not in scheme.before[cell.id]:
         return False
-    band = cell.band * float(working.unit(cell.id)[_index(guide, cell)])
-    with_it = float(_at(guide, cell, datum.id, np.array([datum.value]))[0])
-    key = float(guide.ledger[cell.id].values[_index(guide, cell)].real)
+    band = cell.band * float(working.unit(cell.id)[_index(scheme, cell)])
+    with_it = float(_at(scheme, cell, datum.id, np.array([datum.value]))[0])
+    key = float(scheme.ledger[cell.id].values[_index(scheme, cell)].real)
     return abs(with_it - _given(working, cell)) <= band < abs(with_it - key)
 
 
 def _is_slip(working: Working, cell: Marked, datum: _Datum) -> bool:
     """Whether a datum differs from the given one in its last figure by one, and gives the value as it is written."""
-    right = float(working.guide.ledger[datum.id].values[0])
+    right = float(working.scheme.ledger[datum.id].values[0])
     last = 2 * float(half_unit(np.array([right]), NEAT)[0])
-    with_it = float(_at(working.guide, cell, datum.id, np.array([datum.value]))[0])
+    with_it = float(_at(working.scheme, cell, datum.id, np.array([datum.value]))[0])
     assert cell.given is not None, "a wrong value is given"
-    written = last_half_unit(cell.given) * float(working.unit(cell.id)[_index(working.guide, cell)])
+    written = last_half_unit(cell.given) * float(working.unit(cell.id)[_index(working.scheme, cell)])
     return abs(abs(datum.value - right) - last) < last / 10 and abs(with_it - _given(working, cell)) <= written
 
 
-def _is_contradicted(guide: MarkingScheme, cells: Cells, datum: _Datum) -> bool:
+def _is_contradicted(scheme: MarkingScheme, cells: Cells, datum: _Datum) -> bool:
     """Whether a value that is right, and stands on nothing wrong, would lie far off with this value of the datum.
 
     Lengths on paper prove nothing: they are read at the student's own scale.
     """
-    values = follow(guide.ledger, {datum.id: np.array([datum.value])})
+    values = follow(scheme.ledger, {datum.id: np.array([datum.value])})
     wrong = {place[0] for place, cell in cells.items() if cell.verdict is Verdict.wrong}
     for (id, position), cell in cells.items():
-        before = set(guide.before[id])
-        proves = cell.verdict is Verdict.right and not _is_on_paper(guide, id)
+        before = set(scheme.before[id])
+        proves = cell.verdict is Verdict.right and not _is_on_paper(scheme, id)
         if proves and datum.id in before and not wrong & before:
-            column = np.broadcast_to(values[id].real, len(guide.ledger[id].values))
-            moved = float(column[guide.rows[id].at(position)]) / guide.ledger[id].how.scale - cell.expected
+            column = np.broadcast_to(values[id].real, len(scheme.ledger[id].values))
+            moved = float(column[scheme.rows[id].at(position)]) / scheme.ledger[id].how.scale - cell.expected
             if abs(moved) > APART * cell.band:
                 return True
     return False
 
 
-def _is_on_paper(guide: MarkingScheme, id: str) -> bool:
-    kind = guide.ledger[id].kind
+def _is_on_paper(scheme: MarkingScheme, id: str) -> bool:
+    kind = scheme.ledger[id].kind
     return kind == "segment" or kind.endswith("scale") or is_direction(id)
 
 
-def _at(guide: MarkingScheme, cell: Marked, id: str, values: np.ndarray) -> np.ndarray:
+def _at(scheme: MarkingScheme, cell: Marked, id: str, values: np.ndarray) -> np.ndarray:
     """A quantity (SI) over values of a datum [M]."""
-    wanted = {*guide.before[cell.id], cell.id}
-    result = follow(guide.ledger, {id: values[:, None]}, only=wanted)[cell.id].real
-    return np.broadcast_to(result, (len(values), len(guide.ledger[cell.id].values)))[:, _index(guide, cell)]
+    wanted = {*scheme.before[cell.id], cell.id}
+    result = follow(scheme.ledger, {id: values[:, None]}, only=wanted)[cell.id].real
+    return np.broadcast_to(result, (len(values), len(scheme.ledger[cell.id].values)))[:, _index(scheme, cell)]
 
 
 def _given(working: Working, cell: Marked) -> float:
-    return float(working.values[cell.id][_index(working.guide, cell)])
+    return float(working.values[cell.id][_index(working.scheme, cell)])
 
 
-def _index(guide: MarkingScheme, cell: Marked) -> int:
-    return guide.rows[cell.id].at(cell.position)
+def _index(scheme: MarkingScheme, cell: Marked) -> int:
+    return scheme.rows[cell.id].at(cell.position)
 
 
-def _neat(guide: MarkingScheme, id: str, value: float) -> float:
+def _neat(scheme: MarkingScheme, id: str, value: float) -> float:
     """The nearest number (SI) as round as the right one in the datum's printed unit; for 1/3.6 that of its inverse."""
-    family = guide.ledger[id]
+    family = scheme.ledger[id]
     # Lengths stand in metres in the ledger and in millimetres on the page: the same figures.
     taken, right = (one / family.how.scale for one in (value, float(family.values[0])))
     # A ratio that the ledger works out was given as 1/3.6.
@@ -287,7 +287,7 @@ AGREED = 0.7
 def mistakes_of_plans(working: Working, cells: Cells) -> dict[Place, Mistake]:
     """The vectors reversed or left out behind first wrong values that have no name yet."""
     open_ones = [place for place, cell in cells.items() if cell.first and not cell.mistake and place[1]]
-    candidates = list(_vectors_laid(working.guide))
+    candidates = list(_vectors_laid(working.scheme))
     found: dict[Place, Mistake] = {}
     for position in dict.fromkeys(position for _, position in open_ones):
         here = [place for place in open_ones if place[1] == position]
@@ -299,9 +299,9 @@ def behind_many(
     working: Working, cells: Cells, places: Sequence[Place], candidates: Sequence[Mistake], fewest: int
 ) -> dict[Place, Mistake]:
     """The mistakes that explain nearly all wrong values behind them, `fewest` at least, those of the most first."""
-    guide = working.guide
+    scheme = working.scheme
     first = list(dict.fromkeys(id for id, _ in places))
-    before = {id: {*guide.before[id]} for id in first}
+    before = {id: {*scheme.before[id]} for id in first}
     candidates = [one for one in candidates if any(one.changes.keys() & before[id] for id in first)]
     if len(places) < fewest or not candidates:
         return {}
@@ -316,9 +316,9 @@ def behind_many(
     return found
 
 
-def _vectors_laid(guide: MarkingScheme) -> Iterator[Mistake]:
+def _vectors_laid(scheme: MarkingScheme) -> Iterator[Mistake]:
     """Each vector that is laid in a plan, and each load as a whole, left out or reversed."""
-    ledger = guide.ledger
+    ledger = scheme.ledger
     for id, family in ledger.families.items():
         if family.definition is not None and vocabulary.is_laid(id) and family.is_plane and not family.of:
             # The vector of a force, or the length of aⁿ on paper, which a line says of aⁿ itself.
@@ -327,7 +327,7 @@ def _vectors_laid(guide: MarkingScheme) -> Iterator[Mistake]:
                 yield from _either("force-left-out", "force-reversed", source.of, id)
             elif source.definition is not None:
                 yield from _either("part-left-out", "part-reversed", refs(source.definition)[0], id)
-    for load in guide.pitfalls.loads:
+    for load in scheme.pitfalls.loads:
         vector = ids.force_vector(load)
         yield from _either("load-forgotten", "load-reversed", load, vector if vector in ledger else load)
 
@@ -339,15 +339,15 @@ def _either(left_out: str, reversed_: str, where: str, id: str) -> Iterator[Mist
 
 def _met(working: Working, cells: Cells, place: Place, values: np.ndarray) -> np.ndarray:
     """Which of the candidates' values [candidates, positions] a student's value is, and not the right one."""
-    guide, cell = working.guide, cells[place]
-    index = guide.rows[place[0]].at(place[1])
+    scheme, cell = working.scheme, cells[place]
+    index = scheme.rows[place[0]].at(place[1])
     unit = float(working.unit(place[0])[index])
     given, band = float(working.values[place[0]][index]), cell.band * unit
     expected = values[:, index]
     with np.errstate(all="ignore"):
         wider = np.maximum(1.0, np.abs(expected) / max(abs(cell.own) * unit, band))
-        near = guide.distance(place[0], given, expected) <= band * wider
-        shows = guide.distance(place[0], cell.own * unit, expected) > band
+        near = scheme.distance(place[0], given, expected) <= band * wider
+        shows = scheme.distance(place[0], cell.own * unit, expected) > band
     return np.asarray(near & shows)
 
 

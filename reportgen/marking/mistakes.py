@@ -50,21 +50,21 @@ class Mistake:
     changes: Mapping[str, Change]
 
 
-def mistakes_in(guide: MarkingScheme, id: str, scales: Values) -> Iterator[Mistake]:
+def mistakes_in(scheme: MarkingScheme, id: str, scales: Values) -> Iterator[Mistake]:
     """All mistakes that can be made in working out one quantity; `scales` are the student's own, in SI.
 
     What stands printed for every position (the crank's angle) can only be taken at another one.
     """
-    family = guide.ledger[id]
+    family = scheme.ledger[id]
     if family.exact and len(family.values) > 1:
         return
-    for name, change in _changes_of(guide, family, scales):
+    for name, change in _changes_of(scheme, family, scales):
         yield Mistake(name, id, {id: change})
 
 
-def general_mistakes(guide: MarkingScheme) -> Iterator[Mistake]:
+def general_mistakes(scheme: MarkingScheme) -> Iterator[Mistake]:
     """Mistakes about the positions as such, and a Coriolis acceleration that is left out."""
-    ledger = guide.ledger
+    ledger = scheme.ledger
     read = [id for id, family in ledger.families.items() if family.definition is None and len(family.values) > 1]
     if read:
         count = len(ledger[read[0]].values)
@@ -80,14 +80,14 @@ def general_mistakes(guide: MarkingScheme) -> Iterator[Mistake]:
             yield Mistake(NO_CORIOLIS, id, {id: _times(0)})
 
 
-def _changes_of(guide: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
+def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
     """What one quantity becomes with each mistake, by name."""
     id = family.id
     if family.definition is not None:
-        yield from _in_a_definition(guide, family, family.definition, scales)
-    for name, reading in guide.pitfalls.readings.get(id, ()):
+        yield from _in_a_definition(scheme, family, family.definition, scales)
+    for name, reading in scheme.pitfalls.readings.get(id, ()):
         yield name, _replaced_by(reading)
-    if (rod := guide.pitfalls.whole.get(id)) is not None:
+    if (rod := scheme.pitfalls.whole.get(id)) is not None:
         yield "wrong-end", lambda value, values: values[rod] - value
     if is_direction(id):
         yield "direction-reversed", lambda value, _: value + np.pi
@@ -101,11 +101,11 @@ def _changes_of(guide: MarkingScheme, family: Family, scales: Values) -> Iterato
 
 
 def _in_a_definition(
-    guide: MarkingScheme, family: Family, definition: Expression, scales: Values
+    scheme: MarkingScheme, family: Family, definition: Expression, scales: Values
 ) -> Iterator[tuple[str, Change]]:
-    used = [guide.ledger[ref] for ref in dict.fromkeys(refs(definition))]
+    used = [scheme.ledger[ref] for ref in dict.fromkeys(refs(definition))]
     for given in used:
-        yield from _with_a_wrong_input(guide, family, definition, given, scales)
+        yield from _with_a_wrong_input(scheme, family, definition, given, scales)
     if family.kind == "angle" and _calls(definition, INVERSE):
         yield "radians-for-degrees", _times(np.pi / 180)
     if _calls(definition, TRIGONOMETRIC):
@@ -117,10 +117,10 @@ def _in_a_definition(
 
 
 def _with_a_wrong_input(
-    guide: MarkingScheme, family: Family, definition: Expression, given: Family, scales: Values
+    scheme: MarkingScheme, family: Family, definition: Expression, given: Family, scales: Values
 ) -> Iterator[tuple[str, Change]]:
     """Mistakes about one input of a definition."""
-    ledger, id = guide.ledger, given.id
+    ledger, id = scheme.ledger, given.id
 
     def as_printed(_: np.ndarray, values: Values) -> np.ndarray:
         """The input's printed number taken for the result's."""
@@ -143,24 +143,24 @@ def _with_a_wrong_input(
         yield "rpm-for-radians", instead(lambda values: values["n"])
     elif given.kind == "weight" and family.kind == "mass":
         yield "weight-for-mass", as_printed
-    elif given.kind == "mass" and (weight := _weight(guide, given)):
+    elif given.kind == "mass" and (weight := _weight(scheme, given)):
         yield "weight-for-mass", instead(lambda values: values[weight])
-    elif given.kind.endswith("scale") and not family.constructed and (power := _power(guide, definition, id)):
+    elif given.kind.endswith("scale") and not family.constructed and (power := _power(scheme, definition, id)):
         number = scales.get(id, given.values) / given.how.scale
         # v = seg and v = μ²·seg instead of v = μ·seg.
         yield "scale-forgotten", _times(number**-power)
         yield "scale-twice", _times(number**power)
 
 
-def _weight(guide: MarkingScheme, mass: Family) -> str:
+def _weight(scheme: MarkingScheme, mass: Family) -> str:
     """The weight of the link that a mass is of, "" if it has none."""
-    weights = (one for one in guide.ledger.families.values() if one.kind == "weight")
+    weights = (one for one in scheme.ledger.families.values() if one.kind == "weight")
     return next((one.id for one in weights if one.symbol.sub == mass.symbol.sub), "")
 
 
-def _power(guide: MarkingScheme, definition: Expression, scale: str) -> int:
+def _power(scheme: MarkingScheme, definition: Expression, scale: str) -> int:
     """The power (±1) in which a scale stands in a definition as a whole; 0 if it does not."""
-    values = {id: guide.ledger[id].values for id in refs(definition)}
+    values = {id: scheme.ledger[id].values for id in refs(definition)}
     with np.errstate(all="ignore"):
         once = np.atleast_1d(evaluate(definition, values))
         twice = np.atleast_1d(evaluate(definition, values | {scale: 2 * values[scale]}))
@@ -251,16 +251,16 @@ OF_WRITING = frozenset({"thousands-mark", "sign-reversed"})
 
 def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
     """The slips behind first wrong values, where they are known."""
-    guide = working.guide
+    scheme = working.scheme
     first = {place: cell for place, cell in cells.items() if cell.first}
     found = (
-        *_misplaced(guide, first, cells),
+        *_misplaced(scheme, first, cells),
         *(("too-few-figures", place) for place, cell in first.items() if _has_too_few_figures(cell)),
         # A scale was taken from the task while the plan was drawn at another.
         *(
             ("other-scale", place)
             for place, cell in first.items()
-            if guide.rows[place[0]].role is Role.scale and _is_other_scale(guide, cell)
+            if scheme.rows[place[0]].role is Role.scale and _is_other_scale(scheme, cell)
         ),
         *_by_another_convention(first, cells),
     )
@@ -268,10 +268,10 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
     return {place: Mistake(name, place[0], {}) for name, place in found}
 
 
-def _is_other_scale(guide: MarkingScheme, cell: Marked) -> bool:
+def _is_other_scale(scheme: MarkingScheme, cell: Marked) -> bool:
     """Whether a scale is the task's, or chosen freely, but not that of the drawing."""
-    usual = float(guide.key.row(cell.id).values[0])
-    return cell.equals(usual, cell.band) or guide.ledger[cell.id].kind == "force scale"
+    usual = float(scheme.key.row(cell.id).values[0])
+    return cell.equals(usual, cell.band) or scheme.ledger[cell.id].kind == "force scale"
 
 
 def _has_too_few_figures(cell: Marked) -> bool:
@@ -283,17 +283,17 @@ def _has_too_few_figures(cell: Marked) -> bool:
     )
 
 
-def _misplaced(guide: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:
+def _misplaced(scheme: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:
     """Two values of one unit in each other's rows; a value beside its own cell, which was left empty."""
     for (one, mine), (other, theirs) in combinations(first.items(), 2):
-        same = one[1] == other[1] and guide.rows[one[0]].unit == guide.rows[other[0]].unit
+        same = one[1] == other[1] and scheme.rows[one[0]].unit == scheme.rows[other[0]].unit
         # Of two values that differ in sign alone, both signs were reversed.
         opposite = abs(mine.expected + theirs.expected) <= mine.band
         if same and not opposite and _belongs_to(mine, theirs) and _belongs_to(theirs, mine):
             yield "rows-swapped", one
             yield "rows-swapped", other
     for place, cell in first.items():
-        beside = [cells[place[0], position] for position in guide.rows[place[0]].positions]
+        beside = [cells[place[0], position] for position in scheme.rows[place[0]].positions]
         if any(one.verdict is Verdict.blank and _belongs_to(cell, one) for one in beside):
             yield "wrong-column", place
 
@@ -353,11 +353,11 @@ def _explained(
     The first working is the one handed in.
     """
     working = gone_on_from[0]
-    guide = working.guide
+    scheme = working.scheme
     candidates = list(_candidates(working, id))
     if not candidates:
         return
-    row = guide.rows[id]
+    row = scheme.rows[id]
     index = [row.at(position) for position in positions]
     given = working.values[id][index]
     unit = working.unit(id)[index]
@@ -368,9 +368,9 @@ def _explained(
     with np.errstate(all="ignore"):
         # What a mistake makes larger, it makes less certain in the same measure.
         wider = np.maximum(1.0, np.abs(values) / np.maximum(np.abs(own), band))
-        apart = guide.distance(id, given, values)
+        apart = scheme.distance(id, given, values)
         off = apart / (band * wider)
-        shows = np.min([guide.distance(id, one, values) for one in (own, expected)], axis=0) > band
+        shows = np.min([scheme.distance(id, one, values) for one in (own, expected)], axis=0) > band
     # What is nearly nothing is so by many a mistake: it shows one only if it is met in its own figures.
     left_out = np.array([[mistake.name == NO_CORIOLIS] for mistake in candidates])
     met = (off <= 1) & shows & (left_out | (np.abs(given) > band) | (apart <= OWN_FIGURES * np.abs(values)))
@@ -385,31 +385,31 @@ def _explained(
 
 def _candidates(working: Working, id: str) -> Iterator[Mistake]:
     """Mistakes in the quantity itself, then in unseen ones before it, nearest first, then general ones."""
-    guide = working.guide
-    yield from mistakes_in(guide, id, working.scales)
-    size = guide.ledger.size_of(id)
+    scheme = working.scheme
+    yield from mistakes_in(scheme, id, working.scales)
+    size = scheme.ledger.size_of(id)
     if size != id:
-        yield from mistakes_in(guide, size, working.scales)
-    before = guide.before[id]
+        yield from mistakes_in(scheme, size, working.scales)
+    before = scheme.before[id]
     for other in before:
         if other != size:
             yield from unseen_mistakes(working, other)
     concerned = {*before, id}
-    yield from (mistake for mistake in general_mistakes(guide) if concerned & mistake.changes.keys())
+    yield from (mistake for mistake in general_mistakes(scheme) if concerned & mistake.changes.keys())
 
 
 def unseen_mistakes(working: Working, id: str) -> Iterator[Mistake]:
     """Mistakes in a quantity that the sheet does not show; a plan many times too large is never drawn."""
-    family = working.guide.ledger[id]
+    family = working.scheme.ledger[id]
     drawn = family.kind == "segment" or family.kind.endswith("scale")
     if not (working.shows(id) or family.hidden or family.is_plane or drawn):
-        yield from (one for one in mistakes_in(working.guide, id, working.scales) if one.name not in OF_WRITING)
+        yield from (one for one in mistakes_in(working.scheme, id, working.scales) if one.name not in OF_WRITING)
 
 
 def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) -> dict[str, np.ndarray]:
     """What quantities come to with each mistake, from the student's own earlier values [mistakes, positions]."""
-    guide = working.guide
-    ledger = guide.ledger
+    scheme = working.scheme
+    ledger = scheme.ledger
     made: dict[str, list[tuple[int, Change]]] = {}
     for number, mistake in enumerate(mistakes):
         for changed, change in mistake.changes.items():
@@ -429,7 +429,7 @@ def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) 
 
         return change
 
-    wanted = {*ids}.union(*(guide.before[id] for id in ids))
+    wanted = {*ids}.union(*(scheme.before[id] for id in ids))
     names = {name for name in (*working.entered_ids, *made) if name in wanted}
     values = follow(ledger, {name: with_mistakes(name) for name in names}, only=wanted)
     return {id: np.broadcast_to(values[id], (len(mistakes), len(ledger[id].values))).real for id in ids}

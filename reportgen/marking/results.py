@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.base.units import Language, significant_decimals, write
+from reportgen.base.units import MM, Language, significant_decimals, write
 from reportgen.base.words import word
 from reportgen.formula import ids
 from reportgen.machine import Crank
@@ -125,7 +125,6 @@ MOST_DECIMALS = 4
 LEADS = ("position", "crank_angle", "driver_way")
 """Headings that stand in every table: the position, and where the driver is."""
 MOST_COLUMNS = 7
-MM = 1e3
 WORDS = frozenset({"position", "crank_angle", "driver_way", "equilibrium", "virtual_work"})
 """Headings that are words of a language; the others are symbols."""
 

@@ -30,7 +30,7 @@ class Working:
     are the tolerances of such drawings.
     """
 
-    guide: MarkingScheme
+    scheme: MarkingScheme
     submission: Submission
     values: Values
     scales: Values
@@ -44,7 +44,7 @@ class Working:
     @cached_property
     def factors(self) -> dict[str, np.ndarray]:
         """The scales as multiples of the report's, [N] or [1]."""
-        return {id: scale / self.guide.ledger[id].values for id, scale in self.scales.items()}
+        return {id: scale / self.scheme.ledger[id].values for id, scale in self.scales.items()}
 
     @cached_property
     def bands(self) -> Mapping[str, np.ndarray]:
@@ -52,12 +52,12 @@ class Working:
         # Nobody gets wider tolerances by a scale that nothing was drawn at.
         factors = {id: np.where(self.shown[id], one, np.minimum(one, 1.0)) for id, one in self.factors.items()}
         other = {id: factor for id, factor in factors.items() if (np.abs(factor - 1) > CONFIRMED).any()}
-        return self.guide.bands_at(other) if other else self.guide.bands
+        return self.scheme.bands_at(other) if other else self.scheme.bands
 
     def unit(self, id: str) -> np.ndarray:
         """What one printed unit of a quantity stands for in `values` [N]: lengths as drawn at the student's scale."""
         if id not in self._units:
-            family = self.guide.ledger[id]
+            family = self.scheme.ledger[id]
             unit = family.how.scale * self.factors.get(vocabulary.plan(id), 1.0) / self.factors.get(id, 1.0)
             self._units[id] = np.broadcast_to(unit, family.values.shape)
         return self._units[id]
@@ -80,7 +80,7 @@ class Working:
     def _followed(
         self, blank_from_key: bool, unseen: Mapping[str, Change]
     ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-        ledger = self.guide.ledger
+        ledger = self.scheme.ledger
         result: dict[str, np.ndarray] = {}
 
         def entered(id: str) -> Change:
@@ -101,10 +101,10 @@ class Working:
         Whoever takes a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was.  On the lever M = F h′ μ_l
         where pa is the drawn crank, though the report has μ_v/ω₁ for a plan at another scale.
         """
-        ledger, index = self.guide.ledger, row.at(position)
-        found = [float(self.values[other][index].real) for other in self.guide.alike[row.id] if other in self.values]
-        if row.role is Role.scale and row.id in self.guide.makers:
-            size, length = self.guide.makers[row.id]
+        ledger, index = self.scheme.ledger, row.at(position)
+        found = [float(self.values[other][index].real) for other in self.scheme.alike[row.id] if other in self.values]
+        if row.role is Role.scale and row.id in self.scheme.makers:
+            size, length = self.scheme.makers[row.id]
             if size in self.values and self.values.get(length, np.zeros(1))[0]:
                 found.append(float(self.values[size][0] / self.values[length][0]))
         found += self._by_length_scale(row, index)
@@ -130,34 +130,34 @@ class Working:
 
     def unrounded(self, right: Container[Place]) -> Working:
         """The same with the key's value at every place where the student's is right."""
-        ledger = self.guide.ledger
+        ledger = self.scheme.ledger
         values = dict(self.values)
-        for row in self.guide.judged:
+        for row in self.scheme.judged:
             if row.id in values:
-                kept = [self.guide.place(row, k + 1) for k in range(len(values[row.id]))]
+                kept = [self.scheme.place(row, k + 1) for k in range(len(values[row.id]))]
                 known = np.array([(row.id, position) in right for position in kept])
                 values[row.id] = np.where(known, ledger[row.id].values.real, values[row.id])
         return replace(self, values=values)
 
     def shows(self, id: str) -> bool:
         """Whether the sheet has a value of a quantity at any position."""
-        return id in self.values or self.guide.ledger.signed.get(id) in self.values
+        return id in self.values or self.scheme.ledger.signed.get(id) in self.values
 
     @cached_property
     def entered_ids(self) -> tuple[str, ...]:
         """Ids of the ledger that hold a value of the student's or are judged, sizes of signed rotations too."""
-        judged = [row.id for row in self.guide.judged]
-        return tuple(dict.fromkeys([*judged, *map(self.guide.ledger.size_of, judged), *self.values]))
+        judged = [row.id for row in self.scheme.judged]
+        return tuple(dict.fromkeys([*judged, *map(self.scheme.ledger.size_of, judged), *self.values]))
 
     def entered_values(self, id: str, computed: np.ndarray, blank: np.ndarray) -> np.ndarray:
         """The student's values of a quantity, `blank` where there are none; the computed sign where none is judged."""
         given = self.values.get(id)
         if given is None:
-            signed = self.values.get(self.guide.ledger.signed.get(id, ""))
+            signed = self.values.get(self.scheme.ledger.signed.get(id, ""))
             if signed is None:
                 return blank
             given = np.abs(signed)
-        elif self.guide.is_unsigned(id):
+        elif self.scheme.is_unsigned(id):
             given = np.abs(given) * np.where(computed < 0, -1.0, 1.0)
         return np.where(np.isnan(given), blank, given)
 
@@ -169,51 +169,51 @@ def last_half_unit(value: float) -> float:
     return float(half_unit(np.array([value]), max(LEAST_FIGURES, len(written)))[0])
 
 
-def lay_out(guide: MarkingScheme, submission: Submission) -> Working:
+def lay_out(scheme: MarkingScheme, submission: Submission) -> Working:
     """The working of a submission, with every plan read as it was drawn.
 
     The scale of a plan is what its first length stands for (μ = v_A/pa), the one written down, or the
     report's: the one that another confirms, or that makes most of the plan right.  A scale written down that
     is not the plan's own is a wrong value like any other.
     """
-    values = {row.id: _column(guide, row, submission) for row in guide.key.asked}
+    values = {row.id: _column(scheme, row, submission) for row in scheme.key.asked}
     values = {id: column for id, column in values.items() if not np.isnan(column).all()}
-    asked = [row.id for row in guide.key.asked if row.role is Role.scale and row.kind != "segment"]
+    asked = [row.id for row in scheme.key.asked if row.role is Role.scale and row.kind != "segment"]
     scales: dict[str, np.ndarray] = {}
     shown: dict[str, np.ndarray] = {}
     for scale in asked:
-        usual = guide.ledger[scale].values
+        usual = scheme.ledger[scale].values
         plan = [id for id in values if vocabulary.plan(id) == scale]
-        first = next((id for id in plan if makes_scale(guide.ledger, id, scale)), None)
+        first = next((id for id in plan if makes_scale(scheme.ledger, id, scale)), None)
         stated = values.get(scale, np.full(len(usual), np.nan))
         factor, shown[scale] = np.ones(len(usual)), np.zeros(len(usual), dtype=bool)
         for place in range(len(usual)):
             # A scale for all positions is judged by all lengths, a position's own by those of its plan.
             own = slice(None) if len(usual) == 1 else slice(place, place + 1)
             tried = [float(one) for one in (stated[place] / usual[place], 1.0)]
-            if (found := in_use(guide, values, scale, own, float(stated[place]))) is not None:
+            if (found := in_use(scheme, values, scale, own, float(stated[place]))) is not None:
                 tried.insert(0, float(found / usual[place]))
             if first is not None:
                 with np.errstate(divide="ignore"):
-                    tried.insert(0, float(guide.ledger[first].values[0] / values[first][0]))
+                    tried.insert(0, float(scheme.ledger[first].values[0] / values[first][0]))
             plan_of_place = [id for id in plan if id != first]
-            factor[place], shown[scale][place] = drawn_at(guide, values, plan_of_place, tried, own)
+            factor[place], shown[scale][place] = drawn_at(scheme, values, plan_of_place, tried, own)
         scales[scale] = factor * usual
         values |= {id: values[id] * factor for id in plan}
         if scale in values:
             values[scale] = stated / factor
-    return Working(guide, submission, values, scales, shown)
+    return Working(scheme, submission, values, scales, shown)
 
 
-def _column(guide: MarkingScheme, row: KeyRow, submission: Submission) -> np.ndarray:
+def _column(scheme: MarkingScheme, row: KeyRow, submission: Submission) -> np.ndarray:
     """A row's values in SI; those of the first turn hold for every turn where all turns are the same."""
     column = np.full(len(row.values), np.nan)
-    scale = guide.ledger[row.id].how.scale
+    scale = scheme.ledger[row.id].how.scale
     for position in row.positions:
         given = submission.values.get((row.id, position))
         if given is None:
             continue
-        places = range(position - 1, len(column), guide.count) if guide.repeats(row) else [row.at(position)]
+        places = range(position - 1, len(column), scheme.count) if scheme.repeats(row) else [row.at(position)]
         column[list(places)] = given.value * scale
     return column
 
@@ -235,17 +235,17 @@ CONFIRMED = 0.02
 """Two scales nearer than this are one: a millimetre in the length of a drawn crank."""
 
 
-def in_use(guide: MarkingScheme, values: Values, scale: str, place: slice, stated: float) -> float | None:
+def in_use(scheme: MarkingScheme, values: Values, scale: str, place: slice, stated: float) -> float | None:
     """The scale (SI) that a plan was drawn at by what was read from it: most sizes over their lengths, if these agree.
 
     Only a scale that is chosen freely shows so; `place` is the part of the columns that is drawn at it.  Where they
     agree with the one that is `stated`, few are enough: the plan of a crank has two lengths.
     """
-    if guide.ledger[scale].definition is not None or scale == "mu.l":
+    if scheme.ledger[scale].definition is not None or scale == "mu.l":
         return None
     found: list[np.ndarray] = []
     for length in (id for id in values if vocabulary.plan(id) == scale):
-        for size in guide.sizes[length] & values.keys():
+        for size in scheme.sizes[length] & values.keys():
             with np.errstate(all="ignore"):
                 # A short length may be rounded by more than scales differ.
                 rounding = READ_TO / np.abs(values[length])
@@ -263,7 +263,7 @@ def in_use(guide: MarkingScheme, values: Values, scale: str, place: slice, state
 
 
 def drawn_at(
-    guide: MarkingScheme, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice
+    scheme: MarkingScheme, values: Values, plan: Sequence[str], tried: Sequence[float], place: slice
 ) -> tuple[float, bool]:
     """The scale of a plan over the report's: of those `tried` the first that another confirms, else the best.
 
@@ -274,7 +274,11 @@ def drawn_at(
     def right(factor: float) -> int:
         """How many lengths of the plan are right at that scale."""
         return sum(
-            int((np.abs(np.abs(values[id]) * factor - np.abs(guide.ledger[id].values)) <= guide.bands[id])[place].sum())
+            int(
+                (np.abs(np.abs(values[id]) * factor - np.abs(scheme.ledger[id].values)) <= scheme.bands[id])[
+                    place
+                ].sum()
+            )
             for id in plan
         )
 

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.base.units import nice_up, significant_decimals
+from reportgen.base.units import MM, nice_up, significant_decimals
 from reportgen.drawing import Circle, Content, Pen, style
 from reportgen.drawing.charts import Plotted
 from reportgen.drawing.film import (
@@ -39,21 +39,22 @@ from reportgen.drawing.film import (
 from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
 from reportgen.formula.plain import formula
 from reportgen.formula.vocabulary import KINDS
-from reportgen.machine.analysis import FULL_TURN, Analysis, Machine, analyse, breaks, motion_at
+from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, motion_at
 from reportgen.machine.forces import Load
+from reportgen.machine.loads import FULL_TURN
 from reportgen.machine.motion import Motion
 from reportgen.plans import enter_plans
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What, centre_symbol
 from reportgen.report.case import Calculation
 from reportgen.report.curves import axis, curves_of_motion, over_a_turn, over_the_cycle, torque_chart
-from reportgen.report.figures import MM, drawing_scale, looks, short
+from reportgen.report.figures import drawing_scale, looks, short
 from reportgen.report.plans import POLE, force_construction, motion_construction
 from reportgen.report.report import Report
 
 SAMPLES = 360
 """Even samples of a turn."""
-SAME = 1e-7
+SAME_SAMPLE = 1e-7
 """Samples nearer than this (rad) are one."""
 BESIDE = 2e-5
 """How far from a jump of a load (rad) its two sides are sampled."""
@@ -87,14 +88,14 @@ class _Samples:
     def knots(self) -> np.ndarray:
         """The samples of one turn (rad), from 0 to a whole turn."""
         machine = self.machine
-        own = np.mod(machine.cycle_angles[: machine.count], FULL_TURN * (1 + SAME))
+        own = np.mod(machine.cycle_angles[: machine.count], FULL_TURN * (1 + SAME_SAMPLE))
         wanted = np.concatenate((own, self._jumps()))
         grid = np.linspace(0.0, FULL_TURN, SAMPLES + 1)
-        near = np.abs(grid[:, None] - wanted).min(axis=1) <= SAME
+        near = np.abs(grid[:, None] - wanted).min(axis=1) <= SAME_SAMPLE
         # The ends stay where they are; a position there is one of them.
         near[[0, -1]] = False
         found = np.sort(np.concatenate((grid[~near], wanted)))
-        return found[np.concatenate(([True], np.diff(found) > SAME))]
+        return found[np.concatenate(([True], np.diff(found) > SAME_SAMPLE))]
 
     def _jumps(self) -> np.ndarray:
         """Both sides of the angles of a turn at which a load jumps, as the friction of a slider that turns back."""

@@ -14,14 +14,14 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import ZERO, Sheet, is_short
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import Crank, Linkage, flywheel
-from reportgen.machine.analysis import FULL_TURN, Analysis, no_formulas
-from reportgen.machine.loads import TableLaw
+from reportgen.machine.analysis import Analysis, no_formulas
+from reportgen.machine.loads import FULL_TURN, TableLaw
 from reportgen.plans.decimals import choose_decimals
 from reportgen.plans.forces import enter_forces
 from reportgen.plans.groups import enter_kinematics
 from reportgen.plans.loads import Polygon
 
-SAME = (("M.eq", "M.vw", "M.least", "M.greatest"), ("M.mean", "M.energy"))
+ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest"), ("M.mean", "M.energy"))
 """Quantities that are one: both torques and the extremes of their curve, the mean by the curve and by the work."""
 TERMS = 4
 """More terms than these are no longer one line of a page."""
@@ -60,7 +60,7 @@ def write_ledger(
     decimals: Mapping[str, int | None] = dict.fromkeys(q.families)
     cancellations: tuple[str, ...] = ()
     if printed:
-        decimals, cancellations = choose_decimals(q.families, SAME, checks, worked)
+        decimals, cancellations = choose_decimals(q.families, ONE_QUANTITY, checks, worked)
     ledger = Ledger(
         families=q.families,
         decimals=decimals,

@@ -17,7 +17,7 @@ SHEET_BOXES = (0.360, 0.210), (0.235, 0.335)
 """What a plan may fill on an A3 sheet (m), lying or standing."""
 LEAST_MOTION, LEAST_FORCES = 0.060, 0.100
 """A worked plan of velocities or accelerations, and one of forces, is drawn at least so wide or high (m)."""
-NOTHING = 1e-6
+UNLOADED = 1e-6
 """A plan below this share of the largest one is that of an unloaded position."""
 PER_MM = 1e3
 """Scales are round in the unit in which they are printed, per mm of paper."""
@@ -54,7 +54,7 @@ def own_scales(sizes: np.ndarray, least: float) -> np.ndarray:
 
     The largest of them therefore serves all plans together.  A position without forces takes that one.
     """
-    known = np.isfinite(sizes).all(axis=0) & (sizes.max(axis=0) > NOTHING * np.nanmax(sizes, initial=0.0))
+    known = np.isfinite(sizes).all(axis=0) & (sizes.max(axis=0) > UNLOADED * np.nanmax(sizes, initial=0.0))
     scales = [
         max(filling(one[:, None], least), fitting(one[:, None], TEXT_BOX)) if there else 0.0
         for one, there in zip(sizes.T, known, strict=True)

@@ -316,8 +316,6 @@ def plain(inlines: Inlines, language: Language) -> str:
 # --- decisions that all writers share -------------------------------------------------------------
 # How formulas are put together, and what breaks must not separate.
 
-TEXT_WIDTH = 160.0
-"""Of the A4 text block, mm."""
 SCENE_GAP = 4.0
 """Between scenes side by side, mm."""
 ABREAST = 8.0

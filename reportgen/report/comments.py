@@ -18,7 +18,7 @@ from reportgen.report.report import Report
 
 RUN = 3
 """So many positions in a row are written as from – to."""
-STILL = 1e-9
+AT_REST = 1e-9
 """A velocity below this share of its greatest value is zero."""
 
 
@@ -175,7 +175,7 @@ def reverses(report: Report, rate: Peak) -> bool:
 
 def _reverses(report: Report, link: int) -> bool:
     along = report.analysis.motion.slides[GROUND, link].v[: report.count]
-    still = np.abs(along) < STILL * np.abs(along).max()
+    still = np.abs(along) < AT_REST * np.abs(along).max()
     return all(along[k - 1] * along[(k + 1) % len(along)] < 0 for k in np.flatnonzero(still))
 
 

@@ -10,17 +10,18 @@ from functools import partial
 
 import numpy as np
 
+from reportgen.base.units import MM
 from reportgen.drawing import Content, Scene, charts
 from reportgen.formula import Chain, Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank
-from reportgen.machine.analysis import FULL_TURN
-from reportgen.machine.flywheel import RegulatedCycle
+from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
+from reportgen.machine.loads import FULL_TURN
 from reportgen.plans.sides import scheme
 from reportgen.report.comments import sliders
 from reportgen.report.equations import heading_words
-from reportgen.report.figures import MM, FigureScenes
-from reportgen.report.report import SAME, Report, lower_digits
+from reportgen.report.figures import FigureScenes
+from reportgen.report.report import Report, lower_digits
 
 THINNED = 4
 """Every fourth of the samples is enough for a curve of the flywheel."""
@@ -124,7 +125,7 @@ def _across(report: Report) -> np.ndarray:
 
 def over_a_turn(report: Report, curves: Sequence[Shown], title: Chain, half: bool = False) -> charts.Plotted:
     """Curves over one turn of the driver, the numbered positions marked."""
-    count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME))
+    count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME_ANGLE))
     slides = bool(report.machine.span)
     x, marks = _across(report)[:count], _marks(report)[: len(report.positions)]
     series = [charts.PlottedCurve(shown, x, values[:count], marks) for shown, values in curves]

@@ -12,6 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing import positions as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
@@ -21,16 +22,16 @@ from reportgen.drawing.labels import Canvas, sheets
 from reportgen.drawing.positions import DrawnCentre, PlaneMotion, PositionPlan, centre_plan, position_plan
 from reportgen.drawing.scheme import Looks
 from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
-from reportgen.machine.analysis import FULL_TURN, Machine, motion_at
+from reportgen.machine.analysis import Machine, motion_at
+from reportgen.machine.flywheel import SAME_ANGLE
 from reportgen.machine.gas import StrokeIndicator
-from reportgen.machine.loads import Piston
+from reportgen.machine.loads import FULL_TURN, Piston
 from reportgen.machine.motion import Motion, solve_motion
 from reportgen.plans.motion import NEAREST, centre_symbol
 from reportgen.plans.sides import Side
 from reportgen.report.groups import GroupView, PlaneLink
-from reportgen.report.report import DENSE, SAME, Report
+from reportgen.report.report import DENSE, Report
 
-MM = 1e3
 A4_ACROSS = (297.0, 210.0)
 A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)
 LARGER = tuple(
@@ -243,12 +244,12 @@ def _free_side(machine: Machine) -> complex:
     first = machine.pistons[0]
     right = 1j * first.inward
     ways = [((one.top + one.bottom) / 2 - first.bottom) / right for one in machine.pistons]
-    return right if sum(way.real for way in ways) <= SAME else -right
+    return right if sum(way.real for way in ways) <= SAME_ANGLE else -right
 
 
 def _in_line(first: Piston, other: Piston) -> bool:
     """Whether a piston moves on the line of the first one, where its positions are projected from."""
-    return abs(((other.top - first.top) / first.inward).imag) + abs((other.inward / first.inward).imag) < SAME
+    return abs(((other.top - first.top) / first.inward).imag) + abs((other.inward / first.inward).imag) < SAME_ANGLE
 
 
 def _branches(

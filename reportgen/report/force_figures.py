@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.base.units import MM
 from reportgen.drawing import Circle, Item, Line, Scene
 from reportgen.drawing.forces import ArmOf, Couple, Force
 from reportgen.drawing.forces import bodies as bodies_figure
@@ -19,7 +20,7 @@ from reportgen.formula import Chain, Expression, Symbol, constructions, ids, siz
 from reportgen.machine import DRIVER
 from reportgen.machine.forces import Load, as_single_force, percussion_meeting
 from reportgen.plans.loads import Polygon
-from reportgen.report.figures import HALF, MM, FigureScenes, beside_one_another, drawing_scale, looks, on_paper
+from reportgen.report.figures import HALF, FigureScenes, beside_one_another, drawing_scale, looks, on_paper
 from reportgen.report.groups import BodyView, GroupView
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from reportgen.formula import Expression, Number, Symbol, ids, vocabulary
 from reportgen.machine.loads import Opposing
+from reportgen.plans.motion import POLES
 from reportgen.plans.sides import Side
 from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
@@ -215,8 +216,6 @@ def drawn_group(report: Report, row: GroupRow) -> Inlines:
 # --- the steps in which a plan is drawn, in words -------------------------------------------------
 # Where a line begins, its direction, what it stands for.
 # `what` is "v" for the velocity plan, "a" for the acceleration plan.
-
-POLES = {"v": "p", "a": "π"}
 
 
 def _image(report: Report, what: str, name: str) -> Symbol:

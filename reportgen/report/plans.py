@@ -11,6 +11,7 @@ from itertools import combinations
 
 import numpy as np
 
+from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing.labels import sheets
 from reportgen.drawing.plan import (
@@ -30,14 +31,12 @@ from reportgen.formula import Chain, Symbol, ids, vocabulary
 from reportgen.plans.loads import Edge, Polygon
 from reportgen.plans.motion import POLES, What
 from reportgen.plans.sides import Side, image
-from reportgen.report import Inlines
-from reportgen.report.figures import A3_ACROSS, MM, TEXT_BLOCK, FigureScenes, on_paper, scale_note
+from reportgen.report import SCENE_GAP, Inlines
+from reportgen.report.figures import A3_ACROSS, TEXT_BLOCK, FigureScenes, on_paper, scale_note
 from reportgen.report.groups import GroupView
 from reportgen.report.phrases import counted
 from reportgen.report.report import Report
 
-SCENE_GAP = 4.0
-"""Between scenes side by side (mm)."""
 SHEET = (385.0, 232.0)
 """What of an A3 page (landscape) plans may fill."""
 SHARES = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1)
@@ -327,11 +326,11 @@ def force_construction(report: Report, polygon: Polygon) -> Construction[str]:
 # Their plans are mirror images and are told, not drawn again.
 # The positions k and N + 2 − k of a centric slider-crank mirror each other in the line of its slide.
 
-SAME = 0.01
+SAME_END = 0.01
 """Ends of vectors nearer than this (mm), the last digit of a measured length, are one for any reader."""
 FEWEST = 2
 """Pairs of positions, less of which are not worth a sentence."""
-PARALLEL = 1e-3
+SAME_MIRROR = 1e-3
 """Two lines of mirroring whose directions differ by no more (radians, twice) are one."""
 
 
@@ -358,7 +357,7 @@ def mirrored(plans: Mapping[int, Plan]) -> Mirrored:
     for *_, line in found:
         pairs: dict[int, int] = {}
         for one, other, turn in found:
-            if abs(turn - line) < PARALLEL and not {one, other} & {*pairs, *pairs.values()}:
+            if abs(turn - line) < SAME_MIRROR and not {one, other} & {*pairs, *pairs.values()}:
                 pairs[one] = other
         best = max(best, pairs, key=len)
     if len(best) < FEWEST:
@@ -368,11 +367,11 @@ def mirrored(plans: Mapping[int, Plan]) -> Mirrored:
 
 def _turn(one: np.ndarray, other: np.ndarray) -> complex | None:
     """What turns the conjugates of some points into others, if anything does; None if both are one without it."""
-    if not one.size or abs(one - other).max() < SAME:
+    if not one.size or abs(one - other).max() < SAME_END:
         return None
     largest = int(abs(one).argmax())
     turn = complex(other[largest] / one[largest].conjugate())
-    if abs(abs(one[largest]) * (abs(turn) - 1)) > SAME:
+    if abs(abs(one[largest]) * (abs(turn) - 1)) > SAME_END:
         return None
     turn /= abs(turn)
-    return turn if abs(other - turn * one.conj()).max() < SAME else None
+    return turn if abs(other - turn * one.conj()).max() < SAME_END else None

@@ -18,9 +18,9 @@ from reportgen.drawing.sheet import USUAL_FORM, Form
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.machine import GROUND, Mobility, mobility
-from reportgen.machine.analysis import FULL_TURN, Analysis, Machine, Position, analyse
-from reportgen.machine.flywheel import RegulatedCycle
-from reportgen.machine.loads import Applied, Piston, Torque
+from reportgen.machine.analysis import Analysis, Machine, Position, analyse
+from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
+from reportgen.machine.loads import FULL_TURN, Applied, Piston, Torque
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import links_in_plane_motion
 from reportgen.plans.sides import scheme
@@ -32,8 +32,6 @@ PLATES_UP_TO = 24
 """Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""
 DENSE = 361
 """Samples of a turn from which curves are drawn."""
-SAME = 1e-9
-"""Cycle angles nearer than this are one."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +96,7 @@ class Report:
         own = self.machine.cycle_angles
         turns = self.machine.turns
         grid = np.linspace(0.0, turns * FULL_TURN, turns * (DENSE - 1) + 1)
-        between = np.abs(grid[:, None] - own).min(axis=1) > SAME
+        between = np.abs(grid[:, None] - own).min(axis=1) > SAME_ANGLE
         return analyse(self.machine, np.sort(np.concatenate((grid[between], own))))
 
     # --- the assignment in words

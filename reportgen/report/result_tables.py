@@ -7,22 +7,21 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from reportgen.base.units import MM
 from reportgen.formula import Chain, Number, Power, Symbol, ids
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import Crank
 from reportgen.plans.sides import Side, image
 from reportgen.report import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Paragraph, Table, Text, Value
+from reportgen.report.comments import AT_REST
 from reportgen.report.groups import GroupView
 from reportgen.report.report import Report
 from reportgen.report.tables import bare, list_table, side_by_side, tables
 
-MM = 1e3
 MOST_COORDINATES, MOST_WIDE = 10, 8
 """Columns of coordinates in one table; fewer where one of them is −100 mm or less."""
 WIDE = -0.1
 """A coordinate (m) that takes the widest column."""
-STILL = 1e-9
-"""A rate below this share of its greatest value is zero."""
 NARROWEST = 16.0
 """Columns of words narrower than this (mm) are set as rows instead."""
 
@@ -81,7 +80,7 @@ def labels(report: Report) -> Iterator[Sequence[object]]:
     machine, motion = report.machine, report.analysis.motion
     course = machine.sliders[0]
     pin, way = motion.points[course.pin], course.fraction(motion)
-    still, steady = (np.abs(rate) < STILL * np.abs(rate).max() for rate in (pin.v, pin.a))
+    still, steady = (np.abs(rate) < AT_REST * np.abs(rate).max() for rate in (pin.v, pin.a))
     for k in range(machine.count):
         end = ("top" if way[k] < 0.5 else "bottom") if still[k] else "fastest" if steady[k] else ""
         angle = _two_decimals(math.degrees(machine.cycle_angles[k]))

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from reportgen.base.units import MM
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
 from reportgen.machine.gas import StrokeIndicator
@@ -28,7 +29,6 @@ from reportgen.report import (
 )
 from reportgen.report.report import Report, lower_digits
 
-MM = 1e3
 WIDEST_COLUMN = 26.0
 MOST_COLUMNS = 9
 MOST_LENGTHS = 7

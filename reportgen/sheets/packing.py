@@ -16,7 +16,7 @@ from reportgen.drawing.sheet import GAP, PlacedScene, Room
 
 Spot = tuple[float, float]
 
-EDGE = 1e-6
+DUST = 1e-6
 """Rounding of places, mm."""
 AHEAD = 8
 """So many plates more than stand in order are tried in another order."""
@@ -87,7 +87,7 @@ class _Paper:
 
     def floor(self, right: float) -> float:
         """How far down a box may reach whose right edge is there."""
-        return self.high if right <= self.beside + EDGE else self.above
+        return self.high if right <= self.beside + DUST else self.above
 
 
 def _spots(sizes: Sequence[Size], paper: _Paper) -> list[Spot]:
@@ -99,20 +99,20 @@ def _spots(sizes: Sequence[Size], paper: _Paper) -> list[Spot]:
         best: tuple[float, int, int] | None = None
         for step, left in enumerate(lefts):
             right = left + width
-            if right > paper.wide + EDGE:
+            if right > paper.wide + DUST:
                 break
             top, after = lows[step], step + 1
-            while after < len(lefts) and lefts[after] < right - EDGE:
+            while after < len(lefts) and lefts[after] < right - DUST:
                 top = max(top, lows[after])
                 after += 1
-            if top + height <= paper.floor(right) + EDGE and (best is None or top < best[0] - EDGE):
+            if top + height <= paper.floor(right) + DUST and (best is None or top < best[0] - DUST):
                 best = top, step, after
         if best is None:
             break
         top, step, after = best
         left, right = lefts[step], lefts[step] + width
         end = lefts[after] if after < len(lefts) else paper.wide
-        rest = [(right, lows[after - 1])] if right < end - EDGE else []
+        rest = [(right, lows[after - 1])] if right < end - DUST else []
         lefts[step:after], lows[step:after] = [left, *(x for x, _ in rest)], [top + height, *(y for _, y in rest)]
         spots.append((left, top))
     return spots
@@ -125,7 +125,7 @@ def _rows(sizes: Sequence[Size], paper: _Paper) -> list[Spot]:
     left = right = low = 0.0
     """Of the last column in the row."""
     for width, tall in ((width + GAP, height + GAP) for width, height, *_ in sizes):
-        if right > 0.0 and low + tall <= top + height + EDGE and _fits(left, low, width, tall, paper):
+        if right > 0.0 and low + tall <= top + height + DUST and _fits(left, low, width, tall, paper):
             spots.append((left, low))
             right, low = max(right, left + width), low + tall
             continue
@@ -154,7 +154,7 @@ def _columns(sizes: Sequence[Size], paper: _Paper) -> list[Spot]:
 
 def _fits(left: float, top: float, width: float, tall: float, paper: _Paper) -> bool:
     right = left + width
-    return right <= paper.wide + EDGE and top + tall <= paper.floor(right) + EDGE
+    return right <= paper.wide + DUST and top + tall <= paper.floor(right) + DUST
 
 
 # --- parts on one sheet after another -------------------------------------------------------------
@@ -346,8 +346,8 @@ def spread(laid: Laid, room: Room) -> tuple[PlacedScene, ...]:
     sizes = [(part.scene.width + GAP, part.scene.height + GAP) for part in laid.parts]
     lefts, tops = [x for x, _ in laid.spots], [y for _, y in laid.spots]
     everyone = range(len(sizes))
-    rows = [[n for n in everyone if abs(tops[n] - top) < EDGE] for top in sorted(set(tops))]
-    above = [[m for m in everyone if tops[m] + sizes[m][1] <= tops[n] + EDGE and _abreast(lefts, sizes, 0, m, n)]
+    rows = [[n for n in everyone if abs(tops[n] - top) < DUST] for top in sorted(set(tops))]
+    above = [[m for m in everyone if tops[m] + sizes[m][1] <= tops[n] + DUST and _abreast(lefts, sizes, 0, m, n)]
              for n in everyone]  # fmt: skip
     below = [[m for m in everyone if n in above[m]] for n in everyone]
     for _ in range(SWEEPS):
@@ -359,13 +359,13 @@ def spread(laid: Laid, room: Room) -> tuple[PlacedScene, ...]:
             place = (least + most) / 2 if least else least
             for n in row:
                 tops[n] = place
-    before = [[m for m in everyone if lefts[m] + sizes[m][0] <= lefts[n] + EDGE and _abreast(tops, sizes, 1, m, n)]
+    before = [[m for m in everyone if lefts[m] + sizes[m][0] <= lefts[n] + DUST and _abreast(tops, sizes, 1, m, n)]
               for n in everyone]  # fmt: skip
     behind = [[m for m in everyone if n in before[m]] for n in everyone]
     for _ in range(SWEEPS):
         for n in sorted(everyone, key=lefts.__getitem__):
             least = max((lefts[m] + sizes[m][0] for m in before[n]), default=0.0)
-            end = paper.wide if tops[n] + sizes[n][1] <= paper.above + EDGE else paper.beside
+            end = paper.wide if tops[n] + sizes[n][1] <= paper.above + DUST else paper.beside
             most = min([lefts[m] for m in behind[n]] + [end]) - sizes[n][0]
             lefts[n] = (least + most) / 2
     corner = complex(room.low.real + GAP, room.high.imag - GAP)
@@ -378,5 +378,5 @@ def spread(laid: Laid, room: Room) -> tuple[PlacedScene, ...]:
 def _abreast(starts: Sequence[float], sizes: Sequence[tuple[float, float]], way: int, one: int, other: int) -> bool:
     """Whether two boxes overlap across (0) or upwards (1), so that neither may pass the other."""
     return (
-        starts[one] < starts[other] + sizes[other][way] - EDGE and starts[other] < starts[one] + sizes[one][way] - EDGE
+        starts[one] < starts[other] + sizes[other][way] - DUST and starts[other] < starts[one] + sizes[one][way] - DUST
     )

@@ -15,7 +15,7 @@ from typing import Literal
 
 import numpy as np
 
-from reportgen.base.units import nice_up
+from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Content, Label, Scene
 from reportgen.drawing.charts import Area
 from reportgen.drawing.geometry import bounds
@@ -26,9 +26,9 @@ from reportgen.formula import Chain, Number, Symbol, ids
 from reportgen.formula.ids import Name
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
-from reportgen.plans.scales import NOTHING, PER_MM, extents
+from reportgen.plans.scales import PER_MM, UNLOADED, extents
 from reportgen.report.curves import flywheel_speed, flywheel_torque, flywheel_work, motion, polar, torque, wittenbauer
-from reportgen.report.figures import MM, FigureScenes, centre_state, centres, indicator, positions_scene, scheme_scene
+from reportgen.report.figures import FigureScenes, centre_state, centres, indicator, positions_scene, scheme_scene
 from reportgen.report.force_figures import lever, separated, separated_driver
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
@@ -101,7 +101,7 @@ class Series:
     def own_scales(self, scale: float) -> np.ndarray:
         """The scale at each position at which what it shows is not larger than 1/scale (m)."""
         largest = max(self.sizes)
-        return np.array([nice_up(max(one, NOTHING * largest) * scale / PER_MM) * PER_MM for one in self.sizes])
+        return np.array([nice_up(max(one, UNLOADED * largest) * scale / PER_MM) * PER_MM for one in self.sizes])
 
     @property
     def has_own_scales(self) -> bool:

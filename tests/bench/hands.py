@@ -32,30 +32,30 @@ NAMEABLE = {"omega.1", "R", "F", "m.2", "n", "H", "G2", "D", "s", "M.eq", "R.12.
 
 def honest(name: str, sheets: int) -> list[tuple[str, str]]:
     """Sheets without a mistake at every scale and bluntness: how many lose a mark."""
-    guide, losing, worked = hands.asked(students.guide(name, WORKED)), 0, 0
-    scales = ({}, *SCALES) if guide.key.kind in hands.DRAWING else ({},)
+    scheme, losing, worked = hands.asked(students.scheme(name, WORKED)), 0, 0
+    scales = ({}, *SCALES) if scheme.key.kind in hands.DRAWING else ({},)
     for seed in range(sheets * (len(SCALES) + 1) // len(scales)):
         for scale in scales:
             for blunt in (0.3e-3, 0.5e-3):
                 worked += 1
-                losing += lost(mark(guide, hands.work(guide, WORKED, blunt=blunt, seed=seed, **scale))) > 0
+                losing += lost(mark(scheme, hands.work(scheme, WORKED, blunt=blunt, seed=seed, **scale))) > 0
     return [(f"honest sheets that lose a mark (± 0.3, ± 0.5 mm, {len(scales)} scales)", share(losing, worked))]
 
 
 def class_of(name: str, sheets: int) -> list[tuple[str, str]]:
     """A class of 40: honest sheets that are flagged, copies that are not, names and costs of usual mistakes."""
     rng = np.random.default_rng(CLASS)
-    guides = hands.variants(CLASS, rng, name)
-    room = Room(guides, [hands.honest(guide, rng) for guide in guides])
+    schemes = hands.variants(CLASS, rng, name)
+    room = Room(schemes, [hands.honest(scheme, rng) for scheme in schemes])
     classmates = room.classmates
-    usual = hands.possible(guides[0])
+    usual = hands.possible(schemes[0])
     wrongly: list[tuple[int, str, tuple[str, ...]]] = []
     costs: list[float] = []
     named: list[bool] = []
     for number in range(sheets):
-        guide = guides[number % CLASS]
+        scheme = schemes[number % CLASS]
         mistake = "" if number // CLASS % 2 else str(rng.choice(usual))
-        marking = mark(guide, hands.honest(guide, rng, mistake), classmates)
+        marking = mark(scheme, hands.honest(scheme, rng, mistake), classmates)
         if marking.flags:
             wrongly.append((number, mistake, marking.warnings))
             print("flagged:", *wrongly[-1], flush=True)
@@ -89,11 +89,11 @@ def at_most(met: int, tried: int, certainty: float = 0.95) -> float:
 
 
 def _told(room: Room, number: int, what: str) -> bool:
-    guide, source = room.guides[number], number + CLASS // 2
-    key = room.guides[source]
+    scheme, source = room.schemes[number], number + CLASS // 2
+    key = room.schemes[source]
     theirs = room.sheets[source] if number % 2 else students.sheet(key, lambda row, k, value: students.figures(value))
-    copied = hands.with_cells(room.sheets[number], theirs, lambda id, k: COPIES[what](guide, id, k))
-    return bool(mark(guide, copied, room.classmates).flags)
+    copied = hands.with_cells(room.sheets[number], theirs, lambda id, k: COPIES[what](scheme, id, k))
+    return bool(mark(scheme, copied, room.classmates).flags)
 
 
 def show(rows: Iterable[tuple[str, str]]) -> None:

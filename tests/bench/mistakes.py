@@ -20,9 +20,9 @@ def main(variants: int) -> None:
     for name in MACHINES:
         rates = Rates()
         for _ in range(variants):
-            guide = students.marking_scheme(opened(students.varied(name, rng, WORKED)))
-            for mistake in possible_mistakes(guide):
-                rates.inject(guide, mistake, rng)
+            scheme = students.marking_scheme(opened(students.varied(name, rng, WORKED)))
+            for mistake in possible_mistakes(scheme):
+                rates.inject(scheme, mistake, rng)
         print(f"{name}, {variants} random variants\n{rates}\n", flush=True)
 
 

@@ -36,16 +36,16 @@ ROUNDS = 5
 
 def one_student(path: Path = SAMPLE) -> dict[str, float]:
     """Medians in ms of what is made for one student, from the assignment file on."""
-    guide = marking_scheme(open_case(path), Policy())
+    scheme = marking_scheme(open_case(path), Policy())
     rng = np.random.default_rng(1)
-    sheets = [students.written(guide, students.worked_out(guide, None, rng)) for _ in range(ROUNDS)]
+    sheets = [students.written(scheme, students.worked_out(scheme, None, rng)) for _ in range(ROUNDS)]
     handed = iter(sheets)
     tasks: dict[str, Callable[[], Any]] = {
         "solve": lambda: api.solve(api.load(path)),
         "key": lambda: opened(api.load(path)).key(),
-        "sheet": lambda: write_xlsx(answer_book(Ask().of(guide.key))),
+        "sheet": lambda: write_xlsx(answer_book(Ask().of(scheme.key))),
         "guide": lambda: marking_scheme(open_case(path), Policy()),
-        "mark": lambda: mark(guide, next(handed)),
+        "mark": lambda: mark(scheme, next(handed)),
     }
     return {name: median(_timed(task) for _ in range(ROUNDS)) for name, task in tasks.items()}
 

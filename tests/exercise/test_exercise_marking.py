@@ -58,11 +58,11 @@ def graded(drawn: tuple[str, Path]) -> Graded:
     name, folder = drawn
     (folder / "sheets").mkdir()
     for path in sorted((folder / "variants").glob("S*.yaml")):
-        guide = marking_scheme(open_case(path))
+        scheme = marking_scheme(open_case(path))
         where = SLIP[name]
         slip = Mistake("doubled", where, {where: lambda value, _: value * 2}) if path.stem == "S01" else None
-        sheet = students.written(guide, students.worked_out(guide, slip))
-        (folder / "sheets" / f"{path.stem}.xlsx").write_bytes(demo.workbook(guide.key, sheet))
+        sheet = students.written(scheme, students.worked_out(scheme, slip))
+        (folder / "sheets" / f"{path.stem}.xlsx").write_bytes(demo.workbook(scheme.key, sheet))
     return assess.grade([folder / "sheets"], folder / "variants", Policy())
 
 

@@ -31,33 +31,33 @@ SHEETS = DEMO / "sheets"
 Story = Callable[[MarkingScheme, Submission], Submission]
 
 
-def as_told(guide: MarkingScheme, sheet: Submission) -> Submission:
+def as_told(scheme: MarkingScheme, sheet: Submission) -> Submission:
     return sheet
 
 
-def half_done(guide: MarkingScheme, sheet: Submission) -> Submission:
+def half_done(scheme: MarkingScheme, sheet: Submission) -> Submission:
     """Velocities and accelerations only."""
     kept = {Chapter.geometry, Chapter.velocity, Chapter.acceleration}
-    values = {place: given for place, given in sheet.values.items() if guide.rows[place[0]].part in kept}
+    values = {place: given for place, given in sheet.values.items() if scheme.rows[place[0]].part in kept}
     return replace(sheet, values=values)
 
 
-def with_units(guide: MarkingScheme, sheet: Submission) -> Submission:
+def with_units(scheme: MarkingScheme, sheet: Submission) -> Submission:
     """Units typed into the cells, centimetres where the sheet asks for millimetres, decimal commas."""
 
     def typed(place: Place, given: Answer) -> Answer:
-        unit = guide.rows[place[0]].unit
+        unit = scheme.rows[place[0]].unit
         factor, shown = (0.1, "cm") if unit == "mm" else (1.0, unit)
         return replace(given, text=f"{given.value * factor:.6g} {shown}".replace(".", ",").strip())
 
     return replace(sheet, values={place: typed(place, given) for place, given in sheet.values.items()})
 
 
-def nothing_but_zeros(guide: MarkingScheme, sheet: Submission) -> Submission:
+def nothing_but_zeros(scheme: MarkingScheme, sheet: Submission) -> Submission:
     return replace(sheet, values={place: replace(given, value=0.0, text="0") for place, given in sheet.values.items()})
 
 
-def careless(guide: MarkingScheme, sheet: Submission) -> Submission:
+def careless(scheme: MarkingScheme, sheet: Submission) -> Submission:
     """Words instead of numbers."""
     values = dict(sheet.values)
     for place, text in zip(list(values)[5:40:17], ("khoảng 30", "xem bản vẽ"), strict=False):
@@ -83,11 +83,11 @@ COPIED = {"K225520103023": "K225520103001"}
 """Who handed in whose values."""
 
 
-def filled(guide: MarkingScheme, id: str, name: str, story: Story, seed: int) -> Submission:
+def filled(scheme: MarkingScheme, id: str, name: str, story: Story, seed: int) -> Submission:
     """A student's sheet as it was worked out and written down."""
-    mistake = next(one for one in mistakes_in(guide, id, {}) if one.name == name) if name else None
-    world = students.worked_out(guide, mistake, np.random.default_rng(seed))
-    return story(guide, students.written(guide, world))
+    mistake = next(one for one in mistakes_in(scheme, id, {}) if one.name == name) if name else None
+    world = students.worked_out(scheme, mistake, np.random.default_rng(seed))
+    return story(scheme, students.written(scheme, world))
 
 
 def csv(key: Key, sheet: Submission) -> bytes:
@@ -118,12 +118,12 @@ def write() -> None:
     SHEETS.mkdir()
     with tempfile.TemporaryDirectory() as folder:
         make_variants(DEMO / "spec.yaml", DEMO / "roster.csv", Path(folder), False, None)
-        guides = {path.stem: marking_scheme(open_case(path)) for path in sorted(Path(folder).glob("*.yaml"))}
-        sheets = {id: filled(guides[id], *slip, seed) for seed, (id, slip) in enumerate(sorted(SLIPS.items()))}
+        schemes = {path.stem: marking_scheme(open_case(path)) for path in sorted(Path(folder).glob("*.yaml"))}
+        sheets = {id: filled(schemes[id], *slip, seed) for seed, (id, slip) in enumerate(sorted(SLIPS.items()))}
         sheets |= {id: sheets[source] for id, source in COPIED.items()}
         for number, (id, sheet) in enumerate(sorted(sheets.items())):
             make, suffix = ((workbook, "xlsx"), (csv, "csv"))[number % 2]
-            (SHEETS / f"{id}.{suffix}").write_bytes(make(guides[id].key, sheet))
+            (SHEETS / f"{id}.{suffix}").write_bytes(make(schemes[id].key, sheet))
 
 
 if __name__ == "__main__":

@@ -33,13 +33,13 @@ class Rod:
 
 @dataclass(frozen=True)
 class Task:
-    """What the student is given (SI); `guide` is the direction of the line along which the sliders move."""
+    """What the student is given (SI); `scheme` is the direction of the line along which the sliders move."""
 
     given: Mapping[str, float]
     rods: tuple[Rod, ...]
     angle: float
     """Of the first crank pin, from the guide."""
-    guide: complex = 1j
+    scheme: complex = 1j
     crank: str = "O1A"
     turn: int = 1
 
@@ -190,7 +190,7 @@ class _Side:
         # The mechanism on paper, by the drawn lengths.
         AB = say(f"drawn.{pin}{end}", hand.lengths[rod] / hand.mu_l)
         AS = say(f"drawn.{pin}{centre}", hand.shares[rod] / hand.mu_l)
-        u = task.guide
+        u = task.scheme
         number = task.rods.index(rod)
         crank, self.v = hand.drawn[number], hand.speeds[number]
         self.length = hand.lengths[rod]
@@ -253,7 +253,7 @@ class _Side:
 
     def _centre_of_velocity(self, v_B: float) -> None:
         hand, rod, i = self.hand, self.rod, self.rod.links[0]
-        u, A, B = hand.task.guide, self.A, self.B
+        u, A, B = hand.task.scheme, self.A, self.B
         P = _meet(0j, A, B, 1j * u)
         PA, PB = abs(hand.read(P) - hand.read(A)), abs(hand.read(P) - hand.read(B))
         if 0.002 <= PA <= 0.3 and PB <= 0.3:
@@ -304,7 +304,7 @@ class _Side:
         """The group's reactions by moments about the slider's pin and by the force plan; gives that on the crank."""
         hand, say, read = self.hand, self.hand.say, self.hand.read
         i, j = self.rod.links
-        plan, u = f"{i}{j}", hand.task.guide
+        plan, u = f"{i}{j}", hand.task.scheme
         μ = hand.scale_of(plan)
         P, G, end = f"Pqt{i}", f"G{i}", self.rod.end
         h = hand.arm(f"h.{P}.{end}", self.S, self.force[P], self.B, self.beside)

@@ -30,20 +30,20 @@ WRONG_AT = 4
 """The position at which one value is wrong."""
 
 
-def asked(guide: MarkingScheme) -> MarkingScheme:
+def asked(scheme: MarkingScheme) -> MarkingScheme:
     """A guide to what a student hands in: the whole sheet if it was worked out by drawing, or what a class is asked."""
-    return guide if guide.key.kind in DRAWING else replace(guide, key=Ask().of(guide.key))
+    return scheme if scheme.key.kind in DRAWING else replace(scheme, key=Ask().of(scheme.key))
 
 
-def task(guide: MarkingScheme, position: int) -> Task:
+def task(scheme: MarkingScheme, position: int) -> Task:
     """What the assignment gives, as the student reads it at one position: data, the crank's angle, the diagram."""
-    rows = {row.id: row for row in guide.key.rows}
+    rows = {row.id: row for row in scheme.key.rows}
 
     def si(id: str) -> float:
-        family = guide.ledger[id]
+        family = scheme.ledger[id]
         return float(family.values[position - 1 if len(family.values) > 1 else 0].real)
 
-    given = {id: si(id) for id in ("H", "lambda", "D", "s", "g", "n", "G2", "G3") if id in guide.ledger}
+    given = {id: si(id) for id in ("H", "lambda", "D", "s", "g", "n", "G2", "G3") if id in scheme.ledger}
     angle = si("phi.1")
     if "H" in given:
         rods = (
@@ -56,31 +56,31 @@ def task(guide: MarkingScheme, position: int) -> Task:
     return Task(given, (Rod("B", "C", "S2", (2, 3), 0.0, force=si("P3")),), angle, 1 + 0j, "AB")
 
 
-def handed_in(guide: MarkingScheme, worked: Mapping[int, Student]) -> Submission:
+def handed_in(scheme: MarkingScheme, worked: Mapping[int, Student]) -> Submission:
     """The sheet of a student who worked so at each position."""
     values = {}
-    for row in guide.key.asked:
+    for row in scheme.key.asked:
         for position in row.positions:
             hand = worked[position] if position else next(iter(worked.values()))
             value = hand.written.get(row.id)
             if value is not None and np.isfinite(value):
                 values[row.id, position] = Answer(value, str(value), Mark("sheet.csv"))
-    return Submission(guide.key.id, "sheet.csv", values, {})
+    return Submission(scheme.key.id, "sheet.csv", values, {})
 
 
-def at_work(guide: MarkingScheme, position: int, **how: Any) -> Student:
+def at_work(scheme: MarkingScheme, position: int, **how: Any) -> Student:
     """A student's work at one position: by drawing on the machines of `DRAWING`, by vectors on all others."""
-    if guide.key.kind in DRAWING:
-        return Hand(task(guide, position), **how)
-    return vectors(guide, position, **how)
+    if scheme.key.kind in DRAWING:
+        return Hand(task(scheme, position), **how)
+    return vectors(scheme, position, **how)
 
 
-def work(guide: MarkingScheme, positions: Iterable[int], seed: int = 0, **how: Any) -> Submission:
+def work(scheme: MarkingScheme, positions: Iterable[int], seed: int = 0, **how: Any) -> Submission:
     """The sheet of a student who works every position alike, with other luck in drawing."""
-    return handed_in(guide, {k: at_work(guide, k, seed=100 * seed + k, **how) for k in positions})
+    return handed_in(scheme, {k: at_work(scheme, k, seed=100 * seed + k, **how) for k in positions})
 
 
-def one_wrong(guide: MarkingScheme, id: str, factors: Iterable[float], **how: Any) -> Submission | None:
+def one_wrong(scheme: MarkingScheme, id: str, factors: Iterable[float], **how: Any) -> Submission | None:
     """A sheet with one value so many times too large, at position 4 if it has several; None if none can be drawn so.
 
     Of the `factors` the first with which the machine still goes together is taken.
@@ -89,16 +89,16 @@ def one_wrong(guide: MarkingScheme, id: str, factors: Iterable[float], **how: An
         changes = {id: partial(operator.mul, factor)}
         with suppress(ValueError):
             worked = {
-                k: at_work(guide, k, changes=changes if k == WRONG_AT or guide.rows[id].single else {}, seed=k, **how)
-                for k in {WRONG_AT, *(position for row in guide.judged for position in row.positions if position)}
+                k: at_work(scheme, k, changes=changes if k == WRONG_AT or scheme.rows[id].single else {}, seed=k, **how)
+                for k in {WRONG_AT, *(position for row in scheme.judged for position in row.positions if position)}
             }
-            return handed_in(guide, worked)
+            return handed_in(scheme, worked)
     return None
 
 
-def vectors(guide: MarkingScheme, position: int, **how: Any) -> Vectors:
+def vectors(scheme: MarkingScheme, position: int, **how: Any) -> Vectors:
     """The student's work on any machine of the book: data, the crank's angle and the loads as the task gives them."""
-    ledger = guide.ledger
+    ledger = scheme.ledger
 
     def si(id: str) -> float:
         family = ledger[id]
@@ -110,15 +110,17 @@ def vectors(guide: MarkingScheme, position: int, **how: Any) -> Vectors:
     forces = {id.removeprefix("mu.R"): si(id) for id in ledger.families if id.startswith("mu.R")}
     paper = Paper(si("mu.l"), si("mu.v"), si("mu.a"), forces)
     work = Vectors(given, paper, turn=int(given["turn"]), **how)
-    WAYS[guide.key.kind](work)
+    WAYS[scheme.key.kind](work)
     return work
 
 
-def data_used(guide: MarkingScheme) -> list[str]:
+def data_used(scheme: MarkingScheme) -> list[str]:
     """The data of the task that a student of the machine needs, in the order of the task."""
-    work = at_work(guide, WRONG_AT)
-    used = work.used if isinstance(work, Vectors) else {*task(guide, WRONG_AT).given}
-    return [id for id in guide.ledger.families if id in used and id not in guide.rows and guide.ledger[id].values.any()]
+    work = at_work(scheme, WRONG_AT)
+    used = work.used if isinstance(work, Vectors) else {*task(scheme, WRONG_AT).given}
+    return [
+        id for id in scheme.ledger.families if id in used and id not in scheme.rows and scheme.ledger[id].values.any()
+    ]
 
 
 # --- a class --------------------------------------------------------------------------------------
@@ -192,24 +194,24 @@ def variants(count: int, rng: np.random.Generator, name: str = TWIN) -> list[Mar
     found = []
     for number in range(count):
         drawn = {id: str(rng.choice(values)) for id, values in DRAWN[name].items()}
-        guide = asked(students.marking_scheme(opened(students.assignment(name, PLACES, **drawn))))
-        found.append(replace(guide, key=replace(guide.key, id=f"SV{number:02}")))
+        scheme = asked(students.marking_scheme(opened(students.assignment(name, PLACES, **drawn))))
+        found.append(replace(scheme, key=replace(scheme.key, id=f"SV{number:02}")))
     return found
 
 
-def possible(guide: MarkingScheme) -> list[str]:
+def possible(scheme: MarkingScheme) -> list[str]:
     """The mistakes of `MISTAKES` that can be made on a sheet; a given speed needs no formula."""
-    given = {row.id for row in guide.key.rows if row.role is Role.given} - {"omega.1"}
-    return [id for id in MISTAKES if id in given or id in guide.rows]
+    given = {row.id for row in scheme.key.rows if row.role is Role.given} - {"omega.1"}
+    return [id for id in MISTAKES if id in given or id in scheme.rows]
 
 
-def honest(guide: MarkingScheme, rng: np.random.Generator, mistake: str = "") -> Submission:
+def honest(scheme: MarkingScheme, rng: np.random.Generator, mistake: str = "") -> Submission:
     """The sheet of a member of a class who worked alone, with one mistake or none."""
     how = {"blunt": float(rng.choice(BLUNT)), "figures": int(rng.choice([3, 4])), "seed": int(rng.integers(1 << 30))}
     changes = {mistake: MISTAKES[mistake]} if mistake else {}
-    if guide.key.kind in DRAWING:
+    if scheme.key.kind in DRAWING:
         how["by_lengths"] = bool(rng.integers(2))
-    return work(guide, PLACES, changes=changes, **how)
+    return work(scheme, PLACES, changes=changes, **how)
 
 
 def with_cells(sheet: Submission, other: Submission, taken: Callable[[str, int], bool]) -> Submission:

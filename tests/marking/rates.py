@@ -53,17 +53,17 @@ class Tally:
 
 def injected(name: str, rng: np.random.Generator, step: int = 1) -> Tally:
     """Each value of a sheet wrong by itself, one sheet a value (every `step`th of them)."""
-    guide = hands.asked(students.guide(name, WORKED))
+    scheme = hands.asked(students.scheme(name, WORKED))
     tally = Tally()
     counted = tally.counted
-    written = hands.at_work(guide, hands.WRONG_AT).written
-    for id in [id for id in written if id in guide.rows and not id.startswith(("mu.R", "dir"))][::step]:
+    written = hands.at_work(scheme, hands.WRONG_AT).written
+    for id in [id for id in written if id in scheme.rows and not id.startswith(("mu.R", "dir"))][::step]:
         factors = (float(rng.choice([0.7, 1.35, 1.6])), 1.1, 0.95)
-        sheet = hands.one_wrong(guide, id, factors, blunt=0.3e-3)
+        sheet = hands.one_wrong(scheme, id, factors, blunt=0.3e-3)
         if sheet is None:
             continue
-        place = (id, 0 if guide.rows[id].single else hands.WRONG_AT)
-        cells = {(cell.id, cell.position): cell for cell in mark(guide, sheet).cells}
+        place = (id, 0 if scheme.rows[id].single else hands.WRONG_AT)
+        cells = {(cell.id, cell.position): cell for cell in mark(scheme, sheet).cells}
         cell = cells.get(place)
         if cell is None or cell.given is None or abs(cell.given - cell.expected) <= 2 * cell.band:
             continue
@@ -82,12 +82,12 @@ def injected(name: str, rng: np.random.Generator, step: int = 1) -> Tally:
 
 def misread(name: str) -> list[float]:
     """Marks lost where one datum of the task is read as another of two figures, one sheet a datum."""
-    guide = hands.asked(students.guide(name, hands.PLACES))
+    scheme = hands.asked(students.scheme(name, hands.PLACES))
     lost_for = []
-    for id in hands.data_used(guide):
-        value = guide.ledger[id].values[0].real
+    for id in hands.data_used(scheme):
+        value = scheme.ledger[id].values[0].real
         with suppress(ValueError):
             taken = float(f"{1.17 * value:.1e}")
-            sheet = hands.work(guide, hands.PLACES, changes={id: partial(operator.mul, taken / value)}, blunt=0.3e-3)
-            lost_for.append(lost(mark(guide, sheet)))
+            sheet = hands.work(scheme, hands.PLACES, changes={id: partial(operator.mul, taken / value)}, blunt=0.3e-3)
+            lost_for.append(lost(mark(scheme, sheet)))
     return lost_for

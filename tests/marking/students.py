@@ -76,19 +76,19 @@ def assignment(name: str, worked: tuple[int, ...] | None = None, **parameters: s
 
 
 @cache
-def guide(name: str, worked: tuple[int, ...] | None = None) -> MarkingScheme:
+def scheme(name: str, worked: tuple[int, ...] | None = None) -> MarkingScheme:
     return marking_scheme(opened(assignment(name, worked)))
 
 
-def sheet(guide: MarkingScheme, cell: Cell) -> Submission:
+def sheet(scheme: MarkingScheme, cell: Cell) -> Submission:
     """A sheet with what `cell` says in every place that is asked for."""
     values = {}
-    for row in guide.key.asked:
+    for row in scheme.key.asked:
         for position in row.positions:
             value = cell(row, position, float(row.values[row.at(position)]))
             if value is not None:
                 values[(row.id, position)] = Answer(value, str(value), Mark("sheet.csv"))
-    return Submission(guide.key.id, "sheet.csv", values, {})
+    return Submission(scheme.key.id, "sheet.csv", values, {})
 
 
 def right(row: KeyRow, position: int, value: float) -> float:
@@ -100,11 +100,11 @@ def figures(value: float, digits: int = 3) -> float:
     return float(f"{value:.{digits - 1}e}")
 
 
-def written(guide: MarkingScheme, world: World) -> Submission:
+def written(scheme: MarkingScheme, world: World) -> Submission:
     """The sheet of a student for whom everything came out as in `world`, written with three figures."""
 
     def cell(row: KeyRow, position: int, _: float) -> float | None:
-        family = guide.ledger[row.id]
+        family = scheme.ledger[row.id]
         value = float(world[row.id][row.at(position)].real) / family.how.scale
         if not np.isfinite(value):
             return None
@@ -112,18 +112,20 @@ def written(guide: MarkingScheme, world: World) -> Submission:
             return float(round(value % 360))
         return figures(abs(value) if family.arm else value)
 
-    return sheet(guide, cell)
+    return sheet(scheme, cell)
 
 
-def worked_out(guide: MarkingScheme, mistake: Mistake | None = None, drawn: np.random.Generator | None = None) -> World:
+def worked_out(
+    scheme: MarkingScheme, mistake: Mistake | None = None, drawn: np.random.Generator | None = None
+) -> World:
     """The ledger run through with a mistake, and with lengths measured off by up to 0.5 mm at each end."""
-    errors = measuring_errors(guide.ledger, PAPER_ERROR) if drawn is not None else {}
+    errors = measuring_errors(scheme.ledger, PAPER_ERROR) if drawn is not None else {}
     changes: dict[str, Any] = {}
     made = mistake.changes if mistake else {}
     for id in (*errors, *made):
         changes[id] = _change(errors.get(id), made.get(id), drawn)
-    values = follow(guide.ledger, changes)
-    return {id: np.broadcast_to(values[id], family.values.shape) for id, family in guide.ledger.families.items()}
+    values = follow(scheme.ledger, changes)
+    return {id: np.broadcast_to(values[id], family.values.shape) for id, family in scheme.ledger.families.items()}
 
 
 def _change(error: np.ndarray | None, mistake: Any, drawn: np.random.Generator | None) -> Any:
@@ -144,21 +146,21 @@ class Effect:
     positions: tuple[int, ...]
 
 
-def effect(guide: MarkingScheme, world: World) -> Effect | None:
+def effect(scheme: MarkingScheme, world: World) -> Effect | None:
     """The first row that a mistake moves, None if it moves nothing that is asked for."""
-    for row in guide.judged:
-        moved = tuple(position for position in row.positions if off(guide, row, world, position) > 2)
+    for row in scheme.judged:
+        moved = tuple(position for position in row.positions if off(scheme, row, world, position) > 2)
         if moved:
             return Effect(row.id, moved)
     return None
 
 
-def off(guide: MarkingScheme, row: KeyRow, world: World, position: int, other: World | None = None) -> float:
+def off(scheme: MarkingScheme, row: KeyRow, world: World, position: int, other: World | None = None) -> float:
     """How far a value lies from the key's, or another world's, in bands."""
-    family, index = guide.ledger[row.id], row.at(position)
+    family, index = scheme.ledger[row.id], row.at(position)
     one = float(world[row.id][index].real)
     two = float((family.values if other is None else other[row.id])[index].real)
-    band = float(np.broadcast_to(guide.bands[row.id], family.values.shape)[index])
+    band = float(np.broadcast_to(scheme.bands[row.id], family.values.shape)[index])
     if family.arm:
         one, two = abs(one), abs(two)
     distance = abs((one - two + np.pi) % (2 * np.pi) - np.pi) if row.id.startswith("dir.") else abs(one - two)

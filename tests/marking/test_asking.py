@@ -122,19 +122,19 @@ def test_what_is_not_asked_for_but_filled_in_is_judged_and_earns_nothing(tmp_pat
     assignment = tmp_path / "a" / "slider-crank-01.yaml"
     assignment.parent.mkdir()
     assignment.write_bytes(Path("assignments/slider-crank-01.yaml").read_bytes())
-    guide = marking_scheme(open_case(assignment))
-    work = students.written(guide, students.worked_out(guide, None, None))
+    scheme = marking_scheme(open_case(assignment))
+    work = students.written(scheme, students.worked_out(scheme, None, None))
     path = tmp_path / "slider-crank-01.xlsx"
-    path.write_bytes(write_xlsx(students.filled_book(guide.key, work)))
+    path.write_bytes(write_xlsx(students.filled_book(scheme.key, work)))
     wide, small = (
         assess.grade([path], assignment.parent, Policy(ask=ask)).markings[0] for ask in (Ask(EVERYTHING), Ask())
     )
     assert len(wide.cells) == len(small.cells)
     assert {cell.verdict for cell in small.cells} == {Verdict.right}
-    wanted = {row.id for row in Ask().of(guide.key).asked}
+    wanted = {row.id for row in Ask().of(scheme.key).asked}
     assert small.out_of == small.points == sum(cell.id in wanted for cell in small.cells)
     # An empty sheet of the default choice has no cell for the rest.
-    path.write_bytes(write_xlsx(answer_book(Ask().of(guide.key))))
+    path.write_bytes(write_xlsx(answer_book(Ask().of(scheme.key))))
     empty = assess.grade([path], assignment.parent, Policy()).markings[0]
     assert {cell.id for cell in empty.cells} == wanted
     assert empty.out_of == small.out_of
@@ -142,8 +142,8 @@ def test_what_is_not_asked_for_but_filled_in_is_judged_and_earns_nothing(tmp_pat
 
 def test_a_sheet_made_before_rows_had_words_is_read(tmp_path: Path) -> None:
     """Its columns are found by their heads: without the words of the rows the values stand one column earlier."""
-    guide = marking_scheme(opened(students.assignment("four-bar-01", (2,))))
-    rows = csv_rows(guide.key)
+    scheme = marking_scheme(opened(students.assignment("four-bar-01", (2,))))
+    rows = csv_rows(scheme.key)
     head = next(row for row in rows if "Tên đại lượng" in row)
     at, last = head.index("Tên đại lượng"), len(head) - 1
     for number, row in enumerate(rows):
@@ -152,7 +152,7 @@ def test_a_sheet_made_before_rows_had_words_is_read(tmp_path: Path) -> None:
     old = [row[:at] + row[at + 1 :] if len(row) > at + 1 else row for row in rows]
     for name, content in (("new.csv", rows), ("old.csv", old)):
         (tmp_path / name).write_bytes(write_csv(content))
-    found = [read_submission(tmp_path / name, guide.key).values for name in ("new.csv", "old.csv")]
+    found = [read_submission(tmp_path / name, scheme.key).values for name in ("new.csv", "old.csv")]
     assert len(found[0]) > 10
     assert {place: one.value for place, one in found[0].items()} == {
         place: one.value for place, one in found[1].items()

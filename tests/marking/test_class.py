@@ -175,8 +175,8 @@ def test_comparing_names_the_first_divergence_without_marks_or_answers(assignmen
     assert not agrees
     assert "v_CB at position 2" in lines[0]
     assert ".xlsx:Answers!F" in lines[0] or ".xlsx:Bài làm!F" in lines[0]
-    guide = assess.marking_scheme(open_case(assignments / "K225520103007.yaml"))
-    right = guide.key.row("v.CB").values[1]
+    scheme = assess.marking_scheme(open_case(assignments / "K225520103007.yaml"))
+    right = scheme.key.row("v.CB").values[1]
     hinted, _ = compare(
         open_case(assignments / "K225520103007.yaml", "en"), demo.SHEETS / "K225520103007.xlsx", hint=True
     )

@@ -36,12 +36,12 @@ CLOSE = 1e-7
 """A share of the quantity's size: far above rounding of 16 figures in some 30 steps, far below any formula's error."""
 
 
-def computed(guide: MarkingScheme) -> list[str]:
+def computed(scheme: MarkingScheme) -> list[str]:
     """What is given or worked out by a formula, and what is laid off on paper; not what is measured or chosen."""
-    laid = {family.of for family in guide.ledger.families.values() if family.hidden}
+    laid = {family.of for family in scheme.ledger.families.values() if family.hidden}
     return [
         id
-        for id, family in guide.ledger.families.items()
+        for id, family in scheme.ledger.families.items()
         if not (family.hidden or family.is_plane or is_direction(id) or id.startswith(("ic.angle", "M.difference")))
         and (not family.constructed or id in laid)
         and not (is_on_paper(family.kind) and isinstance(family.definition, Ref | None))
@@ -52,18 +52,18 @@ def is_on_paper(kind: str) -> bool:
     return kind == "segment" or kind.endswith("scale")
 
 
-def size(guide: MarkingScheme, id: str) -> float:
+def size(scheme: MarkingScheme, id: str) -> float:
     """What a quantity is compared with: its largest value, or what is natural to it where all are nothing."""
-    return max(guide.size(id), guide.ledger[id].scale)
+    return max(scheme.size(id), scheme.ledger[id].scale)
 
 
 @pytest.mark.parametrize("name", matrix([hands.TWIN, hands.SLIDER], [hands.SLIDER]))
 def test_following_is_what_a_hand_comes_to(name: str) -> None:
     """Each given or computed quantity by a tenth too large: every value of the sheet, by an independent chain."""
-    guide = students.guide(name, (AT,))
-    task = hands.task(guide, AT)
-    paper = float(guide.ledger[f"drawn.{task.crank}"].values[0])
-    ledger = guide.ledger
+    scheme = students.scheme(name, (AT,))
+    task = hands.task(scheme, AT)
+    paper = float(scheme.ledger[f"drawn.{task.crank}"].values[0])
+    ledger = scheme.ledger
     forces = {
         plan: float(ledger[f"mu.R{plan}"].values[AT - 1]) for plan in ("1", "23", "45") if f"mu.R{plan}" in ledger
     }
@@ -72,27 +72,27 @@ def test_following_is_what_a_hand_comes_to(name: str) -> None:
     how = {"figures": 0, "paper": paper, "force_scale": forces, "plan_scales": plans, "by_lengths": False}
     right = Hand(task, **how).written
     tried = 0
-    for id in computed(guide):
+    for id in computed(scheme):
         if id not in right and id not in task.given:
             continue
         tried += 1
-        found = follow(guide.ledger, {id: lambda value, _: 1.1 * value})
+        found = follow(scheme.ledger, {id: lambda value, _: 1.1 * value})
         hand = Hand(task, changes={id: lambda value: 1.1 * value}, **how)
         for other, value in hand.written.items():
             if np.isnan(ledger[other].values[0 if len(ledger[other].values) == 1 else AT - 1]):
                 # A centre that lies off the sheet in the right drawing is not measured.
                 continue
             mine = float(found[other][0 if len(found[other]) == 1 else AT - 1].real)
-            apart = guide.distance(other, mine, value * unit_of(other))
-            assert apart <= CLOSE * max(size(guide, other), abs(mine)), (id, other, mine, value * unit_of(other))
+            apart = scheme.distance(other, mine, value * unit_of(other))
+            assert apart <= CLOSE * max(size(scheme, other), abs(mine)), (id, other, mine, value * unit_of(other))
     assert tried > 50
 
 
 @pytest.mark.parametrize("name", matrix(KINDS, TELLING))
 def test_a_datum_taken_otherwise_stretches_nothing(name: str) -> None:
     """Only what is measured or laid off moves a plan; what stands on other data is what all definitions give again."""
-    guide = students.guide(name)
-    ledger = guide.ledger
+    scheme = students.scheme(name)
+    ledger = scheme.ledger
     plans = {id for id, family in ledger.families.items() if family.kind == "segment" and family.constructed}
     tried = 0
     for id, family in ledger.families.items():
@@ -102,14 +102,14 @@ def test_a_datum_taken_otherwise_stretches_nothing(name: str) -> None:
             change = {id: lambda value, _: 1.05 * value}
             again, followed = ledger.evaluate(change), follow(ledger, change)
             # A vector of no length has any direction.
-            for other in {*plans, *guide.rows} - {one for one in guide.rows if is_direction(one)}:
+            for other in {*plans, *scheme.rows} - {one for one in scheme.rows if is_direction(one)}:
                 one, two = again[other], followed[other]
-                assert np.allclose(one, two, rtol=CLOSE, atol=CLOSE * size(guide, other), equal_nan=True), (id, other)
+                assert np.allclose(one, two, rtol=CLOSE, atol=CLOSE * size(scheme, other), equal_nan=True), (id, other)
     assert tried >= 5
 
 
 def test_another_speed_leaves_the_plan_as_it_is() -> None:
     """ω1 = n for 2πn/60: the arm of an inertia force on the lever follows from the definitions, not from a stretch."""
-    ledger = students.guide(hands.TWIN).ledger
+    ledger = students.scheme(hands.TWIN).ledger
     arm = follow(ledger, {"omega.1": 2200.0})["h.Pqt2.p"]
     assert np.allclose(arm, ledger.evaluate({"omega.1": 2200.0})["h.Pqt2.p"])

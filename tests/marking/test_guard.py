@@ -31,7 +31,7 @@ SIZE = 8
 
 @pytest.fixture(scope="module")
 def mine() -> MarkingScheme:
-    return students.guide("engine-twin-05", WORKED)
+    return students.scheme("engine-twin-05", WORKED)
 
 
 def other(**parameters: str) -> MarkingScheme:
@@ -42,19 +42,19 @@ def other(**parameters: str) -> MarkingScheme:
 class Room:
     """A class: its assignments and honest sheets without a mistake."""
 
-    guides: list[MarkingScheme]
+    schemes: list[MarkingScheme]
     sheets: list[Submission]
 
     @property
     def classmates(self) -> list[Classmate]:
-        return [Classmate(guide.key, sheet) for guide, sheet in zip(self.guides, self.sheets, strict=True)]
+        return [Classmate(scheme.key, sheet) for scheme, sheet in zip(self.schemes, self.sheets, strict=True)]
 
 
 @pytest.fixture(scope="module")
 def room() -> Room:
     rng = np.random.default_rng(15)
-    guides = hands.variants(SIZE, rng)
-    return Room(guides, [hands.honest(guide, rng) for guide in guides])
+    schemes = hands.variants(SIZE, rng)
+    return Room(schemes, [hands.honest(scheme, rng) for scheme in schemes])
 
 
 # --- the sheet alone ------------------------------------------------------------------------------
@@ -101,12 +101,12 @@ def test_two_data_are_enough_where_the_sheet_is_a_classmates(mine: MarkingScheme
 @pytest.mark.parametrize("step", matrix([0.1, 0.5], [0.5]))
 def test_lengths_read_to_the_same_step_are_no_copies(room: Room, step: float) -> None:
     """A force of 0.2 mm is so on every sheet, and lengths read to half a millimetre often are."""
-    guide = room.guides[0]
-    sheets = [hands.work(guide, hands.PLACES, blunt=0.3e-3, step=step, seed=seed) for seed in range(6)]
+    scheme = room.schemes[0]
+    sheets = [hands.work(scheme, hands.PLACES, blunt=0.3e-3, step=step, seed=seed) for seed in range(6)]
     classmates = [
-        Classmate(replace(guide.key, id=f"SV{number:02}"), sheet) for number, sheet in enumerate(sheets[1:], start=50)
+        Classmate(replace(scheme.key, id=f"SV{number:02}"), sheet) for number, sheet in enumerate(sheets[1:], start=50)
     ]
-    assert mark(guide, sheets[0], classmates).flags == ()
+    assert mark(scheme, sheets[0], classmates).flags == ()
 
 
 @pytest.mark.parametrize(("datum", "factor"), [("n", 0.9), ("H", 1.1), ("G2", 1.2), ("D", 0.9), ("s", 1.1)])
@@ -126,9 +126,9 @@ def test_a_value_out_of_proportion_costs_its_own_mark(mine: MarkingScheme) -> No
 
 
 def test_constant_row_is_told(mine: MarkingScheme) -> None:
-    guide = students.guide("engine-twin-05")
-    value = float(guide.key.row("v.B").values[3])
-    marking = mark(guide, students.sheet(guide, lambda row, k, right: value if row.id == "v.B" else right))
+    scheme = students.scheme("engine-twin-05")
+    value = float(scheme.key.row("v.B").values[3])
+    marking = mark(scheme, students.sheet(scheme, lambda row, k, right: value if row.id == "v.B" else right))
     assert marking.warnings == ("constant",)
     # Wrong where it is wrong, right where it is right.
     assert {cell.verdict for cell in marking.cells if cell.id == "v.B"} == {Verdict.wrong, Verdict.right}
@@ -136,9 +136,9 @@ def test_constant_row_is_told(mine: MarkingScheme) -> None:
 
 def test_positions_copied_from_another(room: Room) -> None:
     """Positions 4 and 7 written off from position 2: only what is right in spite of it keeps its marks."""
-    guide, sheet = room.guides[0], room.sheets[0]
+    scheme, sheet = room.schemes[0], room.sheets[0]
     values = {(id, k): sheet.values.get((id, 2 if k else 0), one) for (id, k), one in sheet.values.items()}
-    marking = mark(guide, replace(sheet, values=values))
+    marking = mark(scheme, replace(sheet, values=values))
     copies = [flag for flag in marking.flags if flag.kind == "columns"]
     assert {k for flag in copies for _, k in flag.places} == {4, 7}
     assert not any(cell.verdict is Verdict.follows for cell in marking.cells if cell.position in (4, 7))
@@ -157,10 +157,10 @@ def test_nobody_who_worked_is_flagged(room: Room) -> None:
     """Every member with no mistake and with each of some, beside all the others' sheets: nothing is told."""
     rng = np.random.default_rng(3)
     mistakes = ["", *hands.MISTAKES]
-    for number, guide in enumerate(room.guides):
+    for number, scheme in enumerate(room.schemes):
         for mistake in (mistakes[number], mistakes[number + SIZE]):
-            sheet = hands.honest(guide, rng, mistake)
-            marking = mark(guide, sheet, room.classmates)
+            sheet = hands.honest(scheme, rng, mistake)
+            marking = mark(scheme, sheet, room.classmates)
             assert marking.flags == (), (number, mistake)
 
 
@@ -168,27 +168,27 @@ def test_nobody_who_worked_is_flagged(room: Room) -> None:
 def test_the_same_mistake_is_no_copy(room: Room, mistake: str) -> None:
     """Two who make one mistake, each in their own data."""
     rng = np.random.default_rng(4)
-    sheets = [hands.honest(guide, rng, mistake) for guide in room.guides[:3]]
-    classmates = [Classmate(guide.key, sheet) for guide, sheet in zip(room.guides, sheets, strict=False)]
-    for guide, sheet in zip(room.guides, sheets, strict=False):
-        assert mark(guide, sheet, classmates).flags == ()
+    sheets = [hands.honest(scheme, rng, mistake) for scheme in room.schemes[:3]]
+    classmates = [Classmate(scheme.key, sheet) for scheme, sheet in zip(room.schemes, sheets, strict=False)]
+    for scheme, sheet in zip(room.schemes, sheets, strict=False):
+        assert mark(scheme, sheet, classmates).flags == ()
 
 
 COPIES: dict[str, Callable[[MarkingScheme, str, int], bool]] = {
-    "reactions": lambda guide, id, k: guide.rows[id].part is Chapter.forces,
-    "loads and forces": lambda guide, id, k: guide.rows[id].part in (Chapter.loads, Chapter.forces, Chapter.torque),
-    "a column": lambda guide, id, k: k == 4,
-    "the sheet": lambda guide, id, k: True,
+    "reactions": lambda scheme, id, k: scheme.rows[id].part is Chapter.forces,
+    "loads and forces": lambda scheme, id, k: scheme.rows[id].part in (Chapter.loads, Chapter.forces, Chapter.torque),
+    "a column": lambda scheme, id, k: k == 4,
+    "the sheet": lambda scheme, id, k: True,
 }
 
 
 @pytest.mark.parametrize("what", COPIES)
 @pytest.mark.parametrize("digits", matrix([0, 3], [3]), ids=["as written", "key in other digits"])
 def test_what_is_a_classmates_is_told(room: Room, what: str, digits: int) -> None:
-    guide, sheet, source = room.guides[1], room.sheets[1], room.guides[5]
+    scheme, sheet, source = room.schemes[1], room.sheets[1], room.schemes[5]
     theirs = students.sheet(source, lambda row, k, value: students.figures(value, 3)) if digits else room.sheets[5]
-    copied = hands.with_cells(sheet, theirs, lambda id, k: COPIES[what](guide, id, k))
-    marking = mark(guide, copied, room.classmates)
+    copied = hands.with_cells(sheet, theirs, lambda id, k: COPIES[what](scheme, id, k))
+    marking = mark(scheme, copied, room.classmates)
     flags = [flag for flag in marking.flags if flag.kind in ("classmate", "classmate-sheet")]
     assert {flag.other for flag in flags} == {source.key.id}
     assert all(flag.chance < 1e-3 for flag in flags)
@@ -198,17 +198,17 @@ def test_what_is_a_classmates_is_told(room: Room, what: str, digits: int) -> Non
 
 
 def test_the_policy_can_overrule_it(room: Room) -> None:
-    guide, theirs = room.guides[1], room.sheets[5]
-    taken = mark(guide, theirs, room.classmates)
-    overruled = replace(guide, policy=Policy(overrule={guide.key.id: "shown at the board"}))
+    scheme, theirs = room.schemes[1], room.sheets[5]
+    taken = mark(scheme, theirs, room.classmates)
+    overruled = replace(scheme, policy=Policy(overrule={scheme.key.id: "shown at the board"}))
     kept = mark(overruled, theirs, room.classmates)
     assert "taken" in taken.warnings
     assert "taken" not in kept.warnings
     assert {flag.kind for flag in kept.flags} == {flag.kind for flag in taken.flags}
     assert kept.points > taken.points
-    silent = replace(guide, policy=Policy(take=dict.fromkeys(TAKES, False)))
+    silent = replace(scheme, policy=Policy(take=dict.fromkeys(TAKES, False)))
     assert mark(silent, theirs, room.classmates).points == kept.points
-    assert mark(replace(guide, policy=Policy(guard=False)), theirs, room.classmates).flags == ()
+    assert mark(replace(scheme, policy=Policy(guard=False)), theirs, room.classmates).flags == ()
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])

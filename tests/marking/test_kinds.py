@@ -27,16 +27,16 @@ STEP = 6
 @pytest.mark.parametrize("name", ASSIGNMENTS)
 def test_the_chain_comes_to_the_key(name: str) -> None:
     """At every other position of the turn: nobody who works so has a value that the key has not."""
-    guide = students.guide(name)
-    ledger = guide.ledger
-    for position in range(1, guide.count + 1, 2):
-        written = hands.vectors(guide, position, figures=0).written
+    scheme = students.scheme(name)
+    ledger = scheme.ledger
+    for position in range(1, scheme.count + 1, 2):
+        written = hands.vectors(scheme, position, figures=0).written
         for id, value in written.items():
             values = ledger[id].values
             key = float(values[0 if len(values) == 1 else position - 1].real)
-            apart = guide.distance(id, key, value * unit_of(id))
-            assert np.isnan(key) or apart <= CLOSE * size(guide, id), (id, position, key, value * unit_of(id))
-    asked = {row.id for row in hands.asked(guide).judged if not np.isnan(row.values[row.at(AT)])}
+            apart = scheme.distance(id, key, value * unit_of(id))
+            assert np.isnan(key) or apart <= CLOSE * size(scheme, id), (id, position, key, value * unit_of(id))
+    asked = {row.id for row in hands.asked(scheme).judged if not np.isnan(row.values[row.at(AT)])}
     left = {id for id in asked - written.keys() if not id.startswith("dir.") and id not in OF_THE_CYCLE}
     assert left == set()
 
@@ -53,28 +53,28 @@ OF_THE_CYCLE = {
 @pytest.mark.parametrize("name", matrix(ASSIGNMENTS, TELLING))
 def test_following_is_what_the_chain_comes_to(name: str) -> None:
     """Each given or computed quantity by a tenth too large, and every value of the sheet that follows from it."""
-    guide = students.guide(name)
-    right = hands.vectors(guide, AT, figures=0)
+    scheme = students.scheme(name)
+    right = hands.vectors(scheme, AT, figures=0)
     tried = 0
-    for id in computed(guide):
+    for id in computed(scheme):
         if id not in right.written and id not in right.used:
             continue
         for factor in (1.1, 1.02):
             try:
-                chain = hands.vectors(guide, AT, changes={id: lambda value, by=factor: by * value}, figures=0)
+                chain = hands.vectors(scheme, AT, changes={id: lambda value, by=factor: by * value}, figures=0)
             except ValueError:
                 # With it the machine does not go together; with less of it it does.
                 continue
             break
         tried += 1
-        found = follow(guide.ledger, {id: lambda value, _, by=factor: by * value})
+        found = follow(scheme.ledger, {id: lambda value, _, by=factor: by * value})
         for other, value in chain.written.items():
-            values = guide.ledger[other].values
+            values = scheme.ledger[other].values
             if np.isnan(values[0 if len(values) == 1 else AT - 1]):
                 continue
             mine = float(found[other][0 if len(found[other]) == 1 else AT - 1].real)
-            apart = guide.distance(other, mine, value * unit_of(other))
-            assert apart <= CLOSE * max(size(guide, other), abs(mine)), (id, other, mine, value * unit_of(other))
+            apart = scheme.distance(other, mine, value * unit_of(other))
+            assert apart <= CLOSE * max(size(scheme, other), abs(mine)), (id, other, mine, value * unit_of(other))
     assert tried > 25
 
 
@@ -100,25 +100,25 @@ def test_a_misread_datum_costs_one_mark(name: str) -> None:
 
 @pytest.mark.parametrize("name", ASSIGNMENTS)
 def test_who_works_rightly_loses_nothing(name: str) -> None:
-    guide = hands.asked(students.guide(name, (AT,)))
+    scheme = hands.asked(students.scheme(name, (AT,)))
     for seed, blunt in enumerate((0.3e-3, 0.5e-3)):
-        assert lost(mark(guide, hands.work(guide, (AT,), blunt=blunt, seed=seed))) == 0
+        assert lost(mark(scheme, hands.work(scheme, (AT,), blunt=blunt, seed=seed))) == 0
 
 
 @pytest.mark.parametrize("factor", [1.0, 1.25])
 def test_the_excess_work_follows_the_own_loads(factor: float) -> None:
     """M_tt from the own torque on the lever at every position, A from it by the trapezoid rule: one mark at most."""
-    guide = hands.asked(students.guide("slotted-lever-02"))
+    scheme = hands.asked(students.scheme("slotted-lever-02"))
     changes = {"M3": lambda value: factor * value}
-    worked = {k: hands.vectors(guide, k, changes=changes) for k in range(1, guide.count + 1)}
+    worked = {k: hands.vectors(scheme, k, changes=changes) for k in range(1, scheme.count + 1)}
     torque = np.array([one.written["M.r"] for one in worked.values()])
-    step = 2 * np.pi / guide.count
+    step = 2 * np.pi / scheme.count
     above = torque - torque.mean()
     work = np.concatenate(([0.0], np.cumsum(step * (above + np.roll(above, -1)) / 2)[:-1]))
     for one, value in zip(worked.values(), work, strict=True):
         one.say("A.excess", float(value))
-    marking = mark(guide, hands.handed_in(guide, worked))
+    marking = mark(scheme, hands.handed_in(scheme, worked))
     assert lost(marking) == (factor != 1)
     followed = [cell.verdict.name for cell in marking.cells if cell.id in ("M.r", "A.excess")]
-    assert len(followed) == 2 * guide.count
-    assert (followed.count("follows") > guide.count) == (factor != 1)
+    assert len(followed) == 2 * scheme.count
+    assert (followed.count("follows") > scheme.count) == (factor != 1)

@@ -46,9 +46,9 @@ MADE: dict[str, tuple[str, Change]] = {
 @pytest.mark.parametrize("blunt", matrix([0.0, 0.3e-3], [0.3e-3]))
 @pytest.mark.parametrize("what", MADE)
 def test_one_mistake_costs_one_mark(what: str, blunt: float) -> None:
-    guide = students.guide(hands.TWIN, AT)
+    scheme = students.scheme(hands.TWIN, AT)
     id, change = MADE[what]
-    marking = mark(guide, hands.work(guide, AT, changes={id: change}, blunt=blunt))
+    marking = mark(scheme, hands.work(scheme, AT, changes={id: change}, blunt=blunt))
     assert 1 <= lost(marking) <= MOST
     assert marking.flags == ()
 
@@ -57,16 +57,16 @@ def test_one_mistake_costs_one_mark(what: str, blunt: float) -> None:
 @pytest.mark.parametrize("name", ["Pqt3", "Pqt2", "Pqt5", "P5"])
 @pytest.mark.parametrize("how", ["left_out", "turned"])
 def test_a_force_wrong_in_its_plan_is_one_mistake_with_a_name(name: str, how: str, blunt: float) -> None:
-    guide = students.guide(hands.TWIN, AT)
-    marking = mark(guide, hands.work(guide, AT, blunt=blunt, **{how: frozenset({name})}))
+    scheme = students.scheme(hands.TWIN, AT)
+    marking = mark(scheme, hands.work(scheme, AT, blunt=blunt, **{how: frozenset({name})}))
     assert 1 <= lost(marking) <= MOST
     named = "force-left-out" if how == "left_out" else "force-reversed"
     assert (named, name) in {(cell.mistake, cell.where) for cell in marking.first_errors}
 
 
 def test_a_normal_part_left_out_is_one_mistake_with_a_name() -> None:
-    guide = students.guide(hands.TWIN, AT)
-    marking = mark(guide, hands.work(guide, AT, left_out=frozenset({"n.BA"})))
+    scheme = students.scheme(hands.TWIN, AT)
+    marking = mark(scheme, hands.work(scheme, AT, left_out=frozenset({"n.BA"})))
     assert lost(marking) == 1
     assert [(cell.mistake, cell.where) for cell in marking.first_errors] == [("part-left-out", "a.BA.n")]
 
@@ -74,10 +74,10 @@ def test_a_normal_part_left_out_is_one_mistake_with_a_name() -> None:
 @pytest.mark.parametrize("machine", ["four-bar-01", "lever-six-bar-01", "shaper-02"])
 def test_a_working_load_forgotten_is_one_mistake_with_a_name(machine: str) -> None:
     """The load is printed on the task, so no cell of the sheet shows it."""
-    guide = students.guide(machine, (2,))
-    load = next(one for one in guide.pitfalls.loads if not one.startswith(("G", "Pqt")))
-    world = students.worked_out(guide, Mistake("", load, {load: lambda value, _: value * 0}))
-    marking = mark(guide, students.written(guide, world))
+    scheme = students.scheme(machine, (2,))
+    load = next(one for one in scheme.pitfalls.loads if not one.startswith(("G", "Pqt")))
+    world = students.worked_out(scheme, Mistake("", load, {load: lambda value, _: value * 0}))
+    marking = mark(scheme, students.written(scheme, world))
     assert 1 <= lost(marking) <= MOST
     assert "load-forgotten" in {cell.mistake for cell in marking.first_errors}
 
@@ -96,15 +96,15 @@ SCALES = (
 @pytest.mark.parametrize("blunt", matrix([0.0, 0.3e-3, 0.5e-3], [0.5e-3]))
 @pytest.mark.parametrize("scale", SCALES, ids=str)
 def test_a_freely_chosen_scale_costs_nothing(scale: dict[str, float], blunt: float) -> None:
-    guide = students.guide(hands.TWIN, AT)
+    scheme = students.scheme(hands.TWIN, AT)
     for seed in range(2):
-        assert lost(mark(guide, hands.work(guide, AT, blunt=blunt, seed=seed, **scale))) == 0
+        assert lost(mark(scheme, hands.work(scheme, AT, blunt=blunt, seed=seed, **scale))) == 0
 
 
 def test_a_finer_drawing_is_read_more_finely() -> None:
     """R03 = 492 N is within ± 180 N where 1 mm is 100 N, within a third of that where it is 21 N."""
-    guide = students.guide(hands.TWIN, AT)
-    coarse, fine = (mark(guide, hands.work(guide, AT, force_scale=scale)) for scale in (1e5, 20920.0))
+    scheme = students.scheme(hands.TWIN, AT)
+    coarse, fine = (mark(scheme, hands.work(scheme, AT, force_scale=scale)) for scale in (1e5, 20920.0))
     wide, narrow = (next(cell.band for cell in one.cells if cell.id == "R.03") for one in (coarse, fine))
     assert narrow < wide / 2
     length = next(cell for cell in fine.cells if cell.id == "seg.23.R03")
@@ -113,21 +113,21 @@ def test_a_finer_drawing_is_read_more_finely() -> None:
 
 def test_the_bands_of_an_engine_know_its_strokes_and_the_scale_of_its_plans() -> None:
     """In the intake stroke p₃ = 2 N/cm², though combustion comes to 280; R03 is read more finely at a finer scale."""
-    guide = students.guide("engine-single-III")
-    usual = guide.bands
-    finer = guide.bands_at({"mu.R23": np.full(len(guide.ledger["mu.R23"].values), 0.2)})
-    pressure, reaction = guide.key.row("p.3").values, np.abs(guide.ledger["R.03"].values)
+    scheme = students.scheme("engine-single-III")
+    usual = scheme.bands
+    finer = scheme.bands_at({"mu.R23": np.full(len(scheme.ledger["mu.R23"].values), 0.2)})
+    pressure, reaction = scheme.key.row("p.3").values, np.abs(scheme.ledger["R.03"].values)
     assert pressure[2] == 2
-    assert usual["p.3"][2] / guide.ledger["p.3"].how.scale < 0.15
+    assert usual["p.3"][2] / scheme.ledger["p.3"].how.scale < 0.15
     assert np.median(finer["R.03"] / usual["R.03"]) < 0.7
     assert (usual["R.03"] < reaction).mean() > 0.9
 
 
 def test_a_slip_in_writing_the_scale_is_named_and_costs_one_mark() -> None:
-    guide = students.guide(hands.TWIN, AT)
-    sheet = hands.work(guide, AT, blunt=0.3e-3, force_scale=20920.0)
+    scheme = students.scheme(hands.TWIN, AT)
+    sheet = hands.work(scheme, AT, blunt=0.3e-3, force_scale=20920.0)
     given = replace(sheet.values["mu.R23", AT[0]], value=0.92, text="0.92")
-    marking = mark(guide, replace(sheet, values={**sheet.values, ("mu.R23", AT[0]): given}))
+    marking = mark(scheme, replace(sheet, values={**sheet.values, ("mu.R23", AT[0]): given}))
     assert lost(marking) == 1
     assert [(cell.id, cell.mistake) for cell in marking.first_errors] == [("mu.R23", "other-scale")]
 
@@ -141,18 +141,18 @@ FROM_ELSEWHERE: dict[str, tuple[str, Change]] = {
 
 @pytest.mark.parametrize("what", FROM_ELSEWHERE)
 def test_a_right_value_that_the_own_ones_do_not_give_is_told_and_costs_nothing(what: str) -> None:
-    guide = students.guide(hands.TWIN, AT)
+    scheme = students.scheme(hands.TWIN, AT)
     id, change = FROM_ELSEWHERE[what]
-    marking = mark(guide, hands.work(guide, AT, changes={id: change}, blunt=0.3e-3))
+    marking = mark(scheme, hands.work(scheme, AT, changes={id: change}, blunt=0.3e-3))
     assert lost(marking) == 0
     assert [cell.id for cell in marking.elsewhere] == [id]
 
 
 @pytest.mark.parametrize("name", matrix([hands.TWIN, hands.SLIDER], [hands.SLIDER]))
 def test_who_went_on_from_the_own_values_hears_of_nothing(name: str) -> None:
-    guide = students.guide(name, AT)
+    scheme = students.scheme(name, AT)
     for seed, how in enumerate(({}, {"figures": 3}, {"by_lengths": False}, *SCALES)):
-        assert mark(guide, hands.work(guide, AT, blunt=0.5e-3, seed=seed, **how)).elsewhere == []
+        assert mark(scheme, hands.work(scheme, AT, blunt=0.5e-3, seed=seed, **how)).elsewhere == []
 
 
 # --- a published student report -------------------------------------------------------------------
@@ -160,10 +160,10 @@ def test_who_went_on_from_the_own_values_hears_of_nothing(name: str) -> None:
 
 def published(**other: float) -> Marking:
     """The report's figures on a sheet, perhaps with some of them otherwise."""
-    guide = students.guide("engine-twin-05", (POSITION,))
+    scheme = students.scheme("engine-twin-05", (POSITION,))
     figures = FIGURES | other
-    assert figures.keys() <= guide.rows.keys()
-    return mark(guide, students.sheet(guide, lambda row, position, value: figures.get(row.id)))
+    assert figures.keys() <= scheme.rows.keys()
+    return mark(scheme, students.sheet(scheme, lambda row, position, value: figures.get(row.id)))
 
 
 def test_the_published_report_has_two_mistakes_and_a_remark() -> None:

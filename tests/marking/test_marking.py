@@ -45,8 +45,8 @@ def verdicts(marking: Marking) -> dict[tuple[str, int], Verdict]:
 @pytest.mark.parametrize("digits", [12, 3])
 def test_right_sheet_scores_full(name: str, digits: int) -> None:
     """Also with every value rounded to three figures: a correctly rounded value always passes."""
-    guide = students.guide(name)
-    marking = mark(guide, students.sheet(guide, lambda row, k, value: students.figures(value, digits)))
+    scheme = students.scheme(name)
+    marking = mark(scheme, students.sheet(scheme, lambda row, k, value: students.figures(value, digits)))
     assert marking.points == marking.out_of > 0
     assert {cell.verdict for cell in marking.cells} == {Verdict.right}
     assert marking.warnings == ()
@@ -59,21 +59,21 @@ def test_careful_drawing_is_right(name: str) -> None:
     A band reaches to three standard deviations of what is inherited (2.7 in 1000 of a normal spread lie
     beyond), and what lies beyond mostly still follows from the student's own values.
     """
-    guide = students.guide(name)
+    scheme = students.scheme(name)
     counted: Counter[Verdict] = Counter()
     for seed in range(4):
-        world = students.worked_out(guide, drawn=np.random.default_rng(seed))
-        counted.update(cell.verdict for cell in mark(guide, students.written(guide, world)).cells)
+        world = students.worked_out(scheme, drawn=np.random.default_rng(seed))
+        counted.update(cell.verdict for cell in mark(scheme, students.written(scheme, world)).cells)
     earned = counted[Verdict.right] + counted[Verdict.follows]
     assert earned >= 0.997 * counted.total()
 
 
 def slip(id: str, factor: float, name: str = TWIN, policy: Policy | None = None) -> Marking:
     """A sheet on which one value came out wrong, and everything after it was worked out from that."""
-    guide = students.guide(name, (AT,))
-    guide = guide if policy is None else replace(guide, policy=policy)
-    world = students.worked_out(guide, Mistake("", id, {id: lambda value, _: value * factor}))
-    return mark(guide, students.written(guide, world))
+    scheme = students.scheme(name, (AT,))
+    scheme = scheme if policy is None else replace(scheme, policy=policy)
+    world = students.worked_out(scheme, Mistake("", id, {id: lambda value, _: value * factor}))
+    return mark(scheme, students.written(scheme, world))
 
 
 @pytest.mark.parametrize("id", ["R", "v.BA", "seg.v.pb", "a.BA.n", "Pqt2", "R.12.t", "R.14", "h.P3.p"])
@@ -96,9 +96,9 @@ def test_what_follows_is_named_as_following() -> None:
 
 
 def test_second_slip_costs_a_second_mark() -> None:
-    guide = students.guide(TWIN, (AT,))
+    scheme = students.scheme(TWIN, (AT,))
     changes = {"v.BA": lambda value, _: value * 1.4, "eps.2": lambda value, _: value * 1.6}
-    marking = mark(guide, students.written(guide, students.worked_out(guide, Mistake("", "", changes))))
+    marking = mark(scheme, students.written(scheme, students.worked_out(scheme, Mistake("", "", changes))))
     assert marking.points == marking.out_of - 2
     assert [cell.id for cell in marking.first_errors] == ["v.BA"]
 
@@ -110,8 +110,8 @@ def test_policy_gives_a_share_for_following() -> None:
 
 
 def test_weights_by_pattern() -> None:
-    guide = replace(students.guide(TWIN, (AT,)), policy=Policy(weights={"seg.*": 0.0, "M.eq": 5.0}))
-    marking = mark(guide, students.sheet(guide, students.right))
+    scheme = replace(students.scheme(TWIN, (AT,)), policy=Policy(weights={"seg.*": 0.0, "M.eq": 5.0}))
+    marking = mark(scheme, students.sheet(scheme, students.right))
     worth = {cell.id: cell.worth for cell in marking.cells}
     assert (worth["seg.v.pb"], worth["M.eq"], worth["v.B"]) == (0.0, 5.0, 1.0)
     assert marking.points == marking.out_of
@@ -119,23 +119,23 @@ def test_weights_by_pattern() -> None:
 
 def test_blank_value_is_replaced_by_the_key() -> None:
     """Whoever leaves v_BA out is judged on ω₂ from the key's v_BA, or from the own length it comes from."""
-    guide = students.guide(TWIN, (AT,))
+    scheme = students.scheme(TWIN, (AT,))
 
     def cell(row: KeyRow, k: int, value: float) -> float | None:
         return None if row.id == "v.BA" else value
 
-    found = verdicts(mark(guide, students.sheet(guide, cell)))
+    found = verdicts(mark(scheme, students.sheet(scheme, cell)))
     assert found.pop(("v.BA", AT)) is Verdict.blank
     assert set(found.values()) == {Verdict.right}
 
 
 def test_follows_through_a_blank() -> None:
     """A wrong length ab, v_BA left out, ω₂ worked out from the wrong length: it follows."""
-    guide = students.guide(TWIN, (AT,))
-    world = students.worked_out(guide, Mistake("", "", {"seg.v.ab": lambda value, _: value * 1.3}))
-    filled = students.written(guide, world)
+    scheme = students.scheme(TWIN, (AT,))
+    world = students.worked_out(scheme, Mistake("", "", {"seg.v.ab": lambda value, _: value * 1.3}))
+    filled = students.written(scheme, world)
     values = {place: given for place, given in filled.values.items() if place[0] != "v.BA"}
-    found = verdicts(mark(guide, replace(filled, values=values)))
+    found = verdicts(mark(scheme, replace(filled, values=values)))
     assert found[("seg.v.ab", AT)] is Verdict.wrong
     assert found[("turn.omega.2", AT)] is Verdict.follows
 
@@ -143,7 +143,7 @@ def test_follows_through_a_blank() -> None:
 @pytest.mark.parametrize("factor", [0.5, 2.0, 1.25])
 def test_own_scales_are_the_students_choice(factor: float) -> None:
     """Plans of velocity and force drawn at another μ: longer lengths, the same vectors."""
-    guide = students.guide(TWIN, (AT,))
+    scheme = students.scheme(TWIN, (AT,))
 
     def cell(row: KeyRow, k: int, value: float) -> float:
         if row.id in ("mu.v", "mu.R23"):
@@ -151,7 +151,7 @@ def test_own_scales_are_the_students_choice(factor: float) -> None:
         on_plan = row.id.startswith(("seg.v.", "seg.23.")) or (row.id.startswith("h.") and row.id.endswith(".p"))
         return value / factor if on_plan else value
 
-    marking = mark(guide, students.sheet(guide, cell))
+    marking = mark(scheme, students.sheet(scheme, cell))
     assert marking.points == marking.out_of
 
 
@@ -164,21 +164,21 @@ def test_wrong_scale_is_a_wrong_value() -> None:
 
 def test_kinematics_of_the_first_turn_serve_the_second() -> None:
     """Reactions at position 12 stand on the accelerations of position 4, which the sheet asks for once."""
-    guide = students.guide(TWIN, (4, 12))
-    assert guide.rows["a.S2"].positions == guide.rows["Pqt2"].positions == (4,)
-    assert guide.rows["P3"].positions == guide.rows["R.12"].positions == (4, 12)
-    world = students.worked_out(guide, Mistake("", "", {"a.S2": lambda value, _: value * 1.4}))
-    found = verdicts(mark(guide, students.written(guide, world)))
+    scheme = students.scheme(TWIN, (4, 12))
+    assert scheme.rows["a.S2"].positions == scheme.rows["Pqt2"].positions == (4,)
+    assert scheme.rows["P3"].positions == scheme.rows["R.12"].positions == (4, 12)
+    world = students.worked_out(scheme, Mistake("", "", {"a.S2": lambda value, _: value * 1.4}))
+    found = verdicts(mark(scheme, students.written(scheme, world)))
     assert found[("a.S2", 4)] is Verdict.wrong
     assert found[("Pqt2", 4)] is found[("R.12", 4)] is found[("R.12", 12)] is Verdict.follows
 
 
 def test_every_asked_value_is_judged_once() -> None:
-    guide = students.guide(TWIN, (4, 12))
-    marking = mark(guide, students.sheet(guide, students.right))
+    scheme = students.scheme(TWIN, (4, 12))
+    marking = mark(scheme, students.sheet(scheme, students.right))
     places = [(cell.id, cell.position) for cell in marking.cells]
     assert len(places) == len(set(places))
-    assert set(places) == {(row.id, k) for row in guide.judged for k in row.positions}
+    assert set(places) == {(row.id, k) for row in scheme.judged for k in row.positions}
 
 
 def test_computed_band_holds_three_figures_through_the_chain() -> None:
@@ -186,18 +186,18 @@ def test_computed_band_holds_three_figures_through_the_chain() -> None:
 
     All earn; two in a hundred may lie beyond three deviations, where long chains share their errors.
     """
-    guide = marking_scheme(opened(students.assignment(TWIN, (AT,))), Policy(paper=0.0))
+    scheme = marking_scheme(opened(students.assignment(TWIN, (AT,))), Policy(paper=0.0))
 
     def rounding(value: np.ndarray, _: object) -> np.ndarray:
         return np.array([students.figures(one) for one in value])
 
     plain = [
         id
-        for id, family in guide.ledger.families.items()
+        for id, family in scheme.ledger.families.items()
         if not (family.hidden or family.is_plane or family.exact or family.definition is None)
     ]
-    world = students.worked_out(guide, Mistake("", "", dict.fromkeys(plain, rounding)))
-    found = verdicts(mark(guide, students.written(guide, world)))
+    world = students.worked_out(scheme, Mistake("", "", dict.fromkeys(plain, rounding)))
+    found = verdicts(mark(scheme, students.written(scheme, world)))
     counted = Counter(found.values())
     assert set(counted) <= {Verdict.right, Verdict.follows}
     assert counted[Verdict.right] >= 0.98 * counted.total()

@@ -33,38 +33,38 @@ SAMPLE = 6
 """Mistakes drawn for each variant beside one of each name; `python -m tests.bench.mistakes` takes all."""
 
 
-def possible_mistakes(guide: MarkingScheme) -> list[Mistake]:
+def possible_mistakes(scheme: MarkingScheme) -> list[Mistake]:
     """Every mistake at every place where it can occur, once where two names mean one deed.
 
     The sign of a rotation's size is the direction of the rotation.
     """
     found: list[Mistake] = []
-    for id, family in guide.ledger.families.items():
+    for id, family in scheme.ledger.families.items():
         read = family.definition is None and len(family.values) > 1
         if family.hidden or family.is_plane or (family.definition is None and not read):
             continue
-        twin = f"turn.{id}" in guide.ledger
-        found += [one for one in mistakes_in(guide, id, {}) if not (twin and one.name == "sign-reversed")]
-    return [*found, *general_mistakes(guide)]
+        twin = f"turn.{id}" in scheme.ledger
+        found += [one for one in mistakes_in(scheme, id, {}) if not (twin and one.name == "sign-reversed")]
+    return [*found, *general_mistakes(scheme)]
 
 
-def is_found(guide: MarkingScheme, mistake: Mistake, world: World, first: students.Effect, marking: Marking) -> bool:
+def is_found(scheme: MarkingScheme, mistake: Mistake, world: World, first: students.Effect, marking: Marking) -> bool:
     """Whether the first error is told where it shows, under its name or under one that gives the same values."""
     hits = [cell for cell in marking.first_errors if cell.id == first.id]
     if any(cell.mistake == mistake.name for cell in hits):
         return True
-    row = guide.rows[first.id]
+    row = scheme.rows[first.id]
     named = {(cell.mistake, cell.where) for cell in hits if cell.mistake}
-    same = [other for other in possible_mistakes(guide) if (other.name, other.where) in named]
+    same = [other for other in possible_mistakes(scheme) if (other.name, other.where) in named]
     return any(
-        all(students.off(guide, row, students.worked_out(guide, other), k, world) <= 1 for k in first.positions)
+        all(students.off(scheme, row, students.worked_out(scheme, other), k, world) <= 1 for k in first.positions)
         for other in same
     )
 
 
-def shows(guide: MarkingScheme, mistake: Mistake, first: students.Effect) -> bool:
+def shows(scheme: MarkingScheme, mistake: Mistake, first: students.Effect) -> bool:
     """Whether a mistake shows where it is made, if that is asked for at all."""
-    judged = {row.id for row in guide.judged}
+    judged = {row.id for row in scheme.judged}
     at = next((id for id in (mistake.where, f"turn.{mistake.where}") if id in judged), None)
     return len(mistake.changes) > 1 or at is None or at == first.id or mistake.name == "no-coriolis"
 
@@ -76,15 +76,17 @@ class Rates:
     made: Counter[str] = field(default_factory=Counter)
     found: Counter[str] = field(default_factory=Counter)
 
-    def inject(self, guide: MarkingScheme, mistake: Mistake, rng: np.random.Generator) -> bool:
+    def inject(self, scheme: MarkingScheme, mistake: Mistake, rng: np.random.Generator) -> bool:
         """One student with one mistake, drawing by hand; False for one that shows nowhere, which is none."""
-        clean = students.worked_out(guide, mistake)
-        first = students.effect(guide, clean)
-        if first is None or not shows(guide, mistake, first):
+        clean = students.worked_out(scheme, mistake)
+        first = students.effect(scheme, clean)
+        if first is None or not shows(scheme, mistake, first):
             return False
-        world = students.worked_out(guide, mistake, drawn=rng)
+        world = students.worked_out(scheme, mistake, drawn=rng)
         self.made[mistake.name] += 1
-        self.found[mistake.name] += is_found(guide, mistake, clean, first, mark(guide, students.written(guide, world)))
+        self.found[mistake.name] += is_found(
+            scheme, mistake, clean, first, mark(scheme, students.written(scheme, world))
+        )
         return True
 
     @property
@@ -102,14 +104,14 @@ def test_named_mistakes_are_found() -> None:
     rng = np.random.default_rng(20261121)
     rates = Rates()
     for name in MACHINES:
-        guide = students.marking_scheme(opened(students.varied(name, rng, WORKED)))
-        possible = possible_mistakes(guide)
+        scheme = students.marking_scheme(opened(students.varied(name, rng, WORKED)))
+        possible = possible_mistakes(scheme)
         for name in sorted({mistake.name for mistake in possible}):
             of_it = [mistake for mistake in possible if mistake.name == name]
             # The first that shows, in any order.
-            any(rates.inject(guide, of_it[k], rng) for k in rng.permutation(len(of_it)))
+            any(rates.inject(scheme, of_it[k], rng) for k in rng.permutation(len(of_it)))
         for k in rng.choice(len(possible), SAMPLE, replace=False):
-            rates.inject(guide, possible[k], rng)
+            rates.inject(scheme, possible[k], rng)
     print(rates)
     assert set(rates.made) == NAMES
     assert rates.rate >= 0.95, str(rates)
@@ -141,28 +143,28 @@ def test_named_mistakes_are_found() -> None:
     ],
 )
 def test_each_mistake_on_a_sheet_of_one_position(machine: str, id: str, name: str) -> None:
-    guide = students.guide(machine, (4,))
-    mistake = next(one for one in possible_mistakes(guide) if (one.where, one.name) == (id, name))
-    marking = mark(guide, students.written(guide, students.worked_out(guide, mistake)))
+    scheme = students.scheme(machine, (4,))
+    mistake = next(one for one in possible_mistakes(scheme) if (one.where, one.name) == (id, name))
+    marking = mark(scheme, students.written(scheme, students.worked_out(scheme, mistake)))
     firsts = {(cell.id, cell.mistake, cell.where) for cell in marking.first_errors}
     assert (id, name, id) in firsts
 
 
 def test_mistake_before_the_first_value_on_the_sheet() -> None:
     """Who hands in velocities only, worked out with the stroke for the radius, is told so."""
-    guide = students.guide("engine-twin-05", (4,))
-    mistake = next(one for one in possible_mistakes(guide) if one.name == "stroke-for-radius")
-    world = students.worked_out(guide, mistake)
-    filled = students.written(guide, world)
+    scheme = students.scheme("engine-twin-05", (4,))
+    mistake = next(one for one in possible_mistakes(scheme) if one.name == "stroke-for-radius")
+    world = students.worked_out(scheme, mistake)
+    filled = students.written(scheme, world)
     kept = {place: given for place, given in filled.values.items() if place[0] in ("v.A", "v.B", "a.A")}
-    marking = mark(guide, Submission(filled.assignment, filled.file, kept, {}))
+    marking = mark(scheme, Submission(filled.assignment, filled.file, kept, {}))
     assert {(cell.id, cell.mistake, cell.where) for cell in marking.first_errors} >= {("v.A", "stroke-for-radius", "R")}
 
 
 @pytest.mark.parametrize(("datum", "taken"), [("H", 0.11), ("n", 2400.0), ("D", 0.09), ("G3", 28.0)])
 def test_misread_datum_is_told(datum: str, taken: float) -> None:
-    guide = students.guide("engine-twin-05", (4,))
+    scheme = students.scheme("engine-twin-05", (4,))
     mistake = Mistake("", datum, {datum: lambda value, _: value * 0 + taken})
-    marking = mark(guide, students.written(guide, students.worked_out(guide, mistake)))
+    marking = mark(scheme, students.written(scheme, students.worked_out(scheme, mistake)))
     assert {(cell.mistake, cell.where) for cell in marking.first_errors} == {(WRONG_DATUM, datum)}
     assert marking.points == marking.out_of - len(marking.first_errors)

@@ -165,7 +165,7 @@ def signed(name: str, row: KeyRow, one: Position) -> float | None:
 
 def tried(name: str, turned: float = 1.0) -> tuple[Marking, list[tuple[str, int]]]:
     """The marking of a sheet with the signs of its words, or all of them `turned`, and where it has such signs."""
-    guide, positions = opened(name)
+    scheme, positions = opened(name)
     places: list[tuple[str, int]] = []
 
     def cell(row: KeyRow, position: int, value: float) -> float:
@@ -173,9 +173,9 @@ def tried(name: str, turned: float = 1.0) -> tuple[Marking, list[tuple[str, int]
         if own is None or abs(own) < 1e-9:
             return value
         places.append((row.id, position))
-        return turned * own / guide.ledger[row.id].how.scale
+        return turned * own / scheme.ledger[row.id].how.scale
 
-    return mark(guide, students.sheet(guide, cell)), places
+    return mark(scheme, students.sheet(scheme, cell)), places
 
 
 @pytest.mark.parametrize("name", matrix(AXES, TELLING))
@@ -199,27 +199,27 @@ def test_the_words_decide_the_sign(name: str) -> None:
 )
 def test_a_couple_of_inertia_has_either_sign(name: str) -> None:
     """It is asked for as a magnitude; anticlockwise positive, it has the sign that ε has not."""
-    guide, positions = opened(name)
+    scheme, positions = opened(name)
 
     def cell(row: KeyRow, position: int, value: float) -> float:
         found = re.fullmatch(r"M\.Pqt(\d)", row.id)
         return -np.sign(positions[position - 1]["links"][found[1]]["epsilon"]) * value if found else value
 
-    marking = mark(guide, students.sheet(guide, cell))
+    marking = mark(scheme, students.sheet(scheme, cell))
     assert {cell.given < 0 for cell in marking.cells if cell.id.startswith("M.Pqt") and cell.given} == {True, False}
     assert {cell.verdict for cell in marking.cells if cell.given is not None} == {Verdict.right}
 
 
 def test_what_is_asked_for_as_a_magnitude_is_right_either_way() -> None:
-    guide, _ = opened("four-bar-01")
-    magnitudes = {row.id for row in guide.key.asked if row.positive == "magnitude"}
+    scheme, _ = opened("four-bar-01")
+    magnitudes = {row.id for row in scheme.key.asked if row.positive == "magnitude"}
     assert {"q.2", "q.3", "M.Pqt2"} <= magnitudes
-    marking = mark(guide, students.sheet(guide, lambda row, _, value: -value if row.id in magnitudes else value))
+    marking = mark(scheme, students.sheet(scheme, lambda row, _, value: -value if row.id in magnitudes else value))
     assert {cell.verdict for cell in marking.cells if cell.given is not None} == {Verdict.right}
 
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in students.ASSIGNMENTS.glob("*.yaml")))
 def test_no_sheet_leaves_a_sense_open(name: str) -> None:
     """Whatever can be negative has words: which sense is positive, or that its magnitude is asked for."""
-    guide = students.guide(name)
-    assert [row.id for row in guide.key.asked if row.open_sense and not row.positive] == []
+    scheme = students.scheme(name)
+    assert [row.id for row in scheme.key.asked if row.open_sense and not row.positive] == []

@@ -16,9 +16,9 @@ WITH_FLYWHEEL = [name for name in FILES if "unevenness" in Path("assignments", f
 
 @pytest.mark.parametrize("name", WITH_FLYWHEEL)
 def test_the_rule_over_the_positions_gives_what_is_right_or_not_asked(name: str) -> None:
-    guide = students.guide(name)
-    rows = {row.id: np.array(row.values) for row in guide.key.rows}
-    count, turns = len(rows["M.r"]), len(rows["M.r"]) // guide.count
+    scheme = students.scheme(name)
+    rows = {row.id: np.array(row.values) for row in scheme.key.rows}
+    count, turns = len(rows["M.r"]), len(rows["M.r"]) // scheme.count
     # By hand: the works of the intervals, the last one closing the cycle, less those of the mean torque.
     torque, step = rows["M.r"], 2 * np.pi * turns / count
     work = [0.0]
@@ -28,14 +28,14 @@ def test_the_rule_over_the_positions_gives_what_is_right_or_not_asked(name: str)
     J, ω, δ = rows.get("J.r", np.zeros(count)), float(rows["omega.1"][0]), float(rows["unevenness"][0])
     high = max(excess - (ω * (1 + δ / 2)) ** 2 * J / 2)
     low = min(excess - (ω * (1 - δ / 2)) ** 2 * J / 2)
-    asked = {row.id for row in guide.key.asked}
+    asked = {row.id for row in scheme.key.asked}
     assert ("J.d" in asked) or name == "slotted-lever-02"
     for id, values in (("J.d", np.array([(high - low) / (δ * ω**2)])), ("A.excess", excess)):
         if id in asked:
-            assert (np.abs(values - rows[id]) <= guide.bands[id] / guide.ledger[id].how.scale).all()
+            assert (np.abs(values - rows[id]) <= scheme.bands[id] / scheme.ledger[id].how.scale).all()
 
 
 def test_some_positions_make_no_flywheel() -> None:
-    guide = students.guide("engine-single-III", (2, 4))
-    assert not {"J.d", "A.excess", "omega.of", "J.r"} & {row.id for row in guide.key.asked}
-    assert guide.key.row("J.d").part is Chapter.cycle
+    scheme = students.scheme("engine-single-III", (2, 4))
+    assert not {"J.d", "A.excess", "omega.of", "J.r"} & {row.id for row in scheme.key.asked}
+    assert scheme.key.row("J.d").part is Chapter.cycle

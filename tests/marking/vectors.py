@@ -42,7 +42,7 @@ class Group:
     """Two links that were added to what stood: the joint between them, and where they hang on `start` and `end`.
 
     `along` has the unit vectors from the outer joints to the inner one, `lengths` their distances; a slider has no
-    outer joint but a `guide`.
+    outer joint but a `scheme`.
     """
 
     kind: str
@@ -52,7 +52,7 @@ class Group:
     end: str
     along: tuple[complex, complex]
     lengths: tuple[float, float]
-    guide: complex = 0j
+    scheme: complex = 0j
 
 
 @dataclass
@@ -174,26 +174,26 @@ class Vectors(Student):
         self.tell_again("a", joint)
         self.groups.append(Group("RRR", links, start, joint, end, along, lengths))
 
-    def rrp(self, links: tuple[int, int], start: str, joint: str, length: float, guide: complex, at: complex) -> None:
-        """A rod and a slider on the line through `at` along `guide`; the slider is the one further along it."""
-        beside = (np.conj(guide) * (self.p[start] - at)).imag
-        along_line = (np.conj(guide) * (self.p[start] - at)).real + math.sqrt(length**2 - beside**2)
-        self.p[joint], self.link_of[joint] = at + guide * along_line, links[1]
+    def rrp(self, links: tuple[int, int], start: str, joint: str, length: float, scheme: complex, at: complex) -> None:
+        """A rod and a slider on the line through `at` along `scheme`; the slider is the one further along it."""
+        beside = (np.conj(scheme) * (self.p[start] - at)).imag
+        along_line = (np.conj(scheme) * (self.p[start] - at)).real + math.sqrt(length**2 - beside**2)
+        self.p[joint], self.link_of[joint] = at + scheme * along_line, links[1]
         along = (self.p[joint] - self.p[start]) / length
-        unknown = (1j * along, -guide)
+        unknown = (1j * along, -scheme)
         speed = _solve(*unknown, -self.v[start])
-        self.v[joint] = speed[1] * guide
+        self.v[joint] = speed[1] * scheme
         relative = self._relative("v", joint, start, speed[0], self.paper.velocity)
         self.omega[links[0]] = self._rate("omega", links[0], speed[0], relative, length)
         self.omega[links[1]] = self.eps[links[1]] = 0.0
         self.tell_again("v", joint)
         normal = self.say(f"a.{joint}{start}.n", relative**2 / length)
         part = _solve(*unknown, normal * along - self.a[start])
-        self.a[joint] = part[1] * guide
+        self.a[joint] = part[1] * scheme
         size = self.measure(f"a.{joint}{start}.t", abs(part[0]), self.paper.acceleration)
         self.eps[links[0]] = self._rate("eps", links[0], part[0], size, length)
         self.tell_again("a", joint)
-        self.groups.append(Group("RRP", links, start, joint, "", (along, 0j), (length, 0.0), guide))
+        self.groups.append(Group("RRP", links, start, joint, "", (along, 0j), (length, 0.0), scheme))
 
     def rpr(self, links: tuple[int, int], pin: str, pivot: str) -> None:
         """A block on the pin that slides along a lever about a fixed pivot; the lever's point under it is pin3."""
@@ -224,8 +224,8 @@ class Vectors(Student):
         self.eps[block] = self.say(f"turn.eps.{block}", self.eps[lever])
         self.groups.append(Group("RPR", links, pin, under, pivot, (along, along), (length, length)))
 
-    def rpp(self, links: tuple[int, int], pin: str, guide: complex) -> None:
-        """A block on the pin in the slot of a yoke that moves along `guide`, across its slot."""
+    def rpp(self, links: tuple[int, int], pin: str, scheme: complex) -> None:
+        """A block on the pin in the slot of a yoke that moves along `scheme`, across its slot."""
         yoke = links[1]
         under = f"{pin}{yoke}"
         self.p[under], self.link_of[under] = self.p[pin], yoke
@@ -233,10 +233,10 @@ class Vectors(Student):
             ("v", self.v, f"v.{under}{pin}", self.paper.velocity),
             ("a", self.a, f"a.{under}{pin}.r", self.paper.acceleration),
         ):
-            had[under] = (np.conj(guide) * had[pin]).real * guide
+            had[under] = (np.conj(scheme) * had[pin]).real * scheme
             self.measure(part, abs(had[under] - had[pin]), scale)
             self.tell_again(what, under)
-        self.groups.append(Group("RPP", links, pin, under, "", (1j * guide, 1j * guide), (0.0, 0.0), guide))
+        self.groups.append(Group("RPP", links, pin, under, "", (1j * scheme, 1j * scheme), (0.0, 0.0), scheme))
 
     def _relative(self, what: str, joint: str, outer: str, speed: float, scale: float) -> float:
         """A relative velocity: about a fixed point it is the joint's own, already written down."""
@@ -337,8 +337,8 @@ class Vectors(Student):
                 if outer:
                     yield group.end, -there
             else:
-                normal = _solve(e, 1j * group.guide, -known)
-                tell(f"0{j}", normal[1] * 1j * group.guide)
+                normal = _solve(e, 1j * group.scheme, -known)
+                tell(f"0{j}", normal[1] * 1j * group.scheme)
             here = normal[0] * e + tangential * 1j * e
             tell(f"{j}{i}", -(total[0] + here))
             here = tell(f"{k}{i}", here)
@@ -350,7 +350,7 @@ class Vectors(Student):
             self.say(f"R.{j}{i}", abs(across))
             here = tell(f"{k}{i}", pushed - total[0])
         else:
-            u = group.guide
+            u = group.scheme
             across = (np.conj(u) * total[1]).real * u
             tell(f"0{j}", -(total[1] - across))
             tell(f"{j}{i}", across)

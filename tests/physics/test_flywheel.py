@@ -13,8 +13,9 @@ import pytest
 from reportgen import api
 from reportgen.base.words import kinds
 from reportgen.formula.sheet import Sheet
-from reportgen.machine.analysis import FULL_TURN, Machine, analyse, motion_at
+from reportgen.machine.analysis import Machine, analyse, motion_at
 from reportgen.machine.flywheel import RegulatedCycle, accumulated, flywheel, reduced_inertia, regulate
+from reportgen.machine.loads import FULL_TURN
 from reportgen.plans import write_ledger
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

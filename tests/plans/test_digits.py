@@ -15,7 +15,7 @@ from reportgen.formula import ids
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import ZERO, Family
 from reportgen.formula.vocabulary import MAX_DIGITS, Chapter
-from reportgen.plans import SAME
+from reportgen.plans import ONE_QUANTITY
 from tests.lanes import matrix
 from tests.report import built
 
@@ -54,7 +54,7 @@ def assert_lines_recompute(ledger: Ledger) -> None:
 
 def assert_figures(ledger: Ledger) -> None:
     """Results have three to five figures, or are whole numbers; mostly four."""
-    together = {id: same for same in SAME for id in same if id in ledger}
+    together = {id: same for same in ONE_QUANTITY for id in same if id in ledger}
     computed = []
     for id, (family, decimals) in printed(ledger).items():
         if family.kind == "segment":
@@ -82,7 +82,7 @@ def assert_one_quantity_has_one_number_of_decimals(ledger: Ledger) -> None:
     differing = {name: found for name, found in all_ways.items() if len(found) > 1}
     assert {name: found for name, found in differing.items() if max(found) - min(found) > 2} == {}
     assert len(differing) <= 0.1 * len(all_ways), differing
-    for same in SAME:
+    for same in ONE_QUANTITY:
         assert len({ledger.decimals[id] for id in same if id in ledger and ledger.decimals[id] is not None}) <= 1, same
 
 
