@@ -13,7 +13,7 @@ from reportgen.exercise import file
 from reportgen.exercise.board import Board, BoardEquation, Projected, Step, Vector, components
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.places import direction_of, parallel, perpendicular, unit
-from reportgen.formula import sqrt
+from reportgen.formula import ids, sqrt
 
 
 @dataclass
@@ -23,29 +23,30 @@ class Parts:
     board: Board
     of: dict[str, tuple[Vector, ...]] = field(default_factory=dict)
 
-    def vector(self, id: str, value: complex) -> Vector:
-        return Vector(id, direction_of(value))
-
 
 def relative(parts: Parts, body: int, point: str, base: str) -> tuple[Vector, Vector]:
     """The normal and the tangential acceleration of a point about another of its body, as vectors."""
     board = parts.board
-    arm = board.layout.points[point] - board.layout.points[base]
-    eps = board.motion.epsilon(body)
+    arm = direction_of(board.layout.points[point] - board.layout.points[base])
     pivot = board.layout.centres.get(body)
     fixed = pivot is not None and pivot.rule == "pivot" and pivot.name == base
-    name = point if fixed else f"{point}{base}"
-    return parts.vector(f"a.{name}.n", -arm), parts.vector(f"a.{name}.t", 1j * arm * (1 if eps >= 0 else -1))
+    return _turning(board, body, point if fixed else point + base, arm)
+
+
+def _turning(board: Board, body: int, name: str, arm: complex) -> tuple[Vector, Vector]:
+    """aⁿ and aᵗ at the end of an arm of a body, given by its direction; `name` is what stands below both symbols."""
+    across = 1j * arm * (1 if board.motion.epsilon(body) >= 0 else -1)
+    return Vector(ids.acceleration(name, "n"), -arm), Vector(ids.acceleration(name, "t"), across)
 
 
 def enter_normal(parts: Parts, body: int, point: str, base: str, normal: Vector) -> tuple[str, ...]:
     """aⁿ = ω² l; no line where the body does not turn."""
-    return _enter_part(parts, normal.id, f"omega.{body}", 2, base, point)
+    return _enter_part(parts, normal.id, ids.angular_velocity(body), 2, base, point)
 
 
 def enter_tangential(parts: Parts, body: int, point: str, base: str, tangential: Vector) -> tuple[str, ...]:
     """aᵗ = ε l; no line where the angular velocity does not change."""
-    return _enter_part(parts, tangential.id, f"eps.{body}", 1, base, point)
+    return _enter_part(parts, tangential.id, ids.angular_acceleration(body), 1, base, point)
 
 
 def _enter_part(parts: Parts, id: str, rate: str, power: int, base: str, point: str) -> tuple[str, ...]:
@@ -81,16 +82,16 @@ def known_path(parts: Parts, point: str, body: int) -> AccelerationPath | None:
     actual = board.motion.a(point) if point in board.motion.system.points else 0j
     if point in layout.slots:
         u = layout.slots[point]
-        return AccelerationPath((), Vector(f"a.{point}", u if (u.conjugate() * actual).real >= 0 else -u))
+        return AccelerationPath((), Vector(ids.acceleration(point), u if (u.conjugate() * actual).real >= 0 else -u))
     for other, centre in layout.centres.items():
-        if other != body and centre.rule == "pivot" and point in layout.own(other) and board.knows(f"omega.{other}"):
+        if other != body and centre.rule == "pivot" and point in layout.own(other) and board.knows_omega(other):
             normal, tangential = relative(parts, other, point, centre.name)
             lines = enter_normal(parts, other, point, centre.name, normal)
             return AccelerationPath(parts.board.nonzero(normal), tangential, other, centre.name, lines)
     for other in layout.members:
         names = layout.own(other)
         base = next((name for name in names if name in parts.of), "")
-        if other != body and point in names and base and board.knows(f"omega.{other}"):
+        if other != body and point in names and base and board.knows_omega(other):
             normal, tangential = relative(parts, other, point, base)
             lines = enter_normal(parts, other, point, base, normal)
             return AccelerationPath((*parts.of[base], *parts.board.nonzero(normal)), tangential, other, base, lines)
@@ -101,8 +102,8 @@ def enter_end(parts: Parts, point: str, path: AccelerationPath, equation: Projec
     """The whole acceleration of a point whose unknown part has been found, and the rate of the body it is about."""
     board, size = parts.board, parts.board.q[path.unknown.id]
     parts.of[point] = (*path.known, *board.nonzero(path.unknown))
-    if path.body and not board.knows(f"eps.{path.body}"):
-        equation.then(board.q.define(f"eps.{path.body}", size / board.length(path.base, point)))
+    if path.body and not board.knows_epsilon(path.body):
+        equation.then(board.q.define(ids.angular_acceleration(path.body), size / board.length(path.base, point)))
 
 
 Finder = Callable[[Parts], bool]
@@ -125,18 +126,19 @@ def _given(parts: Parts) -> None:
     for rate in board.layout.given.given:
         match rate:
             case file.EpsilonOf(body=body, value=value):
-                board.given(f"eps.{body}", value.si)
+                board.given(ids.angular_acceleration(body), value.si)
             case file.AccelerationOf(point=point, size=size, direction=angle) if size is not None:
-                board.given(f"a.{point}", size.si)
+                a = board.given(ids.acceleration(point), size.si)
                 direction = unit(angle.si) * (1 if size.si >= 0 else -1)
-                parts.of[point] = (Vector(f"a.{point}", direction),) if size.si else ()
+                parts.of[point] = (Vector(a.id, direction),) if size.si else ()
             case file.FromRest(point=point, acceleration=acceleration, direction=angle):
-                parts.of[point] = (Vector(f"a.{point}", unit(angle.si) * (1 if acceleration.si >= 0 else -1)),)
+                direction = unit(angle.si) * (1 if acceleration.si >= 0 else -1)
+                parts.of[point] = (Vector(ids.acceleration(point), direction),)
     for body, centre in board.layout.centres.items():
         if centre.rule == "pivot":
             parts.of[centre.name] = ()
-        if centre.rule == "translation" and not board.knows(f"eps.{body}") and _held(board, body):
-            board.q.give(f"eps.{body}", 0.0)
+        if centre.rule == "translation" and not board.knows_epsilon(body) and _held(board, body):
+            board.q.give(ids.angular_acceleration(body), 0.0)
 
 
 def _held(board: Board, body: int) -> bool:
@@ -175,7 +177,7 @@ def _points(parts: Parts, body: int, names: list[str]) -> bool:
     known = [name for name in _with_pivot(parts, body, names) if name in parts.of]
     base = min(known, key=lambda name: len(parts.of[name]), default=None)
     new = [name for name in names if name not in parts.of]
-    if base is None or not new or not (board.knows(f"omega.{body}") and board.knows(f"eps.{body}")):
+    if base is None or not new or not (board.knows_omega(body) and board.knows_epsilon(body)):
         return False
     point = new[0]
     normal, tangential = relative(parts, body, point, base)
@@ -200,7 +202,7 @@ def _with_pivot(parts: Parts, body: int, names: list[str]) -> list[str]:
 def _by_base(parts: Parts, body: int, names: list[str]) -> bool:
     """ε of a body from one point with a known acceleration and another on a known path: projected on their line."""
     board = parts.board
-    if board.knows(f"eps.{body}") or not board.knows(f"omega.{body}"):
+    if board.knows_epsilon(body) or not board.knows_omega(body):
         return False
     bases = [name for name in names if name in parts.of]
     for base in bases:
@@ -222,7 +224,7 @@ def _two_unknown(parts: Parts, body: int, point: str, base: str, path: Accelerat
     equation = Projected(board, (*path.known, path.unknown), (*bases, tangential), lines)
     equation.find(path.unknown, line, "ξ", point)
     size = equation.find(tangential, tangential.direction, "η", point)
-    equation.then(q.define(f"eps.{body}", size / board.length(base, point)))
+    equation.then(q.define(ids.angular_acceleration(body), size / board.length(base, point)))
     enter_end(parts, point, path, equation)
     equation.step("acceleration-base", body, point, base)
     return True
@@ -235,7 +237,7 @@ def _rolling(parts: Parts, body: int) -> bool:
     """ε = aᵗ/r of a disc that rolls on the ground: what the acceleration of its centre is along the way it rolls."""
     board, q = parts.board, parts.board.q
     centre, disc = board.layout.centres.get(body), board.layout.given.disc(body)
-    if centre is None or disc is None or centre.rule != "contact" or board.knows(f"eps.{body}"):
+    if centre is None or disc is None or centre.rule != "contact" or board.knows_epsilon(body):
         return False
     if disc.centre not in parts.of:
         return False
@@ -244,11 +246,9 @@ def _rolling(parts: Parts, body: int) -> bool:
     if len(terms) > 1 or any(components(q, [one], along) for one in parts.of[disc.centre] if one not in terms):
         return False
     radius = board.length(centre.name, disc.centre, centre.at)
-    if terms:
-        q.define(f"eps.{body}", q[terms[0].id] / radius)
-    else:
-        q.give(f"eps.{body}", 0.0)
-    board.steps.append(Step("acceleration-rolling", (radius.id, f"eps.{body}"), body, disc.centre, centre.name))
+    id = ids.angular_acceleration(body)
+    eps = q.define(id, q[terms[0].id] / radius) if terms else q.give(id, 0.0)
+    board.steps.append(Step("acceleration-rolling", (radius.id, eps.id), body, disc.centre, centre.name))
     return True
 
 
@@ -256,14 +256,16 @@ def _free(parts: Parts, body: int, names: list[str]) -> bool:
     """ω and ε of a body from the accelerations of two of its points."""
     board, q = parts.board, parts.board.q
     known = [name for name in names if name in parts.of]
-    if board.knows(f"omega.{body}") or len(known) < 2 or body in board.layout.centres:
+    if board.knows_omega(body) or len(known) < 2 or body in board.layout.centres:
         return False
     base, point = known[0], known[1]
     arm, line = board.length(base, point), direction_of(board.layout.points[point] - board.layout.points[base])
     normal, tangential = relative(parts, body, point, base)
     equation = Projected(board, parts.of[point], (*parts.of[base], normal, tangential))
-    equation.then(q.define(f"omega.{body}", sqrt(equation.find(normal, line, "ξ", point) / arm)))
-    equation.then(q.define(f"eps.{body}", equation.find(tangential, tangential.direction, "η", point) / arm))
+    along = equation.find(normal, line, "ξ", point)
+    equation.then(q.define(ids.angular_velocity(body), sqrt(along / arm)))
+    across = equation.find(tangential, tangential.direction, "η", point)
+    equation.then(q.define(ids.angular_acceleration(body), across / arm))
     equation.step("acceleration-free", body, point, base)
     return True
 
@@ -274,14 +276,15 @@ def _free(parts: Parts, body: int, names: list[str]) -> bool:
 def _whole(parts: Parts, point: str) -> None:
     """The size of an acceleration from its parts: of one, of two at a right angle, or of its components."""
     board, q, vectors = parts.board, parts.board.q, parts.board.nonzero(*parts.of[point])
+    a = ids.acceleration(point)
     if not vectors:
-        q.give(f"a.{point}", 0.0)
+        q.give(a, 0.0)
         return
     whole = Projected(board, (), vectors)
     if len(vectors) == 1:
-        whole.then(q.define(f"a.{point}", q[vectors[0].id]))
+        whole.then(q.define(a, q[vectors[0].id]))
     elif len(vectors) == 2 and perpendicular(vectors[0].direction, vectors[1].direction):
-        whole.then(q.define(f"a.{point}", sqrt(q[vectors[0].id] ** 2 + q[vectors[1].id] ** 2)))
+        whole.then(q.define(a, sqrt(q[vectors[0].id] ** 2 + q[vectors[1].id] ** 2)))
     else:
         whole.find_sum("a", point)
     whole.step("acceleration-whole", GROUND, point)
@@ -297,36 +300,36 @@ def by_slot(parts: Parts, joint: file.SlotJoint) -> bool:
     """
     board, q, body, point = parts.board, parts.board.q, joint.on, joint.point
     base = _base_of_slot(parts, body, point)
-    if not base or not (board.knows(f"omega.{body}") and board.knows(f"v.{point}.r")):
+    omega, eps, v_r = ids.angular_velocity(body), ids.angular_acceleration(body), ids.sliding_velocity(point)
+    if not base or not (board.knows(omega) and board.knows(v_r)):
         return False
     u, motion = board.layout.geometry.direction(joint), board.motion
     arm = direction_of(board.layout.points[point] - board.layout.points[base])
-    told = board.knows(f"eps.{body}")
+    told = board.knows(eps)
     path = known_path(parts, point, body) if told and point not in parts.of else None
     if (point in parts.of) == told or (told and path is None) or not arm:
         return False
     if perpendicular(1j * arm, 1j * u) if path is None else parallel(path.unknown.direction, u):
         return False
-    name = f"{point}e" if parts.of[base] == () else f"{point}{base}"
+    name = point + (base if parts.of[base] else "e")
     gliding = board.at(point) - board.at(point, body)
     along = motion.a(point) - motion.a(point, body) - 2j * motion.omega(body) * gliding
-    normal = Vector(f"a.{name}.n", -arm)
-    tangential = Vector(f"a.{name}.t", 1j * arm * (1 if motion.epsilon(body) >= 0 else -1))
-    coriolis = Vector(f"a.{point}.k", direction_of(2j * motion.omega(body) * gliding))
-    sliding = Vector(f"a.{point}.r", direction_of(complex((u.conjugate() * along).real) * u))
+    normal, tangential = _turning(board, body, name, arm)
+    coriolis = Vector(ids.acceleration(point, "k"), direction_of(2j * motion.omega(body) * gliding))
+    sliding = Vector(ids.acceleration(point, "r"), direction_of(complex((u.conjugate() * along).real) * u))
     lines = () if path is None else path.lines
     length = board.length(base, point)
-    if q.si(f"omega.{body}"):
-        lines += (q.define(normal.id, q[f"omega.{body}"] ** 2 * length).id,)
-        if q.si(f"v.{point}.r"):
-            lines += (q.define(coriolis.id, 2 * q[f"omega.{body}"] * q[f"v.{point}.r"]).id,)
-    if told and q.si(f"eps.{body}"):
-        lines += (q.define(tangential.id, q[f"eps.{body}"] * length).id,)
+    if q.si(omega):
+        lines += (q.define(normal.id, q[omega] ** 2 * length).id,)
+        if q.si(v_r):
+            lines += (q.define(coriolis.id, 2 * q[omega] * q[v_r]).id,)
+    if told and q.si(eps):
+        lines += (q.define(tangential.id, q[eps] * length).id,)
     known = (*parts.of[base], *board.nonzero(normal, coriolis, *((tangential,) if told else ())))
     if path is None:
         equation = Projected(board, parts.of[point], (*known, tangential, sliding), lines)
         size = equation.find(tangential, 1j * u, "η", point)
-        equation.then(q.define(f"eps.{body}", size / length))
+        equation.then(q.define(eps, size / length))
         equation.step("acceleration-slot", body, point, base)
     else:
         equation = Projected(board, (*path.known, path.unknown), (*known, sliding), lines)

@@ -10,7 +10,7 @@ from typing import Literal
 from reportgen.exercise.centres import Layout
 from reportgen.exercise.places import SAME_DIRECTION, direction_of, parallel
 from reportgen.exercise.solving import InstantMotion
-from reportgen.formula import Chain, Expression, Negative, Number, Product, Ref, Symbol, cos, sqrt, total
+from reportgen.formula import Chain, Expression, Negative, Number, Product, Ref, Symbol, cos, ids, sqrt, total
 from reportgen.formula.sheet import Family, Sheet, is_short
 
 # --- steps, as data for whoever writes them out ---------------------------------------------------
@@ -123,19 +123,28 @@ class Board:
 
     def length(self, one: str, other: str, one_at: complex | None = None) -> Ref:
         """The distance of two points, by the name l.OA."""
-        for id in (f"l.{one}{other}", f"l.{other}{one}"):
-            if id in self.q:
-                return self.q[id]
+        id = ids.length(one, other)
+        if found := self.q.find(id) or self.q.find(ids.length(other, one)):
+            return found
         start = self.layout.points[one] if one_at is None else one_at
         value = abs(self.layout.points[other] - start)
-        return self.q.give(f"l.{one}{other}", value, exact=is_short(value))
+        return self.q.give(id, value, exact=is_short(value))
 
-    def given(self, id: str, value: float, symbol: Symbol | str = "", kind: str = "") -> Ref:
+    def given(self, id: str, value: float) -> Ref:
         """A size that the file gives."""
-        return self.q.give(id, abs(value), symbol, kind, exact=is_short(abs(value)))
+        return self.q.give(id, abs(value), exact=is_short(abs(value)))
 
     def knows(self, id: str) -> bool:
         return id in self.q
+
+    def knows_omega(self, body: int) -> bool:
+        return ids.angular_velocity(body) in self.q
+
+    def knows_epsilon(self, body: int) -> bool:
+        return ids.angular_acceleration(body) in self.q
+
+    def knows_velocity(self, point: str) -> bool:
+        return ids.velocity(point) in self.q
 
     def nonzero(self, *vectors: Vector) -> tuple[Vector, ...]:
         """Those of the vectors that are on the board and are not nothing."""
@@ -143,7 +152,7 @@ class Board:
 
     def velocity(self, point: str) -> Vector:
         """The velocity of a point that is on the board."""
-        return Vector(f"v.{point}", direction_of(self.at(point)))
+        return Vector(ids.velocity(point), direction_of(self.at(point)))
 
     def at(self, point: str, body: int | None = None) -> complex:
         """The velocity of a point, a point of contact among them, as it moves with its own body or with another."""
@@ -219,11 +228,9 @@ def angle(q: Sheet, value: float) -> Expression:
     degrees = math.degrees(value)
     if abs(degrees - round(degrees, 2)) < 1e-9:
         return Number(round(degrees, 2), None, "°")
-    others = [id for id in q.families if id.startswith("alpha.")]
-    same = (id for id in others if abs(q.si(id) - value) < SAME_DIRECTION)
-    id = next(same, "")
-    number = str(len(others) + 1)
-    return Ref(id) if id else q.give(f"alpha.{number}", value, Symbol("α", number), "angle", exact=False)
+    others = [id for id in q.families if id in ids.inner_angle]
+    same = next((id for id in others if abs(q.si(id) - value) < SAME_DIRECTION), None)
+    return q.give(ids.inner_angle(len(others) + 1), value, exact=False) if same is None else q[same]
 
 
 # --- equations ------------------------------------------------------------------------------------
@@ -242,9 +249,7 @@ class Projected:
         self.board, self.equation = board, BoardEquation(left, right, unknown)
         self.lines, self.axes = lines, tuple[Axis, ...]()
 
-    def find(
-        self, vector: Vector, axis: complex, letter: Letter, point: str, symbol: Symbol | str = "", kind: str = ""
-    ) -> Ref:
+    def find(self, vector: Vector, axis: complex, letter: Letter, point: str, symbol: Symbol | str = "") -> Ref:
         """Enters the size of a vector by projection on an axis through a point, to which any other unknown is normal.
 
         ξ is drawn as it is given, η towards what is found.
@@ -254,17 +259,17 @@ class Projected:
         others = [one for one in here if one != vector]
         found = solved_for(self.board.q, vector.direction, axis, there, others)
         self.axes += (Axis(letter, axis if letter == "ξ" else towards(axis, vector.direction), point),)
-        return self.then(self.board.q.define(vector.id, found, symbol, kind))
+        return self.then(self.board.q.define(vector.id, found, symbol))
 
     def find_sum(self, what: str, point: str) -> None:
         """Enters the size of what the right side adds up to, v or a of a point, from its components along x and y."""
-        q, kind, sides = self.board.q, {"v": "velocity", "a": "acceleration"}[what], []
+        q, component, sides = self.board.q, ids.COMPONENT[what], []
         for axis, letter in COORDINATES:
             if terms := components(q, self.equation.right, axis):
-                side = q.define(f"{what}.{point}.{letter}", total(terms), Symbol(what, f"{point}{letter}"), kind)
+                side = q.define(component(point, letter), total(terms), Symbol(what, f"{point}{letter}"))
                 sides.append(self.then(side))
                 self.axes += (Axis(letter, axis, point),)
-        self.then(q.define(f"{what}.{point}", size_of(q, sides)))
+        self.then(q.define(ids.POINT_RATE[what](point), size_of(q, sides)))
 
     def then(self, line: Ref) -> Ref:
         """Puts a line that follows behind those before it."""

@@ -17,7 +17,7 @@ from reportgen.exercise.figures import FIGURES
 from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import Literal, symbol
 from reportgen.exercise.views import AT, FurtherView, Solution, lettered
-from reportgen.formula import Chain, Negative, Number, Symbol, vocabulary
+from reportgen.formula import Chain, Negative, Number, Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.report import (
     Block,
@@ -231,29 +231,32 @@ class SolutionPage(Solution):
         return tuple(self._given_items())
 
     def _given_items(self) -> Iterator[GivenItem]:
-        none = NamedPoint("")
         for rate in self.case.exercise.given.given:
             match rate:
-                case file.OmegaOf(body=body, value=value) | file.EpsilonOf(body=body, value=value):
-                    id = f"omega.{body}" if isinstance(rate, file.OmegaOf) else f"eps.{body}"
-                    sense = Text(self._sense(value.si))
-                    form = ("omega" if isinstance(rate, file.OmegaOf) else "epsilon") + ("" if value.si else "-zero")
-                    yield GivenItem(form, none, body, self._typed(id, value), (sense,))
-                case file.VelocityOf(point=point, size=size) | file.AccelerationOf(point=point, size=size):
-                    form = "velocity" if isinstance(rate, file.VelocityOf) else "acceleration"
-                    id = f"{form[0]}.{point}"
-                    if size is None:
-                        yield GivenItem(
-                            f"{form}-way", NamedPoint(point), 0, vocabulary.symbol(id), self._angle(rate.direction.si)
-                        )
-                    else:
-                        turned = rate.direction.si + (math.pi if size.si < 0 else 0.0)
-                        shown = self._typed(id, size)
-                        yield GivenItem(form, NamedPoint(point), 0, shown, self._angle(turned))
+                case file.OmegaOf():
+                    yield self._given_rotation("omega", ids.angular_velocity(rate.body), rate)
+                case file.EpsilonOf():
+                    yield self._given_rotation("epsilon", ids.angular_acceleration(rate.body), rate)
+                case file.VelocityOf():
+                    yield self._given_vector("velocity", ids.velocity(rate.point), rate)
+                case file.AccelerationOf():
+                    yield self._given_vector("acceleration", ids.acceleration(rate.point), rate)
                 case file.FromRest(point=point, acceleration=acceleration, time=time):
-                    shown = self._typed(f"a.{point}", acceleration)
+                    shown = self._typed(ids.acceleration(point), acceleration)
                     after = (InlineMath(Chain((Symbol("t"), Number(time.value, None, time.unit)))),)
                     yield GivenItem("from-rest", NamedPoint(point), 0, shown, after)
+
+    def _given_rotation(self, form: str, id: str, rate: file.OmegaOf | file.EpsilonOf) -> GivenItem:
+        sense = (Text(self._sense(rate.value.si)),)
+        form += "" if rate.value.si else "-zero"
+        return GivenItem(form, NamedPoint(""), rate.body, self._typed(id, rate.value), sense)
+
+    def _given_vector(self, form: str, id: str, rate: file.VelocityOf | file.AccelerationOf) -> GivenItem:
+        point, size, way = NamedPoint(rate.point), rate.size, rate.direction.si
+        if size is None:
+            return GivenItem(f"{form}-way", point, 0, vocabulary.symbol(id), self._angle(way))
+        turned = way + (math.pi if size.si < 0 else 0.0)
+        return GivenItem(form, point, 0, self._typed(id, size), self._angle(turned))
 
     def _typed(self, id: str, given: Given) -> Chain:
         """What is given, by its size: the formula of one that is stated by symbols."""
@@ -305,8 +308,8 @@ class SolutionPage(Solution):
     def lengths(self) -> tuple[Equation, ...]:
         """The distances that the solution uses."""
         ledger = self.worked.ledger
-        ids = [id for id in ledger.families if id.startswith("l.") and self._declared(id)]
-        return (Equation(tuple(map(self._chain, ids))),) if ids else ()
+        lines = tuple(self._chain(id) for id in ledger.families if self._is_declared_length(id))
+        return (Equation(lines),) if lines else ()
 
     @property
     def places(self) -> Table:
@@ -380,8 +383,7 @@ class SolutionPage(Solution):
             number, shown = ledger.number(one.id, AT), self._literal(one.id)
             size: Inlines = (Value(number),) if self.put_in or shown is None else (InlineMath(shown, slashed=True),)
             if one.of_body:
-                rate = motion.omega(one.body) if one.what == "omega" else motion.epsilon(one.body)
-                yield symbol, size, (Text(self._sense(rate)),)
+                yield symbol, size, (Text(self._sense(motion.turn(one.what, one.body))),)
             else:
                 vector = motion.v(one.of) if one.what == "v" else motion.a(one.of)
                 degrees = round(math.degrees(cmath.phase(vector)) % 360.0, 2) % 360.0 if vector else 0.0

@@ -17,7 +17,7 @@ from reportgen.exercise import file
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.views import Axes, DrawnAxis
-from reportgen.formula import Chain, Number, Symbol, vocabulary
+from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
 
 BOX = (105.0, 85.0)
 """What the system may fill at most (mm)."""
@@ -186,13 +186,16 @@ def system_figure(case: SolvedExercise) -> tuple[Scene, Chain | None] | None:
 def velocity_figure(case: SolvedExercise) -> tuple[Scene, Chain | None] | None:
     """The system with the velocities of its points and the normals through the instant centres."""
     motion, layout = case.exercise.motion, case.worked.layout
-    shown = [name for name in motion.system.points if f"v.{name}" in case.worked.ledger and motion.v(name)]
+    vectors = {
+        name: (motion.v(name), vocabulary.symbol(id))
+        for name in motion.system.points
+        if (id := ids.velocity(name)) in case.worked.ledger and motion.v(name)
+    }
+    if not vectors:
+        return None
     centres = [one for one in layout.centres.values() if one.rule in ("normals", "rate")]
     bodies = {step.body for step in case.worked.steps}
     centres = [one for one in centres if one.body in bodies]
-    vectors = {name: (motion.v(name), vocabulary.symbol(f"v.{name}")) for name in shown}
-    if not vectors:
-        return None
     contacts = {step.point for step in case.worked.steps} - set(motion.system.points)
     extra = {name: at for name, at in layout.points.items() if name in contacts}
     extra |= {one.name: one.at for one in centres}
@@ -203,7 +206,9 @@ def velocity_figure(case: SolvedExercise) -> tuple[Scene, Chain | None] | None:
 def acceleration_figure(case: SolvedExercise) -> tuple[Scene, Chain | None] | None:
     """The system with the accelerations that are asked or used; None where there are none."""
     motion, ledger = case.exercise.motion, case.worked.ledger
-    names = [name for name in motion.system.points if any(id.startswith(f"a.{name}") for id in ledger.families)]
+    # A part is that of the first of its points: a.BA.n is one of B.
+    used = {ids.points(found["point"])[0] for found in map(ids.acceleration.read, ledger.families) if found}
+    names = [name for name in motion.system.points if name in used]
     known = [name for name in names if motion.system.body_of(name) and motion.knows_acceleration(name)]
     vectors = {name: (motion.a(name), Symbol("a", name)) for name in known if motion.a(name)}
     return _draw(case, vectors, "a", {}, []) if vectors else None
@@ -334,9 +339,10 @@ def _rotations(case: SolvedExercise, points: dict[str, complex]) -> Iterator[Dra
     """The arrow of each angular velocity at a pivot."""
     motion = case.exercise.motion
     for body, centre in case.worked.layout.centres.items():
-        if centre.rule == "pivot" and motion.omega(body) and f"omega.{body}" in case.worked.ledger:
+        id = ids.angular_velocity(body)
+        if centre.rule == "pivot" and motion.omega(body) and id in case.worked.ledger:
             sense = math.copysign(1.0, motion.omega(body))
-            yield DrawnRotation(points[centre.name], sense, Symbol("ω", str(body)))
+            yield DrawnRotation(points[centre.name], sense, vocabulary.symbol(id))
 
 
 FIGURES = {"system": system_figure, "velocity": velocity_figure, "acceleration": acceleration_figure}

@@ -293,6 +293,7 @@ class Asked:
 
     @property
     def id(self) -> str:
+        """As the file has it, which for a rate is the id of the rate."""
         return f"{self.what}.{self.of}"
 
     @property

@@ -22,7 +22,21 @@ from reportgen.exercise.board import Board, Step
 from reportgen.exercise.places import direction_of
 from reportgen.exercise.solving import NEGLIGIBLE
 from reportgen.exercise.speeds import derive, is_across
-from reportgen.formula import Chain, Expression, Fraction, Negative, Number, Product, Ref, Symbol, call, signed, total
+from reportgen.formula import (
+    Chain,
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Product,
+    Ref,
+    Symbol,
+    call,
+    ids,
+    signed,
+    total,
+    vocabulary,
+)
 from reportgen.formula.sheet import Sheet
 
 FIGURES = 4
@@ -86,7 +100,7 @@ class Loops:
             centre = layout.centres.get(body)
             pivot = [centre.name] if centre is not None and centre.rule == "pivot" else []
             guided = centre is not None and centre.by_joint and not pivot
-            if self.board.knows(f"omega.{body}") if self.what == "eps" else not guided:
+            if self.board.knows_omega(body) if self.what == "eps" else not guided:
                 yield body, [*pivot, *(name for name in names if name not in pivot)]
 
     def across_slots(self) -> Iterator[tuple[Reached, complex]]:
@@ -101,26 +115,25 @@ class Loops:
 
     def turned(self, body: int, name: str, base: str) -> Reached:
         """What the rotation of a body adds from one of its points to another."""
-        board, id = self.board, f"{self.what}.{body}"
+        board, rate = self.board, ids.LINK_RATE[self.what](body)
         arm = board.layout.points[name] - board.layout.points[base]
         known: dict[Known, complex] = {}
         if self.what == "eps":
-            known[(f"omega.{body}", 2)] = -arm
-        if not board.knows(id):
+            known[(ids.angular_velocity(body), 2)] = -arm
+        if not board.knows(rate):
             return Reached(known, {body: 1j * arm})
-        rate = board.motion.omega(body) if self.what == "omega" else board.motion.epsilon(body)
-        known[(id, 1)] = 1j * arm * math.copysign(1.0, rate)
+        known[(rate, 1)] = 1j * arm * math.copysign(1.0, board.motion.turn(self.what, body))
         return Reached(known, {})
 
 
 def solve_velocities_together(board: Board) -> bool:
     """The angular velocities of all bodies that are reached; whether there were any."""
-    known = [name for name in board.layout.points if board.knows(f"v.{name}")]
-    start = {name: Reached({(f"v.{name}", 1): direction_of(board.at(name))}, {}) for name in known}
+    known = [name for name in board.layout.points if board.knows_velocity(name)]
+    start = {name: Reached({(ids.velocity(name), 1): direction_of(board.at(name))}, {}) for name in known}
     start |= {one.name: NOTHING for one in board.layout.centres.values() if one.rule in ("pivot", "contact")}
     loops = Loops(board, "omega", start)
     loops.lead_on()
-    directions = {name: u for name, u in board.layout.directions.items() if not board.knows(f"v.{name}")}
+    directions = {name: u for name, u in board.layout.directions.items() if not board.knows_velocity(name)}
     return _solved(loops, directions, [*loops.across_slots()])
 
 
@@ -150,16 +163,18 @@ def _solved(loops: Loops, directions: Mapping[str, complex], more: Sequence[tupl
     if len(chosen) < len(bodies):
         return False
     shares = np.linalg.solve(left[chosen], right[chosen])
-    board, ids = loops.board, []
+    board = loops.board
     values = np.array([board.q.si(id) ** power for id, power in quantities])
-    for body, row in zip(bodies, shares, strict=True):
-        ids.append(_enter_rotation(loops, body, dict(zip(quantities, row, strict=True))))
+    lines = tuple(
+        _enter_rotation(loops, body, dict(zip(quantities, row, strict=True)))
+        for body, row in zip(bodies, shares, strict=True)
+    )
     rows = tuple(_row(loops.what, bodies, left[index], float(right[index] @ values)) for index in chosen)
     results = tuple(
         Chain((_symbol(loops.what, body), _number(float(row @ values), "rad/s" if loops.what == "omega" else "rad/s²")))
         for body, row in zip(bodies, shares, strict=True)
     )
-    board.steps.append(Step(f"system-{loops.what}", tuple(ids), system=rows, results=results))
+    board.steps.append(Step(f"system-{loops.what}", lines, system=rows, results=results))
     return True
 
 
@@ -178,16 +193,15 @@ def _independent(left: np.ndarray) -> list[int]:
 
 def _enter_rotation(loops: Loops, body: int, shares: Mapping[Known, float]) -> str:
     """The size of a rotation from what is known, with factors that the places alone tell."""
-    q, motion, id = loops.board.q, loops.board.motion, f"{loops.what}.{body}"
-    rate = motion.omega(body) if loops.what == "omega" else motion.epsilon(body)
+    q, what = loops.board.q, loops.what
+    sense = math.copysign(1.0, loops.board.motion.turn(what, body))
     terms: list[Expression] = []
     for (of, power), share in shares.items():
         if abs(share) > NEGLIGIBLE:
-            factor = q.give(f"share.{id}.{of}", math.copysign(1.0, rate) * share, Symbol("c"), "ratio", hidden=True)
+            factor = q.give(ids.share(what, body, of), sense * share, Symbol("c"), "ratio", hidden=True)
             terms.append(Product((factor, q[of] if power == 1 else q[of] ** power)))
     # As a construction it has no line of its own: the system is set out, and its solution told.
-    q.define(id, call("re", total(terms) if terms else Number(0.0)))
-    return id
+    return q.define(ids.LINK_RATE[what](body), call("re", total(terms) if terms else Number(0.0))).id
 
 
 def _along(vector: complex, axis: complex) -> float:
@@ -206,7 +220,7 @@ def _row(what: str, bodies: list[int], factors: np.ndarray, value: float) -> Cha
 
 
 def _symbol(what: str, body: int) -> Symbol:
-    return Symbol("ω" if what == "omega" else "ε", str(body))
+    return vocabulary.symbol(ids.LINK_RATE[what](body))
 
 
 def _number(value: float, unit: str = "") -> Number:
@@ -226,10 +240,10 @@ Ratio = tuple[tuple[Ref, ...], tuple[Ref, ...]]
 def enter_proportion(board: Board) -> bool:
     """Finds the angular velocity of one more body through a lever; whether there was one."""
     for body, centre in board.layout.centres.items():
-        if centre.rule != "pivot" or board.knows(f"omega.{body}") or not board.motion.omega(body):
+        if centre.rule != "pivot" or board.knows_omega(body) or not board.motion.omega(body):
             continue
         trial = Board(Sheet(board.q.positions), board.layout)
-        trial.given(f"omega.{body}", board.motion.omega(body))
+        trial.given(ids.angular_velocity(body), board.motion.omega(body))
         while derive(trial):
             pass
         for lever, names in board.layout.members.items():
@@ -240,8 +254,8 @@ def enter_proportion(board: Board) -> bool:
 
 def _through_lever(board: Board, trial: Board, body: int, lever: int, names: list[str]) -> bool:
     """ω of a body from a lever with a point M known, whose points P and Q move in proportion to ω."""
-    driven = [name for name in names if trial.knows(f"v.{name}")]
-    known = [name for name in names if board.knows(f"v.{name}") and board.q.si(f"v.{name}")]
+    driven = [name for name in names if trial.knows_velocity(name)]
+    known = [name for name in names if board.knows_velocity(name) and board.q.si(ids.velocity(name))]
     for p, q in combinations(driven, 2):
         for m in known:
             if m not in (p, q) and is_across(board, p, q, m):
@@ -256,27 +270,27 @@ def _enter_proportion(board: Board, trial: Board, body: int, lever: int, names: 
     line = board.layout.points[q] - board.layout.points[p]
     share = ((board.layout.points[m] - board.layout.points[p]) / line).real
     sense = board.at(m)
-    ids = [_factor(board, trial, name, f"omega.{body}") for name in (p, q)]
+    shaft = ids.angular_velocity(body)
+    factors = [_factor(board, trial, name, shaft) for name in (p, q)]
     parts: list[Expression] = []
-    for id, name, far, part in zip(ids, (p, q), (q, p), (1 - share, share), strict=True):
+    for k, name, far, part in zip(factors, (p, q), (q, p), (1 - share, share), strict=True):
         along = (sense.conjugate() * board.at(name)).real
-        parts.append(signed(along * part, board.q[id] * board.length(m, far)))
+        parts.append(signed(along * part, k * board.length(m, far)))
     parts.sort(key=lambda part: not isinstance(part, Product))
-    whole = board.q[f"v.{m}"] * board.length(p, q)
-    board.q.define(f"omega.{body}", whole / (parts[0] + parts[1]))
-    board.steps.append(Step("proportion", (*ids, f"omega.{body}"), lever, m, p))
+    whole = board.q[ids.velocity(m)] * board.length(p, q)
+    omega = board.q.define(shaft, whole / (parts[0] + parts[1]))
+    board.steps.append(Step("proportion", (*(k.id for k in factors), omega.id), lever, m, p))
 
 
-def _factor(board: Board, trial: Board, name: str, shaft: str) -> str:
-    """Enters k of a point, v = k ω, as a product of lengths; gives its id."""
-    above, below = _ratio(trial, f"v.{name}", shaft)
+def _factor(board: Board, trial: Board, name: str, shaft: str) -> Ref:
+    """Enters k of a point, v = k ω, as a product of lengths."""
+    above, below = _ratio(trial, ids.velocity(name), shaft)
     for length in (*above, *below):
         if length.id not in board.q:
             board.q.enter(trial.q.families[length.id])
     top = above[0] if len(above) == 1 else Product(above)
     bottom = below[0] if len(below) == 1 else Product(below)
-    board.q.define(f"k.{name}", Fraction(top, bottom) if below else top, Symbol("k", name), "length")
-    return f"k.{name}"
+    return board.q.define(ids.velocity_factor(name), Fraction(top, bottom) if below else top)
 
 
 def _ratio(trial: Board, id: str, shaft: str) -> Ratio:

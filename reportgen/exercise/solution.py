@@ -28,7 +28,7 @@ from reportgen.exercise.speeds import (
     from_base_point,
 )
 from reportgen.exercise.trains import by_rack, by_rims, by_train
-from reportgen.formula import Symbol, refs
+from reportgen.formula import Symbol, ids, refs
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Sheet
 from reportgen.plans.decimals import choose_decimals
@@ -82,14 +82,14 @@ def work_out(
         if asked.what == "centre":
             missing += [] if enter_centre(board, asked.body) else [asked.id]
     for asked in exercise.asked:
-        _signed(board, asked.id)
-        if asked.what in ("v", "a"):
+        if asked.what in ids.LINK_RATE:
+            _signed(board, asked)
+        elif asked.what in ids.POINT_RATE:
             _directed(board, asked)
-    wanted = [one.id for one in exercise.asked]
-    wanted += [id for id in board.q.families if id.startswith(("centre.", "turn.", "dir."))]
+    wanted = [one.id for one in exercise.asked] + _among(board, ids.centre_coordinate, ids.signed, ids.direction)
     wanted += [id for step in board.steps if step.kind == "centre-rate" for id in step.ids]
     if velocities_alone and not any(one.what in ("v", "omega") for one in exercise.asked):
-        wanted += [id for id in board.q.families if id.startswith(("v.", "omega."))]
+        wanted += _among(board, ids.velocity, ids.velocity_component, ids.sliding_velocity, ids.angular_velocity)
     needed = _with_ancestors(board, wanted)
     steps = tuple(step for step in board.steps if _leads_on(step, needed))
     # A step that is taken is written out whole.
@@ -106,42 +106,47 @@ def work_out(
 
 def _leads_to(board: Board, asked: Asked) -> bool:
     """Whether the steps lead to what is asked: to the value that the whole system gives, and to no other."""
-    motion = board.motion
     if asked.id not in board.q:
         return False
-    match asked.what:
-        case "omega":
-            value: complex = motion.omega(asked.body)
-        case "eps":
-            value = motion.epsilon(asked.body)
-        case what:
-            value = motion.v(asked.of) if what == "v" else motion.a(asked.of)
+    value = board.motion.turn(asked.what, asked.body) if asked.of_body else abs(_vector(board, asked))
     return math.isclose(board.q.si(asked.id), abs(value), rel_tol=SAME_SHARE, abs_tol=SAME_SI)
 
 
-def _signed(board: Board, id: str) -> None:
+def _is_worked_out(board: Board, id: str) -> bool:
+    return id in board.q and board.q.families[id].definition is not None
+
+
+def _signed(board: Board, asked: Asked) -> None:
     """A rotation with its sign, positive anticlockwise, beside its size that is worked out."""
-    what, _, body = id.partition(".")
-    if what in ("omega", "eps") and id in board.q and board.q.families[id].definition is not None:
-        motion = board.motion
-        rate = motion.omega(int(body)) if what == "omega" else motion.epsilon(int(body))
-        board.q.define(f"turn.{id}", board.q[id] if rate >= 0 else -board.q[id], of=id)
+    if _is_worked_out(board, asked.id):
+        size = board.q[asked.id]
+        turn = size if board.motion.turn(asked.what, asked.body) >= 0 else -size
+        board.q.define(ids.signed(asked.what, asked.of), turn, of=size.id)
 
 
 def _directed(board: Board, asked: Asked) -> None:
     """Where an asked vector goes, as its angle from +x in [0, 2π), beside its size; a vector of no length has none."""
-    motion = board.motion
-    vector = motion.v(asked.of) if asked.what == "v" else motion.a(asked.of)
-    if vector and asked.id in board.q and board.q.families[asked.id].definition is not None:
+    vector, what, point = _vector(board, asked), asked.what, asked.of
+    if vector and _is_worked_out(board, asked.id):
         angle = (math.degrees(cmath.phase(vector)) + BELOW_A_TURN) % 360.0 - BELOW_A_TURN
-        turned = board.q.give(f"way.{asked.id}", math.radians(angle), Symbol("α"), "angle", hidden=True)
-        board.q.define(f"dir.{asked.id}", turned, scale=1.0, of=asked.id)
+        turned = board.q.give(ids.heading(what, point), math.radians(angle), Symbol("α"), "angle", hidden=True)
+        board.q.define(ids.direction(what, point), turned, scale=1.0, of=asked.id)
 
 
-def _with_ancestors(board: Board, ids: Sequence[str]) -> set[str]:
-    """Those of the ids that are on the board, and everything that they stand on."""
+def _vector(board: Board, asked: Asked) -> complex:
+    """The velocity or the acceleration that is asked."""
+    return board.motion.v(asked.of) if asked.what == "v" else board.motion.a(asked.of)
+
+
+def _among(board: Board, *families: ids.Name) -> list[str]:
+    """The ids on the board that are of these families."""
+    return [id for id in board.q.families if any(id in family for family in families)]
+
+
+def _with_ancestors(board: Board, some: Sequence[str]) -> set[str]:
+    """Those of some ids that are on the board, and everything that they stand on."""
     families = board.q.families
-    waiting = [id for id in ids if id in families]
+    waiting = [id for id in some if id in families]
     found: set[str] = set()
     while waiting:
         id = waiting.pop()
@@ -154,8 +159,8 @@ def _with_ancestors(board: Board, ids: Sequence[str]) -> set[str]:
 
 def _leads_on(step: Step, needed: set[str]) -> bool:
     """Whether a step works out anything that is needed, or says why something needed is nothing."""
-    worked = [id for id in step.ids if not id.startswith("l.")]
-    return any(id in needed for id in worked or [f"v.{step.point}"])
+    worked = [id for id in step.ids if id not in ids.length]
+    return any(id in needed for id in worked or [ids.velocity(step.point)])
 
 
 # --- methods: the steps that are each one's own, and in which order they are tried ----------------
@@ -234,15 +239,16 @@ def enter_centre(board: Board, body: int) -> bool:
     if centre.rule != "translation":
         for axis, value in (("x", centre.at.real), ("y", centre.at.imag)):
             size = board.motion.size
-            board.q.give(f"centre.{body}.{axis}", value, Symbol(axis, centre.name), "length", exact=False, scale=size)
+            id = ids.centre_coordinate(body, axis)
+            board.q.give(id, value, Symbol(axis, centre.name), exact=False, scale=size)
     return True
 
 
 def _from_rate(board: Board, body: int) -> None:
     """The centre on the normal to a known velocity, at the distance v/ω; infinitely far in translation."""
     layout, q = board.layout, board.q
-    known = [name for name in layout.members[body] if board.knows(f"v.{name}")]
-    if not board.knows(f"omega.{body}") or not known:
+    known = [name for name in layout.members[body] if board.knows_velocity(name)]
+    if not board.knows_omega(body) or not known:
         return
     at = board.motion.centre(body)
     if at is None:
@@ -252,5 +258,5 @@ def _from_rate(board: Board, body: int) -> None:
     away = next((one for one in known if abs(layout.points[one] - at) > SAME_PLACE), "")
     layout.centres[body] = InstantCentre(body, "rate", name, at, (away,) if away else ())
     if away:
-        length = q.define(f"l.{name}{away}", q[f"v.{away}"] / q[f"omega.{body}"])
+        length = q.define(ids.length(name, away), q[ids.velocity(away)] / q[ids.angular_velocity(body)])
         board.steps.append(Step("centre-rate", (length.id,), body, away, name))

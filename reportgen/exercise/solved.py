@@ -22,7 +22,7 @@ from reportgen.exercise.places import Exercise, Geometry, carried, conditions, e
 from reportgen.exercise.solution import Worked, work_out
 from reportgen.exercise.solving import System
 from reportgen.exercise.symbols import Literal
-from reportgen.formula import Expression
+from reportgen.formula import Expression, ids
 from reportgen.formula.constructions import dot
 from reportgen.report.case import Opened
 
@@ -166,29 +166,24 @@ class LiteralBoard:
 
     def _of(self, id: str) -> Any:
         """A number or a vector whose size the quantity is: from the motion, else by the formula of its line."""
-        what, _, of = id.partition(".")
         points = self.motion.geometry.points
-        match what:
-            case "omega":
-                return self.motion.velocities.omega(int(of))
-            case "eps":
-                return self.motion.accelerations[int(of)].turn
-            case "v" if of in points:
-                return self.motion.v(of)
-            case "a" if of in points:
-                return self.motion.a(of)
-            case "l":
-                return self._length(of)
+        if found := ids.angular_velocity.read(id):
+            return self.motion.velocities.omega(int(found["link"]))
+        if found := ids.angular_acceleration.read(id):
+            return self.motion.accelerations[int(found["link"])].turn
+        if (found := ids.velocity.read(id)) and found["point"] in points:
+            return self.motion.v(found["point"])
+        if (found := ids.acceleration.read(id)) and found["point"] in points and not found["part"]:
+            return self.motion.a(found["point"])
+        if found := ids.length.read(id):
+            return self._between(*ids.points(found["line"]))
         definition = self.worked.ledger[id].definition
         return None if definition is None else algebra.algebraic(definition, self.algebraic)
 
-    def _length(self, of: str) -> Any:
-        names = {**self.motion.geometry.points, **self._centres}
-        for cut in range(1, len(of)):
-            one, other = of[:cut], of[cut:]
-            if one in names and other in names:
-                return names[one] - names[other]
-        return None
+    def _between(self, one: str, other: str) -> Plane | None:
+        """From the other point to the one; None where a place is not known by symbols, as that of the end of a belt."""
+        places = {**self.motion.geometry.points, **self._centres}
+        return places[one] - places[other] if one in places and other in places else None
 
     @cached_property
     def _centres(self) -> dict[str, Plane]:

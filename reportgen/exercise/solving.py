@@ -286,6 +286,10 @@ class InstantMotion:
     def epsilon(self, body: int) -> float:
         return _without_dust(self._acceleration_of(body).turn, self.steepest / self.size).real
 
+    def turn(self, rate: str, body: int) -> float:
+        """ω or ε of a body, which the rate is called by: omega or eps."""
+        return self.omega(body) if rate == "omega" else self.epsilon(body)
+
     def v(self, point: str, body: int | None = None) -> complex:
         """The velocity of a point, as it moves with its own body or with another."""
         own = self.system.body_of(point) if body is None else body

@@ -12,23 +12,22 @@ from reportgen.exercise import file
 from reportgen.exercise.board import Board, Projected, Step, Vector, towards
 from reportgen.exercise.centres import SAME_PLACE, InstantCentre
 from reportgen.exercise.places import direction_of, parallel, perpendicular
-from reportgen.formula import Symbol
+from reportgen.formula import Symbol, ids
 
 
 def enter_given(board: Board) -> None:
     """The rates that the file gives."""
-    q = board.q
     for rate in board.layout.given.given:
         match rate:
             case file.OmegaOf(body=body, value=value):
-                board.given(f"omega.{body}", value.si)
+                board.given(ids.angular_velocity(body), value.si)
             case file.VelocityOf(point=point, size=size) if size is not None:
-                board.given(f"v.{point}", size.si)
+                board.given(ids.velocity(point), size.si)
             case file.FromRest(point=point, acceleration=acceleration, time=time):
-                a = board.given(f"a.{point}", acceleration.si)
-                t = board.given("t", time.si, symbol=Symbol("t"), kind="time")
-                q.define(f"v.{point}", a * t)
-                board.steps.append(Step("from-rest", (f"v.{point}",), point=point))
+                a = board.given(ids.acceleration(point), acceleration.si)
+                t = board.given("t", time.si)
+                v = board.q.define(ids.velocity(point), a * t)
+                board.steps.append(Step("from-rest", (v.id,), point=point))
 
 
 def derive(board: Board) -> bool:
@@ -60,12 +59,13 @@ def by_moving_frame(board: Board) -> bool:
 
 def enter_blocks(board: Board, what: str) -> bool:
     """One more body that turns as the one does along whose guide it slides; `what` is omega or eps."""
+    rate = ids.LINK_RATE[what]
     for joint in board.layout.given.joints:
         if isinstance(joint, file.Slider) and joint.on:
             for known, new in permutations((joint.body, joint.on)):
-                if board.knows(f"{what}.{known}") and not board.knows(f"{what}.{new}"):
-                    id = board.q.define(f"{what}.{new}", board.q[f"{what}.{known}"]).id
-                    board.steps.append(Step(f"block-{what}", (id,), new, frame=known))
+                if board.knows(rate(known)) and not board.knows(rate(new)):
+                    same = board.q.define(rate(new), board.q[rate(known)])
+                    board.steps.append(Step(f"block-{what}", (same.id,), new, frame=known))
                     return True
     return False
 
@@ -77,9 +77,9 @@ def _by_belt(board: Board) -> bool:
         if not (isinstance(joint, file.Belt) and board.layout.turn_on_ground(joint.discs)):
             continue
         for (base, _), (point, body) in permutations(zip(ends, joint.discs, strict=True)):
-            if board.knows(f"v.{base}") and not board.knows(f"v.{point}"):
-                board.q.define(f"v.{point}", board.q[f"v.{base}"])
-                board.steps.append(Step("belt", (f"v.{point}",), body, point, base))
+            if board.knows_velocity(base) and not board.knows_velocity(point):
+                v = board.q.define(ids.velocity(point), board.q[ids.velocity(base)])
+                board.steps.append(Step("belt", (v.id,), body, point, base))
                 return True
     return False
 
@@ -97,49 +97,47 @@ def _about(board: Board, centres: Iterable[InstantCentre]) -> bool:
 def _translation(board: Board, body: int, centre: InstantCentre) -> bool:
     """All points have one velocity."""
     q, names = board.q, board.layout.members[body]
-    known = next((name for name in names if board.knows(f"v.{name}")), "")
-    new = [name for name in names if known and not board.knows(f"v.{name}")]
-    if not known or (not new and board.knows(f"omega.{body}")):
+    known = next((name for name in names if board.knows_velocity(name)), "")
+    new = [name for name in names if known and not board.knows_velocity(name)]
+    if not known or (not new and board.knows_omega(body)):
         return False
-    if not board.knows(f"omega.{body}"):
-        q.give(f"omega.{body}", 0.0)
-    ids = tuple(q.define(f"v.{name}", q[f"v.{known}"]).id for name in new)
-    if ids or centre.points:
-        board.steps.append(Step("translation", ids, body, ", ".join(new), known))
+    if not board.knows_omega(body):
+        q.give(ids.angular_velocity(body), 0.0)
+    lines = tuple(q.define(ids.velocity(name), q[ids.velocity(known)]).id for name in new)
+    if lines or centre.points:
+        board.steps.append(Step("translation", lines, body, ", ".join(new), known))
     return True
 
 
 def _rate(board: Board, body: int, centre: InstantCentre) -> bool:
     """ω = v/l from one velocity, about the centre."""
-    if board.knows(f"omega.{body}"):
+    if board.knows_omega(body):
         return False
     names = board.layout.members[body]
-    known = [name for name in names if board.knows(f"v.{name}") and not board.layout.is_centre(centre, name)]
+    known = [name for name in names if board.knows_velocity(name) and not board.layout.is_centre(centre, name)]
     if not known:
         return False
     arm = board.length(centre.name, known[0], centre.at)
-    board.q.define(f"omega.{body}", board.q[f"v.{known[0]}"] / arm)
-    board.steps.append(Step(f"rate-{centre.rule}", (arm.id, f"omega.{body}"), body, known[0], centre.name))
+    omega = board.q.define(ids.angular_velocity(body), board.q[ids.velocity(known[0])] / arm)
+    board.steps.append(Step(f"rate-{centre.rule}", (arm.id, omega.id), body, known[0], centre.name))
     return True
 
 
 def _points(board: Board, body: int, centre: InstantCentre) -> bool:
     """v = ω l of every point, about the centre; what is at the centre is at rest."""
     q, layout = board.q, board.layout
-    new = [name for name in layout.members[body] if not board.knows(f"v.{name}")]
-    if not new or not board.knows(f"omega.{body}"):
+    new = [name for name in layout.members[body] if not board.knows_velocity(name)]
+    if not new or not board.knows_omega(body):
         return False
     for name in new:
         if layout.is_centre(centre, name):
-            q.give(f"v.{name}", 0.0)
-            kind = "at-rest" if centre.rule == "normals" else ""
-            ids: tuple[str, ...] = ()
+            q.give(ids.velocity(name), 0.0)
+            if centre.rule == "normals":
+                board.steps.append(Step("at-rest", (), body, name, centre.name))
         else:
             arm = board.length(centre.name, name, centre.at)
-            q.define(f"v.{name}", q[f"omega.{body}"] * arm)
-            kind, ids = f"speed-{centre.rule}", (arm.id, f"v.{name}")
-        if kind:
-            board.steps.append(Step(kind, ids, body, name, centre.name))
+            v = q.define(ids.velocity(name), q[ids.angular_velocity(body)] * arm)
+            board.steps.append(Step(f"speed-{centre.rule}", (arm.id, v.id), body, name, centre.name))
     return True
 
 
@@ -158,17 +156,17 @@ def _parallel(board: Board, body: int, names: list[str]) -> bool:
     q = board.q
     if body in board.layout.centres:
         return False
-    known = [name for name in names if board.knows(f"v.{name}")]
+    known = [name for name in names if board.knows_velocity(name)]
     for one, other in combinations(known, 2):
         if not is_across(board, one, other):
             continue
-        if not board.knows(f"omega.{body}"):
-            v, w = board.at(one), board.at(other)
-            first, second = (one, other) if abs(v) >= abs(w) else (other, one)
-            same = (v.conjugate() * w).real >= 0
-            difference = q[f"v.{first}"] - q[f"v.{second}"] if same else q[f"v.{first}"] + q[f"v.{second}"]
-            q.define(f"omega.{body}", difference / board.length(one, other))
-            board.steps.append(Step("rate-parallel", (f"omega.{body}",), body, one, other))
+        if not board.knows_omega(body):
+            here, there = board.at(one), board.at(other)
+            faster, slower = (one, other) if abs(here) >= abs(there) else (other, one)
+            v, w = q[ids.velocity(faster)], q[ids.velocity(slower)]
+            same = (here.conjugate() * there).real >= 0
+            omega = q.define(ids.angular_velocity(body), (v - w if same else v + w) / board.length(one, other))
+            board.steps.append(Step("rate-parallel", (omega.id,), body, one, other))
             return True
     return False
 
@@ -179,35 +177,35 @@ def _parallel(board: Board, body: int, names: list[str]) -> bool:
 def _slot(board: Board, joint: file.SlotJoint) -> bool:
     """v_P = v_X + v_PX + v_r for a point P on a line of a body with a known point X, with two unknown sizes."""
     body, point, q, layout = joint.on, joint.point, board.q, board.layout
-    if board.knows(f"v.{point}.r"):
+    if board.knows(ids.sliding_velocity(point)):
         return False
     base = _base(board, body)
-    if base is None or not (board.knows(f"v.{point}") or board.knows(f"omega.{body}")):
+    if base is None or not (board.knows_velocity(point) or board.knows_omega(body)):
         return False
     u = layout.geometry.direction(joint)
     arm_way = layout.points[point] - layout.points[base]
-    if abs(arm_way) < SAME_PLACE or (not board.knows(f"omega.{body}") and perpendicular(u, arm_way / abs(arm_way))):
+    if abs(arm_way) < SAME_PLACE or (not board.knows_omega(body) and perpendicular(u, arm_way / abs(arm_way))):
         # As the body turns, its own point moves along the line alone, which tells nothing of how fast.
         return False
-    known_rate, new = board.knows(f"omega.{body}"), not board.knows(f"v.{point}")
+    known_rate, new = board.knows_omega(body), not board.knows_velocity(point)
     if new and (point not in layout.directions or parallel(layout.directions[point], u)):
         return False
     own = board.at(point, body)
-    turning = Vector(f"v.{point}{base}", direction_of(own - board.at(base, body)))
-    sliding = Vector(f"v.{point}.r", direction_of(board.at(point) - own))
+    turning = Vector(ids.velocity(point + base), direction_of(own - board.at(base, body)))
+    sliding = Vector(ids.sliding_velocity(point), direction_of(board.at(point) - own))
     bases, whole, arm = board.nonzero(board.velocity(base)), board.velocity(point), board.length(base, point)
-    lines = (q.define(turning.id, q[f"omega.{body}"] * arm).id,) if known_rate else ()
+    lines = (q.define(turning.id, q[ids.angular_velocity(body)] * arm).id,) if known_rate else ()
     equation = Projected(board, (whole,), (*bases, turning, sliding), lines)
     if new:
         equation.find(whole, 1j * u, "η", point)
     elif not known_rate:
         size = equation.find(turning, 1j * u, "η", point)
-        equation.then(q.define(f"omega.{body}", size / arm))
+        equation.then(q.define(ids.angular_velocity(body), size / arm))
     symbol = Symbol("v", point, "r")
     if sliding.direction:
-        equation.find(sliding, towards(u, arm_way), "ξ", point, symbol, "velocity")
+        equation.find(sliding, towards(u, arm_way), "ξ", point, symbol)
     else:
-        q.give(sliding.id, 0.0, symbol, "velocity")
+        q.give(sliding.id, 0.0, symbol)
     equation.step("slot-speed" if known_rate else "slot-rate", body, point, base)
     return True
 
@@ -216,10 +214,10 @@ def _base(board: Board, body: int) -> str | None:
     """A point of a body whose velocity is known: its pivot, or one that another body carries."""
     centre = board.layout.centres.get(body)
     if centre is not None and centre.rule in ("pivot", "contact"):
-        if not board.knows(f"v.{centre.name}"):
-            board.q.give(f"v.{centre.name}", 0.0)
+        if not board.knows_velocity(centre.name):
+            board.q.give(ids.velocity(centre.name), 0.0)
         return centre.name
-    return next((name for name in board.layout.members[body] if board.knows(f"v.{name}")), None)
+    return next((name for name in board.layout.members[body] if board.knows_velocity(name)), None)
 
 
 # --- by a base point ------------------------------------------------------------------------------
@@ -229,18 +227,22 @@ def by_base_point(board: Board) -> bool:
     """One more velocity v_M = v_A + v_MA of a body that turns at a known rate, or the rates of two such bodies."""
     bodies = {body: names for body, names in board.layout.members.items() if body not in board.layout.centres}
     for body, names in bodies.items():
-        known = [name for name in names if board.knows(f"v.{name}")]
+        known = [name for name in names if board.knows_velocity(name)]
         # A base point that is worked out by components itself comes last.
-        base = min(known, key=lambda name: board.knows(f"v.{name}.x") or board.knows(f"v.{name}.y"), default="")
+        base = min(known, key=lambda name: _by_components(board, name), default="")
         new = next((name for name in names if name not in known), "")
-        if base and new and board.knows(f"omega.{body}") and _point(board, body, new, base):
+        if base and new and board.knows_omega(body) and _point(board, body, new, base):
             return True
     for body, names in bodies.items():
         for other, others in bodies.items():
-            shared = [name for name in names if name in others and not board.knows(f"v.{name}")]
+            shared = [name for name in names if name in others and not board.knows_velocity(name)]
             if body < other and shared and _between(board, body, other, shared[0]):
                 return True
     return False
+
+
+def _by_components(board: Board, point: str) -> bool:
+    return any(board.knows(ids.velocity_component(point, axis)) for axis in "xy")
 
 
 def from_base_point(board: Board) -> bool:
@@ -250,16 +252,16 @@ def from_base_point(board: Board) -> bool:
         centre = layout.centres.get(body)
         if centre is not None and centre.by_joint:
             continue
-        if centre is not None and centre.rule == "contact" and not board.knows(f"v.{centre.name}"):
-            board.q.give(f"v.{centre.name}", 0.0)
-        known = [name for name in names if board.knows(f"v.{name}")]
-        new = [name for name in names if not board.knows(f"v.{name}")]
-        if board.knows(f"omega.{body}"):
-            moving = [name for name in known if board.q.si(f"v.{name}")]
+        if centre is not None and centre.rule == "contact" and not board.knows_velocity(centre.name):
+            board.q.give(ids.velocity(centre.name), 0.0)
+        known = [name for name in names if board.knows_velocity(name)]
+        new = [name for name in names if not board.knows_velocity(name)]
+        if board.knows_omega(body):
+            moving = [name for name in known if board.q.si(ids.velocity(name))]
             if known and new and _point(board, body, new[0], (moving or known)[0]):
                 return True
             continue
-        for base in sorted(known, key=lambda name: board.q.si(f"v.{name}") == 0):
+        for base in sorted(known, key=lambda name: board.q.si(ids.velocity(name)) == 0):
             guided = [name for name in new if name in layout.directions]
             if any(_rate_from_base(board, body, point, base) for point in (*known, *guided) if point != base):
                 return True
@@ -270,12 +272,13 @@ def _rate_from_base(board: Board, body: int, point: str, base: str) -> bool:
     """ω from v_B = v_A + v_BA, with v_B known, or its line: projected on AB, then on the perpendicular to it."""
     q, layout = board.q, board.layout
     arm = layout.points[point] - layout.points[base]
-    line, new = direction_of(arm), not board.knows(f"v.{point}")
+    line, new = direction_of(arm), not board.knows_velocity(point)
     turn = board.motion.omega(body)
     direction = direction_of(board.at(point)) or layout.directions.get(point, 0j)
     if not line or (new and perpendicular(direction, line)):
         return False
-    whole, relative = Vector(f"v.{point}", direction), Vector(f"v.{point}{base}", 1j * line * (1 if turn >= 0 else -1))
+    whole = Vector(ids.velocity(point), direction)
+    relative = Vector(ids.velocity(point + base), 1j * line * (1 if turn >= 0 else -1))
     bases = board.nonzero(board.velocity(base))
     if not new and not bases and not q.si(whole.id):
         return False
@@ -284,9 +287,9 @@ def _rate_from_base(board: Board, body: int, point: str, base: str) -> bool:
         equation.find(whole, line, "ξ", point)
     if turn:
         size = equation.find(relative, relative.direction, "η", point)
-        equation.then(q.define(f"omega.{body}", size / board.length(base, point)))
+        equation.then(q.define(ids.angular_velocity(body), size / board.length(base, point)))
     else:
-        q.give(f"omega.{body}", 0.0)
+        q.give(ids.angular_velocity(body), 0.0)
     kind = "base-rate" if turn else "base-translation"
     equation.step(kind if new else "base-known", body, point, base)
     return True
@@ -294,7 +297,7 @@ def _rate_from_base(board: Board, body: int, point: str, base: str) -> bool:
 
 def _relative(board: Board, body: int, point: str, base: str) -> Vector:
     arm = board.layout.points[point] - board.layout.points[base]
-    return Vector(f"v.{point}{base}", direction_of(1j * board.motion.omega(body) * arm))
+    return Vector(ids.velocity(point + base), direction_of(1j * board.motion.omega(body) * arm))
 
 
 def _point(board: Board, body: int, point: str, base: str) -> bool:
@@ -302,10 +305,10 @@ def _point(board: Board, body: int, point: str, base: str) -> bool:
     q, relative = board.q, _relative(board, body, point, base)
     lines: tuple[str, ...] = ()
     if not board.knows(relative.id):
-        lines = (q.define(relative.id, q[f"omega.{body}"] * board.length(base, point)).id,)
+        lines = (q.define(relative.id, q[ids.angular_velocity(body)] * board.length(base, point)).id,)
     parts = board.nonzero(board.velocity(base), relative)
     if not parts:
-        q.give(f"v.{point}", 0.0)
+        q.give(ids.velocity(point), 0.0)
         return True
     equation = Projected(board, (board.velocity(point),), parts, lines)
     equation.find_sum("v", point)
@@ -316,8 +319,8 @@ def _point(board: Board, body: int, point: str, base: str) -> bool:
 def _between(board: Board, body: int, other: int, point: str) -> bool:
     """v_A + v_CA = v_B + v_CB: two unknown sizes, the first by projection on the line CB."""
     q, members = board.q, board.layout.members
-    bases = [next((n for n in members[one] if board.knows(f"v.{n}")), "") for one in (body, other)]
-    if "" in bases or board.knows(f"omega.{body}") or board.knows(f"omega.{other}"):
+    bases = [next((n for n in members[one] if board.knows_velocity(n)), "") for one in (body, other)]
+    if "" in bases or board.knows_omega(body) or board.knows_omega(other):
         return False
     first, second = (_relative(board, one, point, base) for one, base in zip((body, other), bases, strict=True))
     line = direction_of(board.layout.points[point] - board.layout.points[bases[1]])
@@ -327,7 +330,7 @@ def _between(board: Board, body: int, other: int, point: str) -> bool:
     equation = Projected(board, (*one, first), (*two, second))
     sizes = equation.find(first, line, "ξ", point), equation.find(second, second.direction, "η", point)
     for turning, size, base in zip((body, other), sizes, bases, strict=True):
-        equation.then(q.define(f"omega.{turning}", size / board.length(base, point)))
+        equation.then(q.define(ids.angular_velocity(turning), size / board.length(base, point)))
     equation.step("two-bases", body, point, bases[0])
     return True
 
@@ -342,12 +345,13 @@ def by_projection(board: Board) -> bool:
         if body in layout.centres and layout.centres[body].by_joint:
             continue
         for base, point in permutations(names, 2):
-            if not board.knows(f"v.{base}") or board.knows(f"v.{point}") or point not in layout.directions:
+            if not board.knows_velocity(base) or board.knows_velocity(point) or point not in layout.directions:
                 continue
             line = direction_of(layout.points[point] - layout.points[base])
             if line and not perpendicular(layout.directions[point], line):
-                whole = Vector(f"v.{point}", direction_of(board.at(point)) or layout.directions[point])
-                equation = Projected(board, (whole,), (board.velocity(base), Vector(f"v.{point}{base}", 1j * line)))
+                whole = Vector(ids.velocity(point), direction_of(board.at(point)) or layout.directions[point])
+                relative = Vector(ids.velocity(point + base), 1j * line)
+                equation = Projected(board, (whole,), (board.velocity(base), relative))
                 equation.find(whole, line, "ξ", point)
                 equation.step("projection", body, point, base)
                 return True

@@ -21,7 +21,7 @@ from reportgen.exercise.board import Board, Step, Vector
 from reportgen.exercise.centres import Layout
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.places import parallel
-from reportgen.formula import Chain, Expression, Negative, Product, Ref, Sum, Symbol, signed, total, vocabulary
+from reportgen.formula import Chain, Expression, Negative, Product, Ref, Sum, ids, signed, total, vocabulary
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,11 +63,12 @@ def _pivot(layout: Layout, body: int) -> list[str]:
 
 def by_train(board: Board, what: str = "omega") -> bool:
     """The rotation, `omega` or `eps`, of one more disc from that of another one and of their arm."""
+    rate = ids.LINK_RATE[what]
     for pair in pairs(board.layout):
         for one, other in permutations(range(2)):
             known, new = pair.discs[one], pair.discs[other]
-            told = known == GROUND or board.knows(f"{what}.{known}")
-            if told and new != GROUND and board.knows(f"{what}.{pair.arm}") and not board.knows(f"{what}.{new}"):
+            told = known == GROUND or board.knows(rate(known))
+            if told and new != GROUND and board.knows(rate(pair.arm)) and not board.knows(rate(new)):
                 _enter(board, what, pair, one)
                 return True
     return False
@@ -75,49 +76,35 @@ def by_train(board: Board, what: str = "omega") -> bool:
 
 def _enter(board: Board, what: str, pair: Pair, one: int) -> None:
     """ω₂ = (ω_c (r₂ + r₁) − ω₁ r₁)/r₂ with the senses that the rotations have."""
-    q, known, new = board.q, pair.discs[one], pair.discs[1 - one]
+    q, known, new, rate = board.q, pair.discs[one], pair.discs[1 - one], ids.LINK_RATE[what]
     radii = [board.length(centre, rim) for centre, rim in zip(pair.centres, pair.rims, strict=True)]
     first, second = radii[one], radii[1 - one]
-    sense = math.copysign(1.0, _rate(board, what, new))
+    sense = math.copysign(1.0, board.motion.turn(what, new))
     terms: list[Expression] = []
-    if arm := _rate(board, what, pair.arm):
+    if arm := board.motion.turn(what, pair.arm):
         apart = q.si(second.id) - q.si(first.id) if pair.alike else 1.0
         reach = second + first if not pair.alike else second - first if apart > 0 else first - second
         if abs(apart) > 1e-9:
-            terms.append(signed(sense * arm * apart, q[f"{what}.{pair.arm}"] * reach))
-    if rate := _rate(board, what, known):
-        terms.append(signed(sense * rate * (1 if pair.alike else -1), q[f"{what}.{known}"] * first))
+            terms.append(signed(sense * arm * apart, q[rate(pair.arm)] * reach))
+    if driving := board.motion.turn(what, known):
+        terms.append(signed(sense * driving * (1 if pair.alike else -1), q[rate(known)] * first))
     terms.sort(key=lambda term: isinstance(term, Negative))
-    if terms:
-        q.define(f"{what}.{new}", total(terms) / second)
-    else:
-        q.give(f"{what}.{new}", 0.0)
-    ids = (first.id, second.id, f"{what}.{new}")
-    relation = _relation(what, pair, radii)
-    board.steps.append(Step(f"train-{what}", ids, new, pair.rims[1 - one], frame=pair.arm, system=(relation,)))
-
-
-def _rate(board: Board, what: str, body: int) -> float:
-    if body == GROUND:
-        return 0.0
-    return board.motion.omega(body) if what == "omega" else board.motion.epsilon(body)
+    found = q.define(rate(new), total(terms) / second) if terms else q.give(rate(new), 0.0)
+    lines, relation = (first.id, second.id, found.id), _relation(what, pair, radii)
+    board.steps.append(Step(f"train-{what}", lines, new, pair.rims[1 - one], frame=pair.arm, system=(relation,)))
 
 
 def _relation(what: str, pair: Pair, radii: list[Ref]) -> Chain:
     """(ω₁ − ω_c) r₁ = −(ω₂ − ω_c) r₂."""
-    sides: list[Expression] = []
+    rate, sides = ids.LINK_RATE[what], list[Expression]()
     for body, radius in zip(pair.discs, radii, strict=True):
-        arm, r = _symbol(what, pair.arm), vocabulary.symbol(radius.id)
-        against = Sum((_symbol(what, body), Negative(arm)))
+        arm, r = vocabulary.symbol(rate(pair.arm)), vocabulary.symbol(radius.id)
+        against = Sum((vocabulary.symbol(rate(body)), Negative(arm)))
         sides.append(Negative(Product((arm, r))) if body == GROUND else Product((against, r)))
     first, second = sides
     if not pair.alike:
         second = second.of if isinstance(second, Negative) else Negative(second)
     return Chain((first, second))
-
-
-def _symbol(what: str, body: int) -> Symbol:
-    return vocabulary.symbol(f"{what}.{body}")
 
 
 # --- accelerations ----------------------------------------------------------------------------------
@@ -130,10 +117,10 @@ def by_rims(parts: Parts) -> bool:
         if not layout.turn_on_ground(bodies):
             continue
         for (known, base), (new, point) in permutations(zip(bodies, ends, strict=True)):
-            if board.knows(f"eps.{known}") and not board.knows(f"eps.{new}"):
+            if board.knows_epsilon(known) and not board.knows_epsilon(new):
                 r1, r2 = (board.length(layout.centres[one].name, end) for one, end in ((known, base), (new, point)))
-                q.define(f"eps.{new}", q[f"eps.{known}"] * r1 / r2)
-                board.steps.append(Step("acceleration-rims", (r1.id, r2.id, f"eps.{new}"), new, point, base))
+                eps = q.define(ids.angular_acceleration(new), q[ids.angular_acceleration(known)] * r1 / r2)
+                board.steps.append(Step("acceleration-rims", (r1.id, r2.id, eps.id), new, point, base))
                 return True
     return False
 
@@ -159,10 +146,10 @@ def by_rack(parts: Parts) -> bool:
         for one, other in permutations(nodes, 2):
             if not one.known or parts.board.layout.points[one.name] == parts.board.layout.points[other.name]:
                 continue
-            if other.known and not parts.board.knows(f"eps.{body}"):
+            if other.known and not parts.board.knows_epsilon(body):
                 _rate_of_disc(parts, body, u, one, other)
                 return True
-            if not other.known and parts.board.knows(f"eps.{body}"):
+            if not other.known and parts.board.knows_epsilon(body):
                 _acceleration_of(parts, body, u, one, other)
                 return True
     return False
@@ -217,28 +204,23 @@ def _rate_of_disc(parts: Parts, body: int, u: complex, one: Node, other: Node) -
     sense = math.copysign(1.0, board.motion.epsilon(body)) * math.copysign(1.0, _turn(parts, u, one, other))
     sizes = ((_size(parts, other), other.value), (_size(parts, one), -one.value))
     terms = [signed(sense * value, size) for size, value in sizes if size is not None]
-    arm = board.length(one.name, other.name)
-    if terms:
-        q.define(f"eps.{body}", _sum(terms) / arm)
-    else:
-        q.give(f"eps.{body}", 0.0)
-    board.steps.append(Step("acceleration-rack", (arm.id, f"eps.{body}"), body, other.name, one.name))
+    arm, id = board.length(one.name, other.name), ids.angular_acceleration(body)
+    eps = q.define(id, _sum(terms) / arm) if terms else q.give(id, 0.0)
+    board.steps.append(Step("acceleration-rack", (arm.id, eps.id), body, other.name, one.name))
 
 
 def _acceleration_of(parts: Parts, body: int, u: complex, one: Node, other: Node) -> None:
-    board, q, id = parts.board, parts.board.q, f"a.{other.shares}"
+    board, q = parts.board, parts.board.q
+    id, eps = ids.acceleration(other.shares), ids.angular_acceleration(body)
     sense, size = math.copysign(1.0, other.value), _size(parts, one)
     terms = [signed(sense * one.value, size)] if size is not None else []
     arm = board.length(one.name, other.name)
-    if q.si(f"eps.{body}"):
+    if q.si(eps):
         turning = board.motion.epsilon(body) * _turn(parts, u, one, other)
-        terms.append(signed(sense * turning, q[f"eps.{body}"] * arm))
-    if terms:
-        q.define(id, _sum(terms))
-    else:
-        q.give(id, 0.0)
+        terms.append(signed(sense * turning, q[eps] * arm))
+    a = q.define(id, _sum(terms)) if terms else q.give(id, 0.0)
     parts.of[other.shares] = (Vector(id, sense * u),) if other.value else ()
-    board.steps.append(Step("acceleration-rack-point", (arm.id, id), body, other.shares, one.name))
+    board.steps.append(Step("acceleration-rack-point", (arm.id, a.id), body, other.shares, one.name))
 
 
 def _sum(terms: list[Expression]) -> Expression:

@@ -19,7 +19,7 @@ from reportgen.exercise.places import parallel
 from reportgen.exercise.solution import Worked
 from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import symbol
-from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, refs, substitute, vocabulary
+from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, ids, refs, substitute, vocabulary
 from reportgen.report import Equation, InlineMath, Inlines, Text, Value
 from reportgen.report.prose import NamedPoint
 
@@ -99,10 +99,10 @@ class Solution:
     def _step(self, step: Step) -> StepView:
         worked, motion = self.worked, self.case.exercise.motion
         ledger, layout = worked.ledger, worked.layout
-        shown = [id for id in step.ids if id in ledger and not (id.startswith("l.") and self._declared(id))]
+        shown = [id for id in step.ids if id in ledger and not self._is_declared_length(id)]
         centre = layout.centres.get(step.body)
         rate = motion.omega(step.body) if step.body else 0.0
-        if any(id.startswith("eps.") for id in shown):
+        if any(id in ids.angular_acceleration for id in shown):
             rate = motion.epsilon(step.body)
         rolling = centre is not None and centre.rule == "contact" and centre.name in (step.point, step.base)
         others = (*(centre.points if centre is not None else ()), "", "")
@@ -134,7 +134,7 @@ class Solution:
 
     def _angles_of(self, id: str) -> list[str]:
         definition = self.worked.ledger[id].definition
-        return [one for one in refs(definition) if one.startswith("alpha.")] if definition is not None else []
+        return [one for one in refs(definition) if one in ids.inner_angle] if definition is not None else []
 
     def _heading(self, step: Step) -> str:
         """Where the velocity or the acceleration of the step's point goes, in words; "" for several points."""
@@ -200,10 +200,12 @@ class Solution:
         steps = [*formula, *([] if found is None else [found]), *result]
         return Chain(tuple(one for place, one in enumerate(steps) if place == 0 or one != steps[place - 1]))
 
-    def _declared(self, id: str) -> bool:
-        """Whether a distance is one of declared points."""
+    def _is_declared_length(self, id: str) -> bool:
+        """Whether it is the distance of declared points, rather than of an instant centre."""
+        found = ids.length.read(id)
         centres = {one.name for one in self.worked.layout.centres.values() if one.rule in ("normals", "rate")}
-        return not any(id.startswith(f"l.{name}") for name in centres - set(self.case.exercise.given.points))
+        centres -= set(self.case.exercise.given.points)
+        return found is not None and centres.isdisjoint(ids.points(found["line"]))
 
     def _angle(self, radians: float) -> Inlines:
         return (Value(Number(round(math.degrees(radians) % 360.0, 2), None, "°")),)

@@ -58,6 +58,7 @@ PLACES: Mapping[str, str] = {
 
 _PLACE = re.compile(r"\{(\w+)\}")
 _MAY_BE_MISSING = re.compile(r"\[(.*?)\]")
+_POINT = re.compile(r"[A-Z]\d*")
 
 
 @dataclass(frozen=True)
@@ -167,9 +168,12 @@ direction = Name("dir.{what}.{point}")
 
 velocity_component = Name("v.{point}.{axis}")
 acceleration_component = Name("a.{point}.{axis}")
+COMPONENT: Mapping[str, Name] = {"v": velocity_component, "a": acceleration_component}
 sliding_velocity = Name("v.{point}.r")
 centre_coordinate = Name("centre.{link}.{axis}")
 velocity_factor = Name("k.{point}")
+share = Name("share.{rate}.{link}.{id}")  # of another quantity in a rotation
+heading = Name("way.{what}.{point}")  # the angle that its direction is defined by
 
 # --- instant centres
 
@@ -258,6 +262,11 @@ def linked(joint: str) -> tuple[str, str]:
     """The two links of a joint's digits, the acting one first: 12 is 1 and 2."""
     one, other = joint.split(",") if "," in joint else tuple(joint)
     return one, other
+
+
+def points(named: str) -> list[str]:
+    """The points that a place of an id names: O1A is O1 and A."""
+    return _POINT.findall(named)
 
 
 def of_force(name: str) -> str:

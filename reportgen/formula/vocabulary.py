@@ -315,7 +315,6 @@ def symbol(id: str) -> Symbol:
     return Symbol(found.letter.format(**words), found.index(words), _PRINTED.get(part, part))
 
 
-_POINT = re.compile(r"[A-Z]\d*")
 _OF_POINTS = frozenset({"velocity", "acceleration", "coordinate"})
 
 
@@ -344,7 +343,7 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
     """
     found, parts = _found(id)
     index = found.index(parts)
-    points = _POINT.findall(shown.sub if found.kind in ("velocity", "acceleration") else index)
+    points = ids.points(shown.sub if found.kind in ("velocity", "acceleration") else index)
     link, other = ids.linked(parts["joint"]) if "joint" in parts else (parts.get("link", index), "")
     words = {
         "line": lowered(index),

@@ -97,7 +97,7 @@ def test_printed_segments_times_the_printed_scale_of_their_position_are_the_forc
 
 def test_marking_takes_each_force_plan_at_the_scale_of_its_position() -> None:
     """Two worked positions, one plan drawn at 2.5 times the key's scale, the other at the key's."""
-    guide = students.guide("engine-v-02", (2, 18))
+    guide = students.scheme("engine-v-02", (2, 18))
     scales = guide.rows["mu.R45"].values
     assert guide.rows["mu.R45"].positions == (2, 18)
     assert scales[1] != scales[17]
