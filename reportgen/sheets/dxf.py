@@ -9,6 +9,7 @@ from __future__ import annotations
 import cmath
 import io
 import math
+from collections import OrderedDict
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -85,6 +86,9 @@ def write_sheet(sheet: DrawingSheet, language: Language) -> bytes:
     for part in sheet.parts:
         _draw(document, part, MText(language))
     _layout(document, sheet)
+    # ezdxf keeps the names of classes in a set, whose order is another one in each process.
+    document.classes.add_required_classes(document.dxfversion)
+    document.classes.classes = OrderedDict(sorted(document.classes.classes.items()))
     stream = io.StringIO()
     document.write(stream)
     return stream.getvalue().encode("utf-8")

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import io
+import os
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -15,7 +19,7 @@ from reportgen.drawing.sheet import DrawingSheet
 from reportgen.sheets import dxf
 from reportgen.writers import typst, typst_run
 from tests.lanes import matrix
-from tests.sheets.laid import MACHINES, Laid, laid, plates
+from tests.sheets.laid import MACHINES, ROOT, Laid, laid, plates
 
 ezdxf = pytest.importorskip("ezdxf")
 pymupdf = pytest.importorskip("pymupdf")
@@ -186,3 +190,13 @@ def test_the_same_sheet_gives_the_same_bytes() -> None:
     assert typst_run.compile(typst.write_sheet(sheet, "", "vi")) == typst_run.compile(
         typst.write_sheet(sheet, "", "vi")
     )
+
+
+def test_each_process_writes_the_same_file(tmp_path: Path) -> None:
+    """The order of a set is another one in each process."""
+    file, written = ROOT / "assignments" / "slider-crank-01.yaml", set()
+    for seed in ("1", "2"):
+        command = (sys.executable, "-m", "reportgen.cli", "sheet", str(file), "--format", "dxf", "--out", seed)
+        subprocess.run(command, cwd=tmp_path, env={**os.environ, "PYTHONHASHSEED": seed}, check=True)
+        written.add((tmp_path / seed / file.stem / "sheet-1.dxf").read_bytes())
+    assert len(written) == 1
