@@ -71,11 +71,29 @@ def put_sheets(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
     return written
 
 
+# --- files to be read ---------------------------------------------------------------------------------
+
+
+class NotRegularError(OSError):
+    """A pipe, a device or a socket in place of a file: nobody knows whether it ever ends."""
+
+
+def contents(path: Path, most: int = -1) -> bytes:
+    """The bytes of a file, `most` of them if that is no less than 0.  Raises `OSError`, and waits for nobody."""
+    mode = path.stat().st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise NotRegularError(errno.EINVAL, "no regular file", str(path))
+    with path.open("rb") as stream:
+        return stream.read(most)
+
+
 # --- temporary files beside the results -----------------------------------------------------------
 # Only their owner can read them, and what a killed run left is swept.
 # A run holds a lock on its folder for as long as it lives, so that another one does not take it for left behind.
 
 PREFIX = ".reportgen-"
+MOST_SWEPT = 1000
+"""So many folders in a row are swept by others before they are locked, at most; one is rare."""
 _NO_LOCKS = frozenset({errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS})
 """What network folders that know no locks answer."""
 
@@ -87,20 +105,38 @@ def scratch(out: Path) -> Iterator[Path]:
     Folders made for it go too, if nothing else was put there.  Raises `OSError` where there can be none.
     """
     made = [folder for folder in (out, *out.parents) if not folder.exists()]
-    out.mkdir(parents=True, exist_ok=True)
     sweep(out)
     before = tempfile.tempdir
     try:
-        with tempfile.TemporaryDirectory(prefix=PREFIX, dir=out) as name, ExitStack() as locks:
-            with suppress(OSError):
-                locks.enter_context(held(Path(name)))
-            tempfile.tempdir = name
-            yield Path(name)
+        with ExitStack() as lock:
+            own = _own(out, lock)
+            # It goes while its lock is held still: a sweep would take it for left behind.
+            lock.callback(shutil.rmtree, own, ignore_errors=True)
+            tempfile.tempdir = str(own)
+            yield own
     finally:
         tempfile.tempdir = before
         with suppress(OSError):
             for folder in made:
                 folder.rmdir()
+
+
+def _own(out: Path, lock: ExitStack) -> Path:
+    """A new folder below `out` whose lock is held.  Raises `OSError` where none can be made.
+
+    A sweep may have come between making and locking, and another run may have removed `out`: then a further one is made.
+    """
+    for _ in range(MOST_SWEPT):
+        out.mkdir(parents=True, exist_ok=True)
+        with suppress(FileNotFoundError, BlockingIOError):
+            own = Path(tempfile.mkdtemp(prefix=PREFIX, dir=out))
+            with ExitStack() as holding:
+                holding.enter_context(held(own))
+                # What is there now stays: it is swept by nobody but who holds its lock.
+                own.stat()
+                lock.push(holding.pop_all())
+                return own
+    raise BlockingIOError(errno.EAGAIN, os.strerror(errno.EAGAIN), str(out))
 
 
 def sweep(out: Path) -> None:
