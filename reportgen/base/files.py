@@ -8,9 +8,11 @@ import re
 import shutil
 import stat
 import tempfile
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
+from hashlib import sha256
 from pathlib import Path
 
 from reportgen.base.errors import OutputError
@@ -124,7 +126,7 @@ def scratch(out: Path) -> Iterator[Path]:
 def _own(out: Path, lock: ExitStack) -> Path:
     """A new folder below `out` whose lock is held.  Raises `OSError` where none can be made.
 
-    A sweep may have come between making and locking, and another run may have removed `out`: then a further one is made.
+    A sweep may have come between making and locking, another run may have removed `out`: then a further one is made.
     """
     for _ in range(MOST_SWEPT):
         out.mkdir(parents=True, exist_ok=True)
@@ -177,11 +179,19 @@ def held(folder: Path) -> Iterator[bool]:
 # where nothing can be kept (a read-only home, a full disk, somebody else's folder) everything is worked out anew.
 
 
+LARGEST, OLDEST = 20_000_000, 60 * 24 * 3600.0
+"""Bytes of all that is kept at most, and seconds since it was used last: beyond that, what was used least goes."""
+
+
 def kept(name: str) -> bytes | None:
-    """What was kept under a name; None if there is nothing to be had."""
+    """What this version of the program kept under a name; None if there is nothing to be had, or it is damaged."""
     with suppress(OSError):
         if (found := folder()) is not None:
-            return (found / name).read_bytes()
+            seal, _, data = (found / name).read_bytes().partition(b"\n")
+            if seal == _seal(data):
+                with suppress(OSError):
+                    os.utime(found / name)
+                return data
     return None
 
 
@@ -192,14 +202,37 @@ def keep(name: str, data: bytes) -> Path | None:
         return None
     with suppress(OSError):
         with tempfile.NamedTemporaryFile(dir=found, prefix=f"{name}-", delete=False) as stream:
-            stream.write(data)
+            stream.write(_seal(data) + b"\n" + data)
         try:
             os.replace(stream.name, found / name)
         except OSError:
             os.unlink(stream.name)
             raise
+        _prune(found)
         return found / name
     return None
+
+
+def _seal(data: bytes) -> bytes:
+    """The first line of what is kept: the version of the program and a checksum."""
+    from reportgen.base.words import version
+
+    return f"reportgen {version()} {sha256(data).hexdigest()}".encode()
+
+
+def _prune(found: Path) -> None:
+    """Remove from the folder what was used least, down to the `LARGEST` size, and what is older than the `OLDEST`."""
+    files = []
+    for path in found.iterdir():
+        # Another process may have removed it meanwhile.
+        with suppress(OSError):
+            files.append((path.lstat(), path))
+    now, size = time.time(), 0
+    for about, path in sorted(files, key=lambda file: -file[0].st_mtime):
+        size += about.st_size
+        if size > LARGEST or now - about.st_mtime > OLDEST:
+            with suppress(OSError):
+                path.unlink()
 
 
 @cache
@@ -211,6 +244,7 @@ def folder() -> Path | None:
     with suppress(OSError):
         found.mkdir(mode=0o700, parents=True, exist_ok=True)
         if _is_private(found):
+            _prune(found)
             return found
     return None
 
