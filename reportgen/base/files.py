@@ -8,9 +8,11 @@ import re
 import shutil
 import stat
 import tempfile
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
+from hashlib import sha256
 from pathlib import Path
 
 from reportgen.base.errors import OutputError
@@ -71,11 +73,29 @@ def put_sheets(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
     return written
 
 
+# --- files to be read ---------------------------------------------------------------------------------
+
+
+class NotRegularError(OSError):
+    """A pipe, a device or a socket in place of a file: nobody knows whether it ever ends."""
+
+
+def contents(path: Path, most: int = -1) -> bytes:
+    """The bytes of a file, `most` of them if that is no less than 0.  Raises `OSError`, and waits for nobody."""
+    mode = path.stat().st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise NotRegularError(errno.EINVAL, "no regular file", str(path))
+    with path.open("rb") as stream:
+        return stream.read(most)
+
+
 # --- temporary files beside the results -----------------------------------------------------------
 # Only their owner can read them, and what a killed run left is swept.
 # A run holds a lock on its folder for as long as it lives, so that another one does not take it for left behind.
 
 PREFIX = ".reportgen-"
+MOST_SWEPT = 1000
+"""So many folders in a row are swept by others before they are locked, at most; one is rare."""
 _NO_LOCKS = frozenset({errno.EBADF, errno.EINVAL, errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS})
 """What network folders that know no locks answer."""
 
@@ -87,20 +107,38 @@ def scratch(out: Path) -> Iterator[Path]:
     Folders made for it go too, if nothing else was put there.  Raises `OSError` where there can be none.
     """
     made = [folder for folder in (out, *out.parents) if not folder.exists()]
-    out.mkdir(parents=True, exist_ok=True)
     sweep(out)
     before = tempfile.tempdir
     try:
-        with tempfile.TemporaryDirectory(prefix=PREFIX, dir=out) as name, ExitStack() as locks:
-            with suppress(OSError):
-                locks.enter_context(held(Path(name)))
-            tempfile.tempdir = name
-            yield Path(name)
+        with ExitStack() as lock:
+            own = _own(out, lock)
+            # It goes while its lock is held still: a sweep would take it for left behind.
+            lock.callback(shutil.rmtree, own, ignore_errors=True)
+            tempfile.tempdir = str(own)
+            yield own
     finally:
         tempfile.tempdir = before
         with suppress(OSError):
             for folder in made:
                 folder.rmdir()
+
+
+def _own(out: Path, lock: ExitStack) -> Path:
+    """A new folder below `out` whose lock is held.  Raises `OSError` where none can be made.
+
+    A sweep may have come between making and locking, another run may have removed `out`: then a further one is made.
+    """
+    for _ in range(MOST_SWEPT):
+        out.mkdir(parents=True, exist_ok=True)
+        with suppress(FileNotFoundError, BlockingIOError):
+            own = Path(tempfile.mkdtemp(prefix=PREFIX, dir=out))
+            with ExitStack() as holding:
+                holding.enter_context(held(own))
+                # What is there now stays: it is swept by nobody but who holds its lock.
+                own.stat()
+                lock.push(holding.pop_all())
+                return own
+    raise BlockingIOError(errno.EAGAIN, os.strerror(errno.EAGAIN), str(out))
 
 
 def sweep(out: Path) -> None:
@@ -141,11 +179,19 @@ def held(folder: Path) -> Iterator[bool]:
 # where nothing can be kept (a read-only home, a full disk, somebody else's folder) everything is worked out anew.
 
 
+LARGEST, OLDEST = 20_000_000, 60 * 24 * 3600.0
+"""Bytes of all that is kept at most, and seconds since it was used last: beyond that, what was used least goes."""
+
+
 def kept(name: str) -> bytes | None:
-    """What was kept under a name; None if there is nothing to be had."""
+    """What this version of the program kept under a name; None if there is nothing to be had, or it is damaged."""
     with suppress(OSError):
         if (found := folder()) is not None:
-            return (found / name).read_bytes()
+            seal, _, data = (found / name).read_bytes().partition(b"\n")
+            if seal == _seal(data):
+                with suppress(OSError):
+                    os.utime(found / name)
+                return data
     return None
 
 
@@ -156,14 +202,37 @@ def keep(name: str, data: bytes) -> Path | None:
         return None
     with suppress(OSError):
         with tempfile.NamedTemporaryFile(dir=found, prefix=f"{name}-", delete=False) as stream:
-            stream.write(data)
+            stream.write(_seal(data) + b"\n" + data)
         try:
             os.replace(stream.name, found / name)
         except OSError:
             os.unlink(stream.name)
             raise
+        _prune(found)
         return found / name
     return None
+
+
+def _seal(data: bytes) -> bytes:
+    """The first line of what is kept: the version of the program and a checksum."""
+    from reportgen.base.words import version
+
+    return f"reportgen {version()} {sha256(data).hexdigest()}".encode()
+
+
+def _prune(found: Path) -> None:
+    """Remove from the folder what was used least, down to the `LARGEST` size, and what is older than the `OLDEST`."""
+    files = []
+    for path in found.iterdir():
+        # Another process may have removed it meanwhile.
+        with suppress(OSError):
+            files.append((path.lstat(), path))
+    now, size = time.time(), 0
+    for about, path in sorted(files, key=lambda file: -file[0].st_mtime):
+        size += about.st_size
+        if size > LARGEST or now - about.st_mtime > OLDEST:
+            with suppress(OSError):
+                path.unlink()
 
 
 @cache
@@ -175,6 +244,7 @@ def folder() -> Path | None:
     with suppress(OSError):
         found.mkdir(mode=0o700, parents=True, exist_ok=True)
         if _is_private(found):
+            _prune(found)
             return found
     return None
 

@@ -19,6 +19,7 @@ from typing import Any, NoReturn
 import yaml
 
 from reportgen.base.errors import Fault, Mark, Where
+from reportgen.base.files import contents
 
 LARGEST = 400_000
 """Bytes of a file."""
@@ -83,8 +84,7 @@ def read_source(path: Path) -> Source:
     """The nodes of a file; every fault of its bytes and syntax is in `faults`, none is raised."""
     file = str(path)
     try:
-        with path.open("rb") as stream:
-            data = stream.read(LARGEST + 1)
+        data = contents(path, LARGEST + 1)
         if len(data) > LARGEST:
             fault = Fault("too-large", Mark(file), {"largest": str(LARGEST // 1000)})
         elif b"\0" in data:

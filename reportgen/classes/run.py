@@ -19,7 +19,7 @@ from pydantic import TypeAdapter, ValidationError
 from reportgen import api
 from reportgen.api import ASKING, MAKERS, USUAL, Engine, Maker
 from reportgen.base.errors import Fault, Mark, OutputError, Problem
-from reportgen.base.files import held, put_file, reported, scratch
+from reportgen.base.files import contents, held, put_file, reported, scratch
 from reportgen.base.units import Language, write
 from reportgen.base.words import DEFAULT_LANGUAGE, as_problem, counted, word
 from reportgen.classes.pool import Job, Outcome, Pool, failed, local, making
@@ -285,7 +285,7 @@ def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes] 
     if isinstance(file, Problem):
         return file
     try:
-        return file.name, file.read_bytes()
+        return file.name, contents(file)
     except OSError as error:
         return as_problem(Fault("unreadable", Mark(str(file)), {"reason": type(error).__name__}), language)
 
@@ -490,6 +490,6 @@ def _text(path: Path) -> str:
 
 def _hash(path: Path) -> str:
     try:
-        return sha256(path.read_bytes()).hexdigest()
+        return sha256(contents(path)).hexdigest()
     except (OSError, ValueError):
         return ""

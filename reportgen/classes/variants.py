@@ -21,7 +21,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import Fault, Mark, Where
-from reportgen.base.files import put_file
+from reportgen.base.files import contents, put_file
 from reportgen.base.source import MappingNode, Node, Scalar, Source, at, path_text, put, quoted, read_source, text_of
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, version, word
@@ -164,7 +164,7 @@ def _student_file(spec: Spec, drawn: DrawnVariant, folder: Path, force: bool) ->
 
 def _state(path: Path, body: str, force: bool) -> State:
     try:
-        old = path.read_bytes().decode("utf-8", "replace").replace("\r\n", "\n")
+        old = contents(path).decode("utf-8", "replace").replace("\r\n", "\n")
     except FileNotFoundError:
         return "new"
     *head, present = old.split("\n", HEAD_LINES)

@@ -7,50 +7,36 @@ from __future__ import annotations
 
 import gc
 import io
+import os
+import signal
 import sys
-import warnings
-from typing import TextIO
+from functools import cache
 
-import typer
+TYPE_CHECKING = False
+# Until `main` runs Ctrl-C is not heard: `typing` alone takes as long as all that is loaded before.
+if TYPE_CHECKING:
+    from typing import Any, TextIO
 
-from reportgen.cli import instructor, student
-from reportgen.cli.common import SYSTEM, complain_of_program
+    import typer
 
-COMMANDS = (
-    instructor.variants,
-    instructor.batch,
-    instructor.key,
-    instructor.grade,
-    student.build,
-    student.sheet,
-    student.watch,
-    student.solve,
-    student.check,
-    student.new,
-    student.kinds,
-    student.schema,
-    student.compare,
-)
-"""In the order of the help."""
+    app: typer.Typer
+
+SYSTEM, INTERRUPTED = 3, 130
+STOPPED = "reportgen: đã dừng (interrupted)\n"
+"""Said where no words are loaded yet."""
 
 COLLECTED = 100_000
 """New objects between two searches for garbage: a report makes many that last, and hardly any cycles."""
 
 
-app = typer.Typer(
-    name="reportgen",
-    help="Coursework reports in the Theory of Machines from one assignment file.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-)
-for command in COMMANDS:
-    app.command()(command)
-
-
 def main() -> None:
-    """Entry point of the `reportgen` command."""
+    """Entry point of the `reportgen` command, which hears Ctrl-C before it has loaded anything."""
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _leave)
+    import warnings
+
+    from reportgen.cli.common import complain_of_program
+
     for stream in (sys.stdout, sys.stderr):
         # Vietnamese must not fail on a terminal or pipe of another encoding.
         if isinstance(stream, io.TextIOWrapper):
@@ -58,13 +44,66 @@ def main() -> None:
     gc.set_threshold(COLLECTED)
     warnings.showwarning = _tell
     try:
-        app()
+        _app()()
     except Exception as error:
         complain_of_program(error)
         sys.exit(SYSTEM)
     finally:
         # All memory goes with the process: no need to look through it once more on the way out.
         gc.freeze()
+
+
+def _leave(*_: object) -> None:
+    """End at once: until a command begins its work there is nothing to tidy up, and half an import to fall over."""
+    os.write(2, STOPPED.encode())
+    os._exit(INTERRUPTED)
+
+
+def begin() -> None:
+    """From here on Ctrl-C is an exception, after which a command tidies up."""
+    if signal.getsignal(signal.SIGINT) is _leave:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@cache
+def _app() -> typer.Typer:
+    """The commands in the order of the help."""
+    import typer
+
+    from reportgen.cli import instructor, student
+
+    made = typer.Typer(
+        name="reportgen",
+        help="Coursework reports in the Theory of Machines from one assignment file.",
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        rich_markup_mode=None,
+    )
+    for command in (
+        instructor.variants,
+        instructor.batch,
+        instructor.key,
+        instructor.grade,
+        student.build,
+        student.sheet,
+        student.watch,
+        student.solve,
+        student.check,
+        student.new,
+        student.kinds,
+        student.schema,
+        student.compare,
+    ):
+        made.command()(command)
+    return made
+
+
+def __getattr__(name: str) -> Any:
+    """The `app`, made when it is asked for."""
+    if name != "app":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return _app()
 
 
 def _tell(

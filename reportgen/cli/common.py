@@ -13,8 +13,9 @@ import typer
 from reportgen.base.errors import AssignmentError, ReportgenError
 from reportgen.base.files import put_file
 from reportgen.base.units import Language
+from reportgen.cli import SYSTEM, begin
 
-AT_FAULT, SYSTEM, INTERRUPTED = 1, 3, 130
+AT_FAULT = 1
 
 File = Annotated[Path, typer.Argument(metavar="FILE", help="Assignment file.", show_default=False)]
 Files = Annotated[list[Path], typer.Argument(metavar="FILE", help="Assignment files.", show_default=False)]
@@ -27,8 +28,12 @@ EngineOption = Annotated[Literal["typst", "latex"], typer.Option("--engine", hel
 @contextmanager
 def ending(lang: Language | None) -> Iterator[None]:
     """Prints what goes wrong inside, never a traceback, and ends with the exit code it means."""
+    begin()
     try:
         yield
+    except KeyboardInterrupt:
+        complain(say("interrupted", lang))
+        raise
     except (typer.Exit, typer.BadParameter, BrokenPipeError):
         raise
     except AssignmentError as error:

@@ -1,6 +1,6 @@
 """A watched file from the first page to Ctrl-C: files are watched, editions made, a browser opened.
 
-This is the only module that imports watchfiles.
+This is the only module that imports watchfiles, for the templates.
 """
 
 from __future__ import annotations
@@ -295,6 +295,8 @@ class _Request(BaseHTTPRequestHandler):
 QUIET, LONGEST = 20, 200
 """Changes are taken together until nothing changes for the first time (ms), and no longer than the second."""
 
+LOOKING = 0.05
+"""From one look at the file to the next (s)."""
 HEARING = 0.5
 """How long (s) an interruption may have to wait."""
 _ONE_AT_A_TIME = threading.Lock()
@@ -321,19 +323,19 @@ def watch(
 
     A faulty file has a page that tells its faults.  Raises `AssignmentError` if there is no file, `OutputError`.
     """
-    if not path.exists():
-        # A name mistyped is no file to wait for.
+    if not path.is_file():
+        # A name mistyped is no file to wait for, nor is a pipe.
         opens(path, language)
     path = path.absolute()
     desk = Desk(partial(opens, path, language), language, told)
     with reported():
         server = Server(desk, port)
     stop = threading.Event()
-    threads = [threading.Thread(target=server.serve_forever, args=(0.1,), daemon=True)]
-    threads += [
-        threading.Thread(target=_follow, args=(root, wanted, desk, stop), daemon=True)
-        for root, wanted in ((path.parent, path), (templates(), None))
-    ]
+    threads = (
+        threading.Thread(target=server.serve_forever, args=(0.1,), daemon=True),
+        threading.Thread(target=_follow, args=(path, desk, stop, _state(path)), daemon=True),
+        threading.Thread(target=_follow_templates, args=(desk, stop), daemon=True),
+    )
     try:
         for thread in threads:
             thread.start()
@@ -353,18 +355,36 @@ def watch(
         server.server_close()
 
 
-def _follow(root: Path, wanted: Path | None, desk: Desk, stop: threading.Event) -> None:
-    """Renew the desk whenever the file `wanted` changes, or whatever file below `root` if none is named."""
+def _follow(path: Path, desk: Desk, stop: threading.Event, shown: object) -> None:
+    """Renew the desk whenever the file of a path is not as it was `shown`.
+
+    The path is asked again and again: what watches files holds on to a folder that was renamed, does not follow links
+    and hears nothing of changes that another computer makes.
+    """
+    while not stop.wait(LOOKING):
+        if _state(path) != shown:
+            stop.wait(QUIET / 1000)
+            shown = _state(path)
+            with _ONE_AT_A_TIME:
+                desk.renew()
+
+
+def _state(path: Path) -> tuple[float, ...]:
+    """What changes with a file, or with what its path leads to; nothing where it leads nowhere."""
+    try:
+        about = path.stat()
+    except OSError:
+        return ()
+    return about.st_dev, about.st_ino, about.st_mode, about.st_size, about.st_mtime_ns, about.st_ctime_ns
+
+
+def _follow_templates(desk: Desk, stop: threading.Event) -> None:
+    """Renew the desk whenever a file of the templates changes."""
     from watchfiles import watch as changes
 
-    def concerns(change: object, name: str) -> bool:
-        return wanted is None or Path(name) == wanted
-
-    # An editor replaces a file by another one: its folder is watched, not the file.
     for _ in changes(
-        root,
-        watch_filter=concerns,
-        recursive=wanted is None,
+        templates(),
+        watch_filter=None,
         debounce=LONGEST,
         step=QUIET,
         stop_event=stop,

@@ -37,7 +37,7 @@ from jinja2.utils import pass_context
 from reportgen.base.errors import ReportgenError, TemplateError
 from reportgen.base.files import keep, kept
 from reportgen.base.units import MINUS
-from reportgen.base.words import find, home, refuse_strangers, version
+from reportgen.base.words import find, home, refuse_strangers
 from reportgen.formula import Expression, Number, vocabulary
 from reportgen.report import BlankLine, Block, InlineMath, Inlines, Reference, Text, Value, markdown
 from reportgen.report.markdown import SECRET, Emitted, Place, Rendered, SectionKey, Unnumbered
@@ -122,7 +122,7 @@ class _Compiled(BytecodeCache):
 
 def _kept_as(bucket: Bucket) -> str:
     # The code that a template becomes depends on what this module does with it.
-    return f"template-{version()}-{Path(__file__).stat().st_mtime_ns:x}-{bucket.key}"
+    return f"template-{Path(__file__).stat().st_mtime_ns:x}-{bucket.key}"
 
 
 _compiled = _Compiled()

@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from reportgen.base.errors import CellMark, Mark
+from reportgen.base.files import contents
 from reportgen.base.source import mark_in
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
@@ -270,8 +271,7 @@ def _read(path: Path, data: bytes | None) -> tuple[Page, ...]:
     file = str(path)
     if data is None:
         try:
-            with path.open("rb") as stream:
-                data = stream.read(LARGEST + 1)
+            data = contents(path, LARGEST + 1)
         except OSError as fault:
             raise RefusedError("unreadable", Mark(file), reason=type(fault).__name__) from None
     if len(data) > LARGEST:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -68,9 +69,49 @@ def test_a_changed_template_is_compiled_anew(home: Path, words: Path) -> None:
 def test_a_damaged_store_changes_nothing(home: Path, words: Path, damage: bytes) -> None:
     first = rendered(words)
     (file,) = (home / "reportgen").iterdir()
-    for content in (damage, file.read_bytes()[:-40]):
+    whole = file.read_bytes()
+    code = kept.kept(file.name)
+    assert code is not None
+    for content in (damage, whole[:-40], whole.replace(b"reportgen ", b"reportgen 9", 1)):
         file.write_bytes(content)
         assert rendered(words) == first
+        assert file.read_bytes() == whole, "it is made anew"
+    # Code that was kept whole and is none.
+    kept.keep(file.name, damage + code[:-40])
+    assert rendered(words) == first
+
+
+def test_what_another_version_kept_or_was_damaged_is_not_used(home: Path) -> None:
+    path = kept.keep("one", b"1" * 100)
+    assert path is not None
+    whole = path.read_bytes()
+    for other in (whole[:-1], whole + b"1", whole[:-1] + b"2", whole.replace(b" ", b" 9.", 1), b"1" * 100, b""):
+        path.write_bytes(other)
+        assert kept.kept("one") is None
+    path.write_bytes(whole)
+    assert kept.kept("one") == b"1" * 100
+
+
+def test_what_was_used_least_goes(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(kept, "LARGEST", 10_000)
+    day, now = 24 * 3600, time.time()
+    for name, days in (("a", 5), ("b", 4), ("c", 59), ("old", 61)):
+        path = kept.keep(name, b"x" * 2000)
+        assert path is not None
+        os.utime(path, (now - days * day,) * 2)
+    (home / "reportgen" / "left-half").write_bytes(b"x" * 10)
+    os.utime(home / "reportgen" / "left-half", (now - 99 * day,) * 2)
+    assert kept.kept("c"), "it is used now"
+
+    def names() -> set[str]:
+        return {path.name for path in (home / "reportgen").iterdir()}
+
+    # At the next start what is old goes.
+    kept.folder.cache_clear()
+    assert kept.kept("none") is None
+    assert names() == {"a", "b", "c"}
+    kept.keep("d", b"x" * 4500)
+    assert names() == {"b", "c", "d"}
 
 
 def test_without_a_folder_all_goes_on(home: Path, words: Path) -> None:
@@ -112,8 +153,11 @@ def test_page_numbers_of_before_save_a_pass_and_change_nothing(home: Path, how: 
     again = pdflatex.compile(source)
     assert (again.passes, again.pdf) == (1, first.pdf)
     (file,) = (home / "reportgen").glob("contents-*")
-    known = file.read_text(encoding="utf-8")
-    file.write_text(SPOILT[how](known), encoding="utf-8")
-    assert file.read_text(encoding="utf-8") != known
+    whole = file.read_bytes()
+    known = kept.kept(file.name)
+    assert known is not None
+    # As another report of the same contents would have left it.
+    kept.keep(file.name, SPOILT[how](known.decode()).encode())
+    assert file.read_bytes() != whole
     assert pdflatex.compile(source).pdf == first.pdf
-    assert file.read_text(encoding="utf-8") == known
+    assert file.read_bytes() == whole

@@ -8,6 +8,8 @@ import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
@@ -15,8 +17,9 @@ from typer.testing import CliRunner
 
 from reportgen import api
 from reportgen.base.errors import OutputError
-from reportgen.base.files import PREFIX, put_files, scratch, sweep
+from reportgen.base.files import PREFIX, held, put_files, scratch, sweep
 from reportgen.cli import app
+from tests.lanes import proof
 
 SAMPLE = "assignments/slotted-lever-01.yaml"
 HOLD = """
@@ -61,6 +64,87 @@ def test_what_a_killed_run_left_is_swept_and_what_another_uses_is_not(tmp_path: 
     with scratch(tmp_path):
         assert not folders[1].exists()
     assert list(tmp_path.glob(f"{PREFIX}*")) == []
+
+
+SWEEP = """
+import sys
+from pathlib import Path
+from reportgen.base.files import sweep
+print(flush=True)
+while True:
+    sweep(Path(sys.argv[1]))
+"""
+WORK = """
+import sys, tempfile
+from pathlib import Path
+from reportgen.base.files import put_files, scratch
+out = Path(sys.argv[1])
+for number in range(int(sys.argv[2])):
+    with scratch(out) as folder:
+        for part in "abc":
+            made = Path(tempfile.mkdtemp())
+            (made / part).write_text(part)
+            assert (made / part).read_text() == part
+        put_files(out / f"{sys.argv[3]}-{number}", {"report.pdf": b"x"})
+    assert not folder.exists()
+"""
+
+
+@contextmanager
+def sweeping(out: Path) -> Iterator[None]:
+    """Three processes that only sweep."""
+    command = (sys.executable, "-c", SWEEP, str(out))
+    sweepers = [subprocess.Popen(command, stdout=subprocess.PIPE) for _ in range(3)]
+    try:
+        for sweeper in sweepers:
+            assert sweeper.stdout is not None
+            sweeper.stdout.readline()
+        yield
+        assert [sweeper.poll() for sweeper in sweepers] == [None] * 3
+    finally:
+        for sweeper in sweepers:
+            sweeper.kill()
+            sweeper.communicate()
+
+
+@proof
+def test_no_run_loses_its_folder_to_those_who_sweep(tmp_path: Path) -> None:
+    with sweeping(tmp_path):
+        works = [
+            subprocess.Popen((sys.executable, "-c", WORK, tmp_path, "20", name), stderr=subprocess.PIPE, text=True)
+            for name in "12"
+        ]
+        told = [work.communicate(timeout=120)[1] for work in works]
+        assert told == ["", ""]
+        command = (sys.executable, "-m", "reportgen.cli", "build", SAMPLE, "--out", str(tmp_path))
+        for _ in range(3):
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            assert (done.returncode, done.stderr) == (0, "")
+    assert list(tmp_path.glob(f"{PREFIX}*")) == []
+    assert len(list(tmp_path.glob("*/report.pdf"))) == 41
+
+
+@pytest.mark.parametrize("lost", ["swept", "held by a sweep"])
+def test_a_folder_lost_before_it_was_locked_is_made_anew(
+    tmp_path: Path, lost: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    make, made, locks = tempfile.mkdtemp, [], ExitStack()
+
+    def mkdtemp(suffix: str | None = None, prefix: str | None = None, dir: Path | None = None) -> str:
+        made.append(Path(make(suffix, prefix, dir)))
+        if len(made) == 1:
+            if lost == "swept":
+                sweep(tmp_path)
+            else:
+                locks.enter_context(held(made[0]))
+        return str(made[-1])
+
+    monkeypatch.setattr(tempfile, "mkdtemp", mkdtemp)
+    with locks, scratch(tmp_path) as folder:
+        assert folder == made[1]
+        sweep(tmp_path)
+        assert folder.exists()
+    assert not folder.exists()
 
 
 @pytest.mark.parametrize("command", ["build", "key"])

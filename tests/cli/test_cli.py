@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import signal
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -58,9 +60,53 @@ def test_check_and_help_leave_heavy_libraries_alone() -> None:
 
 def test_the_command_line_itself_loads_next_to_nothing() -> None:
     """`--help` asks for no assignment; what reads one is loaded by the commands that do."""
-    script = "import sys, reportgen.cli\nprint(*{'numpy', 'pydantic', 'yaml', 'reportgen.api'} & set(sys.modules))"
+    heavy = {"numpy", "pydantic", "yaml", "reportgen.api"}
+    script = f"import sys\nfrom reportgen.cli import app\nprint(*{heavy} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == ""
+
+
+INTERRUPTED_WHERE = """
+import os, signal, sys
+module = sys.argv.pop(1)
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name == module:
+            sys.meta_path.remove(self)
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Finder())
+from reportgen.cli import main
+sys.argv[0] = "reportgen"
+%smain()
+"""
+IN_WORDS = {"vi": "đã dừng theo yêu cầu; không có tệp nào bị ghi dở", "en": "interrupted; nothing half-written is left"}
+
+
+@pytest.mark.parametrize("language", IN_WORDS)
+@pytest.mark.parametrize(
+    "module", ["reportgen.cli.common", "typer", "reportgen.cli.student", "reportgen.api", "numpy", "jinja2", "typst"]
+)
+def test_ctrl_c_is_told_in_one_line(tmp_path: Path, module: str, language: str) -> None:
+    """It may come while the program is being loaded, or while a command works."""
+    command = (module, "build", SAMPLE, "--lang", language, "--out", tmp_path / "out")
+    done = subprocess.run(
+        (sys.executable, "-c", INTERRUPTED_WHERE % "", *map(str, command)),
+        capture_output=True,
+        text=True,
+        check=False,
+        # As a shell starts it, whatever started the tests.
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),
+    )
+    told = IN_WORDS[language] if module in {"jinja2", "typst"} else "đã dừng (interrupted)"
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", f"reportgen: {told}\n")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_who_does_not_hear_ctrl_c_goes_on() -> None:
+    script = INTERRUPTED_WHERE % "signal.signal(signal.SIGINT, signal.SIG_IGN)\n"
+    command = (sys.executable, "-c", script, "typer", "check", str(SAMPLE))
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_the_package_offers_its_functions_by_name() -> None:

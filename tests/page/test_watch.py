@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -14,6 +15,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -131,6 +133,58 @@ def test_the_pdf_is_renewed_too(file: Path, tmp_path: Path) -> None:
         assert [path.name for path in target.parent.iterdir()] == ["report.pdf"]
 
 
+def news(address: str) -> dict[str, Any]:
+    """What a page is told that asks now."""
+    with urllib.request.urlopen(address + "news") as told:
+        found: dict[str, Any] = json.loads(told.readline().decode().removeprefix("data: "))
+    return found
+
+
+def moved_away(folder: Path) -> None:
+    folder.rename(folder.with_name("before"))
+    folder.mkdir()
+
+
+def pipe(folder: Path) -> None:
+    (folder / "given.yaml").unlink()
+    os.mkfifo(folder / "given.yaml")
+
+
+@pytest.mark.parametrize("lose", [moved_away, pipe])
+def test_a_file_that_was_lost_is_told_and_goes_on_when_it_is_back(
+    file: Path, tmp_path: Path, lose: Callable[[Path], None]
+) -> None:
+    folder = tmp_path / "work"
+    folder.mkdir()
+    file = file.rename(folder / file.name)
+    given = file.read_text(encoding="utf-8")
+    with watching(file) as (address, _):
+        until(lambda: news(address)["moving"] == 1)
+        lose(folder)
+        until(lambda: "given.yaml:1:1: error[unreadable]" in news(address)["fault"])
+        file.unlink(missing_ok=True)
+        file.write_text(given, encoding="utf-8")
+        until(lambda: not news(address)["fault"])
+        moving = news(address)["moving"]
+        file.write_text(given.replace("  r: 0.2 m", "  r: 0.21 m"), encoding="utf-8")
+        until(lambda: news(address)["moving"] > moving)
+
+
+def test_a_file_behind_a_link_is_followed(file: Path, tmp_path: Path) -> None:
+    (tmp_path / "shared").mkdir()
+    target = file.rename(tmp_path / "shared" / "given.yaml")
+    file.symlink_to(target)
+    with watching(file) as (address, _):
+        until(lambda: news(address)["moving"] == 1)
+        target.write_text(target.read_text(encoding="utf-8").replace("  r: 0.2 m", "  r: 0.21 m"), encoding="utf-8")
+        until(lambda: news(address)["moving"] == 2)
+        other = target.with_name("other.yaml")
+        other.write_bytes(target.read_bytes())
+        file.unlink()
+        file.symlink_to(other)
+        until(lambda: news(address)["moving"] > 2)
+
+
 # --- the server -----------------------------------------------------------------------------------
 
 
@@ -179,9 +233,14 @@ def test_each_edition_is_told_and_a_late_one_dropped(file: Path, served: Server)
     until(lambda: not desk.edition.busy)
     # Of three changes in a moment each has its moving part, but only the last its report.
     assert (desk.edition.moving, desk.edition.reports) == (4, 2)
-    with urllib.request.urlopen(served.address + "news") as news:
-        told = json.loads(news.readline().decode().removeprefix("data: "))
-    assert told == {"moving": 4, "report": 2, "fault": "", "busy": False, "language": "en", "moves": True}
+    assert news(served.address) == {
+        "moving": 4,
+        "report": 2,
+        "fault": "",
+        "busy": False,
+        "language": "en",
+        "moves": True,
+    }
     file.unlink()
     desk.renew()
     assert "given.yaml" in desk.edition.fault
