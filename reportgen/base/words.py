@@ -253,15 +253,18 @@ def home(name: str, place: Path) -> tuple[Path, str]:
     return place / f"{file or 'report'}.md", section
 
 
+def of_school(places: Sequence[Path]) -> list[Path]:
+    """Those of some places that a school wrote; the others lie in the folder of the language, the last."""
+    return [place for place in places if not place.is_relative_to(places[-1])]
+
+
 def refuse_strangers(places: Sequence[Path]) -> None:
     """Raise `TemplateError` for a section of a school that no report in the language (the last place) has.
 
     It would never be read: its name is misspelt, or is that of an older version.
     """
     language = places[-1]
-    for file in places:
-        if file.is_relative_to(language):
-            continue
+    for file in of_school(places):
         known = set(_names(language))
         for name, section in sections(file).items():
             if name not in known:

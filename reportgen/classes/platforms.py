@@ -19,9 +19,10 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
+from reportgen.base.limits import Limits
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, as_problem
-from reportgen.classes.pool import Limits, each_within
+from reportgen.classes.pool import each_within
 from reportgen.marking.marks import Scale
 from reportgen.workbook import Page, read
 from reportgen.workbook.package import MOST_RATIO, SMALL, UNREADABLE_ZIP
