@@ -68,6 +68,11 @@ def schools() -> list[str]:
     )
 
 
+def school_folder(school: str) -> Path:
+    """The folder of a school's own templates."""
+    return templates() / school
+
+
 def search_path(language: Language, kind: str = "", school: str = "", root: Path | None = None) -> tuple[Path, ...]:
     """The places in which sections and words are looked for; the first that has a name wins.
 

@@ -12,6 +12,7 @@ import pytest
 from reportgen import api
 from reportgen.base.errors import TemplateError
 from reportgen.base.limits import Limits
+from reportgen.base.units import Language
 from reportgen.base.words import templates
 from reportgen.report import text_of
 
@@ -120,3 +121,22 @@ def test_the_sandbox_changes_no_report(school: School, path: Path) -> None:
     plain = file.with_name("plain.yaml")
     plain.write_text(file.read_text(encoding="utf-8").replace("  school: ours\n", ""), encoding="utf-8")
     assert text_of(api.document(api.load(file))) == text_of(api.document(api.load(plain)))
+
+
+@pytest.mark.parametrize(("language", "told"), [("en", "leads out of the folder"), ("vi", "dẫn ra ngoài thư mục")])
+@pytest.mark.parametrize("link", ["ours", "ours/en.md", "ours/blocks"])
+def test_a_link_out_of_the_folder_of_a_school_is_refused(
+    school: School, tmp_path: Path, link: str, language: Language, told: str
+) -> None:
+    file = school("%% foreword\n# Ours\n")
+    target = tmp_path / "templates" / link
+    elsewhere = tmp_path / "elsewhere"
+    if target.exists():
+        target.rename(elsewhere)
+    else:
+        elsewhere.mkdir()
+    target.symlink_to(elsewhere)
+    (problem,) = api.check(file, language)
+    line = file.read_text(encoding="utf-8").splitlines().index("  school: ours") + 1
+    assert (problem.code, problem.mark.line, problem.mark.column) == ("path-outside", line, 11)
+    assert told in str(problem)
