@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import takewhile
 from pathlib import Path
 from typing import Any
@@ -84,7 +84,7 @@ class MachineCase(Calculation):
     def document(self) -> Document:
         from reportgen.report.outline import compose
 
-        return compose(self)
+        return self.bounded(compose)
 
     def key(self) -> Key:
         from reportgen.marking.key import machine_key
@@ -94,7 +94,7 @@ class MachineCase(Calculation):
     def task(self, key: Key, by_section: bool = False) -> Document:
         from reportgen.marking.paper import machine_task
 
-        return machine_task(self, key, by_section)
+        return self.bounded(partial(machine_task, key=key, by_section=by_section))
 
     def results(self) -> dict[str, Any]:
         from reportgen.marking.results import machine_results

@@ -17,8 +17,9 @@ from typing import Annotated, Any
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
+from reportgen.base.files import leads_out
 from reportgen.base.units import NUMBER, Given, QuantityFault, read_quantity, read_ratio, read_unit
-from reportgen.base.words import schools
+from reportgen.base.words import school_folder, schools
 
 LONGEST_TEXT = 300
 MOST_WORKED = 720
@@ -111,6 +112,9 @@ class SchoolFolder(Reader):
         known = schools()
         if value not in known:
             raise fault("no-such-school", text=str(value), known=", ".join(known) or "–")
+        folder = school_folder(str(value))
+        if leads_out(folder, folder.parent) or any(leads_out(path, folder) for path in folder.rglob("*")):
+            raise fault("path-outside", text=str(value))
         return str(value)
 
     def schema(self) -> dict[str, Any]:

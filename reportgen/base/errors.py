@@ -113,6 +113,10 @@ class AssignmentError(ReportgenError):
         self.problems = tuple(sorted(problems, key=lambda problem: problem.mark))
         super().__init__("\n".join(str(problem) for problem in self.problems))
 
+    def __reduce__(self) -> tuple[type[AssignmentError], tuple[list[Problem]]]:
+        # Whoever unpickles it makes it of its problems, not of their text.
+        return type(self), (list(self.problems),)
+
 
 class TemplateError(ReportgenError):
     """A template of words is at fault; the message names its file and line."""

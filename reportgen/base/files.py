@@ -89,6 +89,14 @@ def contents(path: Path, most: int = -1) -> bytes:
         return stream.read(most)
 
 
+def leads_out(path: Path, folder: Path) -> bool:
+    """Whether a path, its links followed, is anywhere else than in a folder or below it."""
+    try:
+        return not path.resolve().is_relative_to(folder.resolve())
+    except (OSError, RuntimeError, ValueError):  # a loop of links, or no path at all
+        return True
+
+
 # --- temporary files beside the results -----------------------------------------------------------
 # Only their owner can read them, and what a killed run left is swept.
 # A run holds a lock on its folder for as long as it lives, so that another one does not take it for left behind.

@@ -68,6 +68,11 @@ def schools() -> list[str]:
     )
 
 
+def school_folder(school: str) -> Path:
+    """The folder of a school's own templates."""
+    return templates() / school
+
+
 def search_path(language: Language, kind: str = "", school: str = "", root: Path | None = None) -> tuple[Path, ...]:
     """The places in which sections and words are looked for; the first that has a name wins.
 
@@ -253,15 +258,18 @@ def home(name: str, place: Path) -> tuple[Path, str]:
     return place / f"{file or 'report'}.md", section
 
 
+def of_school(places: Sequence[Path]) -> list[Path]:
+    """Those of some places that a school wrote; the others lie in the folder of the language, the last."""
+    return [place for place in places if not place.is_relative_to(places[-1])]
+
+
 def refuse_strangers(places: Sequence[Path]) -> None:
     """Raise `TemplateError` for a section of a school that no report in the language (the last place) has.
 
     It would never be read: its name is misspelt, or is that of an older version.
     """
     language = places[-1]
-    for file in places:
-        if file.is_relative_to(language):
-            continue
+    for file in of_school(places):
         known = set(_names(language))
         for name, section in sections(file).items():
             if name not in known:

@@ -19,9 +19,11 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
+from reportgen.base.files import leads_out
+from reportgen.base.limits import Limits
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, as_problem
-from reportgen.classes.pool import Limits, each_within
+from reportgen.classes.pool import each_within
 from reportgen.marking.marks import Scale
 from reportgen.workbook import Page, read
 from reportgen.workbook.package import MOST_RATIO, SMALL, UNREADABLE_ZIP
@@ -77,7 +79,10 @@ def handed_in(paths: Sequence[Path], faults: list[Fault]) -> Iterator[Handed]:
     """
     for path in paths:
         if path.is_dir():
-            inside = sorted(file for file in path.rglob("*") if file.is_file())
+            found = sorted(file for file in path.rglob("*") if file.is_file())
+            inside = [file for file in found if not leads_out(file, path)]
+            strays = sorted(set(found) - set(inside))
+            faults += [Fault("path-outside", Mark(str(file)), {"text": file.name}) for file in strays]
             named = [(file.relative_to(path.parent).as_posix(), file) for file in inside]
             owners = _owners([name for name, _ in named])
             yield from (Handed(file, owners[name]) for name, file in named if _is_sheet(name))

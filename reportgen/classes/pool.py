@@ -20,7 +20,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from hashlib import sha256
 from itertools import islice
@@ -32,6 +32,7 @@ from pebble import ProcessExpired, ProcessPool, concurrent
 
 from reportgen.api import Engine, Maker
 from reportgen.base.errors import AssignmentError, Problem, ReportgenError
+from reportgen.base.limits import ONE_THREAD, Limits, limit_memory
 from reportgen.base.units import Language
 from reportgen.base.words import templates, templates_hash, unexpected, version, word
 
@@ -210,8 +211,6 @@ LOADED = (
     "typst",
 )
 """What the process that workers are forked from has loaded, so that each finds it loaded."""
-ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-"""A library's threads would not survive the fork, and every core has its worker."""
 
 
 def _context(loaded: Sequence[str] = LOADED) -> ForkServerContext | SpawnContext:
@@ -275,14 +274,6 @@ Argument = TypeVar("Argument")
 Result = TypeVar("Result")
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
-    """What one call may take: seconds, and megabytes beyond those of the process that it begins in."""
-
-    seconds: float
-    megabytes: int
-
-
 def each_within(
     limits: Limits, function: Callable[[Argument], Result], arguments: Iterable[Argument], preload: str
 ) -> Iterator[tuple[Argument, Result | None]]:
@@ -295,7 +286,7 @@ def each_within(
     with _uninterrupted():
         # Some of its methods are annotated with other names, or not at all.
         make: Any = ProcessPool
-        pool = make(workers, initializer=_limit_memory, initargs=(limits.megabytes,), context=_context((preload,)))
+        pool = make(workers, initializer=limit_memory, initargs=(limits.megabytes,), context=_context((preload,)))
     try:
         for argument in arguments:
             with _uninterrupted():
@@ -315,16 +306,6 @@ def _outcome(call: tuple[Argument, Future[Any]]) -> tuple[Argument, Any]:
     if fault is not None and not isinstance(fault, (TimeoutError, MemoryError, ProcessExpired)):
         raise fault
     return argument, None if fault is not None else future.result()
-
-
-def _limit_memory(megabytes: int) -> None:
-    """Let this process take so much more memory than it has; where the system cannot say that, time is the limit."""
-    with suppress(ImportError, OSError, ValueError):
-        import resource
-
-        taken = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
-        _, most = resource.getrlimit(resource.RLIMIT_AS)
-        resource.setrlimit(resource.RLIMIT_AS, (taken + megabytes * 1_000_000, most))
 
 
 # --- the same jobs on an existing Dask scheduler --------------------------------------------------

@@ -27,6 +27,7 @@ from reportgen import catalogue
 from reportgen.assignment.common import Kind
 from reportgen.assignment.reading import allowed_forms, known_keys, language_of, misread
 from reportgen.base.errors import Fault, Mark, Where
+from reportgen.base.files import leads_out
 from reportgen.base.source import (
     MappingNode,
     Node,
@@ -167,6 +168,9 @@ def read_spec(path: Path, language: Language | None = None) -> Spec:
     digest = hashlib.sha256(source.text.encode())
     if table is not None:
         file = path.parent / table.text
+        if leads_out(file, path.parent):
+            # Nothing of it is read, so that nothing of it is told.
+            raise as_error([*faults, Fault("path-outside", table.mark, {"text": table.text})], language)
         rows = _rows(file, kind, base, faults, language)
         faults += _given_twice(base, axes, rows)
         axes.append(DrawnParameter("variants", rows))

@@ -22,12 +22,13 @@ from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import Fault, Mark, Where
 from reportgen.base.files import contents, put_file
+from reportgen.base.limits import Limits
 from reportgen.base.source import MappingNode, Node, Scalar, Source, at, path_text, put, quoted, read_source, text_of
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, version, word
 from reportgen.cases import opened
 from reportgen.classes.draw import Draw, DrawnVariant, judge_of, shared
-from reportgen.classes.pool import Limits, each_within
+from reportgen.classes.pool import each_within
 from reportgen.classes.roster import read_roster
 from reportgen.classes.spec import Spec, assembled, read_spec
 from reportgen.workbook import write_csv

@@ -6,6 +6,7 @@ import cmath
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Never
 
@@ -76,8 +77,7 @@ class ExerciseCase(SolvedExercise):
         return ""
 
     def document(self) -> Document:
-
-        return solution(self)
+        return self.bounded(solution)
 
     def key(self) -> Key:
         from reportgen.marking.key import make_key
@@ -85,11 +85,7 @@ class ExerciseCase(SolvedExercise):
         return make_key(self, self.ledger)
 
     def task(self, key: Key, by_section: bool = False) -> Document:
-        from reportgen.marking.paper import empty_sheet, task_paper
-        from reportgen.report.prose import Prose
-
-        names = {**task_names(self), "answer_tables": empty_sheet(key, by_section)}
-        return task_paper(self, key, (), Prose(self.places).render("exercise-task", names))
+        return self.bounded(partial(_task, key=key, by_section=by_section))
 
     def results(self) -> dict[str, Any]:
         """Its one position has its number alone; null is what is not determined."""
@@ -124,6 +120,13 @@ class ExerciseCase(SolvedExercise):
 
     def _no_machine(self) -> Never:
         raise NotOfferedError(word("no_machine", self.assignment.language, kind=self.assignment.kind))
+
+
+def _task(case: SolvedExercise, key: Key, by_section: bool) -> Document:
+    from reportgen.marking.paper import empty_sheet, task_paper
+
+    names = {**task_names(case), "answer_tables": empty_sheet(key, by_section)}
+    return task_paper(case, key, (), Prose(case.places).render("exercise-task", names))
 
 
 # --- solvedExercise → Document --------------------------------------------------------------------

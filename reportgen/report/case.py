@@ -7,18 +7,18 @@ more and changes nobody else.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, Self, get_args
+from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar, get_args
 
 import numpy as np
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.base.errors import NotOfferedError
+from reportgen.base.errors import NotOfferedError, TemplateError
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, word
 from reportgen.base.words import title as kind_title
@@ -125,17 +125,38 @@ class Case(Protocol):
 # And a machine with all that is computed of it.
 
 
+Made = TypeVar("Made")
+
+
 @dataclass(frozen=True)
 class Opened:
     """An assignment with its words; each part is computed when it is first asked for."""
 
     assignment: Assignment
+    root: Path | None = field(default=None, kw_only=True, compare=False, repr=False)
+    """The folder of its templates; None where it is the program's own."""
+
+    def bounded(self, make: Callable[[Self], Made]) -> Made:
+        """What `make`, named in a module, makes of this case and its words.
+
+        A school's templates are rendered in a process that can be ended.  Raises `TemplateError` where that was done.
+        """
+        if not self.assignment.report.school:
+            return make(self)
+        from reportgen.base.limits import TEMPLATES, LimitError, call_within
+
+        school, *_, common = self.places
+        try:
+            return call_within(TEMPLATES, make, type(self)(self.assignment, root=common.parent))
+        except LimitError as error:
+            told = word("template_limits", self.assignment.language, **asdict(TEMPLATES))
+            raise TemplateError(f"{school}:1: {told}") from error
 
     @property
     def places(self) -> tuple[Path, ...]:
         """Where the words of this language, machine and school are looked for."""
         assignment = self.assignment
-        return search_path(assignment.language, assignment.kind, assignment.report.school or "")
+        return search_path(assignment.language, assignment.kind, assignment.report.school or "", self.root)
 
     @cached_property
     def words(self) -> Mapping[str, Any]:

@@ -53,7 +53,7 @@ def _members(about: Sequence[Any], name: str) -> Iterator[Any]:
     for one in about:
         if isinstance(one, Mapping):
             yield from [one[name]] if name in one else []
-        elif hasattr(one, name):
+        elif not name.startswith("_") and hasattr(one, name):
             yield getattr(one, name)
 
 

@@ -14,10 +14,12 @@ import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from contextvars import ContextVar
-from dataclasses import dataclass, field
-from functools import lru_cache
+from dataclasses import asdict, dataclass, field
+from functools import lru_cache, partial
 from pathlib import Path
 from pickle import UnpicklingError
+from types import ModuleType
+from typing import Any
 
 from jinja2 import (
     BaseLoader,
@@ -29,15 +31,18 @@ from jinja2 import (
     Undefined,
 )
 from jinja2.bccache import Bucket
+from jinja2.exceptions import SecurityError
 from jinja2.ext import Extension
 from jinja2.lexer import Token, TokenStream
 from jinja2.runtime import Context
+from jinja2.sandbox import ImmutableSandboxedEnvironment
 from jinja2.utils import pass_context
 
 from reportgen.base.errors import ReportgenError, TemplateError
 from reportgen.base.files import keep, kept
-from reportgen.base.units import MINUS
-from reportgen.base.words import find, home, refuse_strangers
+from reportgen.base.limits import TEMPLATES, LimitError
+from reportgen.base.units import MINUS, Language
+from reportgen.base.words import find, home, of_school, refuse_strangers, word
 from reportgen.formula import Expression, Number, vocabulary
 from reportgen.report import BlankLine, Block, InlineMath, Inlines, Reference, Text, Value, markdown
 from reportgen.report.markdown import SECRET, Emitted, Place, Rendered, SectionKey, Unnumbered
@@ -103,12 +108,13 @@ class _Compiled(BytecodeCache):
     The number in the marks is another one in each process; what is kept has `NUMBER` in its place.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, environment: str) -> None:
+        self.environment = environment
         self.codes: dict[str, bytes] = {}
 
     def load_bytecode(self, bucket: Bucket) -> None:
         code = self.codes.get(bucket.key)
-        if code is None and (found := kept(_kept_as(bucket))) is not None:
+        if code is None and (found := kept(self._kept_as(bucket))) is not None:
             code = self.codes[bucket.key] = found.replace(NUMBER, SECRET.encode())
         if code is not None:
             # A damaged file is as good as none.
@@ -117,15 +123,14 @@ class _Compiled(BytecodeCache):
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         code = self.codes[bucket.key] = bucket.bytecode_to_string()
-        keep(_kept_as(bucket), code.replace(SECRET.encode(), NUMBER))
+        keep(self._kept_as(bucket), code.replace(SECRET.encode(), NUMBER))
+
+    def _kept_as(self, bucket: Bucket) -> str:
+        # The code that a template becomes depends on what this module does with it, and on whether it is bounded.
+        return f"{self.environment}-{Path(__file__).stat().st_mtime_ns:x}-{bucket.key}"
 
 
-def _kept_as(bucket: Bucket) -> str:
-    # The code that a template becomes depends on what this module does with it.
-    return f"template-{Path(__file__).stat().st_mtime_ns:x}-{bucket.key}"
-
-
-_compiled = _Compiled()
+_compiled = {Environment: _Compiled("template")}
 
 
 class _Sections(BaseLoader):
@@ -142,12 +147,42 @@ class _Sections(BaseLoader):
         return above + found.text, str(found.file), lambda: find(template, self.places) == found
 
 
+SAFE = frozenset({"builtins", "jinja2", "reportgen"})
+"""Packages whose values a school's template may ask for attributes, and whose functions it may call."""
+
+
+class _Sandbox(ImmutableSandboxedEnvironment):
+    """For a school's templates: nothing that begins with `_`, is changed in place, or comes of other packages.
+
+    An array can write itself to a file, and a path removes it.
+    """
+
+    def is_safe_attribute(self, obj: Any, attr: str, value: Any) -> bool:
+        known = _package(type(obj)) in SAFE and not isinstance(obj, ModuleType)
+        return known and super().is_safe_attribute(obj, attr, value)
+
+    def is_safe_callable(self, obj: Any) -> bool:
+        owner = getattr(obj, "__self__", None)
+        # A partial is a name of the report; templates cannot make one.
+        known = isinstance(obj, partial) or _package(obj if owner is None else type(owner)) in SAFE
+        return known and super().is_safe_callable(obj)
+
+
+_compiled[_Sandbox] = _Compiled("bounded")
+
+
+def _package(of: object) -> str:
+    return str(getattr(of, "__module__", "")).partition(".")[0]
+
+
 @lru_cache(maxsize=ENVIRONMENTS)
 def _environment(places: tuple[Path, ...]) -> Environment:
     """The environment of some places with its compiled sections; a section that was changed is read again."""
-    result = Environment(
+    # What a school wrote may reach for anything, by way of the common sections, too.
+    environment = _Sandbox if any(of_school(places)) else Environment
+    result = environment(
         loader=_Sections(places),
-        bytecode_cache=_compiled,
+        bytecode_cache=_compiled[environment],
         extensions=[_Provenance],
         undefined=StrictUndefined,
         finalize=_finalize,
@@ -179,10 +214,20 @@ def _render(places: tuple[Path, ...], name: str, names: Mapping[str, object]) ->
         raise
     except Exception as error:
         file, line = _origin(error, name)
-        raise TemplateError(f"{file}:{line}: {type(error).__name__}: {error}") from error
+        raise TemplateError(f"{file}:{line}: {_told(error, places)}") from error
     finally:
         _values.reset(outer)
     return _assemble(output, name, values)
+
+
+def _told(error: Exception, places: tuple[Path, ...]) -> str:
+    language: Language = "en" if places[-1].name == "en" else "vi"
+    match error:
+        case SecurityError():
+            return word("template_unsafe", language)
+        case MemoryError() | LimitError():
+            return word("template_limits", language, **asdict(TEMPLATES))
+    return f"{type(error).__name__}: {error}"
 
 
 def _excerpt(fragment: str) -> Rendered:

@@ -340,3 +340,15 @@ def test_a_roster_gives_names_and_addresses(assignments: Path, tmp_path: Path) -
     assert found == gradebooks.StudentResult(
         f"{BAO} Lê Văn Bảo", frozenset({BAO.casefold(), "b@x.vn"}), "", found.share
     )
+
+
+def test_a_link_out_of_the_folder_handed_in_is_refused(tmp_path: Path) -> None:
+    folder = tmp_path / "handed"
+    folder.mkdir()
+    secret = tmp_path / "secret.csv"
+    secret.write_text("nobody,may,see\n", encoding="utf-8")
+    (folder / "a.csv").symlink_to(secret)
+    (folder / "b.csv").write_text("id,value\n", encoding="utf-8")
+    faults: list[Fault] = []
+    assert [handed.path.name for handed in handed_in([folder], faults)] == ["b.csv"]
+    assert [(fault.code, fault.mark.file) for fault in faults] == [("path-outside", str(folder / "a.csv"))]

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from reportgen.base.limits import Limits
 from reportgen.classes import platforms as sheets
 from reportgen.classes.platforms import Handed
-from reportgen.classes.pool import Limits
 from reportgen.cli import app
 from tests.marking import demo
 

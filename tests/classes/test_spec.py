@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from reportgen.base.errors import AssignmentError, Mark
 from reportgen.base.source import MappingNode, Scalar, SequenceNode, plain, quoted, read_text, text_of
+from reportgen.base.units import Language
 from reportgen.classes.spec import Spec, read_spec
 from reportgen.workbook import Book, BookSheet, write_xlsx
 from tests.classes.specs import BARS, ROOT, Put, located
@@ -186,3 +187,33 @@ def test_any_nodes_are_read_as_they_were_written(content: object) -> None:
 
     got = plain(read_text(text_of(top, "", MappingNode((), Mark("")))).top)
     assert got == composed(plain(top))
+
+
+OUTSIDE = ("../secret.csv", "../../../../../../../../etc/passwd", "/etc/passwd", "link.csv", "there/secret.csv", "\\0")
+
+
+@pytest.mark.parametrize(("language", "told"), [("en", "leads out of the folder"), ("vi", "dẫn ra ngoài thư mục")])
+@pytest.mark.parametrize("name", OUTSIDE)
+def test_a_table_of_variants_lies_below_the_spec(tmp_path: Path, name: str, language: Language, told: str) -> None:
+    """By `..`, from the root, by a link to a file or a folder: nothing of it is opened or quoted."""
+    folder, secret = tmp_path / "class", tmp_path / "secret.csv"
+    folder.mkdir()
+    secret.write_text("nobody,may,see\n1,2,3\n", encoding="utf-8")
+    (folder / "link.csv").symlink_to(secret)
+    (folder / "there").symlink_to(tmp_path)
+    spec = folder / "spec.yaml"
+    spec.write_text(f'{BARS}variants: "{name}"\n', encoding="utf-8")
+    with pytest.raises(AssignmentError) as caught:
+        read_spec(spec, language)
+    (problem,) = caught.value.problems
+    assert (problem.code, problem.mark.line, problem.mark.column) == ("path-outside", len(BARS.splitlines()) + 1, 11)
+    assert told in str(problem)
+    assert not re.search("nobody|root:", str(caught.value))
+
+
+def test_a_table_of_variants_may_lie_in_a_folder_below(tmp_path: Path) -> None:
+    (tmp_path / "tables").mkdir()
+    (tmp_path / "tables" / "v.csv").write_text("CD (mm)\n281\n282\n", encoding="utf-8")
+    spec = tmp_path / "spec.yaml"
+    spec.write_text(BARS.replace("  CD: 280 mm\n", "") + "variants: tables/../tables/v.csv\n", encoding="utf-8")
+    assert choices(read_spec(spec))["variants"] == ["1", "2"]

@@ -1,0 +1,124 @@
+"""A call in a process of its own that can be ended: bounded in time, in memory and in what comes back.
+
+For work that runs what others wrote.  The process is a fresh interpreter, started wherever this one runs: in a
+job, in a worker of a cluster, beside threads.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+Argument = TypeVar("Argument")
+Result = TypeVar("Result")
+
+PATIENCE = 3
+"""The clock may show so many times the seconds of the processor, on a machine that does other work, too."""
+GRACE = 2
+"""Seconds of the processor between the word that time is up and the end of the process."""
+LARGEST_ANSWER = 30_000_000
+"""Bytes that may come back."""
+ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+"""A library's threads would each count, and would not survive a fork."""
+_BEGIN = "import sys; sys.path[:] = sys.argv[1:]; from reportgen.base.limits import serve; serve()"
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What one call may take: seconds, and megabytes beyond those of the process that it begins in."""
+
+    seconds: float
+    megabytes: int
+
+
+TEMPLATES = Limits(seconds=10, megabytes=500)
+"""What making a document with a school's templates may take."""
+
+
+class LimitError(Exception):
+    """A call took more time or memory than it may, or its process died."""
+
+
+def call_within(limits: Limits, function: Callable[[Argument], Result], argument: Argument) -> Result:
+    """What `function`, named in a module, makes of an argument that can be pickled.
+
+    Seconds are those of the processor.  Raises what the call raises, and `LimitError`.
+    """
+    # Isolated: neither the folder that it runs in nor the environment says which modules are loaded.
+    command = [sys.executable, "-I", "-W", "ignore", "-c", _BEGIN, *sys.path]
+    request = pickle.dumps((limits, function, argument))
+    try:
+        done = subprocess.run(
+            command,
+            input=request,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env=os.environ | ONE_THREAD,
+            timeout=PATIENCE * limits.seconds,
+            check=False,
+        )
+    except subprocess.TimeoutExpired as error:
+        raise LimitError from error
+    if done.returncode:
+        raise LimitError
+    answer, fault = pickle.loads(done.stdout)
+    if fault is not None:
+        raise fault
+    result: Result = answer
+    return result
+
+
+def serve() -> None:
+    """The other side of `call_within`: one call from standard input, its outcome to standard output."""
+    outcome: tuple[Any, Exception | None]
+    stream = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what a library prints is no answer
+    limits, function, argument = pickle.load(sys.stdin.buffer)
+    limit_memory(limits.megabytes)
+    _limit_time(limits.seconds)
+    try:
+        outcome = function(argument), None
+    except MemoryError:
+        outcome = None, LimitError()
+    except Exception as error:
+        outcome = None, error
+    data = pickle.dumps(outcome)
+    if len(data) > LARGEST_ANSWER:
+        data = pickle.dumps((None, LimitError()))
+    with stream:
+        stream.write(data)
+
+
+def limit_memory(megabytes: int) -> None:
+    """Let this process take so much more memory than it has; where the system cannot say that, time is the limit."""
+    with suppress(ImportError, OSError, ValueError):
+        import resource
+
+        taken = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+        _, most = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (taken + megabytes * 1_000_000, most))
+
+
+def _limit_time(seconds: float) -> None:
+    """Raise `LimitError` after so much more of the processor's time, and end this process if that does not help."""
+    with suppress(ImportError, OSError, ValueError):
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        used = resource.getrusage(resource.RUSAGE_SELF)
+        most = int(used.ru_utime + used.ru_stime + seconds) + 1
+        signal.signal(signal.SIGXCPU, _time_is_up)
+        resource.setrlimit(resource.RLIMIT_CPU, (most, most + GRACE))
+
+
+def _time_is_up(*_: object) -> None:
+    signal.signal(signal.SIGXCPU, signal.SIG_IGN)
+    raise LimitError
