@@ -8,48 +8,132 @@ import re
 import shutil
 import stat
 import tempfile
-from collections.abc import Iterator, Mapping
+import unicodedata
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from pathlib import Path
 
-from reportgen.base.errors import OutputError
+from reportgen.base.errors import Fault, Mark, OutputError
+from reportgen.base.units import Language
+from reportgen.base.words import as_error
 
-_SHEET = re.compile(r"sheet-\d+\.(pdf|dxf)")
+SETS = {
+    "report": r"report\.(pdf|html)",
+    "key": r"key\.(pdf|xlsx|csv|json)",
+    "sheet": r"sheet-\d+\.(pdf|dxf)",
+    "results": r"results\.(csv|xlsx|json)",
+}
+"""The names of files that belong together, as patterns: a new set leaves nothing of the one before beside it."""
 
 
-def put_files(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
-    """Write files by name into a folder, each in one step; raises `OutputError`."""
+def put_files(folder: Path, files: Mapping[str, bytes], kind: str = "") -> list[Path]:
+    """Put files by name into a folder, together or not at all; those of an earlier set of a kind of `SETS` go.
+
+    Raises `OutputError`.
+    """
     with reported():
         folder.mkdir(parents=True, exist_ok=True)
+        written = {folder / name: content for name, content in files.items()}
         try:
-            for name, content in files.items():
-                put_file(folder / name, content)
+            put_set(written, standing(folder, SETS[kind]) - written.keys() if kind else ())
         except OSError:
             # A folder without a file tells nobody anything.
             with suppress(OSError):
                 folder.rmdir()
             raise
-    return [folder / name for name in files]
+    return list(written)
 
 
 def put_file(target: Path, content: bytes) -> None:
     """Put `content` in place of a file in one step: a reader sees the old or the new, never a half."""
-    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    temporary = Path(name)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
-        umask = os.umask(0)
-        os.umask(umask)
-        temporary.chmod(0o666 & ~umask)
-        temporary.replace(target)
-    except BaseException as error:
-        temporary.unlink(missing_ok=True)
-        if isinstance(error, OSError):
+    put_set({target: content})
+
+
+def put_set(files: Mapping[Path, bytes], gone: Collection[Path] = ()) -> None:
+    """Put files in place, and take the ones `gone` away, together or not at all: after a failure all is as it was.
+
+    All are written before the first is put in place; what stood there has a second name until the last one is.
+    """
+    with ExitStack() as temporary, ExitStack() as undo:
+        written = {}
+        for target, content in files.items():
             # A full disk does not say itself what had no room on it.
-            error.filename = error.filename or str(target)
+            with _named(target):
+                written[target] = _beside(target, temporary)
+                written[target].write_bytes(content)
+        for target in (*files, *gone):
+            with _named(target):
+                if os.path.lexists(target):
+                    undo.callback(os.replace, _second_name(target, temporary), target)
+                else:
+                    undo.callback(target.unlink, missing_ok=True)
+        for target, new in written.items():
+            with _named(target):
+                new.replace(target)
+        for target in gone:
+            with _named(target):
+                target.unlink(missing_ok=True)
+        undo.pop_all()
+
+
+def _beside(target: Path, until: ExitStack) -> Path:
+    """An empty file beside the one that it is to become, with the rights of a new file; it goes with `until`."""
+    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    os.close(handle)
+    until.callback(Path(name).unlink, missing_ok=True)
+    umask = os.umask(0)
+    os.umask(umask)
+    Path(name).chmod(0o666 & ~umask)
+    return Path(name)
+
+
+def _second_name(target: Path, until: ExitStack) -> Path:
+    """A second name of a file; a copy where a file cannot have two."""
+    name = _beside(target, until)
+    name.unlink()
+    try:
+        os.link(target, name, follow_symlinks=False)
+    except (OSError, NotImplementedError):
+        shutil.copy2(target, name, follow_symlinks=False)
+    return name
+
+
+@contextmanager
+def _named(target: Path) -> Iterator[None]:
+    """Makes what the system complains of speak of this file."""
+    try:
+        yield
+    except OSError as error:
+        error.filename, error.filename2 = str(target), None
         raise
+
+
+# --- what stands already ----------------------------------------------------------------------------
+
+
+def standing(folder: Path, names: str) -> set[Path]:
+    """The files of a folder whose names, in whatever case, are all of a pattern."""
+    with suppress(OSError):
+        return {path for path in folder.iterdir() if re.fullmatch(names, path.name, re.IGNORECASE)}
+    return set()
+
+
+def spare(outputs: Iterable[Path], inputs: Iterable[Path], language: Language | None) -> None:
+    """Raises `AssignmentError` if one of the outputs is an input, by whatever name: a link, another case."""
+    known = {identity: path for path in inputs for identity in _identities(path)}
+    for output in outputs:
+        for identity in _identities(output) & known.keys():
+            raise as_error([Fault("is-input", Mark(str(output)), {"text": str(known[identity])})], language)
+
+
+def _identities(path: Path) -> set[str | tuple[int, int]]:
+    """What two names of one file have in common: the way to it in any case, or the file itself."""
+    found: set[str | tuple[int, int]] = {unicodedata.normalize("NFC", os.path.realpath(path)).casefold()}
+    with suppress(OSError):
+        about = path.stat()
+        found.add((about.st_dev, about.st_ino))
+    return found
 
 
 @contextmanager
@@ -60,15 +144,6 @@ def reported(about: Path | None = None) -> Iterator[None]:
     except OSError as error:
         place = error.filename or about
         raise OutputError(f"{place}: {error.strerror or error}" if place else str(error)) from error
-
-
-def put_sheets(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
-    """Write drawing sheets into a folder; those of an earlier set that had more sheets go."""
-    written = put_files(folder, files)
-    for path in folder.glob("sheet-*.*"):
-        if _SHEET.fullmatch(path.name) and path not in written:
-            path.unlink(missing_ok=True)
-    return written
 
 
 # --- temporary files beside the results -----------------------------------------------------------

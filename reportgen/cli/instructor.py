@@ -134,7 +134,7 @@ def key(
     def work(file: Path) -> None:
         with reported(out), scratch(out):
             made = api.key_files(file, engine, lang, formats, ask)
-        print(*put_files(out / file.stem, made), sep="\n", flush=True)
+        print(*put_files(out / file.stem, made, "key"), sep="\n", flush=True)
 
     for_each(files, lang, work)
 
