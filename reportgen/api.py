@@ -109,7 +109,7 @@ def build_each(
             files = {**({f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}), "report.pdf": pdf}
         if "html" in formats:
             files["report.html"] = _page(case, tree)
-    put_files(Path(out) / assignment.id, files)
+    put_files(Path(out) / assignment.id, files, "report")
     return [Path(out) / assignment.id / f"report.{name}" for name in formats]
 
 

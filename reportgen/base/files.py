@@ -9,49 +9,114 @@ import shutil
 import stat
 import tempfile
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from hashlib import sha256
+from importlib import metadata
 from pathlib import Path
 
 from reportgen.base.errors import OutputError
 
-_SHEET = re.compile(r"sheet-\d+\.(pdf|dxf)")
+SETS = {
+    "report": r"report\.(pdf|html)",
+    "key": r"key\.(pdf|xlsx|csv|json)",
+    "sheet": r"sheet-\d+\.(pdf|dxf)",
+    "results": r"results\.(csv|xlsx|json)",
+}
+"""The names of files that belong together, as patterns: a new set leaves nothing of the one before beside it."""
 
 
-def put_files(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
-    """Write files by name into a folder, each in one step; raises `OutputError`."""
+def put_files(folder: Path, files: Mapping[str, bytes], kind: str = "") -> list[Path]:
+    """Put files by name into a folder, together or not at all; those of an earlier set of a kind of `SETS` go.
+
+    Raises `OutputError`.
+    """
     with reported():
         folder.mkdir(parents=True, exist_ok=True)
+        written = {folder / name: content for name, content in files.items()}
         try:
-            for name, content in files.items():
-                put_file(folder / name, content)
+            put_set(written, standing(folder, SETS[kind]) - written.keys() if kind else ())
         except OSError:
             # A folder without a file tells nobody anything.
             with suppress(OSError):
                 folder.rmdir()
             raise
-    return [folder / name for name in files]
+    return list(written)
 
 
 def put_file(target: Path, content: bytes) -> None:
     """Put `content` in place of a file in one step: a reader sees the old or the new, never a half."""
-    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    temporary = Path(name)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
-        umask = os.umask(0)
-        os.umask(umask)
-        temporary.chmod(0o666 & ~umask)
-        temporary.replace(target)
-    except BaseException as error:
-        temporary.unlink(missing_ok=True)
-        if isinstance(error, OSError):
+    put_set({target: content})
+
+
+def put_set(files: Mapping[Path, bytes], gone: Collection[Path] = ()) -> None:
+    """Put files in place, and take the ones `gone` away, together or not at all: after a failure all is as it was.
+
+    All are written before the first is put in place; what stood there has a second name until the last one is.
+    """
+    with ExitStack() as temporary, ExitStack() as undo:
+        written = {}
+        for target, content in files.items():
             # A full disk does not say itself what had no room on it.
-            error.filename = error.filename or str(target)
+            with _named(target):
+                written[target] = _beside(target, temporary)
+                written[target].write_bytes(content)
+        for target in (*files, *gone):
+            with _named(target):
+                if os.path.lexists(target):
+                    undo.callback(os.replace, _second_name(target, temporary), target)
+                else:
+                    undo.callback(target.unlink, missing_ok=True)
+        for target, new in written.items():
+            with _named(target):
+                new.replace(target)
+        for target in gone:
+            with _named(target):
+                target.unlink(missing_ok=True)
+        undo.pop_all()
+
+
+def _beside(target: Path, until: ExitStack) -> Path:
+    """An empty file beside the one that it is to become, with the rights of a new file; it goes with `until`."""
+    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    os.close(handle)
+    until.callback(Path(name).unlink, missing_ok=True)
+    umask = os.umask(0)
+    os.umask(umask)
+    Path(name).chmod(0o666 & ~umask)
+    return Path(name)
+
+
+def _second_name(target: Path, until: ExitStack) -> Path:
+    """A second name of a file; a copy where a file cannot have two."""
+    name = _beside(target, until)
+    name.unlink()
+    try:
+        os.link(target, name, follow_symlinks=False)
+    except (OSError, NotImplementedError):
+        shutil.copy2(target, name, follow_symlinks=False)
+    return name
+
+
+@contextmanager
+def _named(target: Path) -> Iterator[None]:
+    """Makes what the system complains of speak of this file."""
+    try:
+        yield
+    except OSError as error:
+        error.filename, error.filename2 = str(target), None
         raise
+
+
+# --- what stands already ----------------------------------------------------------------------------
+
+
+def standing(folder: Path, names: str) -> set[Path]:
+    """The files of a folder whose names, in whatever case, are all of a pattern."""
+    with suppress(OSError):
+        return {path for path in folder.iterdir() if re.fullmatch(names, path.name, re.IGNORECASE)}
+    return set()
 
 
 @contextmanager
@@ -62,15 +127,6 @@ def reported(about: Path | None = None) -> Iterator[None]:
     except OSError as error:
         place = error.filename or about
         raise OutputError(f"{place}: {error.strerror or error}" if place else str(error)) from error
-
-
-def put_sheets(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
-    """Write drawing sheets into a folder; those of an earlier set that had more sheets go."""
-    written = put_files(folder, files)
-    for path in folder.glob("sheet-*.*"):
-        if _SHEET.fullmatch(path.name) and path not in written:
-            path.unlink(missing_ok=True)
-    return written
 
 
 # --- files to be read ---------------------------------------------------------------------------------
@@ -223,7 +279,6 @@ def keep(name: str, data: bytes) -> Path | None:
 
 def _seal(data: bytes) -> bytes:
     """The first line of what is kept: the version of the program and a checksum."""
-    from reportgen.base.words import version
 
     return f"reportgen {version()} {sha256(data).hexdigest()}".encode()
 
@@ -263,3 +318,12 @@ def _is_private(found: Path) -> bool:
         return True
     about = found.stat()
     return about.st_uid == os.getuid() and not about.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+
+
+@cache
+def version() -> str:
+    """The version as installed; "0" in a checkout that is not installed."""
+    try:
+        return metadata.version("reportgen")
+    except metadata.PackageNotFoundError:
+        return "0"

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import groupby
 from pathlib import Path
 
 from reportgen import api
@@ -209,10 +210,11 @@ def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language 
 
 
 def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None) -> Iterator[Path]:
-    """Write every file of a graded class below `out`, each in one step; raises `OutputError`."""
+    """Write every file of a graded class below `out`, those of a folder together; raises `OutputError`."""
     with reported(out), scratch(out):
-        for name, content in files_of(graded, policy, engine, language):
-            yield from put_files(out / name.parent, {name.name: content})
+        made = files_of(graded, policy, engine, language)
+        for folder, files in groupby(made, key=lambda file: file[0].parent):
+            yield from put_files(out / folder, {path.name: content for path, content in files})
 
 
 def put_gradebook(

@@ -19,7 +19,7 @@ from pydantic import TypeAdapter, ValidationError
 from reportgen import api
 from reportgen.api import ASKING, MAKERS, USUAL, Engine, Maker
 from reportgen.base.errors import Fault, Mark, OutputError, Problem
-from reportgen.base.files import contents, held, put_file, reported, scratch
+from reportgen.base.files import contents, held, put_file, put_set, reported, scratch
 from reportgen.base.units import Language, write
 from reportgen.base.words import DEFAULT_LANGUAGE, as_problem, counted, word
 from reportgen.classes.pool import Job, Outcome, Pool, failed, local, making
@@ -336,11 +336,8 @@ def _put(job: Job, outcome: Outcome, out: Path, earlier: ManifestEntry | None) -
     try:
         if outcome.files:
             (out / job.folder).mkdir(exist_ok=True)
-        for name, content in outcome.files.items():
-            put_file(out / job.folder / name, content)
-        if outcome.files and earlier is not None and earlier.folder == job.folder:
-            for path in earlier.outlived(outcome.files, out):
-                path.unlink(missing_ok=True)
+            gone = earlier.outlived(outcome.files, out) if earlier and earlier.folder == job.folder else ()
+            put_set({out / job.folder / name: content for name, content in outcome.files.items()}, tuple(gone))
     except OSError as error:
         if error.errno in NO_ROOM:
             raise OutputError(f"{error.filename or ''}: {error.strerror or error}") from error

@@ -21,11 +21,11 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import Fault, Mark, Where
-from reportgen.base.files import contents, put_file
+from reportgen.base.files import contents, put_set, version
 from reportgen.base.limits import Limits
 from reportgen.base.source import MappingNode, Node, Scalar, Source, at, path_text, put, quoted, read_source, text_of
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, version, word
+from reportgen.base.words import as_error, word
 from reportgen.cases import opened
 from reportgen.classes.draw import Draw, DrawnVariant, judge_of, shared
 from reportgen.classes.pool import each_within
@@ -128,20 +128,18 @@ def make_variants(
     _refuse(spec.column_faults(roster.columns), spec)
     draw, files = Draw(spec, judge_of(spec)), list[StudentFile]()
 
-    def made() -> Iterator[StudentFile]:
+    def each() -> Iterator[StudentFile]:
         for drawn in draw.each(roster):
             files.append(_student_file(spec, drawn, out, force))
             yield files[-1]
 
     count = len(roster.students)
     # While some are drawn, other processes find the figures of those before.
-    efforts = tuple(shown(_efforts(made(), count), count))
+    efforts = tuple(shown(_efforts(each(), count), count))
     _refuse(draw.faults, spec)
     out.mkdir(parents=True, exist_ok=True)
-    for file in files:
-        if file.state in ("new", "changed"):
-            put_file(file.path, file.text.encode())
-    put_file(out / TABLE, _csv(files, efforts))
+    made = {file.path: file.text.encode() for file in files if file.state in ("new", "changed")}
+    put_set({**made, out / TABLE: _csv(files, efforts)})
     remarks = (*_remarks(files, efforts, spec.language), *_sharing(draw, files, spec))
     known = {file.drawn.student.id: one for file, one in zip(files, efforts, strict=True) if one is not None}
     return Variants(tuple(files), remarks, tuple(_summary(known, spec.language)))

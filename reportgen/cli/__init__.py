@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import gc
 import io
-import os
-import signal
 import sys
 from functools import cache
+
+from reportgen.base import SYSTEM, hear_at_once
 
 TYPE_CHECKING = False
 # Until `main` runs Ctrl-C is not heard: `typing` alone takes as long as all that is loaded before.
@@ -21,18 +21,13 @@ if TYPE_CHECKING:
 
     app: typer.Typer
 
-SYSTEM, INTERRUPTED = 3, 130
-STOPPED = "reportgen: đã dừng (interrupted)\n"
-"""Said where no words are loaded yet."""
-
 COLLECTED = 100_000
 """New objects between two searches for garbage: a report makes many that last, and hardly any cycles."""
 
 
 def main() -> None:
     """Entry point of the `reportgen` command, which hears Ctrl-C before it has loaded anything."""
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, _leave)
+    hear_at_once()
     import warnings
 
     from reportgen.cli.common import complain_of_program
@@ -51,18 +46,6 @@ def main() -> None:
     finally:
         # All memory goes with the process: no need to look through it once more on the way out.
         gc.freeze()
-
-
-def _leave(*_: object) -> None:
-    """End at once: until a command begins its work there is nothing to tidy up, and half an import to fall over."""
-    os.write(2, STOPPED.encode())
-    os._exit(INTERRUPTED)
-
-
-def begin() -> None:
-    """From here on Ctrl-C is an exception, after which a command tidies up."""
-    if signal.getsignal(signal.SIGINT) is _leave:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @cache

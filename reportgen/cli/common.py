@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import os
 import sys
-from collections.abc import Callable, Collection, Iterator
-from contextlib import contextmanager
+import unicodedata
+from collections.abc import Callable, Collection, Iterable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
 
-from reportgen.base.errors import AssignmentError, ReportgenError
+from reportgen.base import SYSTEM, begin
+from reportgen.base.errors import AssignmentError, Fault, Mark, ReportgenError
 from reportgen.base.files import put_file
 from reportgen.base.units import Language
-from reportgen.cli import SYSTEM, begin
 
 AT_FAULT = 1
 
@@ -107,3 +109,22 @@ def write(path: Path, text: str) -> None:
         sys.stdout.write(text)
     else:
         put_file(path, text.encode())
+
+
+def spare(outputs: Iterable[Path], inputs: Iterable[Path], language: Language | None) -> None:
+    """Raises `AssignmentError` if one of the outputs is an input, by whatever name: a link, another case."""
+    from reportgen.base.words import as_error
+
+    known = {identity: path for path in inputs for identity in _identities(path)}
+    for output in outputs:
+        for identity in _identities(output) & known.keys():
+            raise as_error([Fault("is-input", Mark(str(output)), {"text": str(known[identity])})], language)
+
+
+def _identities(path: Path) -> set[str | tuple[int, int]]:
+    """What two names of one file have in common: the way to it in any case, or the file itself."""
+    found: set[str | tuple[int, int]] = {unicodedata.normalize("NFC", os.path.realpath(path)).casefold()}
+    with suppress(OSError):
+        about = path.stat()
+        found.add((about.st_dev, about.st_ino))
+    return found

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from reportgen.base.files import put_files, put_sheets, reported
+from reportgen.base.files import put_files, reported
 from reportgen.cli.common import (
     AT_FAULT,
     EngineOption,
@@ -95,7 +95,7 @@ def sheet(
                 formats=formats,
                 block=path,
             )
-            print(*put_sheets(out / assignment.id, made), sep="\n", flush=True)
+            print(*put_files(out / assignment.id, made, "sheet"), sep="\n", flush=True)
 
     for_each(files, lang, work)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import cmath
 import io
 import math
+import re
 from collections import OrderedDict
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
@@ -65,6 +66,7 @@ SHADE = 254
 """The colour index of a link's inside, a light gray."""
 STACK = 0.7
 """Size of indices beside the letters they belong to."""
+_PAIR = re.compile("%(?=%)")
 
 
 def write_sheet(sheet: DrawingSheet, language: Language) -> bytes:
@@ -216,7 +218,8 @@ class MText(Plain):
     def text(self, text: str) -> str:
         """A text with what MTEXT takes for orders made plain."""
         escaped = text.replace("\\", "\\\\").replace("{", "\\{").replace("}", "\\}")
-        return escaped.replace("\n", "\\P").replace("^", "^ ")
+        # Two percent signs begin an order, too: an empty group parts them.
+        return _PAIR.sub("%{}", escaped).replace("\n", "\\P").replace("^", "^ ")
 
     def symbol(self, node: Symbol) -> str:
         # Without the arrow of a vector: overlining is an order that not every program knows and some print.

@@ -184,6 +184,7 @@ FIELDS = frozenset(
         "format",
     }
 )
+_FIELD = re.compile(rf"\{{({'|'.join(FIELDS)})\}}")
 
 Size = Annotated[float, Decimal(Interval(above=0, most=400))]
 Place = Annotated[float, Decimal(Interval(least=0, most=400))]
@@ -234,9 +235,8 @@ class TitleBlock:
 
 
 def _filled(text: str, fields: Mapping[str, str]) -> str:
-    for name in FIELDS:
-        text = text.replace(f"{{{name}}}", fields.get(name, ""))
-    return text
+    """The text with its fields filled in, in one pass: a value that looks like a field stays as it is."""
+    return _FIELD.sub(lambda found: fields.get(found[1], ""), text)
 
 
 def blocks(school: str = "") -> dict[str, Path]:

@@ -165,10 +165,10 @@ def test_no_command_writes_to_the_temporary_directory_of_the_system(
 
 
 def test_a_full_disk_names_the_path_and_leaves_no_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(_: int, mode: str) -> None:
+    def full(_: Path, content: bytes) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    monkeypatch.setattr(os, "fdopen", full)
+    monkeypatch.setattr(Path, "write_bytes", full)
     with pytest.raises(OutputError) as told:
         put_files(tmp_path / "id", {"report.pdf": b"x"})
     assert str(told.value) == f"{tmp_path / 'id' / 'report.pdf'}: No space left on device"

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import os
 from pathlib import Path
 from typing import get_args
 
+import ezdxf
 import pytest
 from typer.testing import CliRunner, Result
 
@@ -14,6 +16,7 @@ from reportgen.base.errors import AssignmentError, SheetError
 from reportgen.base.units import Language
 from reportgen.cli import app
 from reportgen.drawing import Label
+from reportgen.sheets.dxf import MText
 from reportgen.sheets.frame import DEFAULT, FIELDS, blocks, read_block
 from tests.classes.classes import here, write_class
 from tests.sheets.laid import ROOT
@@ -125,6 +128,24 @@ def test_a_school_draws_a_block_of_its_own(tmp_path: Path) -> None:
     done = run(SMALL, "--out", tmp_path, "--block", tmp_path / "ours.yaml", "--format", "dxf")
     assert (done.exit_code, done.stderr) == (0, "")
     assert " of " in (tmp_path / SMALL.stem / "sheet-1.dxf").read_text()
+
+
+def test_a_value_that_looks_like_a_field_is_no_field(tmp_path: Path) -> None:
+    (tmp_path / "ours.yaml").write_text(BLOCK.replace("{sheet}", "{supervisor} {sheet}"))
+    names = {"machine": "{supervisor}", "supervisor": "{sheet} {student} {", "sheet": "{sheets}", "sheets": "{machine}"}
+    scene = read_block(tmp_path / "ours.yaml").scene(names)
+    letters = [label.content for label in scene.items if isinstance(label, Label)]
+    assert " ".join(map(str, letters)) == "{supervisor} {sheet} {student} { {sheets} of {machine}"
+
+
+@pytest.mark.parametrize("name", ["%%d %%c %%%p %%%%d 5%%065", r"\P \\P C:\Public \H5; \S1^2;", "{supervisor} }{ ^ ^J"])
+def test_a_name_in_dxf_stays_letters(name: str) -> None:
+    document = ezdxf.new("R2010")
+    document.modelspace().add_mtext(MText("vi").content(name))
+    stream = io.StringIO()
+    document.write(stream)
+    (text,) = ezdxf.read(io.StringIO(stream.getvalue())).modelspace().query("MTEXT")
+    assert text.plain_text(fast=False) == name
 
 
 @pytest.mark.parametrize(

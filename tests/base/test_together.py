@@ -1,0 +1,86 @@
+"""Sets of files: put in place together or not at all, whatever fails and whenever."""
+
+from __future__ import annotations
+
+import errno
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+
+from reportgen.base.errors import OutputError
+from reportgen.base.files import SETS, put_files
+
+OLD = {"key.pdf": b"old pdf", "key.xlsx": b"old xlsx", "key.csv": b"old csv", "mine.xlsx": b"mine"}
+NEW = {"key.pdf": b"new pdf", "key.json": b"new json", "key.xlsx": b"new xlsx"}
+
+
+def content(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    for name, text in OLD.items():
+        (tmp_path / name).write_bytes(text)
+    return tmp_path
+
+
+def test_a_new_set_leaves_nothing_of_the_old_one(folder: Path) -> None:
+    assert put_files(folder, NEW, "key") == [folder / name for name in NEW]
+    assert content(folder) == NEW | {"mine.xlsx": b"mine"}
+    assert {path.stat().st_nlink for path in folder.iterdir()} == {1}
+
+
+@pytest.mark.parametrize("step", ["write_bytes", "replace", "unlink"])
+@pytest.mark.parametrize("count", range(4))
+@pytest.mark.parametrize("linked", [True, False], ids=["links", "copies"])
+def test_a_full_disk_leaves_the_old_set_whole(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, step: str, count: int, linked: bool
+) -> None:
+    """Wherever the room ends: at some file's writing, its putting in place, or an old one's removal."""
+    plain, left = getattr(Path, step), [count]
+
+    def failing(path: Path, *arguments: object, **others: object) -> object:
+        left[0] -= 1
+        if left[0] == -1:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return plain(path, *arguments, **others)
+
+    def no_link(*_: object, **__: object) -> None:
+        raise OSError(errno.EPERM, "no links here")
+
+    monkeypatch.setattr(Path, step, failing)
+    if not linked:
+        monkeypatch.setattr(os, "link", no_link)
+    told = ""
+    try:
+        put_files(folder, NEW, "key")
+    except OutputError as error:
+        told = str(error)
+    monkeypatch.undo()
+    if told:
+        assert str(folder) in told
+        assert "No space left" in told
+        assert content(folder) == OLD
+    else:
+        assert left[0] >= 0
+        assert content(folder) == NEW | {"mine.xlsx": b"mine"}
+
+
+def test_what_stands_in_the_way_is_found_before_anything_is_replaced(folder: Path) -> None:
+    (folder / "key.xlsx").unlink()
+    (folder / "key.xlsx").mkdir()
+    with pytest.raises(OutputError, match=r"key\.xlsx"):
+        put_files(folder, NEW, "key")
+    shutil.rmtree(folder / "key.xlsx")
+    assert content(folder) == {name: text for name, text in OLD.items() if name != "key.xlsx"}
+
+
+@pytest.mark.parametrize("kind", SETS)
+def test_a_stranger_is_part_of_no_set(tmp_path: Path, kind: str) -> None:
+    strangers = dict.fromkeys(("sheet-mine.pdf", "my-key.pdf", "report.typ", "report.pdf.bak", "answers.xlsx"), b"")
+    put_files(tmp_path, strangers)
+    put_files(tmp_path, {"new": b""}, kind)
+    assert content(tmp_path) == strangers | {"new": b""}
