@@ -45,6 +45,9 @@ def ending(lang: Language | None) -> Iterator[None]:
     except OSError as error:
         complain(say("system", lang, text=error))
         code = SYSTEM
+    except MemoryError:
+        complain(say("memory", lang))
+        code = SYSTEM
     except Exception as error:
         complain_of_program(error, lang)
         code = SYSTEM
