@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from hashlib import sha256
+from importlib import metadata
 from pathlib import Path
 
 from reportgen.base.errors import OutputError
@@ -215,9 +216,16 @@ def keep(name: str, data: bytes) -> Path | None:
 
 def _seal(data: bytes) -> bytes:
     """The first line of what is kept: the version of the program and a checksum."""
-    from reportgen.base.words import version
-
     return f"reportgen {version()} {sha256(data).hexdigest()}".encode()
+
+
+@cache
+def version() -> str:
+    """The version as installed; "0" in a checkout that is not installed."""
+    try:
+        return metadata.version("reportgen")
+    except metadata.PackageNotFoundError:
+        return "0"
 
 
 def _prune(found: Path) -> None:

@@ -13,7 +13,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache, reduce
 from hashlib import sha256
-from importlib import metadata
 from itertools import pairwise
 from pathlib import Path
 from string import Formatter
@@ -31,15 +30,6 @@ FILE = "words.yaml"
 SECTION = "words"
 FILES = 32
 """How many tables of words are kept."""
-
-
-@cache
-def version() -> str:
-    """The version as installed; "0" in a checkout that is not installed."""
-    try:
-        return metadata.version("reportgen")
-    except metadata.PackageNotFoundError:
-        return "0"
 
 
 def templates() -> Path:

@@ -32,8 +32,9 @@ from pebble import ProcessExpired, ProcessPool, concurrent
 
 from reportgen.api import Engine, Maker
 from reportgen.base.errors import AssignmentError, Problem, ReportgenError
+from reportgen.base.files import version
 from reportgen.base.units import Language
-from reportgen.base.words import templates, templates_hash, unexpected, version, word
+from reportgen.base.words import templates, templates_hash, unexpected, word
 
 if TYPE_CHECKING:
     from multiprocessing.context import ForkServerContext, SpawnContext

@@ -21,10 +21,10 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import Fault, Mark, Where
-from reportgen.base.files import contents, put_file
+from reportgen.base.files import contents, put_file, version
 from reportgen.base.source import MappingNode, Node, Scalar, Source, at, path_text, put, quoted, read_source, text_of
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, version, word
+from reportgen.base.words import as_error, word
 from reportgen.cases import opened
 from reportgen.classes.draw import Draw, DrawnVariant, judge_of, shared
 from reportgen.classes.pool import Limits, each_within

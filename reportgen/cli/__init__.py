@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
     app: typer.Typer
 
-SYSTEM, INTERRUPTED = 3, 130
 STOPPED = "reportgen: đã dừng (interrupted)\n"
 """Said where no words are loaded yet."""
 
@@ -35,7 +34,7 @@ def main() -> None:
         signal.signal(signal.SIGINT, _leave)
     import warnings
 
-    from reportgen.cli.common import complain_of_program
+    from reportgen.cli.common import SYSTEM, complain_of_program
 
     for stream in (sys.stdout, sys.stderr):
         # Vietnamese must not fail on a terminal or pipe of another encoding.
@@ -54,15 +53,9 @@ def main() -> None:
 
 
 def _leave(*_: object) -> None:
-    """End at once: until a command begins its work there is nothing to tidy up, and half an import to fall over."""
+    """End at once: before a command begins its work there is nothing to tidy up, and half an import to fall over."""
     os.write(2, STOPPED.encode())
-    os._exit(INTERRUPTED)
-
-
-def begin() -> None:
-    """From here on Ctrl-C is an exception, after which a command tidies up."""
-    if signal.getsignal(signal.SIGINT) is _leave:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+    os._exit(128 + signal.SIGINT)
 
 
 @cache

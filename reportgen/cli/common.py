@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
@@ -13,9 +14,8 @@ import typer
 from reportgen.base.errors import AssignmentError, ReportgenError
 from reportgen.base.files import put_file
 from reportgen.base.units import Language
-from reportgen.cli import SYSTEM, begin
 
-AT_FAULT = 1
+AT_FAULT, SYSTEM, INTERRUPTED = 1, 3, 130
 
 File = Annotated[Path, typer.Argument(metavar="FILE", help="Assignment file.", show_default=False)]
 Files = Annotated[list[Path], typer.Argument(metavar="FILE", help="Assignment files.", show_default=False)]
@@ -28,7 +28,9 @@ EngineOption = Annotated[Literal["typst", "latex"], typer.Option("--engine", hel
 @contextmanager
 def ending(lang: Language | None) -> Iterator[None]:
     """Prints what goes wrong inside, never a traceback, and ends with the exit code it means."""
-    begin()
+    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
+        # From here on there is something to tidy up.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         yield
     except KeyboardInterrupt:

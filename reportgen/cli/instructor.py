@@ -10,8 +10,18 @@ from typing import Annotated, Any
 import typer
 
 from reportgen.base.files import put_files, reported
-from reportgen.cli import INTERRUPTED
-from reportgen.cli.common import AT_FAULT, EngineOption, Files, LangOption, complain, ending, for_each, listed, say
+from reportgen.cli.common import (
+    AT_FAULT,
+    INTERRUPTED,
+    EngineOption,
+    Files,
+    LangOption,
+    complain,
+    ending,
+    for_each,
+    listed,
+    say,
+)
 
 PolicyOption = Annotated[
     Path | None,
