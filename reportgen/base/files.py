@@ -279,8 +279,16 @@ def keep(name: str, data: bytes) -> Path | None:
 
 def _seal(data: bytes) -> bytes:
     """The first line of what is kept: the version of the program and a checksum."""
-
     return f"reportgen {version()} {sha256(data).hexdigest()}".encode()
+
+
+@cache
+def version() -> str:
+    """The version as installed; "0" in a checkout that is not installed."""
+    try:
+        return metadata.version("reportgen")
+    except metadata.PackageNotFoundError:
+        return "0"
 
 
 def _prune(found: Path) -> None:
@@ -318,12 +326,3 @@ def _is_private(found: Path) -> bool:
         return True
     about = found.stat()
     return about.st_uid == os.getuid() and not about.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
-
-
-@cache
-def version() -> str:
-    """The version as installed; "0" in a checkout that is not installed."""
-    try:
-        return metadata.version("reportgen")
-    except metadata.PackageNotFoundError:
-        return "0"

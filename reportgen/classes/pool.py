@@ -207,7 +207,8 @@ LOADED = (
     "reportgen.writers.typst",
     "jinja2",
     "markdown_it",
-    "matplotlib.figure",
+    "matplotlib.path",
+    "matplotlib.ticker",
     "pint",
     "typst",
 )
@@ -224,8 +225,10 @@ def _context(loaded: Sequence[str] = LOADED) -> ForkServerContext | SpawnContext
     context.set_forkserver_preload(list(loaded))
     # It lets Ctrl-C through again once it has started, which the server would do first.
     resource_tracker.ensure_running()
-    before = {name: os.environ.get(name) for name in ONE_THREAD}
-    os.environ |= ONE_THREAD
+    # matplotlib looks for settings in a folder that is there: a home may be missing.
+    environment = ONE_THREAD | {"MPLCONFIGDIR": tempfile.gettempdir()}
+    before = {name: os.environ.get(name) for name in environment}
+    os.environ |= environment
     try:
         with _uninterrupted():
             forkserver.ensure_running()

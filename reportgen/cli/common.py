@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import unicodedata
 from collections.abc import Callable, Collection, Iterable, Iterator
@@ -12,12 +13,11 @@ from typing import Annotated, Literal
 
 import typer
 
-from reportgen.base import SYSTEM, begin
 from reportgen.base.errors import AssignmentError, Fault, Mark, ReportgenError
 from reportgen.base.files import put_file
 from reportgen.base.units import Language
 
-AT_FAULT = 1
+AT_FAULT, SYSTEM, INTERRUPTED = 1, 3, 130
 
 File = Annotated[Path, typer.Argument(metavar="FILE", help="Assignment file.", show_default=False)]
 Files = Annotated[list[Path], typer.Argument(metavar="FILE", help="Assignment files.", show_default=False)]
@@ -30,7 +30,9 @@ EngineOption = Annotated[Literal["typst", "latex"], typer.Option("--engine", hel
 @contextmanager
 def ending(lang: Language | None) -> Iterator[None]:
     """Prints what goes wrong inside, never a traceback, and ends with the exit code it means."""
-    begin()
+    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
+        # From here on there is something to tidy up.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         yield
     except KeyboardInterrupt:
@@ -46,6 +48,9 @@ def ending(lang: Language | None) -> Iterator[None]:
         code = error.exit_code
     except OSError as error:
         complain(say("system", lang, text=error))
+        code = SYSTEM
+    except MemoryError:
+        complain(say("memory", lang))
         code = SYSTEM
     except Exception as error:
         complain_of_program(error, lang)

@@ -9,9 +9,19 @@ from typing import Annotated, Any
 
 import typer
 
-from reportgen.base import INTERRUPTED
 from reportgen.base.files import put_files, reported
-from reportgen.cli.common import AT_FAULT, EngineOption, Files, LangOption, complain, ending, for_each, listed, say
+from reportgen.cli.common import (
+    AT_FAULT,
+    INTERRUPTED,
+    EngineOption,
+    Files,
+    LangOption,
+    complain,
+    ending,
+    for_each,
+    listed,
+    say,
+)
 
 PolicyOption = Annotated[
     Path | None,
@@ -124,7 +134,7 @@ def key(
     def work(file: Path) -> None:
         with reported(out), scratch(out):
             made = api.key_files(file, engine, lang, formats, ask)
-        print(*put_files(out / file.stem, made, "key"), sep="\n", flush=True)
+        print(*put_files(out / file.stem, made), sep="\n", flush=True)
 
     for_each(files, lang, work)
 

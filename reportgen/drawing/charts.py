@@ -7,7 +7,11 @@ This is the only module that imports matplotlib, and only when a curve is drawn.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import os
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -57,6 +61,8 @@ OUTLINE = Pen(0.3, style.BLUE)
 TICKS = 6
 BETWEEN = 1.0
 """White between the figures of an axis at least, mm."""
+
+_HOME = "MPLCONFIGDIR"
 
 Vertices = NDArray[np.float64]
 
@@ -254,7 +260,8 @@ def _window(
     series: Sequence[PlottedCurve], levels: Sequence[float], turn: bool, half: bool, area: Area | None
 ) -> tuple[_Window, list[float], list[float]]:
     """Ranges and ticks: whole multiples of 45, 90 or 180 degrees across, matplotlib's choice upwards."""
-    from matplotlib.ticker import MaxNLocator, MultipleLocator
+    with _at_home_nowhere():
+        from matplotlib.ticker import MaxNLocator, MultipleLocator
 
     x = np.concatenate([np.asarray(one.x, dtype=np.float64) for one in series])
     values = np.concatenate([np.asarray(one.y, dtype=np.float64) for one in series])
@@ -379,7 +386,8 @@ def _lines(name: Content) -> list[Content]:
 
 def _paths(vertices: Vertices) -> list[tuple[complex, ...]]:
     """The curve on paper with points left out that lie within a fortieth of a millimetre, split at gaps."""
-    from matplotlib.path import Path
+    with _at_home_nowhere():
+        from matplotlib.path import Path
 
     # matplotlib simplifies to a ninth of its own unit: that unit is made small enough here.
     scale = 4.0
@@ -426,3 +434,23 @@ def _whole_steps(largest: int) -> tuple[int, int]:
 
 def _bar(low: complex, high: complex) -> Polyline:
     return _box(low, high, OUTLINE, style.TINT)
+
+
+@contextmanager
+def _at_home_nowhere() -> Iterator[None]:
+    """Loads matplotlib without the user's settings and without a word about a home that is missing or read-only.
+
+    What is drawn needs neither settings nor fonts, so it looks for them in an empty folder.
+    """
+    if "matplotlib" in sys.modules:
+        yield
+        return
+    before = os.environ.get(_HOME)
+    with tempfile.TemporaryDirectory(prefix="matplotlib-") as nowhere:
+        os.environ[_HOME] = nowhere
+        try:
+            yield
+        finally:
+            del os.environ[_HOME]
+            if before is not None:
+                os.environ[_HOME] = before

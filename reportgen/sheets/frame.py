@@ -116,7 +116,8 @@ def _corners(low: complex, high: complex) -> tuple[complex, ...]:
 
 def _letters(cell: BlockCell) -> Iterator[Label]:
     """The cell's text in the largest letters, not above its own, with which it has room."""
-    if not cell.text:
+    if not cell.text.strip():
+        # Its fields have no values.
         return
     heights = [height for height in HEIGHTS if height <= cell.letters] or [HEIGHTS[-1]]
     height, lines = next(
@@ -257,10 +258,12 @@ def read_block(path: Path, language: Language | None = None) -> TitleBlock:
 
 
 def _findings(cell: _Cell, index: int, block: _File) -> Iterator[Finding]:
-    """What is wrong with a cell beside its single values: it leaves the block, or names an unknown field."""
+    """What is wrong with a cell beside its single values: its place, blanks alone, or an unknown field."""
     where = ("cells", index)
     if cell.x + cell.width > block.width or cell.y + cell.height > block.height:
         yield Finding("block-outside", where, {"width": f"{block.width:g}", "height": f"{block.height:g}"})
+    if cell.text and not cell.text.strip():
+        yield Finding("block-blank", (*where, "text"))
     for name in re.findall(r"\{([^{}]*)\}?", cell.text):
         if name not in FIELDS:
             yield Finding("block-field", (*where, "text"), {"text": name, **close_or_known(name, sorted(FIELDS))})

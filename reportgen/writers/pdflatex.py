@@ -138,6 +138,8 @@ def _run(program: str, directory: Path, timeout: float) -> None:
         raise TypesetterError(f"pdflatex was stopped after {timeout:g} s") from None
     except OSError as error:
         raise TypesetterError(f"pdflatex could not be started: {error}") from error
+    if done.returncode < 0:
+        raise TypesetterError(f"pdflatex was ended by signal {-done.returncode}, most likely for too little memory")
     if done.returncode != 0:
         raise TypesetterError(_reason(_log(directory)))
 

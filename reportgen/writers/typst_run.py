@@ -85,8 +85,10 @@ class _Run:
     def __init__(self, source: str, folder: Path) -> None:
         try:
             import typst
-        except ImportError as error:
+        except ModuleNotFoundError as error:
             raise TypesetterError("typst is not installed: pip install typst") from error
+        except ImportError as error:
+            raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
         self._folder, self._error = folder, typst.TypstError
         (folder / "report.typ").write_text(source, encoding="utf-8", newline="")
         own = not needs_system_fonts(source, lacking)

@@ -11,14 +11,18 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import typer
 
+from reportgen.base.units import Language
 from reportgen.base.words import kinds
+from reportgen.cli.common import ending
+from tests.lanes import proof
 
 ROOT = Path(__file__).parents[2]
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 
 
-def reportgen(*arguments: object, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
+def reportgen(*arguments: object, cwd: Path = ROOT, **environment: str) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-m", "reportgen.cli", *map(str, arguments)]
     done = subprocess.run(
         command,
@@ -28,7 +32,7 @@ def reportgen(*arguments: object, cwd: Path = ROOT) -> subprocess.CompletedProce
         encoding="utf-8",
         timeout=300,
         check=False,
-        env={"PYTHONPATH": str(ROOT), "PATH": "/usr/bin:/bin:/usr/local/bin", "COLUMNS": "100"},
+        env={"PYTHONPATH": str(ROOT), "PATH": "/usr/bin:/bin:/usr/local/bin", "COLUMNS": "100", **environment},
     )
     assert "Traceback" not in done.stderr + done.stdout
     return done
@@ -236,3 +240,40 @@ def test_build_goes_on_after_a_faulty_file(faulty: Path, tmp_path: Path) -> None
     assert report.read_bytes().startswith(b"%PDF")
     assert f"{faulty}:21:6: error[missing-unit]" in done.stderr
     assert not (tmp_path / "out" / "faulty").exists()
+
+
+@pytest.mark.parametrize("lane", [pytest.param("build"), pytest.param("batch", marks=proof)])
+def test_without_a_home_nothing_is_said(tmp_path: Path, lane: str) -> None:
+    nowhere = {"HOME": "/dev/null", "XDG_CACHE_HOME": "/dev/null/cache", "XDG_CONFIG_HOME": "/dev/null/config"}
+    sample = ROOT / "assignments" / "slotted-lever-01.yaml"
+    arguments: tuple[object, ...] = (sample,)
+    if lane == "batch":
+        (tmp_path / "given").mkdir()
+        (tmp_path / "given" / "K1.yaml").write_bytes(sample.read_bytes())
+        (tmp_path / "class.csv").write_text("id,name\nK1,An\n", encoding="utf-8")
+        arguments = (tmp_path / "class.csv", "--assignments", tmp_path / "given", "--jobs", 2)
+    done = reportgen(lane, *arguments, "--out", tmp_path / "out", **nowhere)
+    assert done.returncode == 0, done.stderr
+    assert "atplotlib" not in done.stderr
+    assert "ignored" not in done.stderr
+    assert lane == "batch" or done.stderr == ""
+
+
+TOO_LITTLE = {"vi": "không đủ bộ nhớ để làm việc này", "en": "too little memory for this work"}
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+def test_too_little_memory_says_so(language: Language, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(typer.Exit) as end, ending(language):
+        raise MemoryError
+    assert end.value.exit_code == 3
+    assert capsys.readouterr().err == f"reportgen: {TOO_LITTLE[language]}\n"
+
+
+def test_a_typesetter_that_memory_has_no_room_for_is_installed(tmp_path: Path) -> None:
+    """As where its library cannot be mapped as a whole."""
+    (tmp_path / "typst.py").write_text("raise ImportError('_typst.so: failed to map segment')\n", encoding="utf-8")
+    done = reportgen("build", SAMPLE, "--out", tmp_path / "out", PYTHONPATH=f"{tmp_path}:{ROOT}")
+    assert (done.returncode, done.stdout) == (3, "")
+    assert "typst cannot be loaded, most likely for too little memory" in done.stderr
+    assert len(done.stderr.splitlines()) == 1

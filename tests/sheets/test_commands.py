@@ -153,6 +153,7 @@ def test_a_name_in_dxf_stays_letters(name: str) -> None:
     [
         ("width: 40", "width: 50", ":5:5: error[block-outside]"),
         ("{machine}", "{mashine}", ":4:47: error[block-field]"),
+        ("{machine}", "  ", ":4:47: error[block-blank]"),
         ("letters: 5", "letters: 1", ":4:69: error[out-of-range]"),
         ("width: 100", "wide: 100", ":1:1: error[unknown-key]"),
     ],
@@ -163,6 +164,12 @@ def test_a_wrong_block_is_located(tmp_path: Path, wrong: str, right: str, fault:
     with pytest.raises(AssignmentError, match=r"^.*") as caught:
         read_block(file, "en")
     assert any(f"ours.yaml{fault}" in str(problem) for problem in caught.value.problems), caught.value
+
+
+def test_a_cell_whose_fields_have_no_values_stays_blank(tmp_path: Path) -> None:
+    (tmp_path / "ours.yaml").write_text(BLOCK.replace("{machine}", "{mass} {stage}"))
+    scene = read_block(tmp_path / "ours.yaml").scene({"sheet": "1", "sheets": "2"})
+    assert [item.content for item in scene.items if isinstance(item, Label)] == ["1 of 2"]
 
 
 # --- a class

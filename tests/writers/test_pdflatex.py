@@ -52,3 +52,13 @@ def test_overfull_boxes_are_read_from_the_log() -> None:
         "Overfull \\vbox (3.0pt too high) has occurred while \\output is active []\n"
     )
     assert [line[10:24] for line in pdflatex.overfull(log)] == ["hbox (12.75pt ", "vbox (3.0pt to"]
+
+
+def test_a_run_ended_from_outside_tells_of_memory(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """As the system ends a program that has taken too much."""
+    program = tmp_path / "pdflatex"
+    program.write_text("#!/bin/sh\nkill -9 $$\n", encoding="utf-8")
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/bin:/usr/bin")
+    with pytest.raises(TypesetterError, match=r"^pdflatex was ended by signal 9, most likely for too little memory$"):
+        pdflatex.compile("x")
