@@ -15,16 +15,17 @@ from functools import cache
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Mark, OutputError
-from reportgen.base.units import Language
-from reportgen.base.words import as_error
 
 SETS = {
+    "task": r"task\.pdf|answers\.xlsx",
     "report": r"report\.(pdf|html)",
     "key": r"key\.(pdf|xlsx|csv|json)",
     "sheet": r"sheet-\d+\.(pdf|dxf)",
     "results": r"results\.(csv|xlsx|json)",
+    "feedback": r"feedback\.(pdf|xlsx)",
+    "class": r"grades\.csv|class\.pdf|feedback\.zip",
 }
-"""The names of files that belong together, as patterns: a new set leaves nothing of the one before beside it."""
+"""The names of files that belong together, as patterns: what stands of an earlier set is replaced by the next one."""
 
 
 def put_files(folder: Path, files: Mapping[str, bytes], kind: str = "") -> list[Path]:
@@ -36,7 +37,7 @@ def put_files(folder: Path, files: Mapping[str, bytes], kind: str = "") -> list[
         folder.mkdir(parents=True, exist_ok=True)
         written = {folder / name: content for name, content in files.items()}
         try:
-            put_set(written, standing(folder, SETS[kind]) - written.keys() if kind else ())
+            put_set(written, standing(folder, kind) - written.keys() if kind else ())
         except OSError:
             # A folder without a file tells nobody anything.
             with suppress(OSError):
@@ -109,33 +110,6 @@ def _named(target: Path) -> Iterator[None]:
         raise
 
 
-# --- what stands already ----------------------------------------------------------------------------
-
-
-def standing(folder: Path, names: str) -> set[Path]:
-    """The files of a folder whose names, in whatever case, are all of a pattern."""
-    with suppress(OSError):
-        return {path for path in folder.iterdir() if re.fullmatch(names, path.name, re.IGNORECASE)}
-    return set()
-
-
-def spare(outputs: Iterable[Path], inputs: Iterable[Path], language: Language | None) -> None:
-    """Raises `AssignmentError` if one of the outputs is an input, by whatever name: a link, another case."""
-    known = {identity: path for path in inputs for identity in _identities(path)}
-    for output in outputs:
-        for identity in _identities(output) & known.keys():
-            raise as_error([Fault("is-input", Mark(str(output)), {"text": str(known[identity])})], language)
-
-
-def _identities(path: Path) -> set[str | tuple[int, int]]:
-    """What two names of one file have in common: the way to it in any case, or the file itself."""
-    found: set[str | tuple[int, int]] = {unicodedata.normalize("NFC", os.path.realpath(path)).casefold()}
-    with suppress(OSError):
-        about = path.stat()
-        found.add((about.st_dev, about.st_ino))
-    return found
-
-
 @contextmanager
 def reported(about: Path | None = None) -> Iterator[None]:
     """A full disk or a forbidden folder is a fault in one line, which names its path, or else `about`."""
@@ -144,6 +118,32 @@ def reported(about: Path | None = None) -> Iterator[None]:
     except OSError as error:
         place = error.filename or about
         raise OutputError(f"{place}: {error.strerror or error}" if place else str(error)) from error
+
+
+# --- what stands already ----------------------------------------------------------------------------
+
+
+def standing(folder: Path, kind: str, below: str = "") -> set[Path]:
+    """The files of a folder, or of those `below` it, that belong to a kind of `SETS` by their names in any case."""
+    pattern = re.compile(SETS[kind], re.IGNORECASE)
+    return {path for path in folder.glob(f"{below}*") if pattern.fullmatch(path.name)}
+
+
+def overwritten(outputs: Iterable[Path], inputs: Iterable[Path]) -> Iterator[Fault]:
+    """A fault for each output that is an input, by whatever name: a link, another way, another case."""
+    known = {identity: path for path in inputs for identity in _identities(path)}
+    for output in outputs:
+        if found := [known[identity] for identity in _identities(output) if identity in known]:
+            yield Fault("is-input", Mark(str(output)), {"text": str(found[0])})
+
+
+def _identities(path: Path) -> list[str | tuple[int, int]]:
+    """What all names of one file have in common: the file itself, or the way to it in no case."""
+    way = unicodedata.normalize("NFC", os.path.realpath(path)).casefold()
+    with suppress(OSError):
+        about = path.stat()
+        return [way, (about.st_dev, about.st_ino)]
+    return [way]
 
 
 # --- temporary files beside the results -----------------------------------------------------------

@@ -96,6 +96,12 @@ class Spec:
         return self.path.stem
 
     @property
+    def files(self) -> tuple[Path, ...]:
+        """What it was read from: its own file and the table of variants."""
+        table = at(self.whole, ("variants",))
+        return (self.path, self.path.parent / table.text) if isinstance(table, Scalar) else (self.path,)
+
+    @property
     def mark(self) -> Mark:
         """Where faults of whole combinations are shown: at the parameters."""
         section = self.top.find("parameters")

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
 
-from reportgen.base.errors import AssignmentError, ReportgenError
-from reportgen.base.files import put_file
+from reportgen.base.errors import AssignmentError, Fault, ReportgenError
+from reportgen.base.files import overwritten, put_file
 from reportgen.base.units import Language
 
 AT_FAULT, SYSTEM, INTERRUPTED = 1, 3, 130
@@ -93,6 +93,22 @@ def listed(text: str, known: Collection[str], option: str, complaint: str, lang:
             text = say(complaint, lang, text=name, known=", ".join(known))
             raise typer.BadParameter(text, param_hint=option)
     return names
+
+
+def refuse_inputs(outputs: Iterable[Path], inputs: Sequence[Path | None], lang: Language | None) -> None:
+    """Raises `AssignmentError` where a command would write over one of its inputs; asked before all else."""
+    given = [path for path in inputs if path is not None]
+    refuse(overwritten(outputs, given), given[0], lang)
+
+
+def refuse(faults: Iterable[Fault], file: Path, lang: Language | None) -> None:
+    """Raises `AssignmentError` with these faults, if there are any, in the language of a file."""
+    if found := list(faults):
+        from reportgen.assignment.reading import language_of
+        from reportgen.base.source import read_source
+        from reportgen.base.words import as_error
+
+        raise as_error(found, lang or language_of(read_source(file)))
 
 
 def write(path: Path, text: str) -> None:

@@ -77,7 +77,7 @@ def test_what_stands_in_the_way_is_found_before_anything_is_replaced(folder: Pat
 
 @pytest.mark.parametrize("kind", SETS)
 def test_a_stranger_is_part_of_no_set(tmp_path: Path, kind: str) -> None:
-    strangers = {name: b"" for name in ("sheet-mine.pdf", "my-key.pdf", "report.typ", "report.pdf.bak", "answers.xlsx")}
+    strangers = dict.fromkeys(("sheet-mine.pdf", "my-key.pdf", "report.typ", "report.pdf.bak", "answers.xlsx"), b"")
     put_files(tmp_path, strangers)
     put_files(tmp_path, {"new": b""}, kind)
     assert content(tmp_path) == strangers | {"new": b""}
