@@ -8,7 +8,7 @@ import os
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from hashlib import sha256
 from pathlib import Path, PurePath
@@ -169,6 +169,10 @@ def _run(
 
         def add(entry: ManifestEntry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
             """Each entry stands in the journal before its event is shown."""
+            earlier = entries.get((entry.student, entry.product))
+            if problems and earlier is not None and earlier.folder == entry.folder:
+                # What stands of an earlier run is known further on: it may be edited.
+                entry = replace(entry, files=earlier.files)
             entries[entry.student, entry.product] = entry
             with reported(out):
                 record(entry)
@@ -195,6 +199,10 @@ def _run(
                 add(entry_of(job, outcome), problems, outcome.exit_code)
     with reported(out):
         write_manifest(out, entries.values())
+    for student, _ in assigned:
+        for product in makers:
+            for path in entries[student.id, product].edited(out):
+                result.notes.append(word("batch_edited", order.language, path=path))
     result.failures.sort(key=lambda failure: number[failure.student])
     if gone := {entry.student for entry in before.values()} - number.keys():
         result.notes.append(counted("batch_gone", order.language, len(gone)))
@@ -330,14 +338,20 @@ def _remove_temporary(folder: Path) -> None:
 def _put(job: Job, outcome: Outcome, out: Path, earlier: ManifestEntry | None) -> Outcome:
     """The outcome once its files stand; if they cannot, and it is this student's matter alone, a failure.
 
-    Files that an earlier run made of the product and this one did not, a third sheet of two, go.  Raises `OutputError`
-    where every other student would meet the same.
+    Files that an earlier run made of the product and this one did not, a third sheet of two, go; what was edited since
+    stays.  Raises `OutputError` where every other student would meet the same.
     """
+    if not outcome.files:
+        return outcome
     try:
-        if outcome.files:
-            (out / job.folder).mkdir(exist_ok=True)
-            gone = earlier.outlived(outcome.files, out) if earlier and earlier.folder == job.folder else ()
-            put_set({out / job.folder / name: content for name, content in outcome.files.items()}, tuple(gone))
+        (out / job.folder).mkdir(exist_ok=True)
+        made = {out / job.folder / name: content for name, content in outcome.files.items()}
+        if earlier is None or earlier.folder != job.folder:
+            put_set(made)
+        else:
+            # What stands as it is made now has not been edited: a run was killed before it could note it.
+            edited = {*earlier.edited(out)} & {*entry_of(job, outcome).edited(out)}
+            put_set({path: made[path] for path in made.keys() - edited}, tuple(earlier.outlived(outcome.files, out)))
     except OSError as error:
         if error.errno in NO_ROOM:
             raise OutputError(f"{error.filename or ''}: {error.strerror or error}") from error
@@ -373,13 +387,20 @@ class ManifestEntry:
     problems: tuple[str, ...] = ()
 
     def holds(self, job: Job, out: Path) -> bool:
-        """Whether the files are there, unaltered, and would be made of the same again."""
+        """Whether the files are there and would be made of the same again; one that was edited is there, too."""
         return (
             not self.problems
             and bool(self.files)
             and (self.folder, self.made_of) == (job.folder, made_of(job))
-            and all(_hash(out / self.folder / name) == known for name, known in self.files.items())
+            and all(_hash(out / self.folder / name) for name in self.files)
         )
+
+    def edited(self, out: Path) -> Iterator[Path]:
+        """The files that were changed since they were made, an answer sheet that is filled in."""
+        for name, known in self.files.items():
+            path = out / self.folder / name
+            if _hash(path) not in ("", known):
+                yield path
 
     def outlived(self, made: Collection[str], out: Path) -> Iterator[Path]:
         """The files that were made, are unaltered and are `made` no more; a name with a folder is none of them."""
@@ -445,7 +466,9 @@ def journal(out: Path) -> Iterator[Callable[[ManifestEntry], None]]:
 
 def _plain(entry: ManifestEntry) -> dict[str, Any]:
     common = {**entry.made_of, "state": "failed" if entry.problems else "done"}
-    return common | ({"problems": list(entry.problems)} if entry.problems else {"files": dict(entry.files)})
+    problems = {"problems": list(entry.problems)} if entry.problems else {}
+    files = {"files": dict(entry.files)} if entry.files or not entry.problems else {}
+    return common | problems | files
 
 
 def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
