@@ -26,6 +26,8 @@ SETS = {
     "class": r"grades\.csv|class\.pdf|feedback\.zip",
 }
 """The names of files that belong together, as patterns: what stands of an earlier set is replaced by the next one."""
+_UNFINISHED = re.compile(r"\..+\.(?:pdf|html|dxf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
+"""What `_beside` makes."""
 
 
 def put_files(folder: Path, files: Mapping[str, bytes], kind: str = "") -> list[Path]:
@@ -98,6 +100,14 @@ def _second_name(target: Path, until: ExitStack) -> Path:
     except (OSError, NotImplementedError):
         shutil.copy2(target, name, follow_symlinks=False)
     return name
+
+
+def remove_unfinished(folder: Path) -> None:
+    """Removes what a killed run was writing just then."""
+    if folder.is_dir():
+        for path in folder.iterdir():
+            if _UNFINISHED.fullmatch(path.name):
+                path.unlink(missing_ok=True)
 
 
 @contextmanager

@@ -5,7 +5,6 @@ from __future__ import annotations
 import errno
 import json
 import os
-import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field, replace
@@ -19,7 +18,7 @@ from pydantic import TypeAdapter, ValidationError
 from reportgen import api
 from reportgen.api import ASKING, MAKERS, USUAL, Engine, Maker
 from reportgen.base.errors import Fault, Mark, OutputError, Problem
-from reportgen.base.files import held, put_file, put_set, reported, scratch
+from reportgen.base.files import held, put_file, put_set, remove_unfinished, reported, scratch
 from reportgen.base.units import Language, write
 from reportgen.base.words import DEFAULT_LANGUAGE, as_problem, counted, word
 from reportgen.classes.pool import Job, Outcome, Pool, failed, local, making
@@ -35,8 +34,6 @@ DRAWN = "assignments"
 """The folder, among the results, of the assignment files that are drawn."""
 NO_ROOM = frozenset({errno.ENOSPC, errno.EROFS, errno.EIO, getattr(errno, "EDQUOT", errno.ENOSPC)})
 """Errors that every other student would meet, too."""
-_TEMPORARY = re.compile(r"\..+\.(?:pdf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
-"""What `files.replace` leaves when it is killed."""
 
 Event = Literal["kept", "retried", "done", "failed"]
 """`kept`: made by an earlier run; `retried`: its worker died, another one begins anew."""
@@ -132,7 +129,7 @@ def _run(
         api.check_ask(order.ask, (file for _, file in assigned if isinstance(file, Path)), order.language)
     out = order.out
     for folder in (out, *(out / student.folder for student, _ in assigned)):
-        _remove_temporary(folder)
+        remove_unfinished(folder)
     before = read_manifest(out)
     number = {student.id: number for number, (student, _) in enumerate(assigned)}
     entries = {key: entry for key, entry in before.items() if entry.student in number}
@@ -199,10 +196,8 @@ def _run(
                 add(entry_of(job, outcome), problems, outcome.exit_code)
     with reported(out):
         write_manifest(out, entries.values())
-    for student, _ in assigned:
-        for product in makers:
-            for path in entries[student.id, product].edited(out):
-                result.notes.append(word("batch_edited", order.language, path=path))
+    edited = (path for student, _ in assigned for name in makers for path in entries[student.id, name].edited(out))
+    result.notes += [word("batch_edited", order.language, path=path) for path in edited]
     result.failures.sort(key=lambda failure: number[failure.student])
     if gone := {entry.student for entry in before.values()} - number.keys():
         result.notes.append(counted("batch_gone", order.language, len(gone)))
@@ -274,7 +269,7 @@ def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
     """Each student with a file, and notes on files and columns that were not used."""
     if order.spec is not None:
         folder = order.out / DRAWN
-        _remove_temporary(folder)
+        remove_unfinished(folder)
         variants = make_variants(order.spec, order.roster, folder, language=order.language)
         paths = [file.path for file in variants.files]
         return list(zip(roster.students, paths, strict=True)), list(variants.remarks)
@@ -327,14 +322,6 @@ def locked(out: Path, language: Language | None) -> Iterator[None]:
         yield
 
 
-def _remove_temporary(folder: Path) -> None:
-    """Removes what a killed run was writing just then."""
-    if folder.is_dir():
-        for path in folder.iterdir():
-            if _TEMPORARY.fullmatch(path.name):
-                path.unlink(missing_ok=True)
-
-
 def _put(job: Job, outcome: Outcome, out: Path, earlier: ManifestEntry | None) -> Outcome:
     """The outcome once its files stand; if they cannot, and it is this student's matter alone, a failure.
 
@@ -355,8 +342,7 @@ def _put(job: Job, outcome: Outcome, out: Path, earlier: ManifestEntry | None) -
     except OSError as error:
         if error.errno in NO_ROOM:
             raise OutputError(f"{error.filename or ''}: {error.strerror or error}") from error
-        text = word("system", job.making.language, text=error.strerror or error)
-        return failed(f"{job.folder}: {text}")
+        return failed(f"{job.folder}: {word('system', job.making.language, text=error.strerror or error)}")
     return outcome
 
 
@@ -466,9 +452,8 @@ def journal(out: Path) -> Iterator[Callable[[ManifestEntry], None]]:
 
 def _plain(entry: ManifestEntry) -> dict[str, Any]:
     common = {**entry.made_of, "state": "failed" if entry.problems else "done"}
-    problems = {"problems": list(entry.problems)} if entry.problems else {}
-    files = {"files": dict(entry.files)} if entry.files or not entry.problems else {}
-    return common | problems | files
+    told = {"problems": list(entry.problems), "files": dict(entry.files)}
+    return common | {name: some for name, some in told.items() if some}
 
 
 def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:

@@ -25,7 +25,7 @@ from pathlib import Path
 
 from reportgen import catalogue
 from reportgen.assignment.common import Kind
-from reportgen.assignment.reading import allowed_forms, known_keys, language_of, misread
+from reportgen.assignment.reading import allowed_forms, known_keys, misread
 from reportgen.base.errors import Fault, Mark, Where
 from reportgen.base.source import (
     MappingNode,
@@ -40,7 +40,7 @@ from reportgen.base.source import (
     without,
 )
 from reportgen.base.units import NUMBER, Language, QuantityFault, read_number, read_quantity, read_unit
-from reportgen.base.words import as_error, close_or_known, kinds
+from reportgen.base.words import as_error, close_or_known, kinds, language_of
 from reportgen.classes.roster import RosterColumn, columns, records
 from reportgen.workbook import read
 

@@ -104,9 +104,8 @@ def refuse_inputs(outputs: Iterable[Path], inputs: Sequence[Path | None], lang: 
 def refuse(faults: Iterable[Fault], file: Path, lang: Language | None) -> None:
     """Raises `AssignmentError` with these faults, if there are any, in the language of a file."""
     if found := list(faults):
-        from reportgen.assignment.reading import language_of
         from reportgen.base.source import read_source
-        from reportgen.base.words import as_error
+        from reportgen.base.words import as_error, language_of
 
         raise as_error(found, lang or language_of(read_source(file)))
 
