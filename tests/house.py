@@ -261,7 +261,7 @@ LIMITS: Mapping[Callable[[House], Counted], int] = {
     circles: 0,
     modules: 155,
     longest_module: 500,
-    lines_of_code: 30000,
+    lines_of_code: 30124,
     template_files: 50,
     words_of_architecture: 1500,
     ids_by_f_string: 170,
