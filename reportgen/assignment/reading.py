@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import unicodedata
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -27,7 +26,7 @@ from reportgen.assignment.fields import RESERVED
 from reportgen.base.errors import Fault, Finding, Mark, Where
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_source
 from reportgen.base.units import Language
-from reportgen.base.words import DEFAULT_LANGUAGE, as_error, close_or_known
+from reportgen.base.words import as_error, close_or_known, language_of
 
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"
@@ -100,12 +99,6 @@ def placed(source: Source, findings: Iterable[Finding]) -> list[Fault]:
 def misread(top: MappingNode, kind: Kind) -> list[Fault]:
     """The faults that single values and keys show by themselves, without the checks of several values."""
     return [_placed(finding, top) for finding in _sections(plain(top), kind)[0]]
-
-
-def language_of(source: Source) -> Language:
-    """The language a faulty file asks for, found by its line so that faulty syntax does not matter."""
-    found = re.search(r"^[^#\n]*[\s{]language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
-    return "en" if found and found[1] == "en" else DEFAULT_LANGUAGE
 
 
 def _top(source: Source) -> tuple[MappingNode | None, list[Fault]]:

@@ -9,22 +9,28 @@ import shutil
 import stat
 import tempfile
 import time
-from collections.abc import Collection, Iterator, Mapping
+import unicodedata
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from hashlib import sha256
 from importlib import metadata
 from pathlib import Path
 
-from reportgen.base.errors import OutputError
+from reportgen.base.errors import Fault, Mark, OutputError
 
 SETS = {
+    "task": r"task\.pdf|answers\.xlsx",
     "report": r"report\.(pdf|html)",
     "key": r"key\.(pdf|xlsx|csv|json)",
     "sheet": r"sheet-\d+\.(pdf|dxf)",
     "results": r"results\.(csv|xlsx|json)",
+    "feedback": r"feedback\.(pdf|xlsx)",
+    "class": r"grades\.csv|class\.pdf|feedback\.zip",
 }
-"""The names of files that belong together, as patterns: a new set leaves nothing of the one before beside it."""
+"""The names of files that belong together, as patterns: what stands of an earlier set is replaced by the next one."""
+_UNFINISHED = re.compile(r"\..+\.(?:pdf|html|dxf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
+"""What `_beside` makes."""
 
 
 def put_files(folder: Path, files: Mapping[str, bytes], kind: str = "") -> list[Path]:
@@ -36,7 +42,7 @@ def put_files(folder: Path, files: Mapping[str, bytes], kind: str = "") -> list[
         folder.mkdir(parents=True, exist_ok=True)
         written = {folder / name: content for name, content in files.items()}
         try:
-            put_set(written, standing(folder, SETS[kind]) - written.keys() if kind else ())
+            put_set(written, standing(folder, kind) - written.keys() if kind else ())
         except OSError:
             # A folder without a file tells nobody anything.
             with suppress(OSError):
@@ -99,6 +105,14 @@ def _second_name(target: Path, until: ExitStack) -> Path:
     return name
 
 
+def remove_unfinished(folder: Path) -> None:
+    """Removes what a killed run was writing just then."""
+    if folder.is_dir():
+        for path in folder.iterdir():
+            if _UNFINISHED.fullmatch(path.name):
+                path.unlink(missing_ok=True)
+
+
 @contextmanager
 def _named(target: Path) -> Iterator[None]:
     """Makes what the system complains of speak of this file."""
@@ -107,16 +121,6 @@ def _named(target: Path) -> Iterator[None]:
     except OSError as error:
         error.filename, error.filename2 = str(target), None
         raise
-
-
-# --- what stands already ----------------------------------------------------------------------------
-
-
-def standing(folder: Path, names: str) -> set[Path]:
-    """The files of a folder whose names, in whatever case, are all of a pattern."""
-    with suppress(OSError):
-        return {path for path in folder.iterdir() if re.fullmatch(names, path.name, re.IGNORECASE)}
-    return set()
 
 
 @contextmanager
@@ -151,6 +155,32 @@ def leads_out(path: Path, folder: Path) -> bool:
         return not path.resolve().is_relative_to(folder.resolve())
     except (OSError, RuntimeError, ValueError):  # a loop of links, or no path at all
         return True
+
+
+# --- what stands already ----------------------------------------------------------------------------
+
+
+def standing(folder: Path, kind: str, below: str = "") -> set[Path]:
+    """The files of a folder, or of those `below` it, that belong to a kind of `SETS` by their names in any case."""
+    pattern = re.compile(SETS[kind], re.IGNORECASE)
+    return {path for path in folder.glob(f"{below}*") if pattern.fullmatch(path.name)}
+
+
+def overwritten(outputs: Iterable[Path], inputs: Iterable[Path]) -> Iterator[Fault]:
+    """A fault for each output that is an input, by whatever name: a link, another way, another case."""
+    known = {identity: path for path in inputs for identity in _identities(path)}
+    for output in outputs:
+        if found := [known[identity] for identity in _identities(output) if identity in known]:
+            yield Fault("is-input", Mark(str(output)), {"text": str(found[0])})
+
+
+def _identities(path: Path) -> list[str | tuple[int, int]]:
+    """What all names of one file have in common: the file itself, or the way to it in no case."""
+    way = unicodedata.normalize("NFC", os.path.realpath(path)).casefold()
+    with suppress(OSError):
+        about = path.stat()
+        return [way, (about.st_dev, about.st_ino)]
+    return [way]
 
 
 # --- temporary files beside the results -----------------------------------------------------------

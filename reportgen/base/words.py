@@ -8,6 +8,7 @@ common ones.
 from __future__ import annotations
 
 import difflib
+import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -139,6 +140,12 @@ def _over(below: Mapping[str, Any], above: Mapping[str, Any]) -> Mapping[str, An
         both_tables = isinstance(value, Mapping) and isinstance(below.get(key), Mapping)
         result[key] = _over(below[key], value) if both_tables else value
     return result | {key: value for key, value in below.items() if key not in result}
+
+
+def language_of(source: Source) -> Language:
+    """The language a faulty file asks for, found by its line so that faulty syntax does not matter."""
+    found = re.search(r"^[^#\n]*[\s{]language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
+    return "en" if found and found[1] == "en" else DEFAULT_LANGUAGE
 
 
 @cache

@@ -22,7 +22,7 @@ from reportgen.assignment.common import Assignment, Kind, file_model, none_added
 from reportgen.base.errors import AssignmentError, Fault, Finding, Problem
 from reportgen.base.source import Source, read_source
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, kinds
+from reportgen.base.words import as_error, kinds, language_of
 from reportgen.catalogue import reach
 from reportgen.machine.analysis import Machine
 
@@ -78,7 +78,7 @@ def load(path: Path | str, language: Language | None = None) -> Assignment:
     assignment, faults = assess(source, Path(path))
     faults = [*reading.name_faults(Path(path)), *faults]
     if assignment is None or faults:
-        raise as_error(faults, language or reading.language_of(source))
+        raise as_error(faults, language or language_of(source))
     return assignment.with_language(language) if language else assignment
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from reportgen import api
 from reportgen.api import Engine
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem, ReportgenError
-from reportgen.base.files import put_files, reported, scratch
+from reportgen.base.files import overwritten, put_files, reported, scratch
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem, counted, title, word
 from reportgen.cases import open_case
@@ -217,6 +217,12 @@ def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Lan
             yield from put_files(out / folder, {path.name: content for path, content in files})
 
 
+def filled_gradebook(path: Path, out: Path) -> Path:
+    """Where a platform's table goes when it is filled in: the file that was downloaded stays as it is."""
+    taken = path.name == "grades.csv" or any(overwritten([out / path.name], [path]))
+    return out / (f"filled-{path.name}" if taken else path.name)
+
+
 def put_gradebook(
     graded: Graded, path: Path, column: str, policy: Policy, out: Path, language: Language | None
 ) -> tuple[Path, list[Problem]]:
@@ -225,9 +231,7 @@ def put_gradebook(
     Raises `AssignmentError` if the table is at fault, `OutputError`.
     """
     content, faults = fill(path, graded.results(), policy.scale, column, language)
-    # The file that was downloaded stays as it is.
-    taken = path.name == "grades.csv" or (out / path.name).resolve() == path.resolve()
-    (written,) = put_files(out, {f"filled-{path.name}" if taken else path.name: content})
+    (written,) = put_files(out, {filled_gradebook(path, out).name: content})
     return written, [as_problem(fault, language) for fault in faults]
 
 

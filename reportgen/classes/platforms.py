@@ -93,6 +93,15 @@ def handed_in(paths: Sequence[Path], faults: list[Fault]) -> Iterator[Handed]:
             yield Handed(path, owner_of(path.as_posix()))
 
 
+def files_read(paths: Sequence[Path]) -> Iterator[Path]:
+    """The files that answer sheets are read from: those given, archives too, and what may be a sheet in a folder."""
+    for path in paths:
+        if path.is_dir():
+            yield from (file for file in path.rglob("*") if _is_sheet(file.as_posix()))
+        else:
+            yield path
+
+
 def owner_of(name: str) -> Owner | None:
     """Who handed in the file of this path, None if it does not come from a platform."""
     path = PurePosixPath(name)

@@ -5,10 +5,9 @@ from __future__ import annotations
 import errno
 import json
 import os
-import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from hashlib import sha256
 from pathlib import Path, PurePath
@@ -19,7 +18,7 @@ from pydantic import TypeAdapter, ValidationError
 from reportgen import api
 from reportgen.api import ASKING, MAKERS, USUAL, Engine, Maker
 from reportgen.base.errors import Fault, Mark, OutputError, Problem
-from reportgen.base.files import contents, held, put_file, put_set, reported, scratch
+from reportgen.base.files import contents, held, put_file, put_set, remove_unfinished, reported, scratch
 from reportgen.base.units import Language, write
 from reportgen.base.words import DEFAULT_LANGUAGE, as_problem, counted, word
 from reportgen.classes.pool import Job, Outcome, Pool, failed, local, making
@@ -35,8 +34,6 @@ DRAWN = "assignments"
 """The folder, among the results, of the assignment files that are drawn."""
 NO_ROOM = frozenset({errno.ENOSPC, errno.EROFS, errno.EIO, getattr(errno, "EDQUOT", errno.ENOSPC)})
 """Errors that every other student would meet, too."""
-_TEMPORARY = re.compile(r"\..+\.(?:pdf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
-"""What `files.replace` leaves when it is killed."""
 
 Event = Literal["kept", "retried", "done", "failed"]
 """`kept`: made by an earlier run; `retried`: its worker died, another one begins anew."""
@@ -132,7 +129,7 @@ def _run(
         api.check_ask(order.ask, (file for _, file in assigned if isinstance(file, Path)), order.language)
     out = order.out
     for folder in (out, *(out / student.folder for student, _ in assigned)):
-        _remove_temporary(folder)
+        remove_unfinished(folder)
     before = read_manifest(out)
     number = {student.id: number for number, (student, _) in enumerate(assigned)}
     entries = {key: entry for key, entry in before.items() if entry.student in number}
@@ -169,6 +166,10 @@ def _run(
 
         def add(entry: ManifestEntry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
             """Each entry stands in the journal before its event is shown."""
+            earlier = entries.get((entry.student, entry.product))
+            if problems and earlier is not None and earlier.folder == entry.folder:
+                # What stands of an earlier run is known further on: it may be edited.
+                entry = replace(entry, files=earlier.files)
             entries[entry.student, entry.product] = entry
             with reported(out):
                 record(entry)
@@ -195,6 +196,8 @@ def _run(
                 add(entry_of(job, outcome), problems, outcome.exit_code)
     with reported(out):
         write_manifest(out, entries.values())
+    edited = (path for student, _ in assigned for name in makers for path in entries[student.id, name].edited(out))
+    result.notes += [word("batch_edited", order.language, path=path) for path in edited]
     result.failures.sort(key=lambda failure: number[failure.student])
     if gone := {entry.student for entry in before.values()} - number.keys():
         result.notes.append(counted("batch_gone", order.language, len(gone)))
@@ -266,7 +269,7 @@ def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
     """Each student with a file, and notes on files and columns that were not used."""
     if order.spec is not None:
         folder = order.out / DRAWN
-        _remove_temporary(folder)
+        remove_unfinished(folder)
         variants = make_variants(order.spec, order.roster, folder, language=order.language)
         paths = [file.path for file in variants.files]
         return list(zip(roster.students, paths, strict=True)), list(variants.remarks)
@@ -319,30 +322,27 @@ def locked(out: Path, language: Language | None) -> Iterator[None]:
         yield
 
 
-def _remove_temporary(folder: Path) -> None:
-    """Removes what a killed run was writing just then."""
-    if folder.is_dir():
-        for path in folder.iterdir():
-            if _TEMPORARY.fullmatch(path.name):
-                path.unlink(missing_ok=True)
-
-
 def _put(job: Job, outcome: Outcome, out: Path, earlier: ManifestEntry | None) -> Outcome:
     """The outcome once its files stand; if they cannot, and it is this student's matter alone, a failure.
 
-    Files that an earlier run made of the product and this one did not, a third sheet of two, go.  Raises `OutputError`
-    where every other student would meet the same.
+    Files that an earlier run made of the product and this one did not, a third sheet of two, go; what was edited since
+    stays.  Raises `OutputError` where every other student would meet the same.
     """
+    if not outcome.files:
+        return outcome
     try:
-        if outcome.files:
-            (out / job.folder).mkdir(exist_ok=True)
-            gone = earlier.outlived(outcome.files, out) if earlier and earlier.folder == job.folder else ()
-            put_set({out / job.folder / name: content for name, content in outcome.files.items()}, tuple(gone))
+        (out / job.folder).mkdir(exist_ok=True)
+        made = {out / job.folder / name: content for name, content in outcome.files.items()}
+        if earlier is None or earlier.folder != job.folder:
+            put_set(made)
+        else:
+            # What stands as it is made now has not been edited: a run was killed before it could note it.
+            edited = {*earlier.edited(out)} & {*entry_of(job, outcome).edited(out)}
+            put_set({path: made[path] for path in made.keys() - edited}, tuple(earlier.outlived(outcome.files, out)))
     except OSError as error:
         if error.errno in NO_ROOM:
             raise OutputError(f"{error.filename or ''}: {error.strerror or error}") from error
-        text = word("system", job.making.language, text=error.strerror or error)
-        return failed(f"{job.folder}: {text}")
+        return failed(f"{job.folder}: {word('system', job.making.language, text=error.strerror or error)}")
     return outcome
 
 
@@ -373,13 +373,20 @@ class ManifestEntry:
     problems: tuple[str, ...] = ()
 
     def holds(self, job: Job, out: Path) -> bool:
-        """Whether the files are there, unaltered, and would be made of the same again."""
+        """Whether the files are there and would be made of the same again; one that was edited is there, too."""
         return (
             not self.problems
             and bool(self.files)
             and (self.folder, self.made_of) == (job.folder, made_of(job))
-            and all(_hash(out / self.folder / name) == known for name, known in self.files.items())
+            and all(_hash(out / self.folder / name) for name in self.files)
         )
+
+    def edited(self, out: Path) -> Iterator[Path]:
+        """The files that were changed since they were made, an answer sheet that is filled in."""
+        for name, known in self.files.items():
+            path = out / self.folder / name
+            if _hash(path) not in ("", known):
+                yield path
 
     def outlived(self, made: Collection[str], out: Path) -> Iterator[Path]:
         """The files that were made, are unaltered and are `made` no more; a name with a folder is none of them."""
@@ -445,7 +452,8 @@ def journal(out: Path) -> Iterator[Callable[[ManifestEntry], None]]:
 
 def _plain(entry: ManifestEntry) -> dict[str, Any]:
     common = {**entry.made_of, "state": "failed" if entry.problems else "done"}
-    return common | ({"problems": list(entry.problems)} if entry.problems else {"files": dict(entry.files)})
+    told = {"problems": list(entry.problems), "files": dict(entry.files)}
+    return common | {name: some for name, some in told.items() if some}
 
 
 def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:

@@ -25,7 +25,7 @@ from pathlib import Path
 
 from reportgen import catalogue
 from reportgen.assignment.common import Kind
-from reportgen.assignment.reading import allowed_forms, known_keys, language_of, misread
+from reportgen.assignment.reading import allowed_forms, known_keys, misread
 from reportgen.base.errors import Fault, Mark, Where
 from reportgen.base.files import leads_out
 from reportgen.base.source import (
@@ -41,7 +41,7 @@ from reportgen.base.source import (
     without,
 )
 from reportgen.base.units import NUMBER, Language, QuantityFault, read_number, read_quantity, read_unit
-from reportgen.base.words import as_error, close_or_known, kinds
+from reportgen.base.words import as_error, close_or_known, kinds, language_of
 from reportgen.classes.roster import RosterColumn, columns, records
 from reportgen.workbook import read
 
@@ -95,6 +95,12 @@ class Spec:
     @property
     def name(self) -> str:
         return self.path.stem
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """What it was read from: its own file and the table of variants."""
+        table = at(self.whole, ("variants",))
+        return (self.path, self.path.parent / table.text) if isinstance(table, Scalar) else (self.path,)
 
     @property
     def mark(self) -> Mark:

@@ -21,7 +21,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import Fault, Mark, Where
-from reportgen.base.files import contents, put_set, version
+from reportgen.base.files import contents, overwritten, put_set, version
 from reportgen.base.limits import Limits
 from reportgen.base.source import MappingNode, Node, Scalar, Source, at, path_text, put, quoted, read_source, text_of
 from reportgen.base.units import Language
@@ -126,6 +126,8 @@ def make_variants(
     spec = read_spec(spec_path, language)
     roster = read_roster(roster_path, spec.language)
     _refuse(spec.column_faults(roster.columns), spec)
+    drawn = (out / f"{student.folder}.yaml" for student in roster.students)
+    _refuse(list(overwritten((*drawn, out / TABLE), (*spec.files, roster_path))), spec)
     draw, files = Draw(spec, judge_of(spec)), list[StudentFile]()
 
     def each() -> Iterator[StudentFile]:

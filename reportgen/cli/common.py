@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import sys
-import unicodedata
-from collections.abc import Callable, Collection, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
 
-from reportgen.base.errors import AssignmentError, Fault, Mark, ReportgenError
-from reportgen.base.files import put_file
+from reportgen.base.errors import AssignmentError, Fault, ReportgenError
+from reportgen.base.files import overwritten, put_file
 from reportgen.base.units import Language
 
 AT_FAULT, SYSTEM, INTERRUPTED = 1, 3, 130
@@ -107,6 +105,21 @@ def listed(text: str, known: Collection[str], option: str, complaint: str, lang:
     return names
 
 
+def refuse_inputs(outputs: Iterable[Path], inputs: Sequence[Path | None], lang: Language | None) -> None:
+    """Raises `AssignmentError` where a command would write over one of its inputs; asked before all else."""
+    given = [path for path in inputs if path is not None]
+    refuse(overwritten(outputs, given), given[0], lang)
+
+
+def refuse(faults: Iterable[Fault], file: Path, lang: Language | None) -> None:
+    """Raises `AssignmentError` with these faults, if there are any, in the language of a file."""
+    if found := list(faults):
+        from reportgen.base.source import read_source
+        from reportgen.base.words import as_error, language_of
+
+        raise as_error(found, lang or language_of(read_source(file)))
+
+
 def write(path: Path, text: str) -> None:
     """To standard output for `-`; else to the file, which is replaced only once all is written."""
 
@@ -114,22 +127,3 @@ def write(path: Path, text: str) -> None:
         sys.stdout.write(text)
     else:
         put_file(path, text.encode())
-
-
-def spare(outputs: Iterable[Path], inputs: Iterable[Path], language: Language | None) -> None:
-    """Raises `AssignmentError` if one of the outputs is an input, by whatever name: a link, another case."""
-    from reportgen.base.words import as_error
-
-    known = {identity: path for path in inputs for identity in _identities(path)}
-    for output in outputs:
-        for identity in _identities(output) & known.keys():
-            raise as_error([Fault("is-input", Mark(str(output)), {"text": str(known[identity])})], language)
-
-
-def _identities(path: Path) -> set[str | tuple[int, int]]:
-    """What two names of one file have in common: the way to it in any case, or the file itself."""
-    found: set[str | tuple[int, int]] = {unicodedata.normalize("NFC", os.path.realpath(path)).casefold()}
-    with suppress(OSError):
-        about = path.stat()
-        found.add((about.st_dev, about.st_ino))
-    return found

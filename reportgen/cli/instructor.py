@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from reportgen.base.files import put_files, reported
+from reportgen.base.files import put_files, reported, standing
 from reportgen.cli.common import (
     AT_FAULT,
     INTERRUPTED,
@@ -20,6 +20,7 @@ from reportgen.cli.common import (
     ending,
     for_each,
     listed,
+    refuse_inputs,
     say,
 )
 
@@ -80,13 +81,15 @@ def batch(
 ) -> None:
     """Make task, report, key or drawing sheets of everybody on ROSTER; go on where an earlier run was stopped."""
     from reportgen.api import MAKERS
-    from reportgen.classes.run import Order, run_batch
+    from reportgen.classes.run import NAME, Order, run_batch
     from reportgen.marking.marks import read_policy
 
     if (spec is None) == (assignments is None):
         raise typer.BadParameter(say("one_of_spec", lang))
     products = listed(make, MAKERS, "--make", "no_product", lang)
     with ending(lang):
+        made = (path for kind in ("task", "report", "key", "sheet") for path in standing(out, kind, "*/"))
+        refuse_inputs((out / NAME, *made), [roster, spec, policy], lang)
         ask = None if policy is None else read_policy(policy, lang).ask
         order = Order(
             roster=roster,
@@ -128,6 +131,8 @@ def key(
     formats = listed(format, api.KEY_FORMATS, "--format", "no_format", lang)
 
     with ending(lang):
+        made = (path for file in files for path in standing(out / file.stem, "key"))
+        refuse_inputs(made, [*files, policy], lang)
         ask = None if policy is None else read_policy(policy, lang).ask
         api.check_ask(ask, files, lang)
 
@@ -164,17 +169,21 @@ def grade(
 ) -> None:
     """Mark filled answer sheets from each student's own values; write feedback, grades.csv and the class page."""
     from reportgen.classes import assess
+    from reportgen.classes.platforms import files_read
     from reportgen.marking.marks import Policy, read_policy
 
     with ending(lang):
+        made = (*standing(out, "feedback", "*/"), *standing(out, "class"))
+        filled = () if gradebook is None else (assess.filled_gradebook(gradebook, out),)
+        refuse_inputs((*made, *filled), [*files_read(submissions), policy, roster, gradebook], lang)
         rules = Policy() if policy is None else read_policy(policy, lang)
         graded = assess.grade(submissions, assignments, rules, lang, roster)
         problems = list(graded.problems)
         for path in assess.put(graded, rules, out, engine, lang):
             print(path, flush=True)
         if gradebook is not None:
-            filled, unknown = assess.put_gradebook(graded, gradebook, column, rules, out, lang)
-            print(filled, flush=True)
+            written, unknown = assess.put_gradebook(graded, gradebook, column, rules, out, lang)
+            print(written, flush=True)
             problems += unknown
         print(*assess.summary(graded, lang), sep="\n")
         print(*problems, sep="\n", end="\n" * bool(problems), file=sys.stderr)

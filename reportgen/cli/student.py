@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -10,7 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from reportgen.base.files import put_files, reported
+from reportgen.base.errors import Fault, Mark
+from reportgen.base.files import put_files, reported, standing
 from reportgen.cli.common import (
     AT_FAULT,
     EngineOption,
@@ -21,6 +23,8 @@ from reportgen.cli.common import (
     ending,
     for_each,
     listed,
+    refuse,
+    refuse_inputs,
     say,
     write,
 )
@@ -44,6 +48,8 @@ def build(
     formats = listed(format, api.FORMATS, "--format", "no_format", lang)
 
     def work(file: Path) -> None:
+        folder = out / file.stem
+        refuse_inputs((*standing(folder, "report"), folder / f"report{api.SUFFIX[engine]}"), files, lang)
         print(*api.build_each(file, out, engine, lang, keep_source, formats), sep="\n", flush=True)
 
     for_each(files, lang, work)
@@ -85,6 +91,7 @@ def sheet(
         path = None if block is None else known.get(block, Path(block))
         if path is not None and not path.is_file():
             raise typer.BadParameter(say("no_block", lang, name=block, known=", ".join(known)), param_hint="--block")
+        refuse_inputs(standing(out / assignment.id, "sheet"), [*files, path], lang)
         with reported(), scratch(out):
             made = api.sheet_files(
                 file,
@@ -113,6 +120,8 @@ def watch(
     from reportgen.page.watch import watch as serve
 
     with ending(lang):
+        if pdf:
+            refuse_inputs(standing(out / file.stem, "report"), [file], lang)
         serve(file, open_case, lang, _pdf_writer(file, out) if pdf else nobody, browser=not no_open)
 
 
@@ -155,6 +164,8 @@ def solve(
     formats = listed(format, api.RESULT_FORMATS, "--format", "no_format", lang) if format is not None else ()
 
     with ending(lang):
+        tables = standing(out / file.stem, "results") if formats else ()
+        refuse_inputs((*tables, *([json_file] if json_file else ())), [file], lang)
         if formats:
             files = api.result_files(file, formats, positions, lang)
             print(*put_files(out / file.stem, files), sep="\n", flush=True)
@@ -184,6 +195,7 @@ def new(
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write here.", show_default=False)
     ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Also replace a file that is there.")] = False,
     lang: LangOption = None,
 ) -> None:
     """Print a commented assignment file to fill in."""
@@ -192,6 +204,8 @@ def new(
     if kind not in kinds():
         raise typer.BadParameter(say("no_kind", lang, kind=kind, known=", ".join(kinds())))
     with ending(lang):
+        if output is not None and os.path.lexists(output) and not force:
+            refuse([Fault("already-there", Mark(str(output)))], output, lang)
         write(output or Path("-"), sample(kind, lang or "vi"))
 
 

@@ -108,7 +108,7 @@ def test_a_second_run_makes_only_what_is_missing_or_changed(tmp_path: Path) -> N
     batch.run()
     log.unlink()
     (batch.out / "K1" / "a.pdf").unlink()
-    (batch.out / "K2" / "b.xlsx").write_bytes(b"altered")
+    (batch.out / "K2" / "b.xlsx").unlink()
     (batch.given / "K3.yaml").write_text(f"log: {log}\nseconds: 0", encoding="utf-8")
     batch.run()
     assert log.read_text().splitlines() == ["K1 begun", "K2 begun", "K3 begun"]
@@ -117,6 +117,40 @@ def test_a_second_run_makes_only_what_is_missing_or_changed(tmp_path: Path) -> N
     done = batch.run()
     assert (done.made, done.kept) == (0, 5)
     assert tree(batch.out) == before
+
+
+@pytest.mark.parametrize("changed", ["seconds: 0", "seconds: 0\nnote: anew"], ids=["same", "changed"])
+def test_a_sheet_that_is_filled_in_is_kept_and_told(tmp_path: Path, changed: str) -> None:
+    batch = Batch(tmp_path, {"K1": "seconds: 0", "K2": "seconds: 0"})
+    batch.run()
+    sheet, page = batch.out / "K1" / "b.xlsx", batch.out / "K1" / "a.pdf"
+    before = page.read_bytes()
+    sheet.write_bytes(b"filled in")
+    (batch.given / "K1.yaml").write_text(changed, encoding="utf-8")
+    for _ in range(2):
+        done = batch.run()
+        assert done.notes == [
+            f"kept, since it was changed after it was made (move it away to have it made anew): {sheet}"
+        ]
+        assert sheet.read_bytes() == b"filled in"
+        assert (page.read_bytes() == before) == (changed == "seconds: 0")
+    assert (done.made, done.kept) == (0, 2)
+    sheet.rename(tmp_path / "mine.xlsx")
+    done = batch.run()
+    assert (done.made, done.kept, done.notes) == (1, 1, [])
+    assert sheet.is_file()
+
+
+def test_a_sheet_that_is_filled_in_outlasts_a_failure(tmp_path: Path) -> None:
+    batch = Batch(tmp_path, {"K1": "seconds: 0"})
+    batch.run()
+    sheet, before = batch.out / "K1" / "b.xlsx", tree(batch.out / "K1")
+    sheet.write_bytes(b"filled in")
+    for text in ("wrong: not so", "seconds: 0\nnote: mended"):
+        (batch.given / "K1.yaml").write_text(text, encoding="utf-8")
+        assert len(batch.run().notes) == 1
+        assert tree(batch.out / "K1").keys() == before.keys()
+        assert sheet.read_bytes() == b"filled in"
 
 
 def test_what_failed_is_tried_again(tmp_path: Path) -> None:
