@@ -116,7 +116,7 @@ def _corners(low: complex, high: complex) -> tuple[complex, ...]:
 
 def _letters(cell: BlockCell) -> Iterator[Label]:
     """The cell's text in the largest letters, not above its own, with which it has room."""
-    if not cell.text:
+    if not cell.text.strip():
         return
     heights = [height for height in HEIGHTS if height <= cell.letters] or [HEIGHTS[-1]]
     height, lines = next(
