@@ -1,6 +1,6 @@
 """Files spoilt at random, from a seed: what comes of them is a result or a located fault, and soon.
 
-`python -m tests.fuzz [CASES] [SEED]` tries any number of them; `tests/test_fuzz.py` a thousand.
+`python -m tests.fuzz [CASES] [SEED]` tries any number of them; `tests/test_fuzz.py` hundreds.
 """
 
 from __future__ import annotations
@@ -22,13 +22,18 @@ import numpy as np
 
 from reportgen import api
 from reportgen.base.errors import ReportgenError
+from reportgen.base.words import load_words, search_path, sections, templates
 from reportgen.cases import MachineCase, open_case
 from reportgen.classes.draw import Draw, judge_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.spec import read_spec
 from reportgen.marking.marks import read_policy
 from reportgen.marking.sheet import answer_book, read_submission
-from reportgen.report.case import Key
+from reportgen.report.case import Calculation, Key
+from reportgen.report.outline import names
+from reportgen.report.prose import Prose
+from reportgen.report.report import Report
+from reportgen.sheets.frame import FIELDS, blocks, read_block
 from reportgen.workbook import write_csv, write_xlsx
 
 ASSIGNMENTS = sorted(Path("assignments").glob("*.yaml"))
@@ -66,6 +71,31 @@ HOSTILE = (
     ";",
     "\n",
 )
+EXECUTED = "executed"
+"""The file that a text would write if it were run."""
+REACHING = (
+    "{{ cycler.__init__.__globals__.os.mkdir('EXECUTED') }}",
+    "{{ ''.__class__.__mro__[1].__subclasses__() }}",
+    "{{ machine.cycle_angles.tofile('EXECUTED') }}",
+    "{{ figure.args[0].prose.places[0].rename('EXECUTED') }}",
+    "{{ words.update(a=1) }}",
+    "{{ 'a{0.__class__}'.format(count) }}",
+    "{% include '../report' %}",
+    "{% for i in range(10 ** 9) %}x{% endfor %}",
+    "{{ count / 0 }}",
+    "{{ symbol('nowhere') }}",
+    "{% if count %}",
+    "{% endif %}",
+    "{{ foreword }}",
+    "%% words\nvariant: '{variant.__class__}'\n",
+    "%% words\nunits: 5\n",
+    "%% ",
+    "$x$",
+    "@fig.nowhere",
+    "| a | b |\n",
+)
+"""What a template may hold; each of them is a fault, or nothing."""
+TABLES = ("../roster.csv", "/etc/passwd", "../../../../../etc/passwd", "roster.csv", ".", "nowhere.csv", "~/roster.csv")
 SWITCHES = (
     ("direction: anticlockwise", "direction: clockwise"),
     ("branch: open", "branch: crossed"),
@@ -185,7 +215,8 @@ def _roster(number: int, chance: random.Random, folder: Path) -> None:
 
 def _spec(number: int, chance: random.Random, folder: Path) -> None:
     file = folder / "spec.yaml"
-    _put(file, spoilt(_text(DEMO / "spec.yaml"), chance))
+    text = _text(DEMO / "spec.yaml") + (f"\nvariants: {chance.choice(TABLES)}\n" if number % 4 == 0 else "")
+    _put(file, spoilt(text, chance))
     spec = read_spec(file)
     list(Draw(spec, judge_of(spec)).each(read_roster(DEMO / "roster.csv")))
 
@@ -194,6 +225,36 @@ def _policy(number: int, chance: random.Random, folder: Path) -> None:
     file = folder / "policy.yaml"
     _put(file, spoilt(_text(DEMO / "policy.yaml"), chance))
     read_policy(file)
+
+
+def _block(number: int, chance: random.Random, folder: Path) -> None:
+    file = folder / "block.yaml"
+    _put(file, spoilt(_text(chance.choice(list(blocks().values()))), chance))
+    read_block(file).scene({name: chance.choice((*HOSTILE, "Nguyễn Văn An")) for name in FIELDS})
+
+
+def _template(number: int, chance: random.Random, folder: Path) -> None:
+    """A section of a school, with what reaches for more than it may have; in this process, for it is bounded anyway."""
+    report = _report()
+    language, kind = report.assignment.language, report.assignment.kind
+    file = folder / f"{language}.md"
+    text = _text(templates() / language / "report.md")
+    whole = chance.choice([part for part in text.split("\n%% ")[1:] if part.split("\n")[0] in ("foreword", "given")])
+    at = chance.randrange(len(whole))
+    reaching = chance.choice((*REACHING, "", "")).replace("EXECUTED", str(folder / EXECUTED))
+    _put(file, spoilt(f"%% {whole[:at]}{reaching}{whole[at:]}\n", chance))
+    places = (file, *search_path(language, kind))
+    load_words(places)
+    prose = Prose(places)
+    for name in sections(file).keys() - {"words"}:
+        prose.render(name, names(report))
+
+
+@cache
+def _report() -> Report:
+    case = open_case(Path("assignments/slotted-lever-01.yaml"), "en")
+    assert isinstance(case, Calculation)
+    return Report(case)
 
 
 def _sheet(number: int, chance: random.Random, folder: Path) -> None:
@@ -235,8 +296,14 @@ KINDS: dict[str, Callable[[int, random.Random, Path], None]] = {
     "spec": _spec,
     "policy": _policy,
     "sheet": _sheet,
+    "block": _block,
+    "template": _template,
 }
-SHARES = (70, 10, 3, 7, 10)
+WRITTEN = frozenset(
+    {"a.yaml", "roster.csv", "spec.yaml", "policy.yaml", "sheet.csv", "sheet.xlsx", "block.yaml", "en.md"}
+)
+"""The files that are tried; a text that was run would make another."""
+SHARES = (50, 10, 3, 7, 10, 8, 12)
 """How many of a hundred files are of each kind."""
 
 
@@ -254,6 +321,8 @@ def attempt(number: int, seed: int, folder: Path) -> Outcome:
             wrong = f"exit code {fault.exit_code}: {fault}"
     except Exception:
         came_to, wrong = "crash", traceback.format_exc(limit=-5)
+    if strangers := {path.name for path in folder.iterdir()} - WRITTEN:
+        wrong = f"{wrong} it made {', '.join(sorted(strangers))}"
     return Outcome(number, kind, came_to, time.process_time() - start, wrong)
 
 

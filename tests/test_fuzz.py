@@ -1,4 +1,4 @@
-"""A thousand spoilt assignments, rosters, specs, sheets and policies: results or located faults."""
+"""Hundreds of spoilt files of each kind, title blocks and templates among them: results or located faults."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ from string import Formatter
 from typing import Any
 
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem, TemplateError
-from reportgen.base.source import MappingNode, Source, plain, read_own, read_words
+from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, read_words
 from reportgen.base.units import Language
 
 DEFAULT_LANGUAGE: Language = "vi"
@@ -98,7 +98,7 @@ def _words_in(place: Path) -> Mapping[str, Any] | None:
     """The words of a file of sections or of a folder."""
     if place.suffix == ".md":
         section = sections(place).get(SECTION)
-        return None if section is None else _as_written(section)
+        return None if section is None else _as_written(section, place)
     return _read(place / FILE) if (place / FILE).is_file() else None
 
 
@@ -114,9 +114,36 @@ def _as_of(path: Path, changed: int, size: int) -> Mapping[str, Any]:
 
 
 @lru_cache(maxsize=FILES)
-def _as_written(section: Passage) -> Mapping[str, Any]:
-    """The words that a section holds."""
-    return _table(read_own(section.text, str(section.file)), section.line)
+def _as_written(section: Passage, place: Path) -> Mapping[str, Any]:
+    """The words that a section holds.  Raises `TemplateError` for a gap that is filled with more than a value."""
+    source = read_own(section.text, str(section.file))
+    for scalar in _scalars(source.top):
+        if not _plain_gaps(scalar.text):
+            mark = _below(scalar.mark, section.line)
+            raise TemplateError(f"{mark}: {word('template_unsafe', 'en' if place.stem == 'en' else DEFAULT_LANGUAGE)}")
+    return _table(source, section.line)
+
+
+def _scalars(node: Node | None) -> Iterator[Scalar]:
+    """All texts of a table."""
+    match node:
+        case Scalar():
+            yield node
+        case SequenceNode(items):
+            for item in items:
+                yield from _scalars(item)
+        case MappingNode(entries):
+            for _, value in entries:
+                yield from _scalars(value)
+
+
+def _plain_gaps(text: str) -> bool:
+    """Whether the gaps in braces name values: a hidden member or an item of one, or a width, would be more."""
+    try:
+        gaps = [(name, how) for _, name, how, _ in Formatter().parse(text) if name]
+    except ValueError:
+        return False
+    return not any(re.search(r"\[|(^|\.)_", name) or re.search(r"[{\d]", how or "") for name, how in gaps)
 
 
 def _table(source: Source, above: int = 0) -> Mapping[str, Any]:

@@ -130,7 +130,7 @@ class _Compiled(BytecodeCache):
         return f"{self.environment}-{Path(__file__).stat().st_mtime_ns:x}-{bucket.key}"
 
 
-_compiled = {Environment: _Compiled("template")}
+_compiled, _bounded = _Compiled("template"), _Compiled("bounded")
 
 
 class _Sections(BaseLoader):
@@ -168,9 +168,6 @@ class _Sandbox(ImmutableSandboxedEnvironment):
         return known and super().is_safe_callable(obj)
 
 
-_compiled[_Sandbox] = _Compiled("bounded")
-
-
 def _package(of: object) -> str:
     return str(getattr(of, "__module__", "")).partition(".")[0]
 
@@ -179,10 +176,10 @@ def _package(of: object) -> str:
 def _environment(places: tuple[Path, ...]) -> Environment:
     """The environment of some places with its compiled sections; a section that was changed is read again."""
     # What a school wrote may reach for anything, by way of the common sections, too.
-    environment = _Sandbox if any(of_school(places)) else Environment
+    environment, cache = (_Sandbox, _bounded) if of_school(places) else (Environment, _compiled)
     result = environment(
         loader=_Sections(places),
-        bytecode_cache=_compiled[environment],
+        bytecode_cache=cache,
         extensions=[_Provenance],
         undefined=StrictUndefined,
         finalize=_finalize,

@@ -140,3 +140,14 @@ def test_a_link_out_of_the_folder_of_a_school_is_refused(
     line = file.read_text(encoding="utf-8").splitlines().index("  school: ours") + 1
     assert (problem.code, problem.mark.line, problem.mark.column) == ("path-outside", line, 11)
     assert told in str(problem)
+
+
+GAPS = ("{g.__init__.__globals__}", "{k.__class__}", "{words[cover]}", "{k:>99999999}", "{k:{g}}", "{_k}", "{")
+
+
+@pytest.mark.parametrize("language", ["en", "vi"])
+@pytest.mark.parametrize("gap", GAPS)
+def test_a_gap_of_a_schools_words_names_a_value(school: School, gap: str, language: Language) -> None:
+    file = school(f'A note.\n\n%% words\ncaptions:\n  scheme: "Ours {gap}"\n', language)
+    with pytest.raises(TemplateError, match=rf"ours/{language}\.md:5:11: .*{UNSAFE[language]}"):
+        api.document(api.load(file))
