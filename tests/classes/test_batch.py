@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.api import Engine
+from reportgen.base import files
 from reportgen.base.errors import AssignmentError, OutputError
 from reportgen.base.units import Language
 from reportgen.classes.run import Order, locked, run_batch, watching
@@ -54,14 +55,14 @@ def test_a_failure_is_a_result(tmp_path: Path) -> None:
 
 def test_a_file_that_cannot_be_read_costs_one_student(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     batch = Batch(tmp_path, {"K1": "seconds: 0", "K2": "seconds: 0"})
-    read = Path.read_bytes
+    read = files.contents
 
-    def guarded(path: Path) -> bytes:
+    def guarded(path: Path, most: int = -1) -> bytes:
         if path.name == "K1.yaml":
             raise PermissionError(errno.EACCES, "no", str(path))
-        return read(path)
+        return read(path, most)
 
-    monkeypatch.setattr(Path, "read_bytes", guarded)
+    monkeypatch.setattr("reportgen.classes.run.contents", guarded)
     done = batch.run()
     assert batch.students("done") == ["K2"]
     ((problem,),) = [failure.problems for failure in done.failures]

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import closing
 from dataclasses import replace
 from functools import partial
@@ -19,7 +19,7 @@ from typing import Any
 import pytest
 
 from reportgen.api import Engine, Maker
-from reportgen.base.files import put_file
+from reportgen.base.files import put_file, put_set
 from reportgen.base.units import Language
 from reportgen.classes import pool as pools
 from reportgen.classes.pool import Job, local, making, run_job
@@ -158,10 +158,17 @@ class Process:
         return self.process.wait(seconds)
 
 
-def putting(monkeypatch: pytest.MonkeyPatch, put: Callable[[Path, bytes], None]) -> None:
-    """Let a batch put its files and its manifest in place so."""
-    monkeypatch.setattr("reportgen.classes.run.put_file", put)
-    monkeypatch.setattr("reportgen.classes.run.put_file", put)
+Put = Callable[[Mapping[Path, bytes], Collection[Path]], None]
+
+
+def putting(monkeypatch: pytest.MonkeyPatch, put: Put) -> None:
+    """Let a batch put its sets of files and its manifest in place so."""
+
+    def puts(files: Mapping[Path, bytes], gone: Collection[Path] = ()) -> None:
+        put(files, gone)
+
+    monkeypatch.setattr("reportgen.classes.run.put_set", puts)
+    monkeypatch.setattr("reportgen.classes.run.put_file", lambda target, content: put({target: content}, ()))
 
 
 class Killed(BaseException):
@@ -170,21 +177,23 @@ class Killed(BaseException):
 
 @pytest.mark.parametrize("placed", [False, True], ids=["half a file", "a whole file"])
 def test_an_end_at_any_file_is_made_good(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, placed: bool) -> None:
-    """Three students with two files each and two manifests: the run ends at each of them in turn."""
+    """Three students with a set of files each and two manifests: the run ends at each of them in turn."""
     students = {f"K{k}": "seconds: 0" for k in range(3)}
     straight = Batch(tmp_path, students, "straight")
     straight.run()
-    put = put_file
     ends = 0
     for end in range(100):
         puts = iter(range(100))
 
-        def ending(target: Path, content: bytes, end: int = end, puts: Iterator[int] = puts) -> None:
+        def ending(
+            files: Mapping[Path, bytes], gone: Collection[Path], end: int = end, puts: Iterator[int] = puts
+        ) -> None:
             last = next(puts) == end
             if last and not placed:
-                target.with_name(f".{target.name}.a1b2c3d4").write_bytes(content[:5])
+                for target, content in files.items():
+                    target.with_name(f".{target.name}.a1b2c3d4").write_bytes(content[:5])
                 raise Killed
-            put(target, content)
+            put_set(files, gone)
             if last:
                 raise Killed
 
@@ -197,11 +206,11 @@ def test_an_end_at_any_file_is_made_good(tmp_path: Path, monkeypatch: pytest.Mon
         else:
             break
         done = batch.students("done")
-        putting(monkeypatch, put)
+        putting(monkeypatch, put_set)
         batch.run()
         assert set(done) <= set(batch.students("kept"))
         assert tree(batch.out) == tree(straight.out)
-    assert ends == 3 * 2 + 2
+    assert ends == 3 + 2
 
 
 @proof
