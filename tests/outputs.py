@@ -22,10 +22,11 @@ import shutil
 import struct
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from itertools import zip_longest
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).parents[1]
 FILES = [*sorted((ROOT / "assignments").glob("*.yaml")), *sorted((ROOT / "assignments/plane-motion").glob("*.yaml"))]
@@ -193,12 +194,12 @@ def marks(out: Path, file: Path, language: str, place: Path) -> None:
     take(marked, out)
 
 
-def fill(empty: Path, key: dict[str, object], filled: Path) -> None:
+def fill(empty: Path, key: Mapping[str, Any], filled: Path) -> None:
     """Write the key's values into an empty answer sheet."""
     import openpyxl
 
-    rows = {row["id"]: row["values"] for row in key["rows"]}  # type: ignore[attr-defined,index,union-attr]
-    labels = [str(label) for label in key["positions"]]  # type: ignore[attr-defined]
+    rows = {row["id"]: row["values"] for row in key["rows"]}
+    labels = [str(label) for label in key["positions"]]
     book = openpyxl.load_workbook(empty)
     count = 0
     for page in book:
