@@ -2,7 +2,7 @@
 
 One small algebra serves three readers.  The *ledger* defines every quantity by an expression over
 other quantities (`Ref`); the *document* shows it with symbols, then with the printed numbers; a
-*checker* evaluates either (`notation.evaluation`).  Passes are plain functions over the frozen nodes, so a
+*checker* evaluates either (`formula.evaluation`).  Passes are plain functions over the frozen nodes, so a
 new writer needs no new node and a new node needs no new writer method.
 
     v = ω1 * R * sin(φ + β) / cos(β)

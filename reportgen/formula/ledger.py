@@ -1,6 +1,6 @@
 """Named numbers and their definitions, and the ledger evaluated again from other values.
 
-The families of the finished sheet (`notation.sheet`) with their decimals.  A `PrintedQuantity` is a family at one
+The families of the finished sheet (`formula.sheet`) with their decimals.  A `PrintedQuantity` is a family at one
 position.  Definitions are expressions over other families, so the ledger evaluates itself
 (`Ledger.evaluate`), tells what depends on what (`refs`), and prints its own worked lines (`Ledger.chain`).
 

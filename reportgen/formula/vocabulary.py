@@ -4,7 +4,7 @@ A row for each family of `ids`, which reads the id.  A quantity asks here for it
 marking for the scale of a length on paper and for the distance of two values, the words for what they call it.
 
 A *kind* fixes the printed unit, what one such unit is in SI, and the preferred number of significant
-figures; `ledger.decimals` then raises or lowers decimals so that printed lines recompute.
+figures; `plans.decimals` then raises or lowers decimals so that printed lines recompute.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 All texts are plain strings exactly as they shall appear; writers escape.  Lengths are millimetres.
 `key` names a block for references and is unique in the document; `number` is filled in by
-`document.numbering` and printed by the writers as it stands, so all writers number alike.
+`report.numbering` and printed by the writers as it stands, so all writers number alike.
 
 Its plain text, in order, is what snapshots compare and what a text-only reader sees: symbols are written
 base_sub^sup, numbers as printed in the document's language, drawings by their captions.
