@@ -2,7 +2,7 @@
 
 Angles are the driver's turn in the direction of rotation; a course counts them from its `top`, the dead centre
 where crank and rod are stretched in one line.  A table of one turn is laid out twice, as a cycle of two: so gas in
-four strokes and a working force of two share one reader (`gas.indicator`), whose values are then newtons instead
+four strokes and a working force of two share one reader (`machine.gas`), whose values are then newtons instead
 of pascals.
 """
 
