@@ -157,6 +157,7 @@ def test_the_table_is_aligned() -> None:
     assert len({line.index(end) + len(end) for line, end in zip(lines, ("result", "1.20", "12.00"), strict=True)}) == 1
 
 
+@proof
 def test_a_class_is_made_and_its_workers_memory_taken(tmp_path: Path) -> None:
     group = batch.Class(tmp_path, students=2)
     group.draw()

@@ -10,9 +10,10 @@ from reportgen.base.source import LARGEST, MOST_FAULTS
 from reportgen.catalogue import check
 from tests.broken.endless import ENDLESS, endless
 from tests.broken.rows import base
+from tests.lanes import matrix
 
 
-@pytest.mark.parametrize("name", ENDLESS)
+@pytest.mark.parametrize("name", matrix(ENDLESS, [*ENDLESS][::3]))
 def test_any_file_is_judged_and_few_faults_are_told(tmp_path: Path, name: str) -> None:
     file = tmp_path / "a.yaml"
     file.write_text(endless(name, LARGEST), encoding="utf-8")

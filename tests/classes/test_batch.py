@@ -20,6 +20,7 @@ from reportgen.base.units import Language
 from reportgen.classes.run import Order, locked, run_batch, watching
 from tests.classes.classes import Batch, here, tree, write_class
 from tests.classes.little import little
+from tests.lanes import proof
 
 ROOT = Path(__file__).parents[2]
 
@@ -193,6 +194,7 @@ def test_students_who_left_keep_their_folder(tmp_path: Path) -> None:
     assert "K2" not in done.manifest.read_text(encoding="utf-8")
 
 
+@proof
 def test_what_met_many_is_said_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The typesetter is missing: one line, however large the class."""
     monkeypatch.setenv("PATH", str(tmp_path))

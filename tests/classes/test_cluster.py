@@ -57,6 +57,7 @@ def test_a_job_that_kills_every_worker_fails_alone(scheduler: Any, tmp_path: Pat
     assert done.exit_code == 3
 
 
+@proof
 def test_papers_of_the_cluster_are_those_made_here(scheduler: Any, tmp_path: Path) -> None:
     text = (ROOT / "assignments" / "slotted-lever-01.yaml").read_text(encoding="utf-8")
     roster, given = write_class(tmp_path, {"K1": text})

@@ -23,6 +23,7 @@ from reportgen.classes.roster import read_roster
 from reportgen.classes.variants import make_variants
 from reportgen.marking.marks import Policy, Scale
 from reportgen.workbook.reading import LARGEST
+from tests.lanes import matrix
 from tests.marking import demo
 
 AN, ANH, BAO = "K225520103001", "K225520103004", "K225520103007"
@@ -98,7 +99,7 @@ def test_names_are_compared_without_order_case_and_accents() -> None:
 # --- a class from a download ------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("packed", [True, False])
+@pytest.mark.parametrize("packed", matrix([True, False], [True]))
 def test_moodles_download_is_marked_and_given_back_under_its_names(
     packed: bool, assignments: Path, tmp_path: Path
 ) -> None:

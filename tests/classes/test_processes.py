@@ -42,6 +42,7 @@ def test_a_dead_worker_costs_only_its_own_job(tmp_path: Path) -> None:
     assert done.exit_code == 3
 
 
+@proof
 def test_a_job_that_hangs_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pools, "LIMIT", 1.5)
     batch = Batch(tmp_path, {"K1": "seconds: 600", "K2": "seconds: 0", "K3": "seconds: 0"})
@@ -242,6 +243,7 @@ def test_killed_again_and_again_nothing_is_lost(tmp_path: Path) -> None:
     assert tree(out) == tree(tmp_path / "straight")
 
 
+@proof
 def test_ctrl_c_ends_all_processes_and_keeps_what_is_done(tmp_path: Path) -> None:
     text = (ROOT / "assignments" / "slotted-lever-01.yaml").read_text(encoding="utf-8")
     roster, given = write_class(tmp_path, {f"K{k}": text for k in range(9)})

@@ -12,6 +12,7 @@ from reportgen.base.limits import Limits
 from reportgen.classes import platforms as sheets
 from reportgen.classes.platforms import Handed
 from reportgen.cli import app
+from tests.lanes import proof
 from tests.marking import demo
 
 GREEDY = '"x",' * 19 + '"x"\n'
@@ -28,6 +29,7 @@ def handed(tmp_path: Path) -> list[Path]:
     return [Path(files[0]), greedy, Path(files[1])]
 
 
+@proof
 @pytest.mark.parametrize(
     "limits", [Limits(seconds=0.4, megabytes=1000), Limits(seconds=60, megabytes=24)], ids=["time", "memory"]
 )
@@ -42,6 +44,7 @@ def test_a_greedy_sheet_is_given_up(handed: list[Path], limits: Limits, monkeypa
     assert isinstance(last, tuple)
 
 
+@proof
 def test_the_rest_of_a_class_is_marked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The file's name and the limits are told, the exit code is that of a file that cannot be read."""
     given, variants, out = tmp_path / "given", tmp_path / "variants", tmp_path / "out"

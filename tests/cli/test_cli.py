@@ -16,7 +16,7 @@ import typer
 from reportgen.base.units import Language
 from reportgen.base.words import kinds
 from reportgen.cli.common import ending
-from tests.lanes import proof
+from tests.lanes import matrix, proof
 
 ROOT = Path(__file__).parents[2]
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
@@ -86,7 +86,7 @@ sys.argv[0] = "reportgen"
 IN_WORDS = {"vi": "đã dừng theo yêu cầu; không có tệp nào bị ghi dở", "en": "interrupted; nothing half-written is left"}
 
 
-@pytest.mark.parametrize("language", IN_WORDS)
+@pytest.mark.parametrize("language", matrix(IN_WORDS, ["vi"]))
 @pytest.mark.parametrize(
     "module", ["reportgen.cli.common", "typer", "reportgen.cli.student", "reportgen.api", "numpy", "jinja2", "typst"]
 )
@@ -232,6 +232,7 @@ def test_solve_as_tables() -> None:
     assert "R14" in done.stdout
 
 
+@proof
 def test_build_goes_on_after_a_faulty_file(faulty: Path, tmp_path: Path) -> None:
     done = reportgen("build", faulty, SAMPLE, "--out", tmp_path / "out")
     report = tmp_path / "out" / "engine-twin-05" / "report.pdf"
@@ -270,6 +271,7 @@ def test_too_little_memory_says_so(language: Language, capsys: pytest.CaptureFix
     assert capsys.readouterr().err == f"reportgen: {TOO_LITTLE[language]}\n"
 
 
+@proof
 def test_a_typesetter_that_memory_has_no_room_for_is_installed(tmp_path: Path) -> None:
     """As where its library cannot be mapped as a whole."""
     (tmp_path / "typst.py").write_text("raise ImportError('_typst.so: failed to map segment')\n", encoding="utf-8")

@@ -73,6 +73,7 @@ def test_expressions_come_to_the_numbers(tmp_path: Path, a: int, b: int) -> None
         assert all(board[asked.id] is not None for asked in case.exercise.asked)
 
 
+@proof
 @pytest.mark.parametrize("language", ["vi", "en"])
 def test_what_would_fill_lines_is_not_written_by_symbols(tmp_path: Path, language: Language) -> None:
     """At any other angles the speeds have hundreds of operations: the formula of the line and the number stay."""

@@ -10,6 +10,7 @@ import pytest
 from reportgen.cases import open_case
 from reportgen.formula import ids, vocabulary
 from reportgen.formula.ids import Name
+from tests.lanes import proof
 
 FILES = sorted(path for folder in ("", "plane-motion") for path in (Path("assignments") / folder).glob("*.yaml"))
 FAMILIES = list(dict.fromkeys(name for name in vars(ids).values() if isinstance(name, Name)))
@@ -32,6 +33,7 @@ def readers(id: str) -> list[Name]:
     return [name for name in FAMILIES if name.read(id) is not None]
 
 
+@proof
 def test_every_id_is_made_again_from_what_is_read_of_it() -> None:
     for id in every_id():
         for name in readers(id):
@@ -41,6 +43,7 @@ def test_every_id_is_made_again_from_what_is_read_of_it() -> None:
             assert name(*(word for word in words.values() if word)) == id
 
 
+@proof
 def test_every_id_is_that_of_a_family_or_one_of_its_kind() -> None:
     alone = {id for id in every_id() if not readers(id)}
     assert {id for id in alone if len(id) > 1} <= ONES_OF_THEIR_KIND

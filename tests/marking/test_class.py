@@ -18,6 +18,7 @@ from reportgen.marking.marking import compare
 from reportgen.marking.marks import Policy, read_policy
 from reportgen.marking.mistakes import WRONG_DATUM
 from reportgen.workbook import read, write_csv
+from tests.lanes import proof
 from tests.marking import demo
 from tests.marking.keys import csv_rows
 
@@ -93,6 +94,7 @@ def test_nobody_displaces_a_sheet_by_claiming_its_name(few: Path, tmp_path: Path
     assert all("K225520103004.csv" in problem.message for problem in result.problems)
 
 
+@proof
 @pytest.mark.parametrize("place", ["K225520103007.csv", "k225520103007.CSV", "K225520103007/answers.csv"])
 def test_a_sheet_named_after_a_classmate_is_told(few: Path, tmp_path: Path, place: str) -> None:
     """It is marked as what it says inside, but not without a word; a name that is nobody's needs none."""
@@ -108,6 +110,7 @@ def test_a_sheet_named_after_a_classmate_is_told(few: Path, tmp_path: Path, plac
     assert assess.grade([tmp_path / "homework.csv"], few, Policy()).problems == ()
 
 
+@proof
 def test_one_sheet_never_stops_the_others(assignments: Path, tmp_path: Path) -> None:
     folder = tmp_path / "sheets"
     shutil.copytree(demo.SHEETS, folder)
@@ -149,6 +152,7 @@ def test_files_of_a_student_hold_nothing_of_others(graded: Graded, tmp_path: Pat
         assert not [other for other in people if other != id and (other in texts or people[other] in texts)]
 
 
+@proof
 def test_marking_again_gives_the_same_bytes(graded: Graded, assignments: Path) -> None:
     once = dict(assess.files_of(graded, Policy(), "typst", None))
     again = dict(assess.files_of(assess.grade([demo.SHEETS], assignments, WHOLE), Policy(), "typst", None))

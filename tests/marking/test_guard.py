@@ -16,7 +16,7 @@ from reportgen.marking.guard import Classmate
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import FLAGS_ONLY, TAKES, MarkingScheme, Policy, Submission, Verdict
 from reportgen.marking.mistakes import Mistake
-from tests.lanes import matrix
+from tests.lanes import matrix, proof
 from tests.marking import hands, students
 
 WORKED = (4, 12)
@@ -98,6 +98,7 @@ def test_two_data_are_enough_where_the_sheet_is_a_classmates(mine: MarkingScheme
     assert mark(mine, once, [Classmate(theirs.key)]).flags == ()
 
 
+@proof
 @pytest.mark.parametrize("step", matrix([0.1, 0.5], [0.5]))
 def test_lengths_read_to_the_same_step_are_no_copies(room: Room, step: float) -> None:
     """A force of 0.2 mm is so on every sheet, and lengths read to half a millimetre often are."""
@@ -153,6 +154,7 @@ def test_random_numbers_earn_next_to_nothing(mine: MarkingScheme) -> None:
 # --- a class --------------------------------------------------------------------------------------
 
 
+@proof
 def test_nobody_who_worked_is_flagged(room: Room) -> None:
     """Every member with no mistake and with each of some, beside all the others' sheets: nothing is told."""
     rng = np.random.default_rng(3)

@@ -14,6 +14,8 @@ from tests.page import made
 from tests.page.browser import Browser, axe
 from tests.report import built
 
+pytestmark = proof
+
 EXERCISE = built.ROOT / "assignments" / "plane-motion" / "05.yaml"
 PHONE, DESK = 390, 1440
 
@@ -26,7 +28,6 @@ def exercise(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return target
 
 
-@proof
 @pytest.mark.parametrize(
     ("file", "width", "dark"),
     [pytest.param(built.SAMPLE, DESK, False, id="light"), pytest.param(built.SLIDE, PHONE, True, id="dark")],

@@ -16,6 +16,7 @@ from reportgen import api
 from reportgen.cases import MachineCase, opened
 from reportgen.page import moving_part, page
 from reportgen.workbook import read
+from tests.lanes import proof
 from tests.page.made import made
 from tests.page.text import elements
 from tests.report import built
@@ -93,6 +94,7 @@ def test_a_faulty_file_leaves_the_last_page(tmp_path: Path) -> None:
     assert (tmp_path / "one" / "report.html").read_bytes() == before
 
 
+@proof
 def test_tables_of_a_full_turn_say_what_the_json_says(tmp_path: Path) -> None:
     done = command("solve", built.SAMPLE, "--format", "csv,xlsx,json", "--out", tmp_path)
     assert done.returncode == 0, done.stderr

@@ -11,8 +11,11 @@ import pytest
 
 from reportgen.drawing.plan import INVISIBLE
 from reportgen.report.plans import force_plan, motion_plan
+from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.page.made import MM, Made
+
+pytestmark = proof
 
 ANGLES = 20
 SEEN = 0.03

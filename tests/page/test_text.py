@@ -10,7 +10,7 @@ import pytest
 
 from reportgen.base.units import Language
 from reportgen.page import html
-from tests.lanes import matrix
+from tests.lanes import matrix, proof
 from tests.page.text import Text
 from tests.report import built, pages
 from tests.report.test_report_agreement import EXEMPT, compared, prose
@@ -31,6 +31,7 @@ def both(request: pytest.FixtureRequest) -> tuple[built.Report, str]:
     return report, Text(html.report(report.document).body).text
 
 
+@proof
 def test_every_character_is_on_both(both: tuple[built.Report, str]) -> None:
     report, page = both
     printed = pages.squash("".join(EXEMPT.get(char, char) for char in pages.text(compared(report))))

@@ -120,6 +120,7 @@ def test_a_name_of_no_file_is_told_at_once(tmp_path: Path) -> None:
     assert "mistyped.yaml:1:1: " in result.stderr
 
 
+@proof
 def test_the_pdf_is_renewed_too(file: Path, tmp_path: Path) -> None:
     with watching(file, "--pdf", "--out", str(tmp_path / "out")) as (_, process):
         target = tmp_path / "out" / "given" / "report.pdf"

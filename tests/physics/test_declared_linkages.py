@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from reportgen import api
 from reportgen.machine.analysis import Analysis
+from tests.lanes import proof
 
 EIGHT = Path(__file__).parents[2] / "assignments" / "linkage-8.yaml"
 quick = settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
@@ -66,6 +67,7 @@ def test_v_engine(
     prove(api.analyse(api.load(path)))
 
 
+@proof
 @quick
 @given(length=whole(40, 55), rpm=whole(10, 1000), direction=st.sampled_from(("anticlockwise", "clockwise")))
 def test_eight_links(tmp_path_factory: pytest.TempPathFactory, length: int, rpm: int, direction: str) -> None:

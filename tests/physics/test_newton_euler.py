@@ -18,7 +18,7 @@ from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque
 from reportgen.machine.forces import weights as forces_of_weight
 from reportgen.machine.motion import Motion, solve_motion
-from tests.lanes import matrix
+from tests.lanes import matrix, proof
 
 CONDITION = 1e3
 """Greatest condition number of the constraint Jacobian (lengths near 1 m): beyond it a position counts as
@@ -86,6 +86,7 @@ def test_every_kind(kind: made.DyadKind, sliding: bool, data: st.DataObject) -> 
     prove(linkage, data.draw(made.RATE), data.draw(made.applied(linkage)))
 
 
+@proof
 @settings(quick, max_examples=100)
 @given(data=st.data())
 def test_chains_of_three_groups(data: st.DataObject) -> None:

@@ -161,6 +161,7 @@ COLD = matrix(
 """The sample by both writers, and a machine of the user's own: a new process takes seconds."""
 
 
+@proof
 @pytest.mark.parametrize(("path", "engine"), COLD)
 def test_a_new_process_gives_the_same_bytes_and_a_source_that_compiles(
     path: Path, engine: api.Engine, tmp_path: Path

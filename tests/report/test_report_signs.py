@@ -18,6 +18,7 @@ from reportgen.formula.vocabulary import vector
 from reportgen.machine import SlidingDriver
 from reportgen.report import Block, Equation, InlineMath, Paragraph, force_figures, plain, result_tables
 from reportgen.report.report import Report
+from tests.lanes import matrix
 from tests.report import built
 from tests.report.built import Written
 from tests.report.test_rare_groups import SLOTTED, TRANSLATED
@@ -29,7 +30,11 @@ FURTHER = 4
 """Positions looked at beside the worked ones."""
 
 
-@pytest.fixture(scope="module", params=[*built.FILES, *RARE], ids=lambda one: getattr(one, "stem", one))
+@pytest.fixture(
+    scope="module",
+    params=matrix([*built.FILES, *RARE], [*built.TELLING, built.SLIDE, *RARE]),
+    ids=lambda one: getattr(one, "stem", one),
+)
 def written(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Written:
     """Every file of the repository and the groups that none of them has."""
     path = request.param

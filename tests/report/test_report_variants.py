@@ -13,7 +13,7 @@ from reportgen import api
 from reportgen.base.units import write
 from reportgen.report import text_of
 from reportgen.report.numbering import unreferenced
-from tests.lanes import matrix
+from tests.lanes import matrix, proof
 from tests.report import built, pages, recompute, variants
 from tests.report.built import Written
 from tests.report.test_report_arrows import measured
@@ -48,6 +48,7 @@ def test_every_line_of_a_variant_holds(name: str, folder: Path) -> None:
     assert [key for key in unreferenced(written.document) if not re.search(r"\.[2-9]\d*$", key)] == []
 
 
+@proof
 @pytest.mark.parametrize("engine", matrix(built.ENGINE_CASES, ["typst"]))
 @pytest.mark.parametrize("name", matrix(variants.ON_PAPER, ["clockwise"]))
 def test_a_variant_on_paper(name: str, engine: api.Engine, folder: Path) -> None:

@@ -11,6 +11,7 @@ from reportgen import api
 from reportgen.base.errors import TemplateError
 from reportgen.base.words import templates
 from reportgen.report import text_of
+from tests.lanes import proof
 
 SAMPLE = Path(__file__).parents[2] / "assignments" / "engine-twin-05.yaml"
 
@@ -35,6 +36,7 @@ def test_a_school_overrides_one_section(tmp_path: Path, monkeypatch: pytest.Monk
     assert "Position plan" in text
 
 
+@proof
 def test_a_section_of_a_school_may_call_and_write_short(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = tmp_path / "templates"
     shutil.copytree(templates(), root)

@@ -18,7 +18,7 @@ from reportgen.drawing import Arrow
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.sheets import dxf
 from reportgen.writers import typst, typst_run
-from tests.lanes import matrix
+from tests.lanes import matrix, proof
 from tests.sheets.laid import MACHINES, ROOT, Laid, laid, plates
 
 ezdxf = pytest.importorskip("ezdxf")
@@ -192,6 +192,7 @@ def test_the_same_sheet_gives_the_same_bytes() -> None:
     )
 
 
+@proof
 def test_each_process_writes_the_same_file(tmp_path: Path) -> None:
     """The order of a set is another one in each process."""
     file, written = ROOT / "assignments" / "slider-crank-01.yaml", set()

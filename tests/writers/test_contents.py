@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from reportgen.report import Contents, Section, Text
+from tests.lanes import proof
 from tests.writers.pages import body_of, by_latex, by_typst, needs_tex
 
 WRITERS = [pytest.param(by_typst, id="typst"), pytest.param(by_latex, id="latex", marks=needs_tex)]
@@ -23,6 +24,7 @@ def entries(write: Callable[..., Any], count: int) -> list[int]:
     return [text.count("Heading") for text in found if ". . ." in text or "...." in text]
 
 
+@proof
 @pytest.mark.parametrize("write", WRITERS)
 def test_no_page_of_contents_has_a_few_lines_only(write: Callable[..., Any]) -> None:
     found = {count: entries(write, count) for count in LENGTHS}
