@@ -78,7 +78,7 @@ def given_entry(row: KeyRow, position: int) -> Entry | None:
     """A given value as the sheet shows it filled in; None where there is none."""
     if row.role is not Role.given or not row.has(position):
         return None
-    value = float(row.values[row.at(position)])
+    value = float(row.printed[row.at(position)])
     return Entry(shown_number(row, value).shown, format=number_format(row)) if value == value else None
 
 

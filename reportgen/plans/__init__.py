@@ -1,4 +1,4 @@
-"""Analysis → Ledger: enters everything in the order in which a report derives it, then chooses decimals."""
+"""Analysis → Ledger: enters everything in the order in which a report derives it."""
 
 from __future__ import annotations
 
@@ -16,12 +16,11 @@ from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import Crank, Linkage, flywheel
 from reportgen.machine.analysis import Analysis, no_formulas
 from reportgen.machine.loads import FULL_TURN, TableLaw
-from reportgen.plans.decimals import choose_decimals
 from reportgen.plans.forces import enter_forces
 from reportgen.plans.groups import enter_kinematics
 from reportgen.plans.loads import Polygon
 
-ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest"), ("M.mean", "M.energy"))
+ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest", "M.difference"), ("M.mean", "M.energy"))
 """Quantities that are one: both torques and the extremes of their curve, the mean by the curve and by the work."""
 TERMS = 4
 """More terms than these are no longer one line of a page."""
@@ -40,12 +39,11 @@ class PlannedLedger:
 
 
 def write_ledger(
-    analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = (), printed: bool = True
+    analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = ()
 ) -> PlannedLedger:
     """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
 
-    The plans of the `worked` positions fill their paper, of all positions if none is named.  For numbers that are
-    drawn and not `printed` no decimals are chosen.
+    The plans of the `worked` positions fill their paper, of all positions if none is named.
     """
     machine = analysis.machine
     q, polygons = enter_plans(analysis, worked, machine.formulas)
@@ -56,19 +54,7 @@ def write_ledger(
             if machine.unevenness is not None:
                 regulated = flywheel.flywheel(machine, machine.unevenness)
                 _flywheel(q, analysis, regulated)
-    checks = {id for id in q.families if any(id in name for name in ids.CENTRES)}
-    decimals: Mapping[str, int | None] = dict.fromkeys(q.families)
-    cancellations: tuple[str, ...] = ()
-    if printed:
-        decimals, cancellations = choose_decimals(q.families, ONE_QUANTITY, checks, worked)
-    ledger = Ledger(
-        families=q.families,
-        decimals=decimals,
-        positions=machine.positions,
-        cancellations=cancellations,
-        units=units or {},
-        lines=q.lines,
-    )
+    ledger = Ledger(q.families, machine.positions, units=units or {}, same=ONE_QUANTITY, lines=q.lines)
     return PlannedLedger(ledger, polygons, regulated)
 
 
@@ -169,7 +155,7 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
     letter, kind = ("P", "force") if machine.span else ("M", "torque")
     rate = q[ids.velocity(machine.linkage.driver.pin)] if machine.span else q["omega.1"]
     way = q["span"] if machine.span else 2.0 * machine.turns * PI
-    q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size)
+    q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size, residue=True)
     nothing = abs(float(np.nanmean(q.value("M.eq")))) < ZERO * size
     mean_of_positions = call("mean", q["M.eq"])
     q.define("M.mean.positions", mean_of_positions, Symbol(letter, "N"), kind, scale=size if nothing else 0.0)

@@ -71,7 +71,8 @@ class Report:
 
     @property
     def ledger(self) -> Ledger:
-        return self.case.ledger
+        """Every number as it is written down."""
+        return self.case.printed
 
     @property
     def flywheel(self) -> RegulatedCycle | None:
