@@ -54,9 +54,14 @@ def _written(ledger: Ledger, finer: Mapping[str, int]) -> Ledger:
     lines = {id: replace(family, definition=_line(ledger, family)) for id, family in ledger.families.items()}
 
     def enter(id: str, values: dict[str, np.ndarray]) -> None:
-        family = ledger[id]
-        if not (family.is_plane or family.hidden):
-            values[id], decimals[id] = _entered(family, values[id], decimals[id])
+        family, again = ledger[id], _named_again(ledger[id])
+        if family.is_plane or family.hidden:
+            return
+        if again and ledger[again].kind == family.kind:
+            decimals[id] = decimals[again]
+        elif family.definition is not None and len(values[id]) == 1 and is_short(values[id] / family.how.scale):
+            decimals[id] = None
+        values[id] = _entered(family, values[id], decimals[id])
 
     values = follow(replace(ledger, families=lines), {}, entered=enter)
     families = {id: replace(family, values=values[id]) for id, family in ledger.families.items()}
@@ -70,29 +75,23 @@ def _line(ledger: Ledger, family: Family) -> Expression | None:
     return None if is_read else family.line
 
 
-def _entered(family: Family, computed: np.ndarray, decimals: int | None) -> tuple[np.ndarray, int | None]:
-    """Values (SI) as they are written down, and with how many decimals: a single short value as it is."""
+def _entered(family: Family, computed: np.ndarray, decimals: int | None) -> np.ndarray:
+    """Values (SI) as they are written down with so many decimals, or as they are."""
     exact = np.real(family.values)
     values = np.real(computed) / family.how.scale
-    if decimals is None or (_is_alone(family) and is_short(values)):
-        decimals, values = None, _without_dust(values)
-    else:
-        values = rounded(values, decimals)
+    values = _without_dust(values) if decimals is None else rounded(values, decimals)
     if family.is_signed_rotation or family.arm:
         values = np.copysign(values, exact)
     if family.how.unit == "°" and family.is_direction:
         values = np.mod(values, 360.0)
     if not family.residue:
         values = np.where(np.abs(exact) <= ZERO * family.scale, 0.0, values)
-    return values * family.how.scale, decimals
+    written: np.ndarray = values * family.how.scale
+    return written
 
 
 def _without_dust(values: np.ndarray) -> np.ndarray:
     return np.array([float(f"{value:.12g}") for value in np.atleast_1d(values)])
-
-
-def _is_alone(family: Family) -> bool:
-    return len(family.values) == 1 and family.definition is not None
 
 
 # --- decimals ---------------------------------------------------------------------------------------
@@ -107,7 +106,7 @@ def _decimals(ledger: Ledger, finer: Mapping[str, int]) -> dict[str, int | None]
     found = {
         name: _of_quantity(members, max(finer.get(one.id, 0) for one in members)) for name, members in together.items()
     }
-    return {id: None if _is_typed(ledger, id) else found[names[id]] for id in ledger.families}
+    return {id: None if _is_typed(family) else found[names[id]] for id, family in ledger.families.items()}
 
 
 def _of_quantity(members: Collection[Family], finer: int) -> int:
@@ -124,18 +123,14 @@ def _largest(family: Family) -> float:
     return float(np.max(sizes, initial=0.0, where=sizes >= ZERO * family.scale)) / family.how.scale
 
 
-def _is_typed(ledger: Ledger, id: str) -> bool:
-    """Whether a value is printed as it was given, or only names again what was."""
-    family = ledger[id]
-    other = _named_again(family.definition)
-    if other:
-        return _is_typed(ledger, other)
+def _is_typed(family: Family) -> bool:
+    """Whether a value is printed as it was given."""
     return family.is_plane or family.hidden or (family.exact and is_typed(family.values / family.how.scale))
 
 
-def _named_again(definition: Expression | None) -> str:
-    """The id of the quantity that a definition only names again or turns round (l = R, R₂₁ = −R₁₂); "" for others."""
-    match definition:
+def _named_again(family: Family) -> str:
+    """The id of the quantity that a line only names again or turns round (l = R, R₂₁ = −R₁₂); "" for any other."""
+    match family.line:
         case Ref(id) | Negative(Ref(id)) | Call("size", (Ref(id),)):
             return id
         case _:
@@ -146,9 +141,9 @@ def _names(ledger: Ledger) -> dict[str, object]:
     """What each family is called as a printed quantity: by its symbol, as what it names again or is the same as."""
     names: dict[str, object] = {id: members[0] for members in ledger.same for id in members}
     for id, family in ledger.families.items():
-        other = _named_again(family.definition)
-        again = other in names and ledger[other].kind == family.kind
-        names.setdefault(id, names[other] if again else (family.symbol, family.kind))
+        again = _named_again(family)
+        same = again in names and ledger[again].kind == family.kind
+        names.setdefault(id, names[again] if same else (family.symbol, family.kind))
     return names
 
 

@@ -222,7 +222,8 @@ class Sheet:
 
 def is_typed(values: np.ndarray | float) -> bool:
     """Whether values end, as typed ones do; 360°/7 does not."""
-    return all(abs(float(f"{value:.{TYPED}g}") - value) <= DUST * abs(value) for value in np.atleast_1d(values))
+    sizes = np.abs(np.atleast_1d(values))
+    return all(abs(float(f"{size:.{TYPED}g}") - size) <= DUST * sizes.max() for size in sizes)
 
 
 def is_short(values: np.ndarray | float) -> bool:

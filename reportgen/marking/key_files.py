@@ -115,9 +115,8 @@ def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
 def key_data(key: Key) -> dict[str, Any]:
     """The key as a JSON object: values in the units of the report, null for what does not exist.
 
-    `values` (unrounded), `printed`, `drawn`, `computed` (half widths of the bands) and `sense` have an entry for each of
-    `positions`,
-    or a single one; `asked` are the positions of the answer sheet by label, [""] for a single value.
+    `values` (unrounded), `printed`, `drawn`, `computed` (half widths of the bands) and `sense` have an entry for each
+    of `positions`, or a single one; `asked` are the positions of the answer sheet by label, [""] for a single value.
     """
     return {
         "format": FORMAT,
