@@ -7,15 +7,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.units import significant_decimals
 from reportgen.formula import PI, Expression, Number, Ref, Symbol, call, circle_line, ids, sqrt, total
 from reportgen.formula import size as size_of
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import Ledger
+from reportgen.formula.rounding import rounded
 from reportgen.formula.sheet import ZERO, Sheet, is_short
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.machine import Crank, Linkage, flywheel
-from reportgen.machine.analysis import Analysis, no_formulas
-from reportgen.machine.loads import FULL_TURN, TableLaw
+from reportgen.machine.analysis import Analysis, GasState, no_formulas
+from reportgen.machine.gas import CYCLE, StrokeIndicator
+from reportgen.machine.loads import FULL_TURN, Piston, TableLaw
 from reportgen.plans.forces import enter_forces
 from reportgen.plans.groups import enter_kinematics
 from reportgen.plans.loads import Polygon
@@ -103,8 +106,44 @@ def _gas(q: Sheet, analysis: Analysis) -> None:
             continue
         link, stroke = state.piston.link, state.piston.stroke
         _way(q, machine.linkage, link, state.fraction * stroke, stroke)
-        p = q.give(ids.pressure(link), state.pressure, exact=False)
+        p = q.give(ids.pressure(link), state.pressure, exact=False, written=_between_nodes(q, state))
         q.define(name, p * q["F"])
+
+
+def _between_nodes(q: Sheet, state: GasState) -> Expression:
+    """The pressure between the two points x′, p′ and x″, p″ of the diagram next to each position.
+
+        p = p′ + (p″ − p′)(x − x′)/(x″ − x′)
+
+    x is s/H, or the angle φ of the cycle.
+    """
+    link, diagram = state.piston.link, state.piston.indicator
+    if isinstance(diagram, StrokeIndicator):
+        x, letter, kind = q[ids.displacement(link)] / _stroke(q, state.piston), "x", "ratio"
+        at, nodes, rows = state.fraction, np.array(diagram.fractions), np.array(diagram.rows)[state.stroke]
+    else:
+        at, nodes, letter, kind = np.mod(state.angle, CYCLE), np.array(diagram.angles), "φ", "angle"
+        degrees = np.radians(rounded(np.degrees(at), KINDS[kind].decimals or 0))
+        x = q.give(ids.node("x", link), degrees, Symbol(letter), kind, hidden=True)
+        rows = np.tile(diagram.pressures, (len(at), 1))
+    before = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, len(nodes) - 2)
+    ends = []
+    for mark, index in (("′", before), ("″", before + 1)):
+        pressure = rows[np.arange(len(at)), index]
+        place = q.give(ids.node(f"x{mark}", link), nodes[index], Symbol(letter, sup=mark), kind, hidden=True)
+        ends.append(
+            (place, q.give(ids.node(f"p{mark}", link), pressure, Symbol("p", sup=mark), "pressure", hidden=True))
+        )
+    (x1, p1), (x2, p2) = ends
+    return p1 + (p2 - p1) * (x - x1) / (x2 - x1)
+
+
+def _stroke(q: Sheet, piston: Piston) -> Ref:
+    """The stroke of a piston: H as given, or with five figures as its dead centres are found."""
+    if "H" in q and abs(q.si("H") - piston.stroke) <= ZERO * piston.stroke:
+        return q["H"]
+    found = rounded(np.array([piston.stroke]), significant_decimals(piston.stroke, KINDS["length"].digits))
+    return q.give(ids.stroke(piston.link), found, Symbol("H", str(piston.link)), "length", hidden=True)
 
 
 def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
