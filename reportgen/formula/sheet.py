@@ -100,8 +100,8 @@ class Family:
     @property
     def constructed(self) -> bool:
         """Whether a drawing gives it: it is measured, not computed by a printed formula."""
-        return self.definition is not None and any(
-            isinstance(part, Call) and part.name in CONSTRUCTIONS for part in walk(self.definition)
+        return self.line is not None and any(
+            isinstance(part, Call) and part.name in CONSTRUCTIONS for part in walk(self.line)
         )
 
     def at(self, position: int | None) -> Any:

@@ -196,12 +196,22 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
     way = q["span"] if machine.span else 2.0 * machine.turns * PI
     q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size, residue=True)
     nothing = abs(float(np.nanmean(q.value("M.eq")))) < ZERO * size
-    mean_of_positions = call("mean", q["M.eq"])
-    q.define("M.mean.positions", mean_of_positions, Symbol(letter, "N"), kind, scale=size if nothing else 0.0)
+    largest = call("highest", call("abs", q["M.eq"]))
+    q.define("M.share", q["M.difference"] / largest, Symbol("δ", letter), "share", scale=1.0, residue=True)
+    even = q.give("even", machine.even, Symbol("even"), "ratio", hidden=True)
+    q.define(
+        "M.mean.positions", call("mean", q["M.eq"], even), Symbol(letter, "N"), kind, scale=size if nothing else 0.0
+    )
     mean = q.give("M.mean", _without_dust(summary.mean_torque, size), Symbol(letter, "m"), kind, exact=False)
     (_, least), (_, greatest) = summary.extremes
-    q.give("M.least", least, Symbol(letter, "min"), kind, exact=False, scale=size)
-    q.give("M.greatest", greatest, Symbol(letter, "max"), kind, exact=False, scale=size)
+    # No extreme lies inside the range of the table.
+    for id, index, extreme, of_two, of_all in (
+        ("M.least", "min", least, "min", "lowest"),
+        ("M.greatest", "max", greatest, "max", "highest"),
+    ):
+        read = q.give(ids.reading(id), extreme, Symbol(letter, index), kind, hidden=True)
+        line = call(of_two, read, call(of_all, q["M.eq"]))
+        q.give(id, extreme, Symbol(letter, index), kind, exact=False, scale=size, written=line)
     work = q.give("W", _without_dust(summary.work, size * machine.way), exact=False)
     q.define("power", size_of(mean) * rate)
     q.define("M.energy", work / way, Symbol(letter, "W"), kind)

@@ -58,6 +58,7 @@ PROPERTIES = (
     "count",
     "cycle_count",
     "even_count",
+    "even_cycle_count",
     "positions",
     "thinned",
     "worked",

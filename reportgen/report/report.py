@@ -153,6 +153,11 @@ class Report:
         return self.assignment.positions.count
 
     @property
+    def even_cycle_count(self) -> int:
+        """Evenly spaced positions of the cycle."""
+        return int(self.machine.even.sum())
+
+    @property
     def thinned(self) -> int:
         """Tables and drawings show one position in so many, and the worked ones; 0 where they show all."""
         step = -(-self.even_count // PLATES_UP_TO)

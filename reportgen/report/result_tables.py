@@ -224,7 +224,7 @@ def lever(report: Report, k: int) -> Iterator[Sequence[object]]:
 
 
 def balance(report: Report) -> list[str]:
-    return ["M.eq", "M.vw", "M.difference"]
+    return ["M.eq", "M.vw", "M.difference", "M.share"]
 
 
 def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
