@@ -29,7 +29,7 @@ ZERO = 1e-9
 DUST = 1e-12
 """Shares of a value below this are of floats."""
 
-TYPED = 9
+TYPED = 10
 """Significant figures that given data have at most."""
 
 BELOW_A_TURN = 1e-12
