@@ -60,7 +60,7 @@ class PrintedQuantity:
 
 @dataclass(frozen=True)
 class Ledger:
-    """All families of a report; where they are as written down (`formula.rounding`), with their decimals."""
+    """All families of a report; where they are as written down (`formula.rounding`), with the decimals of all."""
 
     families: Mapping[str, Family]
     positions: int
@@ -238,14 +238,17 @@ class Ledger:
         """The same ledger with drawings to other scales (SI, by id), one or [N]: what is on paper is as much longer as
         its scale is smaller, at every position.  Nothing else changes.
         """
+        if "scale" in self and "mu.l" in scales:
+            # The scale that the crank was drawn to.
+            scales = {**scales, "scale": scales["mu.l"]}
         families = dict(self.families)
         for id, family in self.families.items():
             if id in scales:
-                families[id] = replace(family, values=np.atleast_1d(scales[id]), definition=None)
+                families[id] = replace(family, values=np.atleast_1d(scales[id]), definition=None, written=None)
             elif (scale := vocabulary.scale_on_paper(id)) in scales:
                 longer = self.families[scale].values / scales[scale]
                 families[id] = replace(family, values=family.values * longer)
-        return replace(self, families=families)
+        return replace(self, families=families, decimals=dict.fromkeys(scales))
 
     def ancestors(self, id: str) -> tuple[str, ...]:
         """Every quantity that one stands on, directly or through others, nearest first."""

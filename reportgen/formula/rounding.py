@@ -106,7 +106,8 @@ def _decimals(ledger: Ledger, finer: Mapping[str, int]) -> dict[str, int | None]
     found = {
         name: _of_quantity(members, max(finer.get(one.id, 0) for one in members)) for name, members in together.items()
     }
-    return {id: None if _is_typed(family) else found[names[id]] for id, family in ledger.families.items()}
+    chosen = {id: None if _is_typed(family) else found[names[id]] for id, family in ledger.families.items()}
+    return {**chosen, **ledger.decimals}
 
 
 def _of_quantity(members: Collection[Family], finer: int) -> int:
