@@ -126,9 +126,10 @@ def typeset(tree: Document, engine: Engine) -> tuple[str, bytes]:
 
         source = latex.write(tree)
         return source, pdflatex.compile(source).pdf
-    from reportgen.writers import typst
+    from reportgen.writers import typst, typst_run
 
-    return typst.typeset(tree)
+    source = typst.write(tree)
+    return source, typst_run.compile(source)
 
 
 # --- products: what a batch makes of an assignment file -----------------------------------------------

@@ -154,18 +154,22 @@ class Table:
 class Figure:
     """One scene, or several side by side in rows as they fit, with one caption, in true size.
 
-    Where the page has no room for it, the text runs on to the end of the page before it.
+    Where the page has no room for it, the text runs on to the end of the page before it.  One that is `turned` by 90°
+    has a page for itself.
     """
 
     scenes: tuple[Scene, ...]
     caption: Inlines = ()
     key: str = ""
     number: str = ""
+    turned: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """A figure on a page of its own paper size (mm), for what the A4 text block cannot hold in true size.
+    """A figure on a page of its own paper size (mm), for what the A4 text block cannot hold in true size either way.
+
+    Plates stand together at the end of their chapter.
 
     With `continues` it is a further page of the figure before it, whose number it shares.
     """

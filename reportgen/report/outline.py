@@ -23,6 +23,7 @@ from reportgen.report import (
     PageBreak,
     Paragraph,
     Plate,
+    Section,
     Table,
     Text,
     Words,
@@ -41,7 +42,7 @@ from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
 from reportgen.report import phrases as steps
 from reportgen.report.case import Calculation
-from reportgen.report.figures import FigureScenes
+from reportgen.report.figures import PAPERS, FigureScenes
 from reportgen.report.groups import GroupView
 from reportgen.report.numbering import number
 from reportgen.report.report import Report
@@ -203,10 +204,26 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
     if drawn.note is not None:
         inlines = (*inlines, Text("; "), InlineMath(drawn.note))
     if drawn.paper is None:
-        return (Figure(drawn.scenes, inlines, key),)
+        return (Figure(drawn.scenes, inlines, key, turned=drawn.turned),)
     first, *others = drawn.scenes
     further = (Plate(scene, drawn.paper, continues=True) for scene in others)
     return Plate(first, drawn.paper, inlines, key), *further
+
+
+def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> Iterator[Block]:
+    """The blocks with the plates of each chapter at its end; where one was called for, it is `said` where it stands."""
+    plates: list[Plate] = []
+    for block in blocks:
+        if isinstance(block, Plate):
+            plates.append(block)
+            if not block.continues:
+                yield said(block)
+            continue
+        if isinstance(block, Section) and block.level == 1:
+            yield from plates
+            plates.clear()
+        yield block
+    yield from plates
 
 
 # --- tables -----------------------------------------------------------------------------------------
@@ -410,9 +427,15 @@ def compose(case: Calculation) -> Document:
             header=(words["header"].format(course=case.course), case.variant_line),
             footer=("", words["document"]["page"]),
             words=Words(**words["document"]),
-            blocks=tuple(blocks),
+            blocks=tuple(plates_last(blocks, partial(_plate_is_last, report))),
         )
     )
+
+
+def _plate_is_last(report: Report, plate: Plate) -> Paragraph:
+    """Says where a plate stands."""
+    paper = PAPERS.get(min(plate.paper), "")
+    return Paragraph(report.prose.inlines(report.words["plate"].format(key=plate.key, paper=paper)))
 
 
 def _sections(report: Report) -> Iterator[str]:

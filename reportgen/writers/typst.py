@@ -9,7 +9,6 @@ between spaces, because identifiers of Typst may hold a hyphen.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import ClassVar
 
@@ -36,7 +35,6 @@ from reportgen.formula.setting import (
 )
 from reportgen.formula.vocabulary import numbered, runs
 from reportgen.writers.drawing import paint_typst
-from reportgen.writers.typst_run import settle
 
 
 def literal(text: str) -> str:
@@ -102,13 +100,6 @@ LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
 SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
 #show math.equation: set text(font:"New Computer Modern Math")"""
-HELD = 40
-"""A plate waits for the end of its page behind at most so many blocks."""
-
-
-def typeset(document: tree.Document) -> tuple[str, bytes]:
-    """The source of a document with its PDF; raises `TypesetterError`."""
-    return settle(write(document))
 
 
 def write(document: tree.Document) -> str:
@@ -159,24 +150,12 @@ class _Blocks:
         self.formulas = TypstFormulas(language)
         self.words = words
         self.room = room
-        self.figure = ""
-        """The key of the last figure, which may still wait for the next page."""
-        self.count = 0
-        """Of the figures and plates that may wait."""
 
     def write(self, blocks: Sequence[tree.Block]) -> str:
         lines: list[str] = []
         run_in = ""
-        held = _Held()
         for block, following in pairwise((*blocks, None)):
-            if held and held.ends_before(block):
-                held.release(lines)
-            if block is None:
-                continue
-            if isinstance(block, tree.Plate):
-                held = _Held(self.name("plate"), [len(lines) + 1])
-                lines += [f"#let {held.name} = [{self.block(block)}]", ""]
-                continue
+            assert block is not None
             if isinstance(block, tree.Section) and block.level > 3:
                 run_in = self.run_in(block)
                 if not isinstance(following, tree.Paragraph):
@@ -192,9 +171,6 @@ class _Blocks:
             else:
                 lines.append(f"#K[{run_in}{self.block(block)}]")
             run_in = ""
-            if held and not isinstance(block, tree.Section) and not tree.leads(block, following, self.language):
-                held.places.append(len(lines))
-                lines.append("")
         return "\n\n".join(lines)
 
     def block(self, block: tree.Block) -> str:
@@ -210,16 +186,14 @@ class _Blocks:
                 return self.equation(block)
             case tree.Table():
                 return self.table(block)
-            case tree.Figure(scenes, _, key):
+            case tree.Figure(scenes, _, key, turned=turned):
                 rows = tree.in_rows(scenes)
-                drawings = ",".join(_array(map(self.scene, row)) for row in rows)
                 label = self.caption(self.words.figure, block)
-                if tree.breaks(rows) or self.room < tree.TEXT_WIDTH:
-                    return f"#place.flush()#F({literal(key)},{label},\n{drawings})"
-                before, self.figure = self.figure, key
-                height = tree.height(rows)
-                name = literal(self.name("figure"))
-                return f"#W({name},{literal(key)},{literal(before)},{height:.1f},{label},\n{drawings})"
+                if turned:
+                    return f"#Q({literal(key)},{label},\n{paint_typst(scenes[0], self.formulas)})"
+                drawings = ",".join(_array(map(self.scene, row)) for row in rows)
+                stays = tree.breaks(rows) or self.room < tree.TEXT_WIDTH
+                return f"{'#place.flush()#F' if stays else '#W'}({literal(key)},{label},\n{drawings})"
             case tree.Plate(scene, (width, height), _, key, continues=continues):
                 label = (
                     f"{self.again(self.words.figure, block)},[]"
@@ -238,11 +212,6 @@ class _Blocks:
                 return f"#blank({literal(label)})"
             case tree.PageBreak():
                 return "#pagebreak(weak: true)"
-
-    def name(self, kind: str) -> str:
-        """A name of its own for a figure or plate that may wait."""
-        self.count += 1
-        return f"{kind}{self.count}"
 
     # --- inlines ----------------------------------------------------------------------------------
 
@@ -344,32 +313,6 @@ class _Blocks:
     def again(self, word: str, block: tree.Table | tree.Plate) -> str:
         """The label of what goes on from the page before."""
         return literal(f"{word} {block.number} ({self.words.continued})")
-
-
-@dataclass
-class _Held:
-    """A plate that lets the text run on to the end of its page: its name, and where in the source it may stand."""
-
-    name: str = ""
-    places: list[int] = field(default_factory=list)
-
-    def __bool__(self) -> bool:
-        return bool(self.places)
-
-    def ends_before(self, block: tree.Block | None) -> bool:
-        """Whether the plate must stand before a block: figures keep their order, parts their own."""
-        match block:
-            case None | tree.Figure() | tree.Plate() | tree.PageBreak() | tree.Contents() | tree.Cover():
-                return True
-            case tree.Section(level=level):
-                return level == 1
-        return len(self.places) > HELD
-
-    def release(self, lines: list[str]) -> None:
-        """Fill the places; the typesetter finds out which is the last one on the page."""
-        for index, place in enumerate(self.places):
-            lines[place] = f"#hold({literal(self.name)},{index},{len(self.places) - 1},{self.name})"
-        self.places.clear()
 
 
 def _text(text: str) -> str:

@@ -1,9 +1,4 @@
-"""Typst source → PDF, by typst inside this process.
-
-Where figures stand depends on where those before them stand, and the typesetter looks at a document five times at
-most.  If it has come to no end by then, it goes on with the choices that it has made so far: it reads them from a file
-beside the source, so that it lays out anew only what they have changed.
-"""
+"""Typst source → PDF, by typst inside this process, in one run."""
 
 from __future__ import annotations
 
@@ -12,19 +7,10 @@ import re
 import tempfile
 import unicodedata
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from reportgen.base.errors import TypesetterError
-
-UNSETTLED = "#let settled = (:)"
-"""The line of a source that has room for choices."""
-READ = '#let settled = json("settled.json")'
-"""The same line where they stand in a file, by their names."""
-ROUNDS = 40
-"""How often the typesetter is asked at most; two or three times are usual, and each makes one choice right at least."""
 
 
 def compile(source: str) -> bytes:
@@ -32,94 +18,23 @@ def compile(source: str) -> bytes:
 
     Raises `TypesetterError` with the message's first lines.
     """
+    try:
+        import typst
+    except ModuleNotFoundError as error:
+        raise TypesetterError("typst is not installed: pip install typst") from error
+    except ImportError as error:
+        raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
+    own = not needs_system_fonts(source, lacking)
     with tempfile.TemporaryDirectory(prefix="typst-") as folder:
-        return _Run(source, Path(folder)).compile()[0]
-
-
-def settle(unsettled: str) -> tuple[str, bytes]:
-    """A source with the choices that it needed, and its PDF.  Raises `TypesetterError`."""
-    right: dict[str, Any] = {}
-    choices: dict[str, Any] = {}
-    with tempfile.TemporaryDirectory(prefix="typst-") as folder:
-        run = _Run(unsettled.replace(UNSETTLED, READ, 1), Path(folder))
-        for _ in range(ROUNDS):
-            shown = run.choices(choices)
-            pdf, settles = run.compile()
-            source = _settled(unsettled, choices)
-            if settles:
-                if all(choice == seen or name in right for name, choice, seen in shown):
-                    break
-                right = _right(shown, right)
-            choices = {name: seen for name, _, seen in shown} | right
-    return source, pdf
-
-
-def _settled(source: str, choices: Mapping[str, Any]) -> str:
-    """A source with choices of its figures and plates written in."""
-    entries = "".join(f"{_literal(name)}: {_literal(choice)}," for name, choice in choices.items())
-    return source.replace(UNSETTLED, f"#let settled = ({entries or ':'})", 1)
-
-
-def _literal(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False)
-
-
-def _right(shown: Iterable[Sequence[Any]], known: Mapping[str, Any]) -> dict[str, Any]:
-    """The choices up to the first that the pages it has led to do not show; of that one, what they show.
-
-    A choice stands on those before it only.
-    """
-    right = dict(known)
-    for name, choice, seen in shown:
-        if name in known:
-            continue
-        right[name] = seen
-        if choice != seen:
-            break
-    return right
-
-
-class _Run:
-    """A source in the typesetter's hands: what it has worked out for one question serves the next."""
-
-    def __init__(self, source: str, folder: Path) -> None:
+        path = Path(folder) / "report.typ"
+        path.write_text(source, encoding="utf-8", newline="")
         try:
-            import typst
-        except ModuleNotFoundError as error:
-            raise TypesetterError("typst is not installed: pip install typst") from error
-        except ImportError as error:
-            raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
-        self._folder, self._error = folder, typst.TypstError
-        (folder / "report.typ").write_text(source, encoding="utf-8", newline="")
-        own = not needs_system_fonts(source, lacking)
-        self._typesetter = typst.Compiler(folder / "report.typ", root=folder, ignore_system_fonts=own)
-
-    def choices(self, known: Mapping[str, Any]) -> list[list[Any]]:
-        """Of each figure and plate that may wait, in order: its name, what is chosen, what the pages then show.
-
-        What is `known` is chosen so; to ask makes the typesetter read it.  Raises `TypesetterError`.
-        """
-        (self._folder / "settled.json").write_text(_literal(known), encoding="utf-8")
-        with self._told():
-            answer = self._typesetter.query("<settled>", field="value")
-        found: list[list[Any]] = json.loads(answer)
-        return found
-
-    def compile(self) -> tuple[bytes, bool]:
-        """The PDF, and whether all places in it are final; raises `TypesetterError`."""
-        with self._told():
-            pdf, warnings = self._typesetter.compile_with_warnings()
-        assert isinstance(pdf, bytes)
-        return pdf, not any("did not converge" in warning.message for warning in warnings)
-
-    @contextmanager
-    def _told(self) -> Iterator[None]:
-        """What the typesetter complains of as a `TypesetterError` with the message's first lines."""
-        try:
-            yield
-        except self._error as error:
+            pdf = typst.compile(str(path), root=folder, ignore_system_fonts=own)
+        except typst.TypstError as error:
             lines = str(getattr(error, "message", error)).splitlines()
             raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
+    assert isinstance(pdf, bytes)
+    return pdf
 
 
 def lacking(letters: str, system: bool) -> str:
