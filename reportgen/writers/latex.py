@@ -114,8 +114,6 @@ class _Writer:
         room = self.room_to_table(blocks)
         if room:
             needed = _command("needed", f"{room:g}mm")
-            if isinstance(following, tree.Table):
-                needed = _command("tableroom", f"{_whole(following):g}mm") + needed
         else:
             short = isinstance(following, tree.Equation) and not isinstance(following.rows[0], VectorEquation)
             needed = _command("neededbelow", f"{SHORT if short else LONG:g}mm")
@@ -282,6 +280,10 @@ class _Writer:
 
     def figure(self, figure: tree.Figure) -> str:
         """Its rows with the caption below; a figure that breaks between its rows has the caption first."""
+        if figure.turned:
+            drawing = paint_latex(figure.scenes[0], self.formulas)
+            shown = _command("turned", drawing, self.caption(self.document.words.figure, figure))
+            return f"\\begin{{turnedscene}}\n{shown}\n\\end{{turnedscene}}"
         scenes = tree.in_rows(figure.scenes)
         breaks = tree.breaks(scenes)
         rows = ("\n\\scenebreak\n" if breaks else "\n\\scenegap\n").join(
@@ -328,7 +330,7 @@ class _Writer:
                 end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if together else 0}}}"
             environment.append(NoEscape(self.row(row, block.columns) + end))
         framed = r"\framedtable" if block.framed else ""
-        room = _command("tableroom", f"{_whole(block):g}mm") + _command("needed", f"{_height(block):g}mm")
+        room = _command("needed", f"{_height(block):g}mm")
         return f"{room}\\begin{{belowfigures}}\\tablesize{framed}\n{environment.dumps()}\n\\end{{belowfigures}}"
 
     def head(self, block: tree.Table) -> str:
@@ -362,11 +364,6 @@ def _height(block: tree.Table) -> float:
     """About how much paper (mm) a table needs with its caption, up to its first possible break."""
     rows = len(block.rows) if len(block.rows) <= tree.WHOLE_TABLE else tree.TOGETHER
     return TITLE + ROW * (len(block.head) + rows)
-
-
-def _whole(block: tree.Table) -> float:
-    """About how much paper (mm) a whole table needs with the lines before it."""
-    return OPENING + TITLE + ROW * (len(block.head) + len(block.rows))
 
 
 def _column(width: float, align: str) -> str:
