@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from itertools import pairwise
 
-from tests.report.calculator import RESULT
+from tests.report.calculator import NUMBER, RESULT
 from tests.report.source_lines import STRING, plain, typst_formulas
 
 _HEADING = re.compile(r"#N\(\d,\"[^\"]*\",\[(.*?)\]\)")
@@ -16,6 +17,7 @@ _AT = re.compile(r"(?:vị trí|position) (\w+)$")
 """How a heading ends that is of one position."""
 _HEADS = (['#"Vị trí"'], ['#"Position"'])
 _CELL = re.compile(rf"\[((?:{STRING}|[^\"\[\]])*)\]")
+_LEADING = re.compile(rf"-?{NUMBER}")
 _SYMBOL = re.compile(r"\$(?:abs\((.*)\)|(.*))\$")
 
 
@@ -53,6 +55,28 @@ def cells(source: str) -> Iterator[Compared]:
     for position, symbol, number in shown:
         if lines := told.get((position, symbol)):
             yield Compared(position, symbol, number, frozenset(lines))
+
+
+def columns(source: str) -> Mapping[str, Mapping[str, Decimal]]:
+    """The numbers of tables at positions: by the symbols above them, by positions."""
+    found: dict[str, dict[str, Decimal]] = defaultdict(dict)
+    for block in source.split("\n\n"):
+        if "#R(" in block:
+            for position, symbol, number in _of_table(block, ""):
+                if position:
+                    found[symbol][position] = Decimal(number)
+    return found
+
+
+def extremes(source: str) -> Iterator[tuple[str, Decimal]]:
+    """Quantities of the table of largest values with their sizes."""
+    for block in source.split("\n\n"):
+        if block.endswith('#label("tab.extremes")'):
+            for row in block.split("\n")[1:]:
+                for symbol, cell in pairwise(_CELL.findall(row)):
+                    name, number = _SYMBOL.fullmatch(symbol), _LEADING.match(plain(_words(cell)))
+                    if name and number:
+                        yield name[1] or name[2], abs(Decimal(number[0]))
 
 
 def _of_table(block: str, position: str) -> Iterator[tuple[str, str, str]]:

@@ -17,11 +17,12 @@ from tests.plans.random_variants import cases
 from tests.report import built, trees
 from tests.report.calculator import misses
 from tests.report.source_lines import latex_formulas, typst_formulas, worked_lines
-from tests.report.source_tables import cells
+from tests.report.source_tables import cells, columns, extremes
 
 EXERCISES = sorted((built.ROOT / "assignments" / "plane-motion").glob("*.yaml"))
 YOKE = built.ROOT / "assignments" / "scotch-yoke-01.yaml"
 SLIDER = built.ROOT / "assignments" / "slider-crank-01.yaml"
+SHAPER = built.ROOT / "assignments" / "shaper-01.yaml"
 MACHINES = [*built.TYPESET, built.SLIDE]
 """One file a kind, and a sliding driver."""
 VARIANTS = 20
@@ -59,6 +60,20 @@ def test_machines(path: Path, language: Language, tmp_path: Path) -> None:
     compared = list(cells(typst.write(document)))
     assert [cell for cell in compared if not cell.agrees] == []
     assert len(compared) > 100
+
+
+@pytest.mark.parametrize("path", matrix(MACHINES, [YOKE, SHAPER]), ids=lambda path: path.stem)
+def test_tables_agree_with_one_another(path: Path) -> None:
+    """The difference of two torques is that of those printed; no extreme lies inside what a table shows."""
+    source = typst.write(built.written(path, built.own_language(path)).document)
+    shown = columns(source)
+    largest = {symbol: max(map(abs, column.values())) for symbol, column in shown.items()}
+    assert {symbol: size for symbol, size in extremes(source) if size < largest.get(symbol, 0)} == {}
+    ways = [column for symbol, column in shown.items() if symbol.endswith(('^("(1)")', '^("(2)")'))]
+    differences = [column for symbol, column in shown.items() if "Δ" in symbol]
+    assert len(ways) == 2 * len(differences)
+    for difference in differences:
+        assert difference == {k: abs(ways[0][k] - ways[1][k]) for k in difference}
 
 
 @pytest.mark.parametrize(
