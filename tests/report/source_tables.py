@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from itertools import pairwise
@@ -57,14 +57,20 @@ def cells(source: str) -> Iterator[Compared]:
             yield Compared(position, symbol, number, frozenset(lines))
 
 
-def columns(source: str) -> Mapping[str, Mapping[str, Decimal]]:
-    """The numbers of tables at positions: by the symbols above them, by positions."""
-    found: dict[str, dict[str, Decimal]] = defaultdict(dict)
+def columns(source: str) -> Mapping[str, Sequence[Mapping[str, Decimal]]]:
+    """The columns of tables at positions, by the symbols above them: the numbers by their positions.
+
+    What a plan and a formula give stands in two tables under one symbol.
+    """
+    found: dict[str, list[Mapping[str, Decimal]]] = defaultdict(list)
     for block in source.split("\n\n"):
         if "#R(" in block:
+            table: dict[str, dict[str, Decimal]] = defaultdict(dict)
             for position, symbol, number in _of_table(block, ""):
                 if position:
-                    found[symbol][position] = Decimal(number)
+                    table[symbol][position] = Decimal(number)
+            for symbol, column in table.items():
+                found[symbol].append(column)
     return found
 
 
