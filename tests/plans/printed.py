@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.formula import ids, vocabulary
+from reportgen.formula import Product, Ref, ids, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import ZERO, Family
 from reportgen.plans.sides import image
@@ -44,22 +44,55 @@ def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
             apart = np.minimum(apart, np.abs(2 * np.pi - apart))
         match family.kind:
             case "segment":
-                allowed = ON_PAPER * 1e-3 + OF_LONGEST * longest[vocabulary.scale_on_paper(id)]
+                scale = vocabulary.scale_on_paper(id)
+                allowed = np.maximum(_read(longest, scale), _laid_off(unrounded, id, longest))
                 told = _is_loaded(unrounded, family)
                 what = "on paper"
             case "direction":
-                allowed, told = np.radians(DIRECTION), _on_paper(unrounded, id) >= TOLD * 1e-3
+                drawn = _on_paper(unrounded, id)
+                scale = _scale_of(unrounded, id)
+                with np.errstate(divide="ignore"):
+                    allowed = np.maximum(np.radians(DIRECTION), _read(longest, scale) / drawn)
+                told = drawn >= TOLD * 1e-3
                 what = "direction"
             case _:
-                allowed = SHARE * largest(family)
+                # The mean of positions is that of torques as they are printed.
+                whole = unrounded["M.eq"] if id == "M.mean.positions" else family
+                allowed = np.maximum(SHARE * largest(whole), _measured(unrounded, family, longest))
                 if family.kind == "angle":
-                    allowed = max(allowed, np.radians(ANGLE))
+                    allowed = np.maximum(allowed, np.radians(ANGLE))
                 told = _has_direction(unrounded, family)
                 what = "computed"
-        apart = np.where(told, apart, 0.0)
-        if allowed > 0:
-            at = int(np.nanargmax(apart))
-            yield Off(id, what, float(apart[at] / allowed), at + 1)
+        apart, allowed = np.broadcast_arrays(np.where(told, apart, 0.0), allowed)
+        if np.all(allowed > 0):
+            at = int(np.nanargmax(apart / allowed))
+            yield Off(id, what, float(apart[at] / allowed[at]), at + 1)
+
+
+def _read(longest: dict[str, float], scale: str) -> float:
+    """What a length (m) of the plans to a scale may be off."""
+    return ON_PAPER * 1e-3 + OF_LONGEST * longest[scale]
+
+
+def _measured(ledger: Ledger, family: Family, longest: dict[str, float]) -> np.ndarray:
+    """What a quantity μ · length may be off for the length."""
+    match family.definition:
+        case Product((Ref(scale), Ref(length))) if ledger[length].kind == "segment":
+            return ledger[scale].values * _read(longest, scale)
+    return np.zeros(1)
+
+
+def _laid_off(ledger: Ledger, segment: str, longest: dict[str, float]) -> np.ndarray:
+    """What the side of a force plan may be longer or shorter for the force that is laid off there."""
+    found = ids.force_segment.read(segment)
+    if found is None or (force := ids.of_force(found["force"])) not in ledger:
+        return np.zeros(1)
+    plan = ids.scale(f"R{found['group']}")
+    taken = {ids.of_force(found["force"]), ids.of_force(found["force"][:1] + found["force"][:0:-1])}
+    # A reaction on the driver was read from the plan of another group, to a coarser scale.
+    coarse = [_measured(ledger, ledger[one], longest) for one in taken if one in ledger]
+    off = SHARE * largest(ledger[force]) + sum(coarse, np.zeros(1))
+    return np.asarray(off / ledger[plan].values)
 
 
 def largest(family: Family) -> float:
@@ -92,6 +125,13 @@ def _is_loaded(ledger: Ledger, family: Family) -> np.ndarray:
         return np.isfinite(family.values)
     load = ledger[family.of]
     return np.broadcast_to(np.abs(load.values) > ZERO * load.scale, family.values.shape)
+
+
+def _scale_of(ledger: Ledger, direction: str) -> str:
+    """The scale of the plan in which a vector is drawn; "" for one that is not."""
+    of = vocabulary.vector_of(direction)
+    drawn = (id for id, f in ledger.families.items() if f.kind == "segment" and vocabulary.vector_of(id) == of)
+    return next(map(vocabulary.scale_on_paper, drawn), "")
 
 
 def _on_paper(ledger: Ledger, direction: str) -> np.ndarray:
