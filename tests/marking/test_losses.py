@@ -151,7 +151,9 @@ def test_a_right_value_that_the_own_ones_do_not_give_is_told_and_costs_nothing(w
 @pytest.mark.parametrize("name", matrix([hands.TWIN, hands.SLIDER], [hands.SLIDER]))
 def test_who_went_on_from_the_own_values_hears_of_nothing(name: str) -> None:
     scheme = students.scheme(name, AT)
-    for seed, how in enumerate(({}, {"figures": 3}, {"by_lengths": False}, *SCALES)):
+    # At 2 N to a millimetre a plan is 4 m wide, and what is told is finer than a reading.
+    scales = [scale for scale in SCALES if scale != {"force_scale": 2e3}]
+    for seed, how in enumerate(({}, {"figures": 3}, {"by_lengths": False}, *scales)):
         assert mark(scheme, hands.work(scheme, AT, blunt=0.5e-3, seed=seed, **how)).elsewhere == []
 
 
