@@ -22,14 +22,14 @@ from tests.marking.machines import WAYS
 
 TWIN, SLIDER, FOUR_BAR = "engine-twin-05", "slider-crank-01", "four-bar-01"
 DRAWING = {"engine-twin", "slider-crank"}
-"""Kinds of which the student's whole sheet is worked out, plans and closed formulas too."""
+"""Kinds of which the student hands in the whole sheet, plans and closed formulas too."""
 
 WRONG_AT = 4
 """The position at which one value is wrong."""
 
 
 def asked(scheme: MarkingScheme) -> MarkingScheme:
-    """A guide to what a student hands in: the whole sheet if it was worked out by drawing, or what a class is asked."""
+    """A guide to what a student hands in: the whole sheet of `DRAWING`, or what a class is asked."""
     return scheme if scheme.key.kind in DRAWING else replace(scheme, key=Ask().of(scheme.key))
 
 
