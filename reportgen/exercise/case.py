@@ -159,7 +159,7 @@ def solution(case: SolvedExercise) -> Document:
             author=assignment.report.student.name or "",
             header=(words["header"].format(course=case.course), case.variant_line),
             footer=("", words["document"]["page"]),
-            words=Words(**words["document"]),
+            words=Words.among(words["document"]),
             blocks=blocks,
         )
     )

@@ -11,10 +11,10 @@ base_sub^sup, numbers as printed in the document's language, drawings by their c
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
 from itertools import groupby
-from typing import Literal
+from typing import Literal, Self
 
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
@@ -222,6 +222,11 @@ class Words:
     page: str
     continued: str
     """Stands behind the number of a table or figure that goes on from the page before."""
+
+    @classmethod
+    def among(cls, words: Mapping[str, str]) -> Self:
+        """Those of a table of words, in which a school may have more."""
+        return cls(*(words[one.name] for one in fields(cls)))
 
 
 @dataclass(frozen=True, slots=True)
