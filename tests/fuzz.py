@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+import os
 import random
 import re
 import sys
@@ -14,14 +15,16 @@ import time
 import traceback
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from reportgen import api
 from reportgen.base.errors import ReportgenError
+from reportgen.base.files import folder as kept_in
 from reportgen.base.words import load_words, search_path, sections, templates
 from reportgen.cases import MachineCase, open_case
 from reportgen.classes.draw import Draw, judge_of
@@ -95,6 +98,8 @@ REACHING = (
     "| a | b |\n",
 )
 """What a template may hold; each of them is a fault, or nothing."""
+GAPS = ("{nobody}", "{}", "{0}", "{k.real.imag}", "{k:d}", "{{", "{", "", "5", "{k!r}")
+"""What may stand in place of a gap of a short word."""
 TABLES = ("../roster.csv", "/etc/passwd", "../../../../../etc/passwd", "roster.csv", ".", "nowhere.csv", "~/roster.csv")
 SWITCHES = (
     ("direction: anticlockwise", "direction: clockwise"),
@@ -250,11 +255,32 @@ def _template(number: int, chance: random.Random, folder: Path) -> None:
         prose.render(name, names(report))
 
 
+def _words(number: int, chance: random.Random, folder: Path) -> None:
+    """A part of the short words as a school may write it, with other gaps or spoilt, on all pages that have it."""
+    file = folder / "en.md"
+    part = chance.choice(re.split(r"\n(?=\w)", _text(templates() / "en" / "words.yaml")))
+    if chance.random() < 0.5:
+        part = spoilt(part, chance)
+    if gaps := list(re.finditer(r"{\w*}", part)):
+        gap = chance.choice(gaps)
+        part = part[: gap.start()] + chance.choice(GAPS) + part[gap.end() :]
+    _put(file, f"%% words\n{part}\n")
+    case = replace(_case())
+    vars(case)["words"] = load_words((file, *case.places))
+    case.document()
+    case.task(case.key())
+
+
 @cache
-def _report() -> Report:
+def _case() -> Calculation:
     case = open_case(Path("assignments/slotted-lever-01.yaml"), "en")
     assert isinstance(case, Calculation)
-    return Report(case)
+    return case
+
+
+@cache
+def _report() -> Report:
+    return Report(_case())
 
 
 def _sheet(number: int, chance: random.Random, folder: Path) -> None:
@@ -298,13 +324,51 @@ KINDS: dict[str, Callable[[int, random.Random, Path], None]] = {
     "sheet": _sheet,
     "block": _block,
     "template": _template,
+    "words": _words,
 }
 WRITTEN = frozenset(
     {"a.yaml", "roster.csv", "spec.yaml", "policy.yaml", "sheet.csv", "sheet.xlsx", "block.yaml", "en.md"}
 )
 """The files that are tried; a text that was run would make another."""
-SHARES = (50, 10, 3, 7, 10, 8, 12)
+SHARES = (48, 10, 3, 7, 10, 8, 10, 4)
 """How many of a hundred files are of each kind."""
+
+
+_DEEDS = "chmod chown link mkdir remove rename rmdir symlink truncate utime exec fork posix_spawn system"
+DEEDS = frozenset({*(f"os.{deed}" for deed in _DEEDS.split()), "subprocess.Popen", "socket.connect"})
+"""What Python tells of, besides opened files, that no file that is read may bring about."""
+WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
+
+
+@dataclass(slots=True)
+class Guard:
+    """What is done while the folder of an attempt stands here, but for what is kept for the next run."""
+
+    folder: Path | None = None
+    seen: list[str] = field(default_factory=list)
+
+    def hear(self, event: str, arguments: tuple[Any, ...]) -> None:
+        if self.folder is None or not (event in DEEDS or event == "open"):
+            return
+        about, *_, flags = arguments or ("", 0)
+        path = os.fsdecode(about) if isinstance(about, str | bytes | os.PathLike) else str(about)
+        if event == "open" and not (isinstance(flags, int) and flags & WRITING) and "passwd" not in path:
+            return
+        own = (str(self.folder), str(kept_in()), "/dev/null")
+        if not path.startswith(own) and "__pycache__" not in path:
+            self.seen.append(f"{event} {path}")
+
+
+@cache
+def guard() -> Guard:
+    """The guard of this process, which hears all that Python tells of."""
+    found = Guard()
+    # What is loaded and made for the first time is no deed of a file.
+    kept_in()
+    _case().document()
+    _key()
+    sys.addaudithook(found.hear)
+    return found
 
 
 def attempt(number: int, seed: int, folder: Path) -> Outcome:
@@ -313,6 +377,7 @@ def attempt(number: int, seed: int, folder: Path) -> Outcome:
     kind = chance.choices(list(KINDS), SHARES)[0]
     came_to, wrong = "right", ""
     start = time.process_time()
+    guard().folder = folder
     try:
         KINDS[kind](number, chance, folder)
     except ReportgenError as fault:
@@ -321,6 +386,11 @@ def attempt(number: int, seed: int, folder: Path) -> Outcome:
             wrong = f"exit code {fault.exit_code}: {fault}"
     except Exception:
         came_to, wrong = "crash", traceback.format_exc(limit=-5)
+    finally:
+        guard().folder = None
+    if done := guard().seen:
+        wrong = f"{wrong} it did {', '.join(done)}"
+        done.clear()
     if strangers := {path.name for path in folder.iterdir()} - WRITTEN:
         wrong = f"{wrong} it made {', '.join(sorted(strangers))}"
     return Outcome(number, kind, came_to, time.process_time() - start, wrong)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import random
+import re
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -22,3 +25,23 @@ def test_spoilt_files_come_to_results_or_faults(tmp_path: Path, part: int) -> No
     assert [(one.number, one.kind, one.wrong) for one in outcomes if one.wrong] == []
     # Both ends are met, or the test would see little.
     assert {"right", "fault"} <= {one.came_to for one in outcomes}
+
+
+def test_what_is_done_outside_is_heard(tmp_path: Path) -> None:
+    """A file written beside the folder, one read that nobody may see, a command: each is told of its file."""
+    (tmp_path / "in").mkdir()
+
+    def reaching(number: int, chance: random.Random, folder: Path) -> None:
+        (folder / "a.yaml").write_text("allowed", encoding="utf-8")
+        (folder.parent / "out").write_text("written", encoding="utf-8")
+        Path("/etc/passwd").read_bytes()
+        subprocess.run(("true",), check=True)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(fuzz, "KINDS", dict.fromkeys(fuzz.KINDS, reaching))
+        wrong = fuzz.attempt(0, SEED, tmp_path / "in").wrong
+    assert re.findall(r"(open|subprocess.Popen) (\S+?)(?:,|$)", wrong)[:3] == [
+        ("open", str(tmp_path / "out")),
+        ("open", "/etc/passwd"),
+        ("subprocess.Popen", "true"),
+    ]

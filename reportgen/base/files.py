@@ -149,10 +149,10 @@ def contents(path: Path, most: int = -1) -> bytes:
         return stream.read(most)
 
 
-def leads_out(path: Path, folder: Path) -> bool:
-    """Whether a path, its links followed, is anywhere else than in a folder or below it."""
+def leads_out(path: Path, *folders: Path) -> bool:
+    """Whether a path, its links followed, is anywhere else than in one of some folders or below it."""
     try:
-        return not path.resolve().is_relative_to(folder.resolve())
+        return not any(path.resolve().is_relative_to(folder.resolve()) for folder in folders)
     except (OSError, RuntimeError, ValueError):  # a loop of links, or no path at all
         return True
 

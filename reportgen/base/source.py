@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
+from operator import attrgetter
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -82,20 +83,24 @@ class Source:
 
 def read_source(path: Path) -> Source:
     """The nodes of a file; every fault of its bytes and syntax is in `faults`, none is raised."""
+    text = text_in(path)
+    return Source(str(path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(path))
+
+
+def text_in(path: Path) -> str | Fault:
+    """The text of a file, or what keeps it from being read."""
     file = str(path)
     try:
         data = contents(path, LARGEST + 1)
         if len(data) > LARGEST:
-            fault = Fault("too-large", Mark(file), {"largest": str(LARGEST // 1000)})
-        elif b"\0" in data:
-            fault = Fault("binary", mark_in(data, data.index(b"\0"), file))
-        else:
-            return read_text(data.decode("utf-8-sig"), file)
+            return Fault("too-large", Mark(file), {"largest": str(LARGEST // 1000)})
+        if b"\0" in data:
+            return Fault("binary", mark_in(data, data.index(b"\0"), file))
+        return data.decode("utf-8-sig")
     except OSError as error:
-        fault = Fault("unreadable", Mark(file), {"reason": type(error).__name__})
+        return Fault("unreadable", Mark(file), {"reason": type(error).__name__})
     except UnicodeDecodeError as error:
-        fault = Fault("encoding", mark_in(data, error.start, file))
-    return Source(file, faults=(fault,))
+        return Fault("encoding", mark_in(data, error.start, file))
 
 
 def read_text(text: str, file: str = "") -> Source:
@@ -134,11 +139,8 @@ def read_words(path: Path) -> Source:
 
     What libyaml refuses, and what is more than plain nodes, is read again with care, to say where the fault is.
     """
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError):
-        return read_source(path)
-    return read_own(text, str(path))
+    text = text_in(path)
+    return Source(str(path), faults=(text,)) if isinstance(text, Fault) else read_own(text, str(path))
 
 
 def read_own(text: str, file: str = "") -> Source:
@@ -155,15 +157,15 @@ def read_own(text: str, file: str = "") -> Source:
     return Source(file, text, top) if top and not faults else read_text(text, file)
 
 
-def plain(node: Node) -> Any:
-    """Nodes as dict, list and str; what was left empty is None."""
+def plain(node: Node, said: Callable[[Scalar], str] = attrgetter("text")) -> Any:
+    """Nodes as dict, list and str, or what else is `said` by a text; what was left empty is None."""
     match node:
-        case Scalar(text, null=null):
-            return None if null else text
+        case Scalar(null=null):
+            return None if null else said(node)
         case SequenceNode(items):
-            return [plain(item) for item in items]
+            return [plain(item, said) for item in items]
         case MappingNode(entries):
-            return {key.text: plain(value) for key, value in entries}
+            return {key.text: plain(value, said) for key, value in entries}
 
 
 class _StoppedError(Exception):

@@ -12,15 +12,27 @@ import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, lru_cache, reduce
+from functools import cache, lru_cache
 from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
 from string import Formatter
 from typing import Any
 
-from reportgen.base.errors import AssignmentError, Fault, Mark, Problem, TemplateError
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, read_words
+from reportgen.base.errors import AssignmentError, Fault, Mark, Problem, TemplateError, Where
+from reportgen.base.source import (
+    MappingNode,
+    Node,
+    Scalar,
+    SequenceNode,
+    Source,
+    at,
+    path_text,
+    plain,
+    read_own,
+    read_words,
+    text_in,
+)
 from reportgen.base.units import Language
 
 DEFAULT_LANGUAGE: Language = "vi"
@@ -55,7 +67,7 @@ def schools() -> list[str]:
     return sorted(
         folder.name
         for folder in templates().iterdir()
-        if folder.name not in {"vi", "en", "frames"} and any((folder / f"{name}.md").is_file() for name in ("vi", "en"))
+        if folder.name not in {"vi", "en", "frames"} and any((folder / f"{name}.md").exists() for name in ("vi", "en"))
     )
 
 
@@ -86,12 +98,15 @@ def load_words(places: Sequence[Path]) -> Mapping[str, Any]:
     """All words found in `places` (see `search_path`): tables of tables, lists and words.
 
     A place nearer on the search path need only hold the words it changes.  Raises `TemplateError` with
-    file and line for what cannot be read, and where no place has any.
+    file and line for what cannot be read or is not of the form of what it changes, and where no place has any.
     """
-    tables = [table for place in reversed(places) if (table := _words_in(place)) is not None]
-    if not tables:
+    found: Mapping[str, Any] | None = None
+    for place in reversed(places):
+        if (table := _words_in(place)) is not None:
+            found = table if found is None else _over(found, table, place)
+    if found is None:
         raise TemplateError(f"{places[-1]}: there are no words here")
-    return reduce(_over, tables)
+    return found
 
 
 def _words_in(place: Path) -> Mapping[str, Any] | None:
@@ -120,7 +135,7 @@ def _as_written(section: Passage, place: Path) -> Mapping[str, Any]:
     for scalar in _scalars(source.top):
         if not _plain_gaps(scalar.text):
             mark = _below(scalar.mark, section.line)
-            raise TemplateError(f"{mark}: {word('template_unsafe', 'en' if place.stem == 'en' else DEFAULT_LANGUAGE)}")
+            raise TemplateError(f"{mark}: {word('template_unsafe', _spoken(place))}")
     return _table(source, section.line)
 
 
@@ -140,10 +155,35 @@ def _scalars(node: Node | None) -> Iterator[Scalar]:
 def _plain_gaps(text: str) -> bool:
     """Whether the gaps in braces name values: a hidden member or an item of one, or a width, would be more."""
     try:
-        gaps = [(name, how) for _, name, how, _ in Formatter().parse(text) if name]
+        named = [(name, how) for _, name, how, _ in Formatter().parse(text) if name]
     except ValueError:
         return False
-    return not any(re.search(r"\[|(^|\.)_", name) or re.search(r"[{\d]", how or "") for name, how in gaps)
+    return not any(re.search(r"\[|(^|\.)_", name) or re.search(r"[{\d]", how or "") for name, how in named)
+
+
+class _Word(str):
+    """A word that knows where it stands: a gap in it that nothing fills is a fault there."""
+
+    mark = Mark("")
+
+    def format(self, *values: object, **named: object) -> str:
+        """As that of a text.  Raises `TemplateError`."""
+        try:
+            return super().format(*values, **named)
+        except (AttributeError, LookupError, TypeError, ValueError) as error:
+            text = word("template_gap", _spoken(Path(self.mark.file)), text=_shown(self), known=", ".join(named) or "–")
+            raise TemplateError(f"{self.mark}: {text}") from error
+
+    def __str__(self) -> str:
+        return self
+
+    def __reduce__(self) -> tuple[type[str], tuple[str]]:
+        return str, (self[:],)
+
+
+def _spoken(file: Path) -> Language:
+    """The language of a file of templates."""
+    return "en" if "en" in (file.stem, file.parent.name, file.parent.parent.name) else DEFAULT_LANGUAGE
 
 
 def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
@@ -152,7 +192,13 @@ def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
         raise TemplateError("\n".join(f"{_below(fault.mark, above)}: {fault.code}" for fault in source.faults))
     if not isinstance(source.top, MappingNode):
         raise TemplateError(f"{_below(Mark(source.file), above)}: a table of words is wanted here")
-    content: Mapping[str, Any] = plain(source.top)
+
+    def said(scalar: Scalar) -> str:
+        found = _Word(scalar.text)
+        found.mark = _below(scalar.mark, above)
+        return found
+
+    content: Mapping[str, Any] = plain(source.top, said)
     return content
 
 
@@ -160,13 +206,28 @@ def _below(mark: Mark, above: int) -> Mark:
     return replace(mark, line=mark.line + above)
 
 
-def _over(below: Mapping[str, Any], above: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Both tables in one; where both have a word, the one `above`, whose words also come first."""
+def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where: Where = ()) -> Mapping[str, Any]:
+    """Both tables in one; where both have a word, the one `above`, whose words also come first.
+
+    Raises `TemplateError` with a place in the file `above` where its words have another form.
+    """
     result: dict[str, Any] = {}
     for key, value in above.items():
-        both_tables = isinstance(value, Mapping) and isinstance(below.get(key), Mapping)
-        result[key] = _over(below[key], value) if both_tables else value
+        here, common = (*where, key), below.get(key, value)
+        if not _alike(value, common):
+            section = sections(place)[SECTION]
+            node = at(read_own(section.text).top, here)
+            line = section.line + (node.mark.line if node else 0)
+            raise TemplateError(f"{place}:{line}: {word('template_form', _spoken(place), text=path_text(here))}")
+        result[key] = _over(common, value, place, here) if isinstance(value, Mapping) else value
     return result | {key: value for key, value in below.items() if key not in result}
+
+
+def _alike(one: Any, other: Any) -> bool:
+    """Whether a word can stand for another one: both are tables, or texts, or lists of at least as many that can."""
+    if isinstance(one, list) and isinstance(other, list):
+        return len(one) >= len(other) and all(map(_alike, one, other))
+    return isinstance(one, Mapping) == isinstance(other, Mapping) and isinstance(one, str) == isinstance(other, str)
 
 
 def language_of(source: Source) -> Language:
@@ -207,7 +268,7 @@ def as_problem(fault: Fault, language: Language | None) -> Problem:
     # The hint that was asked for, then the code's own and its second form.
     keys = (fault.arguments.get("hint"), fault.code, f"{fault.code}-otherwise")
     hints = (str(table["hints"][key]) for key in keys if table["hints"].get(key))
-    hint = next((hint for hint in hints if _fields(hint) <= arguments.keys()), None)
+    hint = next((hint for hint in hints if gaps(hint) <= arguments.keys()), None)
     return Problem(fault.code, message, fault.mark, hint.format_map(arguments) if hint else None)
 
 
@@ -223,7 +284,8 @@ def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
     return {"close": close[0]} if close else {"known": ", ".join(known)}
 
 
-def _fields(template: str) -> set[str]:
+def gaps(template: str) -> set[str]:
+    """The names of what fills a text in."""
     return {name for _, name, _, _ in Formatter().parse(template) if name}
 
 
@@ -311,10 +373,10 @@ def _names(language: Path) -> Iterator[str]:
 @lru_cache(maxsize=KEPT_FILES)
 def _sections_of(file: Path, changed: int, size: int) -> Mapping[str, Passage]:
     """The sections of a file, read once for as long as it stays the same."""
-    try:
-        lines = file.read_text(encoding="utf-8-sig").split("\n")
-    except (OSError, UnicodeDecodeError) as error:
-        raise TemplateError(f"{file}:1: {error}") from error
+    text = text_in(file)
+    if isinstance(text, Fault):
+        raise TemplateError(str(as_problem(text, _spoken(file))))
+    lines = re.split(r"\r\n?|\n", text)
     headings = [number for number, line in enumerate(lines, start=1) if line.startswith(HEADING)]
     found: dict[str, Passage] = {}
     for number, end in pairwise([*headings, len(lines) + 1]):

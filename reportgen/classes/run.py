@@ -46,7 +46,7 @@ class Order:
     """What is asked for: assignments drawn from `spec` into `out`, or found in `assignments`; exactly one of both.
 
     `jobs` processes of this machine (0: one for each core), unless a scheduler's address `cluster` is given.
-    `ask` is what the answer sheets ask for, None for the default.
+    `ask` is what the answer sheets ask for, None for the default; the spec's table may lie below a `shared` folder.
     """
 
     roster: Path
@@ -59,6 +59,7 @@ class Order:
     jobs: int = 0
     cluster: str | None = None
     ask: Ask | None = None
+    shared: tuple[Path, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -270,9 +271,8 @@ def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
     if order.spec is not None:
         folder = order.out / DRAWN
         remove_unfinished(folder)
-        variants = make_variants(order.spec, order.roster, folder, language=order.language)
-        paths = [file.path for file in variants.files]
-        return list(zip(roster.students, paths, strict=True)), list(variants.remarks)
+        variants = make_variants(order.spec, order.roster, folder, language=order.language, shared=order.shared)
+        return list(zip(roster.students, (file.path for file in variants.files), strict=True)), list(variants.remarks)
     if order.assignments is None:
         raise ValueError("assignments are either drawn or given")
     assigned, unused = match_files(roster.students, order.assignments, order.language)
@@ -488,7 +488,7 @@ def _parsed(text: str) -> dict[str, Any]:
 
 def _text(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8", errors="replace")
+        return contents(path).decode("utf-8", "replace")
     except FileNotFoundError:
         return ""
 

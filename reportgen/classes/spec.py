@@ -4,9 +4,9 @@ Beside the keys of an assignment file it may have
 
 - lists where one value is wanted: `n: [1800 rpm, 2000 rpm, 2200 rpm]`;
 - stepped ranges: `H: {from: 80 mm, to: 120 mm, step: 5 mm}`, ends included, units as typed in `from`;
-- `variants: table.csv` (or .xlsx, beside the spec): one row a variant, columns named like the parameters (`H`,
-  or `H (mm)` for bare numbers; `positions.start` for other sections), and if wished a column `variant`
-  with its name;
+- `variants: table.csv` (or .xlsx, beside the spec, below it or below a folder that is shared): one row a
+  variant, columns named like the parameters (`H`, or `H (mm)` for bare numbers; `positions.start` for other
+  sections), and if wished a column `variant` with its name;
 - `salt: text`, which changes all draws; without it they depend on the key `variant` of the spec.
 
 Choices may stand at any depth of `parameters`, `positions`, `drawing` and `indicator`.  What the kind's own
@@ -27,7 +27,7 @@ from reportgen import catalogue
 from reportgen.assignment.common import Kind
 from reportgen.assignment.reading import allowed_forms, known_keys, misread
 from reportgen.base.errors import Fault, Mark, Where
-from reportgen.base.files import leads_out
+from reportgen.base.files import contents, leads_out
 from reportgen.base.source import (
     MappingNode,
     Node,
@@ -156,8 +156,11 @@ class Spec:
         return [fault for column in overriding for fault in _no_place(self.kind, self.top, column)]
 
 
-def read_spec(path: Path, language: Language | None = None) -> Spec:
-    """The spec of a file; raises `AssignmentError` with all faults that its choices show by themselves."""
+def read_spec(path: Path, language: Language | None = None, shared: Sequence[Path] = ()) -> Spec:
+    """The spec of a file, whose table lies below its folder or a `shared` one.
+
+    Raises `AssignmentError` with all faults that its choices show by themselves.
+    """
     source = read_source(path)
     language = language or language_of(source)
     top = source.top
@@ -174,14 +177,15 @@ def read_spec(path: Path, language: Language | None = None) -> Spec:
     digest = hashlib.sha256(source.text.encode())
     if table is not None:
         file = path.parent / table.text
-        if leads_out(file, path.parent):
+        if leads_out(file, path.parent, *shared):
             # Nothing of it is read, so that nothing of it is told.
-            raise as_error([*faults, Fault("path-outside", table.mark, {"text": table.text})], language)
+            outside = Fault("path-outside", table.mark, {"text": table.text, "hint": "path-shared"})
+            raise as_error([*faults, outside], language)
         rows = _rows(file, kind, base, faults, language)
         faults += _given_twice(base, axes, rows)
         axes.append(DrawnParameter("variants", rows))
         if not faults:
-            digest.update(file.read_bytes())
+            digest.update(contents(file))
     salted = salt.text if salt else ""
     spec = Spec(
         path=path,

@@ -116,14 +116,15 @@ def make_variants(
     force: bool = False,
     language: Language | None = None,
     shown: Shown = lambda files, _: files,
+    shared: Sequence[Path] = (),
 ) -> Variants:
     """Draw for the class of a roster and write each student's assignment file into `out`.
 
-    Files appear whole; one that was edited since it was made is kept unless `force`.  Also writes
-    `out`/variants.csv, which is for the instructor alone.  Raises `AssignmentError` with the faults of spec and
-    roster, before anything is written.
+    The spec's table may lie below a `shared` folder, too.  Files appear whole; one that was edited since it was made
+    is kept unless `force`.  Also writes `out`/variants.csv, which is for the instructor alone.  Raises
+    `AssignmentError` with the faults of spec and roster, before anything is written.
     """
-    spec = read_spec(spec_path, language)
+    spec = read_spec(spec_path, language, shared)
     roster = read_roster(roster_path, spec.language)
     _refuse(spec.column_faults(roster.columns), spec)
     drawn = (out / f"{student.folder}.yaml" for student in roster.students)

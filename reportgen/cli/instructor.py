@@ -29,6 +29,17 @@ PolicyOption = Annotated[
     typer.Option("--policy", metavar="FILE", help="What is asked for and how it is marked.", show_default=False),
 ]
 Roster = Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)]
+SharedOption = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--shared",
+        metavar="DIR",
+        exists=True,
+        file_okay=False,
+        help="Tables that SPEC names may lie below DIR, too; repeatable.",
+        show_default=False,
+    ),
+]
 
 
 def variants(
@@ -39,12 +50,13 @@ def variants(
     ),
     force: Annotated[bool, typer.Option("--force", help="Also replace files edited by hand.")] = False,
     lang: LangOption = None,
+    shared: SharedOption = None,
 ) -> None:
     """Draw a variant for each student of ROSTER and freeze it into DIR/<id>.yaml."""
     from reportgen.classes.variants import make_variants
 
     with ending(lang):
-        made = make_variants(spec, roster, out, force, lang, _bar)
+        made = make_variants(spec, roster, out, force, lang, _bar, shared=shared or ())
         print(*(file.path for file in made.files), "", *made.summary, sep="\n")
         print(*made.remarks, sep="\n", end="\n" * bool(made.remarks), file=sys.stderr)
 
@@ -78,6 +90,7 @@ def batch(
         str | None, typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler to work for us.")
     ] = None,
     policy: PolicyOption = None,
+    shared: SharedOption = None,
 ) -> None:
     """Make task, report, key or drawing sheets of everybody on ROSTER; go on where an earlier run was stopped."""
     from reportgen.api import MAKERS
@@ -102,6 +115,7 @@ def batch(
             jobs=jobs or 0,
             cluster=cluster,
             ask=ask,
+            shared=tuple(shared or ()),
         )
         try:
             result = run_batch(order, sys.stderr)

@@ -89,7 +89,7 @@ def sheet(
         assignment = api.load(file, lang)
         known = blocks(assignment.report.school or "")
         path = None if block is None else known.get(block, Path(block))
-        if path is not None and not path.is_file():
+        if path is not None and not path.exists():
             raise typer.BadParameter(say("no_block", lang, name=block, known=", ".join(known)), param_hint="--block")
         refuse_inputs(standing(out / assignment.id, "sheet"), [*files, path], lang)
         with reported(), scratch(out):

@@ -18,7 +18,7 @@ from reportgen.exercise.figures import FIGURES
 from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import Literal, symbol
 from reportgen.exercise.views import AT, FurtherView, Solution, lettered
-from reportgen.formula import Chain, Negative, Number, Symbol, ids, vocabulary
+from reportgen.formula import PI, Chain, Negative, Number, Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.report import (
     Block,
@@ -159,7 +159,7 @@ def solution(case: SolvedExercise) -> Document:
             author=assignment.report.student.name or "",
             header=(words["header"].format(course=case.course), case.variant_line),
             footer=("", words["document"]["page"]),
-            words=Words(**words["document"]),
+            words=Words.among(words["document"]),
             blocks=blocks,
         )
     )
@@ -270,9 +270,11 @@ class SolutionPage(Solution):
         unit = self.case.words["units"].get(given.unit, pretty(given.unit))
         size = Number(float(f"{abs(given.value):.{TYPED}g}"), None, unit)
         if not isinstance(given, Literal):
+            if given.unit != "rpm" or id not in self.worked.printed:
+                return Chain((vocabulary.symbol(id), size))
             # The lines count in rad/s.
-            in_si = (self.worked.printed.number(id, AT),) if given.unit == "rpm" and id in self.worked.printed else ()
-            return Chain((vocabulary.symbol(id), size, *in_si))
+            turned = 2 * PI * Number(size.value) / 60
+            return Chain((vocabulary.symbol(id), size, turned, self.worked.printed.number(id, AT)))
         formula = lettered(given.formula)
         shown = (formula.of if isinstance(formula, Negative) else formula,)
         return Chain((vocabulary.symbol(id), *shown))

@@ -55,6 +55,9 @@ def _written(ledger: Ledger, finer: Mapping[str, int]) -> Ledger:
 
     def enter(id: str, values: dict[str, np.ndarray]) -> None:
         family, again = ledger[id], _named_again(ledger[id])
+        if family.is_plane and id in ids.place:
+            # Where a joint lies is drawn as finely as can be: near a dead point hundredths would become millimetres.
+            values[id] = family.values
         if family.is_plane or family.hidden:
             return
         if again and ledger[again].kind == family.kind:

@@ -17,7 +17,7 @@ from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, close_or_known, load_words, search_path
+from reportgen.base.words import as_error, close_or_known, gaps, load_words, search_path
 from reportgen.formula import Expression, Number, Symbol, ids, refs, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain import formula
@@ -211,11 +211,9 @@ def positive_sense(id: str, report: Report) -> str:
     family, ledger = report.ledger[id], report.ledger
     known = _points(id, ledger) | _way(id, report)
     for phrase in vocabulary.words_of(report.words["positive"], id, family.kind, family.symbol):
-        try:
+        # Another may speak of something that this quantity has not.
+        if gaps(phrase) <= known.keys():
             return phrase.format(**known)
-        except KeyError:
-            # It speaks of something that this quantity has not.
-            continue
     return ""
 
 

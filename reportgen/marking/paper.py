@@ -53,7 +53,7 @@ def paper(
             author=owner,
             header=header,
             footer=footer,
-            words=tree.Words(**terms),
+            words=tree.Words.among(terms),
             blocks=tuple(blocks),
         )
     )

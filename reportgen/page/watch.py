@@ -184,7 +184,7 @@ class Desk:
 
 
 def _nothing(edition: Edition) -> tree.Document:
-    words = tree.Words(**edition.words["document"])
+    words = tree.Words.among(edition.words["document"])
     return tree.Document(edition.language, NOBODY, "", ("", ""), ("", ""), words)
 
 

@@ -11,10 +11,10 @@ base_sub^sup, numbers as printed in the document's language, drawings by their c
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
 from itertools import groupby
-from typing import Literal
+from typing import Literal, Self
 
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
@@ -227,6 +227,11 @@ class Words:
     continued: str
     """Stands behind the number of a table or figure that goes on from the page before."""
 
+    @classmethod
+    def among(cls, words: Mapping[str, str]) -> Self:
+        """Those of a table of words, in which a school may have more."""
+        return cls(*(words[one.name] for one in fields(cls)))
+
 
 @dataclass(frozen=True, slots=True)
 class Document:
@@ -335,8 +340,8 @@ UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
 
 TITLE = 5.0
 """What the titles of a row of scenes take below it (mm)."""
-LONG_FIGURE = 110.0
-"""A figure of several rows that is higher than this (mm) may break between them; its caption then comes first."""
+FIGURE_HEIGHT = 238.0
+"""What of an A4 page a figure may fill above its caption (mm)."""
 
 # --- equations --------------------------------------------------------------------------------------
 
@@ -417,9 +422,14 @@ def height(rows: Sequence[Sequence[Scene]]) -> float:
     return sum(max(scene.height for scene in row) for row in rows) + titles + SCENE_GAP * (len(rows) - 1)
 
 
-def breaks(rows: Sequence[Sequence[Scene]]) -> bool:
-    """Whether a figure's rows may stand on more than one page."""
-    return len(rows) > 1 and height(rows) > LONG_FIGURE
+def on_pages(figure: Figure) -> list[list[list[Scene]]]:
+    """The rows of a figure, page by page: on one page unless they are too high for it."""
+    pages: list[list[list[Scene]]] = [[]]
+    for row in in_rows(figure.scenes):
+        if pages[-1] and height([*pages[-1], row]) > FIGURE_HEIGHT:
+            pages.append([])
+        pages[-1].append(row)
+    return pages
 
 
 def in_rows(scenes: Sequence[Scene]) -> list[list[Scene]]:

@@ -30,6 +30,7 @@ from reportgen.machine.loads import FULL_TURN, Piston
 from reportgen.machine.motion import Motion, solve_motion
 from reportgen.plans.motion import NEAREST, centre_symbol
 from reportgen.plans.sides import Side
+from reportgen.report import FIGURE_HEIGHT, TEXT_WIDTH
 from reportgen.report.groups import GroupView, PlaneLink
 from reportgen.report.report import DENSE, Report
 
@@ -38,12 +39,10 @@ LARGER = tuple(
     size for short, long in ((420.0, 594.0), (594.0, 841.0), (841.0, 1189.0)) for size in ((long, short), (short, long))
 )
 """Sheets A2, A1, A0, lying and standing."""
-TEXT_BLOCK = (160.0, 255.0)
-"""What of an A4 page text and figures fill."""
-CAPTION = 17.0
-"""What the caption below a figure takes of that, with the white above it."""
-FIGURE_ROOM = (TEXT_BLOCK[0], TEXT_BLOCK[1] - CAPTION)
+FIGURE_ROOM = (TEXT_WIDTH, FIGURE_HEIGHT)
 """What of an A4 page a figure may fill."""
+TURNED_ROOM = (255.0, 143.0)
+"""What of it a figure may fill that is turned by 90°."""
 PAPERS = {297.0: "A3", 420.0: "A2", 594.0: "A1", 841.0: "A0"}
 """The names of sheets by their shorter side (mm)."""
 WHITE = (34.0, 64.0)
@@ -75,7 +74,7 @@ def in_text(*scenes: Scene) -> bool:
 
 def across(scene: Scene) -> bool:
     """Whether a scene fits a text block that is turned by 90°."""
-    return scene.width <= TEXT_BLOCK[1] and scene.height <= TEXT_BLOCK[0] - CAPTION
+    return scene.width <= TURNED_ROOM[0] and scene.height <= TURNED_ROOM[1]
 
 
 def close(scene: Scene) -> Scene:

@@ -426,7 +426,7 @@ def compose(case: Calculation) -> Document:
             author=assignment.report.student.name or "",
             header=(words["header"].format(course=case.course), case.variant_line),
             footer=("", words["document"]["page"]),
-            words=Words(**words["document"]),
+            words=Words.among(words["document"]),
             blocks=tuple(plates_last(blocks, partial(_plate_is_last, report))),
         )
     )

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 CONTENTS_LEVEL = 3
 """The deepest level of heading that the contents and the outline list."""
-CAPTION = 15.0
-"""About what a figure's caption takes, with the white around it (mm)."""
 HEADING, OPENING, TITLE, ROW = 12, 20, 14, 5.0
 """Approximate heights in mm: of a heading, of the words before a table, of its caption, and of a row."""
 WORDS, LINE = 9, 12
@@ -274,28 +272,26 @@ class _Writer:
         label = f"{word} {block.number}".strip() + ("." if block.caption else "")
         return _command("captiontext", place, escape(label), self.inlines(block.caption))
 
-    def again(self, word: str, block: tree.Table | tree.Plate) -> str:
+    def again(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         """The caption of what goes on from the page before."""
         return _command("captiontext", "", escape(f"{word} {block.number} ({self.document.words.continued})"), "")
 
     def figure(self, figure: tree.Figure) -> str:
-        """Its rows with the caption below; a figure that breaks between its rows has the caption first."""
+        """Its rows with the caption below, on as many pages as they need."""
         if figure.turned:
             drawing = paint_latex(figure.scenes[0], self.formulas)
             shown = _command("turned", drawing, self.caption(self.document.words.figure, figure))
             return f"\\begin{{turnedscene}}\n{shown}\n\\end{{turnedscene}}"
-        scenes = tree.in_rows(figure.scenes)
-        breaks = tree.breaks(scenes)
-        rows = ("\n\\scenebreak\n" if breaks else "\n\\scenegap\n").join(
-            _command("scenerow", rf"\hskip{tree.SCENE_GAP:g}mm ".join(map(self.scene, row))) for row in scenes
-        )
-        caption = self.caption(self.document.words.figure, figure)
-        if breaks:
-            first = rf"{{{tree.height(scenes[:1]) + CAPTION:g}mm}}"
-            return "\n".join(
-                [r"\begin{longscenes}" + first, _command("captionabove", caption), rows, r"\end{longscenes}"]
-            )
-        return "\n".join([r"\begin{scenes}", rows, _command("figurecaption", caption), r"\end{scenes}"])
+        word = self.document.words.figure
+        first, *others = tree.on_pages(figure)
+        further = (self.rows(rows, self.again(word, figure)) for rows in others)
+        return "\n".join((self.rows(first, self.caption(word, figure)), *further))
+
+    def rows(self, rows: Sequence[Sequence[Scene]], caption: str) -> str:
+        """Rows of scenes with the caption below."""
+        gap = rf"\hskip{tree.SCENE_GAP:g}mm "
+        drawn = "\n\\scenegap\n".join(_command("scenerow", gap.join(map(self.scene, row))) for row in rows)
+        return "\n".join([r"\begin{scenes}", drawn, _command("figurecaption", caption), r"\end{scenes}"])
 
     def scene(self, scene: Scene) -> str:
         painted = paint_latex(scene, self.formulas)

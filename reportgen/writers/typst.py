@@ -187,13 +187,14 @@ class _Blocks:
             case tree.Table():
                 return self.table(block)
             case tree.Figure(scenes, _, key, turned=turned):
-                rows = tree.in_rows(scenes)
                 label = self.caption(self.words.figure, block)
                 if turned:
                     return f"#Q({literal(key)},{label},\n{paint_typst(scenes[0], self.formulas)})"
-                drawings = ",".join(_array(map(self.scene, row)) for row in rows)
-                stays = tree.breaks(rows) or self.room < tree.TEXT_WIDTH
-                return f"{'#place.flush()#F' if stays else '#W'}({literal(key)},{label},\n{drawings})"
+                first, *others = tree.on_pages(block)
+                again = f"{self.again(self.words.figure, block)},[]"
+                figures = [f"#W({literal(key)},{label},\n{self.rows(first)})"]
+                figures += (f'#W("",{again},\n{self.rows(rows)})' for rows in others)
+                return "\n".join(figures)
             case tree.Plate(scene, (width, height), _, key, continues=continues):
                 label = (
                     f"{self.again(self.words.figure, block)},[]"
@@ -303,6 +304,9 @@ class _Blocks:
         body = self.content(cell.inlines)
         return f"{spanned}({cell.span},{body})" if cell.span > 1 else body
 
+    def rows(self, rows: Sequence[Sequence[Scene]]) -> str:
+        return ",".join(_array(map(self.scene, row)) for row in rows)
+
     def scene(self, scene: Scene) -> str:
         return f"({paint_typst(scene, self.formulas)},{literal(scene.title)})"
 
@@ -310,7 +314,7 @@ class _Blocks:
         """The two arguments of a caption: its label, and what it says."""
         return f"{literal(f'{word} {block.number}'.strip())},{self.content(block.caption)}"
 
-    def again(self, word: str, block: tree.Table | tree.Plate) -> str:
+    def again(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         """The label of what goes on from the page before."""
         return literal(f"{word} {block.number} ({self.words.continued})")
 

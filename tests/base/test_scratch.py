@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from reportgen.base.files import PREFIX, held, put_files, scratch, sweep
 from reportgen.cli import app
 from tests.lanes import proof
 
+ROOT = Path(__file__).parents[2]
 SAMPLE = "assignments/slotted-lever-01.yaml"
 HOLD = """
 import sys, tempfile, time
@@ -116,12 +118,30 @@ def test_no_run_loses_its_folder_to_those_who_sweep(tmp_path: Path) -> None:
         ]
         told = [work.communicate(timeout=120)[1] for work in works]
         assert told == ["", ""]
-        command = (sys.executable, "-m", "reportgen.cli", "build", SAMPLE, "--out", str(tmp_path))
-        for _ in range(3):
-            done = subprocess.run(command, capture_output=True, text=True, check=False)
-            assert (done.returncode, done.stderr) == (0, "")
     assert list(tmp_path.glob(f"{PREFIX}*")) == []
-    assert len(list(tmp_path.glob("*/report.pdf"))) == 41
+    assert len(list(tmp_path.glob("*/report.pdf"))) == 40
+
+
+BUILDS, AT_ONCE = 40, 4
+
+
+@proof
+def test_no_build_fails_beside_those_who_sweep(tmp_path: Path) -> None:
+    """Whole builds, several at once, each a process of its own with a report of its own in one common folder."""
+    text = (ROOT / "assignments" / "plane-motion" / "01.yaml").read_text(encoding="utf-8")
+    out, files = tmp_path / "out", [tmp_path / f"k{number}.yaml" for number in range(BUILDS)]
+    for file in files:
+        file.write_text(text, encoding="utf-8")
+
+    def build(file: Path) -> tuple[int, str, str]:
+        command = (sys.executable, "-m", "reportgen.cli", "build", str(file), "--out", str(out))
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300, check=False)
+        return done.returncode, done.stdout, done.stderr
+
+    with sweeping(out), ThreadPoolExecutor(AT_ONCE) as builders:
+        assert list(builders.map(build, files)) == [(0, f"{out / file.stem / 'report.pdf'}\n", "") for file in files]
+    assert list(out.glob(f"{PREFIX}*")) == []
+    assert {path.parent.name for path in out.glob("*/report.pdf")} == {file.stem for file in files}
 
 
 @pytest.mark.parametrize("lost", ["swept", "held by a sweep"])

@@ -60,7 +60,7 @@ def test_a_fault_of_a_heading_names_file_and_line(tmp_path: Path, text: str, lin
 
 def test_what_is_no_text_is_a_fault(tmp_path: Path) -> None:
     (tmp_path / "pump.md").write_bytes(b"%% given\n\xff\n")
-    with pytest.raises(TemplateError, match=r"pump\.md:1: .*utf-8"):
+    with pytest.raises(TemplateError, match=r"pump\.md:2:1: error\[encoding\]: .*UTF-8"):
         sections(tmp_path / "pump.md")
 
 

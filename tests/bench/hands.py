@@ -1,6 +1,6 @@
 """How safely a class is marked, by students who work by hand: `python -m tests.bench.hands [SHEETS]`.
 
-Their chains are independent of the ledger and of marking (`tests.marking.hand`, `tests.marking.vectors`).  Each mistake
+Their chains are independent of the ledger and of marking (`tests.marking.hand`).  Each mistake
 is made in one value of one sheet; the table says, for each kind of machine and over all, how many are located, named
 and charged, and how many honest sheets lose or are flagged.  3,000 sheets with no flag bound its rate to 1 in 1,000.
 """
@@ -17,12 +17,11 @@ import numpy as np
 
 from reportgen.marking.marking import mark
 from tests.marking import hands, students
-from tests.marking.machines import ASSIGNMENTS
+from tests.marking.machines import MACHINES
 from tests.marking.rates import WORKED, Tally, injected, lost, misread, share
 from tests.marking.test_guard import COPIES, Room
 from tests.marking.test_losses import SCALES
 
-MACHINES = (hands.TWIN, hands.SLIDER, *ASSIGNMENTS)
 CLASS = 40
 NAMEABLE = {"omega.1", "R", "F", "m.2", "n", "H", "G2", "D", "s", "M.eq", "R.12.t"} | {
     *("l.AD", "turn.omega.3", "R.03.t", "M3")

@@ -10,11 +10,15 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
-from reportgen.base.errors import AssignmentError
+from reportgen.base.errors import AssignmentError, TemplateError
 from reportgen.base.units import Language
+from reportgen.base.words import load_words, sections
 from reportgen.catalogue import check
 from reportgen.classes.variants import _state
+from reportgen.cli import app
+from reportgen.report.prose import Prose
 from reportgen.workbook.reading import read
 from tests.lanes import proof
 
@@ -53,6 +57,36 @@ def test_inputs(
         _state(assignment, "", force=False)
 
 
+@pytest.mark.parametrize("language", ["en", "vi"])
+@pytest.mark.parametrize("make", MADE)
+def test_templates(
+    make: Callable[[Path], None], language: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A school's words, wherever they are looked for."""
+    monkeypatch.chdir(tmp_path)
+    file = Path(f"{language}.md")
+    make(file)
+    told = {"en": "it is a pipe", "vi": r"đường ống \(pipe\)"}[language]
+    for asking in (sections, lambda file: load_words((file,)), lambda file: Prose((file, common(language)))):
+        with pytest.raises(TemplateError, match=rf"^{language}\.md:1:1: error\[unreadable\]: .*{told}"):
+            asking(file)
+
+
+def common(language: str) -> Path:
+    return ROOT / "templates" / language
+
+
+@pytest.mark.parametrize("make", MADE)
+def test_a_title_block(make: Callable[[Path], None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As any other input, though its name may also be that of a block of the program."""
+    monkeypatch.chdir(tmp_path)
+    make(Path("ours.yaml"))
+    sample = ROOT / "assignments" / "slotted-lever-01.yaml"
+    done = CliRunner().invoke(app, ["sheet", str(sample), "--block", "ours.yaml", "--lang", "en"])
+    assert (done.exit_code, done.stdout) == (1, "")
+    assert done.stderr.startswith("ours.yaml:1:1: error[unreadable]: the file cannot be read: it is a pipe")
+
+
 @pytest.mark.parametrize(
     "command",
     [
@@ -66,6 +100,7 @@ def test_inputs(
         ),
         pytest.param(("batch", "PIPE.csv", "--assignments", "assignments"), id="roster", marks=proof),
         pytest.param(("variants", "PIPE.yaml", "PIPE.csv"), id="variants", marks=proof),
+        pytest.param(("sheet", "assignments/slotted-lever-01.yaml", "--block", "PIPE.yaml"), id="block", marks=proof),
     ],
 )
 def test_commands(command: tuple[str, ...], tmp_path: Path) -> None:

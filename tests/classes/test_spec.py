@@ -9,11 +9,13 @@ from pathlib import Path
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from typer.testing import CliRunner
 
 from reportgen.base.errors import AssignmentError, Mark
 from reportgen.base.source import MappingNode, Scalar, SequenceNode, plain, quoted, read_text, text_of
 from reportgen.base.units import Language
 from reportgen.classes.spec import Spec, read_spec
+from reportgen.cli import app
 from reportgen.workbook import Book, BookSheet, write_xlsx
 from tests.classes.specs import BARS, ROOT, Put, located
 
@@ -217,3 +219,48 @@ def test_a_table_of_variants_may_lie_in_a_folder_below(tmp_path: Path) -> None:
     spec = tmp_path / "spec.yaml"
     spec.write_text(BARS.replace("  CD: 280 mm\n", "") + "variants: tables/../tables/v.csv\n", encoding="utf-8")
     assert choices(read_spec(spec))["variants"] == ["1", "2"]
+
+
+def shared_tables(folder: Path, name: str = "../tables/v.csv") -> Path:
+    """A spec in a folder of its own, with its table in another one beside that."""
+    for one in ("course", "tables", "other"):
+        (folder / one).mkdir()
+    (folder / "tables" / "v.csv").write_text("CD (mm)\n281\n282\n", encoding="utf-8")
+    spec = folder / "course" / "spec.yaml"
+    spec.write_text(BARS.replace("  CD: 280 mm\n", "") + f"variants: {name}\n", encoding="utf-8")
+    return spec
+
+
+@pytest.mark.parametrize("name", ["../tables/v.csv", "{root}/tables/v.csv", "link.csv"])
+def test_a_table_of_variants_may_lie_below_a_folder_that_is_shared(tmp_path: Path, name: str) -> None:
+    spec = shared_tables(tmp_path, name.format(root=tmp_path))
+    (spec.parent / "link.csv").symlink_to(tmp_path / "tables" / "v.csv")
+    assert choices(read_spec(spec, shared=(tmp_path / "other", tmp_path / "tables")))["variants"] == ["1", "2"]
+    with pytest.raises(AssignmentError, match=r"path-outside.*\n.*--shared"):
+        read_spec(spec, shared=(tmp_path / "other",))
+
+
+def test_a_shared_folder_shares_what_is_below_it_alone(tmp_path: Path) -> None:
+    """Neither what lies beside it, nor what a link in it leads to."""
+    spec = shared_tables(tmp_path)
+    tables = tmp_path / "tables"
+    (tables / "v.csv").rename(tmp_path / "v.csv")
+    (tables / "v.csv").symlink_to(tmp_path / "v.csv")
+    with pytest.raises(AssignmentError, match="path-outside"):
+        read_spec(spec, shared=(tables,))
+    spec.write_text(spec.read_text(encoding="utf-8").replace("tables/v", "tables-2/v"), encoding="utf-8")
+    with pytest.raises(AssignmentError, match="path-outside"):
+        read_spec(spec, shared=(tables,))
+
+
+@pytest.mark.parametrize("command", ["variants SPEC ROSTER", "batch ROSTER --spec SPEC --make task"])
+def test_commands_take_shared_folders(tmp_path: Path, command: str) -> None:
+    spec, roster = shared_tables(tmp_path), tmp_path / "class.csv"
+    roster.write_text("id,name\nK1,An\n", encoding="utf-8")
+    words = [{"SPEC": str(spec), "ROSTER": str(roster)}.get(one, one) for one in command.split()]
+    words += ["--out", str(tmp_path / "out"), "--lang", "en"]
+    refused = CliRunner().invoke(app, words)
+    assert (refused.exit_code, "error[path-outside]" in refused.stderr) == (1, True)
+    done = CliRunner().invoke(app, [*words, "--shared", str(tmp_path / "other"), "--shared", str(tmp_path / "tables")])
+    assert done.exit_code == 0, done.stderr
+    assert CliRunner().invoke(app, [*words, "--shared", str(tmp_path / "nowhere")]).exit_code == 2

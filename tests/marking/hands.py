@@ -17,46 +17,23 @@ from reportgen.marking.key import Ask
 from reportgen.marking.marks import Answer, MarkingScheme, Submission
 from reportgen.report.case import Role
 from tests.marking import students
-from tests.marking.hand import Hand, Rod, Task
+from tests.marking.hand import Change, Hand
 from tests.marking.machines import WAYS
-from tests.marking.vectors import Paper, Vectors
-from tests.marking.written import Change, Student
 
 TWIN, SLIDER, FOUR_BAR = "engine-twin-05", "slider-crank-01", "four-bar-01"
 DRAWING = {"engine-twin", "slider-crank"}
-"""Kinds of which the student's whole sheet is worked out, plans and closed formulas too."""
+"""Kinds of which the student hands in the whole sheet, plans and closed formulas too."""
 
 WRONG_AT = 4
 """The position at which one value is wrong."""
 
 
 def asked(scheme: MarkingScheme) -> MarkingScheme:
-    """A guide to what a student hands in: the whole sheet if it was worked out by drawing, or what a class is asked."""
+    """A guide to what a student hands in: the whole sheet of `DRAWING`, or what a class is asked."""
     return scheme if scheme.key.kind in DRAWING else replace(scheme, key=Ask().of(scheme.key))
 
 
-def task(scheme: MarkingScheme, position: int) -> Task:
-    """What the assignment gives, as the student reads it at one position: data, the crank's angle, the diagram."""
-    rows = {row.id: row for row in scheme.key.rows}
-
-    def si(id: str) -> float:
-        family = scheme.ledger[id]
-        return float(family.values[position - 1 if len(family.values) > 1 else 0].real)
-
-    given = {id: si(id) for id in ("H", "lambda", "D", "s", "g", "n", "G2", "G3") if id in scheme.ledger}
-    angle = si("phi.1")
-    if "H" in given:
-        rods = (
-            Rod("A", "B", "S2", (2, 3), 0.0, pressure=si("p.3")),
-            Rod("C", "D", "S4", (4, 5), si("crank.angle"), pressure=si("p.5")),
-        )
-        return Task(given, rods, angle - np.pi / 2, 1j)
-    given |= {"R": si("l.AB"), "L": si("l.BC")}
-    assert rows["P3"].positions
-    return Task(given, (Rod("B", "C", "S2", (2, 3), 0.0, force=si("P3")),), angle, 1 + 0j, "AB")
-
-
-def handed_in(scheme: MarkingScheme, worked: Mapping[int, Student]) -> Submission:
+def handed_in(scheme: MarkingScheme, worked: Mapping[int, Hand]) -> Submission:
     """The sheet of a student who worked so at each position."""
     values = {}
     for row in scheme.key.asked:
@@ -68,11 +45,26 @@ def handed_in(scheme: MarkingScheme, worked: Mapping[int, Student]) -> Submissio
     return Submission(scheme.key.id, "sheet.csv", values, {})
 
 
-def at_work(scheme: MarkingScheme, position: int, **how: Any) -> Student:
-    """A student's work at one position: by drawing on the machines of `DRAWING`, by vectors on all others."""
-    if scheme.key.kind in DRAWING:
-        return Hand(task(scheme, position), **how)
-    return vectors(scheme, position, **how)
+def at_work(scheme: MarkingScheme, position: int, **how: Any) -> Hand:
+    """A student's work at one position: the data, the crank's angle, the loads and the scales as the task has them."""
+    ledger = scheme.ledger
+
+    def si(id: str) -> float:
+        values = ledger[id].values
+        return float(values[position - 1 if len(values) > 1 else 0].real)
+
+    given = {id: si(id) for id, family in ledger.families.items() if not (family.is_plane or family.kind == "segment")}
+    first, second = ledger["phi.1" if "phi.1" in ledger else "s.1"].values[:2]
+    chosen = {
+        "plan_scales": {what: si(f"mu.{what}") for what in "va" if ledger[f"mu.{what}"].definition is None},
+        "force_scale": {id.removeprefix("mu.R"): si(id) for id in ledger.families if id.startswith("mu.R")},
+    }
+    paper = [id for id, family in ledger.families.items() if id.startswith("drawn.") and family.definition is None]
+    if paper:
+        chosen["paper"] = si(paper[0])
+    hand = Hand(given=given, turn=int(np.sign(np.sin(second - first))), **chosen | how)
+    WAYS[scheme.key.kind](hand)
+    return hand
 
 
 def work(scheme: MarkingScheme, positions: Iterable[int], seed: int = 0, **how: Any) -> Submission:
@@ -96,28 +88,9 @@ def one_wrong(scheme: MarkingScheme, id: str, factors: Iterable[float], **how: A
     return None
 
 
-def vectors(scheme: MarkingScheme, position: int, **how: Any) -> Vectors:
-    """The student's work on any machine of the book: data, the crank's angle and the loads as the task gives them."""
-    ledger = scheme.ledger
-
-    def si(id: str) -> float:
-        family = ledger[id]
-        return float(family.values[position - 1 if len(family.values) > 1 else 0].real)
-
-    given = {id: si(id) for id, family in ledger.families.items() if not (family.is_plane or family.kind == "segment")}
-    first, second = ledger["phi.1" if "phi.1" in ledger else "s.1"].values[:2]
-    given["turn"] = float(np.sign(np.sin(second - first)))
-    forces = {id.removeprefix("mu.R"): si(id) for id in ledger.families if id.startswith("mu.R")}
-    paper = Paper(si("mu.l"), si("mu.v"), si("mu.a"), forces)
-    work = Vectors(given, paper, turn=int(given["turn"]), **how)
-    WAYS[scheme.key.kind](work)
-    return work
-
-
 def data_used(scheme: MarkingScheme) -> list[str]:
     """The data of the task that a student of the machine needs, in the order of the task."""
-    work = at_work(scheme, WRONG_AT)
-    used = work.used if isinstance(work, Vectors) else {*task(scheme, WRONG_AT).given}
+    used = at_work(scheme, WRONG_AT).used
     return [
         id for id in scheme.ledger.families if id in used and id not in scheme.rows and scheme.ledger[id].values.any()
     ]

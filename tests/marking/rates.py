@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections import Counter
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -12,7 +13,7 @@ from statistics import median
 import numpy as np
 
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking
+from reportgen.marking.marks import Marking, Verdict
 from reportgen.marking.mistakes import WRONG_DATUM
 from tests.marking import hands, students
 
@@ -91,3 +92,32 @@ def misread(name: str) -> list[float]:
             sheet = hands.work(scheme, hands.PLACES, changes={id: partial(operator.mul, taken / value)}, blunt=0.3e-3)
             lost_for.append(lost(mark(scheme, sheet)))
     return lost_for
+
+
+STEADY: Mapping[str, float] = {"blunt": 0.3e-3, "askew": 0.5, "figures": 4}
+"""A good hand: ± 0.3 mm at each end of a measured length, ± 0.5° in a direction, four figures."""
+
+
+@dataclass
+class Misjudged:
+    """Cells of honest sheets: how many are filled in, which by id lose their mark, which lie beyond the key's band."""
+
+    filled: int = 0
+    wrong: Counter[str] = field(default_factory=Counter)
+    beyond: Counter[str] = field(default_factory=Counter)
+
+    def in_a_thousand(self, found: Counter[str]) -> float:
+        return 1000 * found.total() / self.filled
+
+
+def misjudged(name: str, sheets: int, hand: Mapping[str, float] = STEADY) -> Misjudged:
+    """Whole sheets without a mistake, every row at every position, with other luck in reading on each."""
+    positions = tuple(range(1, students.scheme(name).count + 1))
+    scheme, found = students.scheme(name, positions), Misjudged()
+    for seed in range(sheets):
+        marking = mark(scheme, hands.work(scheme, positions, seed=seed, **hand))
+        filled = [cell for cell in marking.cells if cell.given is not None]
+        found.filled += len(filled)
+        found.wrong.update(cell.id for cell in filled if cell.points < cell.worth)
+        found.beyond.update(cell.id for cell in filled if cell.verdict is not Verdict.right)
+    return found

@@ -1,4 +1,4 @@
-"""What follows from another value is what a student working by hand comes to, and what all definitions give again."""
+"""What follows from another value is what all definitions give again; `test_kinds` has what a hand comes to."""
 
 from __future__ import annotations
 
@@ -11,8 +11,6 @@ from reportgen.marking.bands import is_direction
 from reportgen.marking.marks import MarkingScheme
 from tests.lanes import matrix
 from tests.marking import hands, students
-from tests.marking.hand import Hand
-from tests.marking.written import unit_of
 
 AT = 4
 TELLING = ("slider-crank-01", "four-bar-01", "slotted-lever-02")
@@ -55,37 +53,6 @@ def is_on_paper(kind: str) -> bool:
 def size(scheme: MarkingScheme, id: str) -> float:
     """What a quantity is compared with: its largest value, or what is natural to it where all are nothing."""
     return max(scheme.size(id), scheme.ledger[id].scale)
-
-
-@pytest.mark.parametrize("name", matrix([hands.TWIN, hands.SLIDER], [hands.SLIDER]))
-def test_following_is_what_a_hand_comes_to(name: str) -> None:
-    """Each given or computed quantity by a tenth too large: every value of the sheet, by an independent chain."""
-    scheme = students.scheme(name, (AT,))
-    task = hands.task(scheme, AT)
-    paper = float(scheme.ledger[f"drawn.{task.crank}"].values[0])
-    ledger = scheme.ledger
-    forces = {
-        plan: float(ledger[f"mu.R{plan}"].values[AT - 1]) for plan in ("1", "23", "45") if f"mu.R{plan}" in ledger
-    }
-    chosen = {what: ledger[f"mu.{what}"] for what in ("v", "a") if ledger[f"mu.{what}"].definition is None}
-    plans = {what: float(family.values[0]) for what, family in chosen.items()}
-    how = {"figures": 0, "paper": paper, "force_scale": forces, "plan_scales": plans, "by_lengths": False}
-    right = Hand(task, **how).written
-    tried = 0
-    for id in computed(scheme):
-        if id not in right and id not in task.given:
-            continue
-        tried += 1
-        found = follow(scheme.ledger, {id: lambda value, _: 1.1 * value})
-        hand = Hand(task, changes={id: lambda value: 1.1 * value}, **how)
-        for other, value in hand.written.items():
-            if np.isnan(ledger[other].values[0 if len(ledger[other].values) == 1 else AT - 1]):
-                # A centre that lies off the sheet in the right drawing is not measured.
-                continue
-            mine = float(found[other][0 if len(found[other]) == 1 else AT - 1].real)
-            apart = scheme.distance(other, mine, value * unit_of(other))
-            assert apart <= CLOSE * max(size(scheme, other), abs(mine)), (id, other, mine, value * unit_of(other))
-    assert tried > 50
 
 
 @pytest.mark.parametrize("name", matrix(KINDS, TELLING))

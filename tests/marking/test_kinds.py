@@ -5,38 +5,43 @@ One wrong value costs one mark and is told as it is, a misread datum costs one, 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from reportgen.formula.ledger import follow
+from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark
 from tests.lanes import matrix
 from tests.marking import hands, students
-from tests.marking.machines import ASSIGNMENTS
-from tests.marking.rates import injected, lost, misread
+from tests.marking.hand import unit_of
+from tests.marking.machines import MACHINES
+from tests.marking.rates import injected, lost, misjudged, misread
 from tests.marking.test_following import CLOSE, computed, size
-from tests.marking.written import unit_of
 
 AT = hands.WRONG_AT
-TELLING = ("four-bar-01", "shaper-02", "scotch-yoke-01", "linkage-slide")
+EXACTLY = {"figures": 0, "by_lengths": False}
+"""All figures, and the scales of plans as the key has them."""
+TELLING = ("slider-crank-01", "four-bar-01", "shaper-02", "scotch-yoke-01", "linkage-slide")
 """Groups of all kinds, and a sliding driver; the others are for `make proof`."""
 STEP = 6
 """Every sixth value of a sheet is made wrong here; `python -m tests.bench.hands` takes all."""
 
 
-@pytest.mark.parametrize("name", ASSIGNMENTS)
+@pytest.mark.parametrize("name", MACHINES)
 def test_the_chain_comes_to_the_key(name: str) -> None:
     """At every other position of the turn: nobody who works so has a value that the key has not."""
     scheme = students.scheme(name)
     ledger = scheme.ledger
     for position in range(1, scheme.count + 1, 2):
-        written = hands.vectors(scheme, position, figures=0).written
+        written = hands.at_work(scheme, position, **EXACTLY).written
         for id, value in written.items():
             values = ledger[id].values
             key = float(values[0 if len(values) == 1 else position - 1].real)
             apart = scheme.distance(id, key, value * unit_of(id))
             assert np.isnan(key) or apart <= CLOSE * size(scheme, id), (id, position, key, value * unit_of(id))
-    asked = {row.id for row in hands.asked(scheme).judged if not np.isnan(row.values[row.at(AT)])}
+    asked = {row.id for row in replace(scheme, key=Ask().of(scheme.key)).judged if not np.isnan(row.values[row.at(AT)])}
     left = {id for id in asked - written.keys() if not id.startswith("dir.") and id not in OF_THE_CYCLE}
     assert left == set()
 
@@ -50,18 +55,18 @@ OF_THE_CYCLE = {
 """What takes the whole cycle, not one position; the tests of the flywheel have it."""
 
 
-@pytest.mark.parametrize("name", matrix(ASSIGNMENTS, TELLING))
+@pytest.mark.parametrize("name", matrix(MACHINES, TELLING))
 def test_following_is_what_the_chain_comes_to(name: str) -> None:
     """Each given or computed quantity by a tenth too large, and every value of the sheet that follows from it."""
     scheme = students.scheme(name)
-    right = hands.vectors(scheme, AT, figures=0)
+    right = hands.at_work(scheme, AT, **EXACTLY)
     tried = 0
     for id in computed(scheme):
         if id not in right.written and id not in right.used:
             continue
         for factor in (1.1, 1.02):
             try:
-                chain = hands.vectors(scheme, AT, changes={id: lambda value, by=factor: by * value}, figures=0)
+                chain = hands.at_work(scheme, AT, changes={id: lambda value, by=factor: by * value}, **EXACTLY)
             except ValueError:
                 # With it the machine does not go together; with less of it it does.
                 continue
@@ -75,10 +80,10 @@ def test_following_is_what_the_chain_comes_to(name: str) -> None:
             mine = float(found[other][0 if len(found[other]) == 1 else AT - 1].real)
             apart = scheme.distance(other, mine, value * unit_of(other))
             assert apart <= CLOSE * max(size(scheme, other), abs(mine)), (id, other, mine, value * unit_of(other))
-    assert tried > 25
+    assert tried > 35
 
 
-@pytest.mark.parametrize("name", matrix(ASSIGNMENTS, TELLING))
+@pytest.mark.parametrize("name", matrix(MACHINES, TELLING))
 def test_one_wrong_value_is_told_as_it_is_and_costs_one_mark(name: str) -> None:
     tally = injected(name, np.random.default_rng(1), STEP)
     made = tally.counted["made"]
@@ -98,11 +103,26 @@ def test_a_misread_datum_costs_one_mark(name: str) -> None:
     assert max(losses) <= 2
 
 
-@pytest.mark.parametrize("name", ASSIGNMENTS)
+@pytest.mark.parametrize("name", MACHINES)
 def test_who_works_rightly_loses_nothing(name: str) -> None:
     scheme = hands.asked(students.scheme(name, (AT,)))
     for seed, blunt in enumerate((0.3e-3, 0.5e-3)):
         assert lost(mark(scheme, hands.work(scheme, (AT,), blunt=blunt, seed=seed))) == 0
+
+
+SHEETS = 40
+"""Of each machine, as far as `make proof` goes; 167 make 2,000."""
+BEYOND = {"engine-twin-05": 3.0, "slider-crank-01": 3.0, "scotch-yoke-01": 2.0}
+"""Cells in 1,000 that lie beyond the key's band and follow from others: lengths laid off for forces above all."""
+
+
+@pytest.mark.proof
+@pytest.mark.parametrize("name", MACHINES)
+def test_a_good_hand_is_within_the_bands(name: str) -> None:
+    """± 0.3 mm at each end of a length, ± 0.5° in a direction, four figures, whole sheets: no cell is marked wrong."""
+    found = misjudged(name, SHEETS)
+    assert found.wrong == {}
+    assert found.in_a_thousand(found.beyond) <= BEYOND.get(name, 0.5)
 
 
 @pytest.mark.parametrize("factor", [1.0, 1.25])
@@ -110,7 +130,7 @@ def test_the_excess_work_follows_the_own_loads(factor: float) -> None:
     """M_tt from the own torque on the lever at every position, A from it by the trapezoid rule: one mark at most."""
     scheme = hands.asked(students.scheme("slotted-lever-02"))
     changes = {"M3": lambda value: factor * value}
-    worked = {k: hands.vectors(scheme, k, changes=changes) for k in range(1, scheme.count + 1)}
+    worked = {k: hands.at_work(scheme, k, changes=changes) for k in range(1, scheme.count + 1)}
     torque = np.array([one.written["M.r"] for one in worked.values()])
     step = 2 * np.pi / scheme.count
     above = torque - torque.mean()

@@ -12,9 +12,9 @@ from reportgen.marking.marks import Marking
 from reportgen.marking.mistakes import Mistake
 from tests.lanes import matrix
 from tests.marking import hands, students
+from tests.marking.hand import Change
 from tests.marking.published import FIGURES, POSITION
 from tests.marking.rates import lost
-from tests.marking.written import Change
 
 AT = (4,)
 MOST = 2
@@ -89,7 +89,7 @@ SCALES = (
     {"force_scale": 20920.0},
     {"force_scale": 5e5},
     {"force_scale": 2e3},
-    {"plan_scales": {"v": 400.0, "a": 1e5}},
+    {"force_scale": 1e5, "plan_scales": {"v": 400.0, "a": 1e5}},
 )
 
 
@@ -134,7 +134,7 @@ def test_a_slip_in_writing_the_scale_is_named_and_costs_one_mark() -> None:
 
 FROM_ELSEWHERE: dict[str, tuple[str, Change]] = {
     "two per cent beside its own length": ("R.05", lambda value: 1.02 * value),
-    "a_B for the tangential part": ("turn.eps.2", lambda value: 1.02 * value),
+    "a_B for the tangential part": ("turn.eps.2", lambda value: 1.03 * value),
     "figures exchanged": ("Pqt4", lambda value: value * 4433 / 4343),
 }
 
@@ -151,7 +151,9 @@ def test_a_right_value_that_the_own_ones_do_not_give_is_told_and_costs_nothing(w
 @pytest.mark.parametrize("name", matrix([hands.TWIN, hands.SLIDER], [hands.SLIDER]))
 def test_who_went_on_from_the_own_values_hears_of_nothing(name: str) -> None:
     scheme = students.scheme(name, AT)
-    for seed, how in enumerate(({}, {"figures": 3}, {"by_lengths": False}, *SCALES)):
+    # At 2 N to a millimetre a plan is 4 m wide, and what is told is finer than a reading.
+    scales = [scale for scale in SCALES if scale != {"force_scale": 2e3}]
+    for seed, how in enumerate(({}, {"figures": 3}, {"by_lengths": False}, *scales)):
         assert mark(scheme, hands.work(scheme, AT, blunt=0.5e-3, seed=seed, **how)).elsewhere == []
 
 

@@ -154,3 +154,53 @@ def test_a_gap_of_a_schools_words_names_a_value(school: School, gap: str, langua
     file = school(f'A note.\n\n%% words\ncaptions:\n  scheme: "Ours {gap}"\n', language)
     with pytest.raises(TemplateError, match=rf"ours/{language}\.md:5:11: .*{UNSAFE[language]}"):
         api.document(api.load(file))
+
+
+FILLED = {"en": "nothing fills a gap of", "vi": "không có gì để điền"}
+UNFILLED = (
+    'header: "{nobody}"',
+    'variant: "{variant.nothing}"',
+    'cover: {no_date: "{}"}',
+    'captions: {scheme: "{nobody}"}',
+)
+
+
+@pytest.mark.parametrize("language", ["en", "vi"])
+@pytest.mark.parametrize("words", UNFILLED)
+def test_a_gap_that_nothing_fills_is_a_located_fault(school: School, words: str, language: Language) -> None:
+    """Whoever uses the word: a template, or what stands on every page."""
+    file = school(f"A note.\n\n%% words\n{words}\n", language)
+    column = words.index('"') + 1
+    with pytest.raises(TemplateError, match=rf"ours/{language}\.md:4:{column}: {FILLED[language]}"):
+        _pages(file)
+
+
+def _pages(file: Path) -> None:
+    """All that is made with the words of a school."""
+    case = api.open_case(file)
+    case.document()
+    case.task(case.key())
+    case.sheets()
+
+
+FORMED = {"en": "another form", "vi": "không cùng dạng"}
+
+
+@pytest.mark.parametrize("language", ["en", "vi"])
+@pytest.mark.parametrize(
+    ("words", "line", "path"),
+    [
+        ("units: 5", 4, "units"),
+        ("cover: [a]", 4, "cover"),
+        ("cover:\n  title:", 5, "cover.title"),
+        ("cover:\n  title: {a: b}", 5, "cover.title"),
+        ("strokes: [One, Two]", 4, "strokes"),
+        ("vector:\n  rows: [[One], Two, Three]", 5, "vector.rows"),
+    ],
+)
+def test_a_word_of_another_form_is_a_located_fault(
+    school: School, words: str, line: int, path: str, language: Language
+) -> None:
+    file = school(f"A note.\n\n%% words\n{words}\n", language)
+    with pytest.raises(TemplateError, match=rf"ours/{language}\.md:{line}: “{path}” .*{FORMED[language]}"):
+        _pages(file)
