@@ -342,6 +342,8 @@ TITLE = 5.0
 """What the titles of a row of scenes take below it (mm)."""
 FIGURE_HEIGHT = 238.0
 """What of an A4 page a figure may fill above its caption (mm)."""
+TOGETHER_HEIGHT = 120.0
+"""Rows of a figure that are together higher than this (mm) stand apart, the later ones as its continuation."""
 
 # --- equations --------------------------------------------------------------------------------------
 
@@ -422,14 +424,14 @@ def height(rows: Sequence[Sequence[Scene]]) -> float:
     return sum(max(scene.height for scene in row) for row in rows) + titles + SCENE_GAP * (len(rows) - 1)
 
 
-def on_pages(figure: Figure) -> list[list[list[Scene]]]:
-    """The rows of a figure, page by page: on one page unless they are too high for it."""
-    pages: list[list[list[Scene]]] = [[]]
+def in_parts(figure: Figure) -> list[list[list[Scene]]]:
+    """The rows of a figure in parts, none of several rows so high that it would leave much of a page white."""
+    parts: list[list[list[Scene]]] = [[]]
     for row in in_rows(figure.scenes):
-        if pages[-1] and height([*pages[-1], row]) > FIGURE_HEIGHT:
-            pages.append([])
-        pages[-1].append(row)
-    return pages
+        if parts[-1] and height([*parts[-1], row]) > TOGETHER_HEIGHT:
+            parts.append([])
+        parts[-1].append(row)
+    return parts
 
 
 def in_rows(scenes: Sequence[Scene]) -> list[list[Scene]]:

@@ -283,7 +283,7 @@ class _Writer:
             shown = _command("turned", drawing, self.caption(self.document.words.figure, figure))
             return f"\\begin{{turnedscene}}\n{shown}\n\\end{{turnedscene}}"
         word = self.document.words.figure
-        first, *others = tree.on_pages(figure)
+        first, *others = tree.in_parts(figure)
         further = (self.rows(rows, self.again(word, figure)) for rows in others)
         return "\n".join((self.rows(first, self.caption(word, figure)), *further))
 

@@ -190,7 +190,7 @@ class _Blocks:
                 label = self.caption(self.words.figure, block)
                 if turned:
                     return f"#Q({literal(key)},{label},\n{paint_typst(scenes[0], self.formulas)})"
-                first, *others = tree.on_pages(block)
+                first, *others = tree.in_parts(block)
                 again = f"{self.again(self.words.figure, block)},[]"
                 figures = [f"#W({literal(key)},{label},\n{self.rows(first)})"]
                 figures += (f'#W("",{again},\n{self.rows(rows)})' for rows in others)
