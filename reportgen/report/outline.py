@@ -23,6 +23,7 @@ from reportgen.report import (
     PageBreak,
     Paragraph,
     Plate,
+    Reference,
     Section,
     Table,
     Text,
@@ -435,7 +436,7 @@ def compose(case: Calculation) -> Document:
 def _plate_is_last(report: Report, plate: Plate) -> Paragraph:
     """Says where a plate stands."""
     paper = PAPERS.get(min(plate.paper), "")
-    return Paragraph(report.prose.inlines(report.words["plate"].format(key=plate.key, paper=paper)))
+    return Paragraph(phrases.say(report, report.words["plate"], figure=(Reference(plate.key),), paper=paper))
 
 
 def _sections(report: Report) -> Iterator[str]:
