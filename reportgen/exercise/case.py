@@ -113,7 +113,7 @@ class ExerciseCase(SolvedExercise):
             }
             for body in motion.system.bodies
         }
-        return results(self, self.printed, [{"number": 1, "points": points, "links": links}])
+        return results(self, [{"number": 1, "points": points, "links": links}])
 
     def film(self) -> None:
         """Nothing moves at one instant."""
