@@ -18,7 +18,7 @@ from reportgen.exercise.figures import FIGURES
 from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import Literal, symbol
 from reportgen.exercise.views import AT, FurtherView, Solution, lettered
-from reportgen.formula import Chain, Negative, Number, Symbol, ids, vocabulary
+from reportgen.formula import PI, Chain, Negative, Number, Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.report import (
     Block,
@@ -53,6 +53,10 @@ class ExerciseCase(SolvedExercise):
         return self.worked.ledger
 
     @property
+    def printed(self) -> Ledger:
+        return self.worked.printed
+
+    @property
     def families(self) -> Mapping[str, Family]:
         return self.ledger.families
 
@@ -82,7 +86,7 @@ class ExerciseCase(SolvedExercise):
     def key(self) -> Key:
         from reportgen.marking.key import make_key
 
-        return make_key(self, self.ledger)
+        return make_key(self, self.ledger, self.printed)
 
     def task(self, key: Key, by_section: bool = False) -> Document:
         return self.bounded(partial(_task, key=key, by_section=by_section))
@@ -266,9 +270,11 @@ class SolutionPage(Solution):
         unit = self.case.words["units"].get(given.unit, pretty(given.unit))
         size = Number(float(f"{abs(given.value):.{TYPED}g}"), None, unit)
         if not isinstance(given, Literal):
+            if given.unit != "rpm" or id not in self.worked.printed:
+                return Chain((vocabulary.symbol(id), size))
             # The lines count in rad/s.
-            in_si = (self.worked.ledger.number(id, AT),) if given.unit == "rpm" and id in self.worked.ledger else ()
-            return Chain((vocabulary.symbol(id), size, *in_si))
+            turned = 2 * PI * Number(size.value) / 60
+            return Chain((vocabulary.symbol(id), size, turned, self.worked.printed.number(id, AT)))
         formula = lettered(given.formula)
         shown = (formula.of if isinstance(formula, Negative) else formula,)
         return Chain((vocabulary.symbol(id), *shown))
@@ -285,14 +291,14 @@ class SolutionPage(Solution):
     @property
     def expressions(self) -> tuple[Equation, ...]:
         """What was asked, by the symbols of the file."""
-        symbol = self.worked.ledger.symbol
+        symbol = self.worked.printed.symbol
         rows = tuple(Chain((symbol(id), shown)) for id, shown in self._by_symbols() if shown is not None)
         return (Equation(rows),) if rows else ()
 
     @property
     def unwritten(self) -> Inlines:
         """The symbols of what was asked whose expressions are too long."""
-        return listed(InlineMath(self.worked.ledger.symbol(id)) for id, shown in self._by_symbols() if shown is None)
+        return listed(InlineMath(self.worked.printed.symbol(id)) for id, shown in self._by_symbols() if shown is None)
 
     @property
     def asked(self) -> Inlines:
@@ -310,7 +316,7 @@ class SolutionPage(Solution):
     @property
     def lengths(self) -> tuple[Equation, ...]:
         """The distances that the solution uses."""
-        ledger = self.worked.ledger
+        ledger = self.worked.printed
         lines = tuple(self._chain(id) for id in ledger.families if self._is_declared_length(id))
         return (Equation(lines),) if lines else ()
 
@@ -343,8 +349,8 @@ class SolutionPage(Solution):
         words, pages = self.case.words["instant"], (self, *further)
         rows: list[tuple[Cell, ...]] = []
         for one in self.case.exercise.asked:
-            ledgers = [page.worked.ledger for page in pages]
-            found = [float(ledger[one.id].values[0]) for ledger in ledgers if one.id in ledger]
+            found = [float(page.worked.ledger[one.id].values[0]) for page in pages if one.id in page.worked.ledger]
+            ledgers = [page.worked.printed for page in pages]
             if one.what not in ("v", "omega"):
                 continue
             if max(found) - min(found) > METHODS_AGREE * max(found):
@@ -377,7 +383,7 @@ class SolutionPage(Solution):
         return Table(columns, head, rows, (Text(str(words["answers"])),), "tab.answers", framed=True)
 
     def _answer_rows(self) -> Iterator[tuple[Inlines, Inlines, Inlines]]:
-        ledger, motion = self.worked.ledger, self.case.exercise.motion
+        ledger, motion = self.worked.printed, self.case.exercise.motion
         for one in self.case.exercise.asked:
             if one.what == "centre":
                 yield self._centre_row(one.body)

@@ -1,4 +1,4 @@
-"""Exercise → Ledger: the numbers of all steps that lead to what is asked, with their definitions and decimals.
+"""Exercise → Ledger: the numbers of all steps that lead to what is asked, with their definitions.
 
 The methods by which velocities are found are the steps that are each one's own, in the order in which they are tried.
 """
@@ -9,6 +9,7 @@ import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from reportgen.exercise.accelerations import Parts, about_points, by_slots, enter_accelerations
 from reportgen.exercise.board import Board, Quantities, Step
@@ -30,8 +31,8 @@ from reportgen.exercise.speeds import (
 from reportgen.exercise.trains import by_rack, by_rims, by_train
 from reportgen.formula import Symbol, ids, refs
 from reportgen.formula.ledger import Ledger
+from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Sheet
-from reportgen.plans.decimals import choose_decimals
 
 BELOW_A_TURN = 1e-9
 """An angle this little below a whole turn (degrees) is none."""
@@ -53,6 +54,11 @@ class Worked:
     steps: tuple[Step, ...]
     missing: tuple[str, ...]
     method: Method | None = None
+
+    @cached_property
+    def printed(self) -> Ledger:
+        """Every number as it is written down."""
+        return printed(self.ledger)
 
     @property
     def by_method(self) -> bool:
@@ -99,8 +105,7 @@ def work_out(
     for id, family in board.q.families.items():
         if id in needed:
             q.enter(family)
-    decimals, cancellations = choose_decimals(q.families, (), set(), (1,))
-    ledger = Ledger(q.families, decimals, POSITIONS, cancellations, units).in_language(names)
+    ledger = Ledger(q.families, POSITIONS, units=units).in_language(names)
     return Worked(ledger, board.layout, steps, tuple(missing), method)
 
 

@@ -98,7 +98,7 @@ class Solution:
 
     def _step(self, step: Step) -> StepView:
         worked, motion = self.worked, self.case.exercise.motion
-        ledger, layout = worked.ledger, worked.layout
+        ledger, layout = worked.printed, worked.layout
         shown = [id for id in step.ids if id in ledger and not self._is_declared_length(id)]
         centre = layout.centres.get(step.body)
         rate = motion.omega(step.body) if step.body else 0.0
@@ -133,7 +133,7 @@ class Solution:
         )
 
     def _angles_of(self, id: str) -> list[str]:
-        definition = self.worked.ledger[id].definition
+        definition = self.worked.printed[id].definition
         return [one for one in refs(definition) if one in ids.inner_angle] if definition is not None else []
 
     def _heading(self, step: Step) -> str:
@@ -158,7 +158,7 @@ class Solution:
 
     def _term(self, vector: Vector, unknown: bool) -> Term:
         """A vector with what is known of it: its line, its sense by the angle from +x, its size."""
-        ledger = self.worked.ledger
+        ledger = self.worked.printed
         degrees = round(math.degrees(cmath.phase(vector.direction)) % 360.0, 2) % 360.0
         line = Number(round(degrees % 180.0, 2), None, "°")
         symbol = ledger.symbol(vector.id) if vector.id in ledger else vocabulary.symbol(vector.id)
@@ -187,12 +187,12 @@ class Solution:
 
     def _chain(self, id: str) -> Chain:
         """The worked line: with numbers, or with symbols, behind which numbers stand if they are put in."""
-        chain = self.worked.ledger.chain(id, AT)
+        chain = self.worked.printed.chain(id, AT)
         if self.case.literal is None:
             return chain
         found = self._literal(id)
         *formula, _ = chain.parts[:3] if len(chain.parts) > 2 else (chain.parts[0], None)
-        if self.worked.ledger[id].definition is None:
+        if self.worked.printed[id].definition is None:
             formula = [chain.parts[0]]
         result = chain.parts[-1:] if self.put_in or (found is None and len(formula) == 1) else ()
         if isinstance(found, Number) and found.value == 0 and result:

@@ -47,9 +47,10 @@ def within(value: Value, least: Value, most: Value) -> Value:
     return np.where((value >= least) & (value <= most), value, np.nan)
 
 
-def mean(values: Value) -> Value:
+def mean(values: Value, weights: Value = 1.0) -> Value:
     """The mean over positions, the last axis; it keeps that axis, so that it stands for all of them."""
-    return np.mean(np.atleast_1d(values), axis=-1, keepdims=True)
+    values, weights = np.broadcast_arrays(np.atleast_1d(values), weights)
+    return np.sum(values * weights, axis=-1, keepdims=True) / np.sum(weights, axis=-1, keepdims=True)
 
 
 def level(value: Value, steps: Value) -> Value:

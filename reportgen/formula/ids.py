@@ -47,7 +47,7 @@ PLACES: Mapping[str, str] = {
     "bound": "max|min",
     "stroke": "work|back",
     "method": "eq|vw",
-    "figure": r"r|c|given|mean|mean\.positions|least|greatest|energy|difference",
+    "figure": r"r|c|given|mean|mean\.positions|least|greatest|energy|difference|share",
     "matrix": "d?[AB]",
     # the rest of an id, whatever it is
     "corner": ".+",
@@ -204,6 +204,8 @@ numerator = Name("q.{link}")
 
 displacement = Name("s.{link}")
 displacement_on_paper = Name("way.{link}")
+stroke = Name("H.{link}")
+node = Name("node.{of}.{link}")  # of an indicator diagram, next to a position
 pressure = Name("p.{link}")
 applied_force = Name("P{link}[{letter}]")  # a letter where a link has several
 applied_torque = Name("M{link}[{letter}]")
@@ -245,6 +247,7 @@ formula = Name("f.{id}")  # the same by a closed formula
 far = Name("far.{id}")  # how far a fixed place is from the origin
 unit = Name("unit.{id}")  # in which direction
 rule = Name("rule.{id}")  # what a rule for the positions makes of an integral
+reading = Name("read.{id}")  # off a curve
 rest = Name("rest.{id}")  # of that integral
 
 # --- names that are no ids: of the forces of a plan and of the corners of a plan of accelerations

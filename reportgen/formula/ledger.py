@@ -60,14 +60,15 @@ class PrintedQuantity:
 
 @dataclass(frozen=True)
 class Ledger:
-    """All families of a report, how finely each is printed, and what could not be made to recompute."""
+    """All families of a report; where they are as written down (`formula.rounding`), with the decimals of all."""
 
     families: Mapping[str, Family]
-    decimals: Mapping[str, int | None]
     positions: int
-    cancellations: tuple[str, ...] = ()
+    decimals: Mapping[str, int | None] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     """Units whose printed form depends on the language, e.g. rpm."""
+    same: tuple[tuple[str, ...], ...] = ()
+    """Ids of what is one quantity by whatever symbols, with one number of decimals."""
     lines: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """The ids of what the report sets out together, by the names that the machine's sheet gives."""
 
@@ -127,7 +128,7 @@ class Ledger:
         family = self.families[id]
         how = family.how
         value = float(family.at(position).real) / how.scale
-        decimals = self.decimals[id] if value else None
+        decimals = self.decimals.get(id) if value else None
         return PrintedQuantity(
             id=id,
             position=None if len(family.values) == 1 else position,
@@ -155,7 +156,7 @@ class Ledger:
         result = self.number(id, position)
         if family.arm:
             result = Number(abs(result.value), result.decimals, result.unit)
-        if family.line is None or family.constructed:
+        if family.line is None or family.constructed or self._says_its_symbol(family):
             return Chain((family.symbol, result), note)
         shown = self._signs_out(family.line, position)
         formula = _replace(shown, lambda ref: self.symbol(ref.id))
@@ -164,6 +165,10 @@ class Ledger:
         if numbers != formula and not (isinstance(numbers, Number) and numbers.shown == result.shown):
             parts.append(numbers)
         return Chain((*parts, result), note)
+
+    def _says_its_symbol(self, family: Family) -> bool:
+        """Whether its formula only names another quantity of the same symbol."""
+        return isinstance(family.line, Ref) and self.symbol(family.line.id) == family.symbol
 
     def _bare(self, id: str, position: int | None) -> Number:
         """A number inside a line, without its unit (but degrees keep theirs)."""
@@ -233,15 +238,17 @@ class Ledger:
         """The same ledger with drawings to other scales (SI, by id), one or [N]: what is on paper is as much longer as
         its scale is smaller, at every position.  Nothing else changes.
         """
+        if "scale" in self and "mu.l" in scales:
+            # The scale that the crank was drawn to.
+            scales = {**scales, "scale": scales["mu.l"]}
         families = dict(self.families)
         for id, family in self.families.items():
             if id in scales:
-                families[id] = replace(family, values=np.atleast_1d(scales[id]), definition=None)
+                families[id] = replace(family, values=np.atleast_1d(scales[id]), definition=None, written=None)
             elif (scale := vocabulary.scale_on_paper(id)) in scales:
                 longer = self.families[scale].values / scales[scale]
                 families[id] = replace(family, values=family.values * longer)
-        decimals = {**self.decimals, **dict.fromkeys(scales)}
-        return replace(self, families=families, decimals=decimals)
+        return replace(self, families=families, decimals=dict.fromkeys(scales))
 
     def ancestors(self, id: str) -> tuple[str, ...]:
         """Every quantity that one stands on, directly or through others, nearest first."""
@@ -283,7 +290,9 @@ def _sign_before(term: Expression) -> Expression:
             return term
 
 
-def follow(ledger: Ledger, changes: Mapping[str, Any], *, only: Container[str] | None = None) -> dict[str, np.ndarray]:
+def follow(
+    ledger: Ledger, changes: Mapping[str, Any], *, entered: Entered | None = None, only: Container[str] | None = None
+) -> dict[str, np.ndarray]:
     """As `Ledger.evaluate`, with each vector as long as the size says that was measured of it or laid off."""
     vectors = {size: one for size, one in ledger.vectors.items() if only is None or size in only}
     sizes: dict[str, list[str]] = {}
@@ -295,14 +304,16 @@ def follow(ledger: Ledger, changes: Mapping[str, Any], *, only: Container[str] |
         factor = np.abs(values[size]) / np.abs(values[vector])
         values[vector] = values[vector] * np.where(np.isfinite(factor), factor, 1.0)
 
-    def entered(id: str, values: dict[str, np.ndarray]) -> None:
+    def enter(id: str, values: dict[str, np.ndarray]) -> None:
+        if entered is not None:
+            entered(id, values)
         if id in vectors and vectors[id] in values:
             stretch(id, values)
         for size in sizes.get(id, ()):
             if size in values:
                 stretch(size, values)
 
-    return ledger.evaluate(changes, entered=entered, only=only)
+    return ledger.evaluate(changes, entered=enter, only=only)
 
 
 def standing_on(ledger: Ledger, id: str) -> tuple[str, ...]:

@@ -26,6 +26,12 @@ from reportgen.formula.vocabulary import KINDS, MAX_DIGITS, Chapter, QuantityKin
 ZERO = 1e-9
 """A value below this share of its own scale is nothing: it prints as 0."""
 
+DUST = 1e-12
+"""Shares of a value below this are of floats."""
+
+TYPED = 10
+"""Significant figures that given data have at most."""
+
 BELOW_A_TURN = 1e-12
 """An angle this little below a whole turn (rad) is one."""
 
@@ -47,7 +53,7 @@ class Family:
     `hidden` family serves a construction and is never printed.  `of` is the id of the size whose direction,
     signed value or vector this is, of an arm the load, `about` the point an arm is measured from; both are ""
     for any other quantity.  `written` is a formula of the same value in place of the definition on the page, where
-    printed figures would be too few for that.
+    printed figures would be too few for that.  A `residue` is what rounding leaves between two ways to one number.
     """
 
     id: str
@@ -64,6 +70,7 @@ class Family:
     of: str = ""
     about: str = ""
     written: Expression | None = None
+    residue: bool = False
 
     @property
     def line(self) -> Expression | None:
@@ -93,8 +100,8 @@ class Family:
     @property
     def constructed(self) -> bool:
         """Whether a drawing gives it: it is measured, not computed by a printed formula."""
-        return self.definition is not None and any(
-            isinstance(part, Call) and part.name in CONSTRUCTIONS for part in walk(self.definition)
+        return self.line is not None and any(
+            isinstance(part, Call) and part.name in CONSTRUCTIONS for part in walk(self.line)
         )
 
     def at(self, position: int | None) -> Any:
@@ -213,8 +220,14 @@ class Sheet:
         return Ref(id)
 
 
+def is_typed(values: np.ndarray | float) -> bool:
+    """Whether values end, as typed ones do; 360°/7 does not."""
+    sizes = np.abs(np.atleast_1d(values))
+    return all(abs(float(f"{size:.{TYPED}g}") - size) <= DUST * sizes.max() for size in sizes)
+
+
 def is_short(values: np.ndarray | float) -> bool:
     """Whether values have few digits, as typed ones have, and can be printed as they are (0.171 m)."""
     return all(
-        abs(float(f"{value:.{MAX_DIGITS - 1}g}") - value) <= 1e-12 * abs(value) for value in np.atleast_1d(values)
+        abs(float(f"{value:.{MAX_DIGITS - 1}g}") - value) <= DUST * abs(value) for value in np.atleast_1d(values)
     )

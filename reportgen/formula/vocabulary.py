@@ -3,8 +3,7 @@
 A row for each family of `ids`, which reads the id.  A quantity asks here for its symbol, a key for its chapter,
 marking for the scale of a length on paper and for the distance of two values, the words for what they call it.
 
-A *kind* fixes the printed unit, what one such unit is in SI, and the preferred number of significant
-figures; `plans.decimals` then raises or lowers decimals so that printed lines recompute.
+A *kind* fixes the printed unit, what one such unit is in SI, and with how many figures or decimals it is printed.
 """
 
 from __future__ import annotations
@@ -27,53 +26,52 @@ from reportgen.formula.ids import Name
 class QuantityKind:
     """How a kind of quantity is printed: SI value = printed value × `scale`.
 
-    `digits` are the significant figures aimed at for the largest value of a family, and `most` those that
-    it may have where a line needs them; `decimals`, if given, fixes the aim instead.  No value is printed
-    finer than to `finest` decimals (a segment is measured to 0.01 mm whatever its length).
+    `digits` are the significant figures of the largest value of what is computed; `decimals`, if given, is what the
+    kind is usually given with instead (0.01 mm for a length on paper).
     """
 
     unit: str
     scale: float = 1.0
-    digits: int = 4
-    most: int = 6
+    digits: int = 5
     decimals: int | None = None
-    finest: int | None = None
 
 
 KINDS: dict[str, QuantityKind] = {
-    "ratio": QuantityKind("", digits=5),
+    "ratio": QuantityKind(""),
     "count": QuantityKind("", decimals=0),
     "sign": QuantityKind("", decimals=0),
+    "share": QuantityKind("%", 1e-2, decimals=2),
     "angle": QuantityKind("°", math.pi / 180, decimals=2),
-    "speed of rotation": QuantityKind("rpm", digits=5),
-    "time": QuantityKind("s", digits=4),
-    "length": QuantityKind("m", digits=4),
-    "diameter": QuantityKind("cm", 1e-2, digits=4),
-    "area": QuantityKind("cm²", 1e-4, digits=5),
-    "product of lengths": QuantityKind("m²", digits=4),
-    "segment": QuantityKind("mm", 1e-3, decimals=2, finest=2),
-    "length scale": QuantityKind("m/mm", 1e3, digits=4),
+    "direction": QuantityKind("°", math.pi / 180, decimals=1),
+    "speed of rotation": QuantityKind("rpm"),
+    "time": QuantityKind("s"),
+    "length": QuantityKind("m"),
+    "diameter": QuantityKind("cm", 1e-2),
+    "area": QuantityKind("cm²", 1e-4),
+    "product of lengths": QuantityKind("m²"),
+    "segment": QuantityKind("mm", 1e-3, decimals=2),
+    "length scale": QuantityKind("m/mm", 1e3, digits=6),
     "velocity scale": QuantityKind("m/(s·mm)", 1e3, digits=6),
-    "acceleration scale": QuantityKind("m/(s²·mm)", 1e3, digits=5),
-    "force scale": QuantityKind("N/mm", 1e3, digits=4),
-    "pressure scale": QuantityKind("N/(cm²·mm)", 1e7, digits=4),
-    "velocity": QuantityKind("m/s", most=5),
-    "acceleration": QuantityKind("m/s²", most=5),
+    "acceleration scale": QuantityKind("m/(s²·mm)", 1e3, digits=6),
+    "force scale": QuantityKind("N/mm", 1e3, digits=6),
+    "pressure scale": QuantityKind("N/(cm²·mm)", 1e7, digits=6),
+    "velocity": QuantityKind("m/s"),
+    "acceleration": QuantityKind("m/s²"),
     "angular velocity": QuantityKind("rad/s"),
-    "angular acceleration": QuantityKind("rad/s²", most=5),
-    "weight": QuantityKind("N", digits=4),
-    "gravity": QuantityKind("m/s²", digits=3),
-    "mass": QuantityKind("kg", digits=5),
-    "moment of inertia": QuantityKind("kg·m²", digits=4),
-    "pressure": QuantityKind("N/cm²", 1e4, digits=4),
-    "force": QuantityKind("N", most=5),
-    "torque": QuantityKind("N·m", most=5),
-    "work": QuantityKind("J", most=5),
-    "power": QuantityKind("W", most=5),
+    "angular acceleration": QuantityKind("rad/s²"),
+    "weight": QuantityKind("N"),
+    "gravity": QuantityKind("m/s²"),
+    "mass": QuantityKind("kg"),
+    "moment of inertia": QuantityKind("kg·m²"),
+    "pressure": QuantityKind("N/cm²", 1e4),
+    "force": QuantityKind("N"),
+    "torque": QuantityKind("N·m"),
+    "work": QuantityKind("J"),
+    "power": QuantityKind("W"),
 }
 
-MAX_DIGITS = max(kind.most for kind in KINDS.values())
-"""No printed number has more significant figures (on the family's largest value)."""
+MAX_DIGITS = max(kind.digits for kind in KINDS.values())
+"""Significant figures of the largest value of what is computed, at most."""
 
 
 def point(name: str) -> Symbol:
@@ -224,8 +222,8 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(ids.velocity, "v", "velocity", _V, name="velocity"),
     VocabularyRow(ids.stroke_velocity, "v", "velocity", _V),
     VocabularyRow(ids.acceleration, "a", "acceleration", _A, name="acceleration"),
-    VocabularyRow(ids.direction.only(what="v"), "α", "angle", _V, below="v{point}", around=True, name="direction"),
-    VocabularyRow(ids.direction.only(what="a"), "α", "angle", _A, below="a{point}", around=True, name="direction"),
+    VocabularyRow(ids.direction.only(what="v"), "α", "direction", _V, below="v{point}", around=True, name="direction"),
+    VocabularyRow(ids.direction.only(what="a"), "α", "direction", _A, below="a{point}", around=True, name="direction"),
     # exercises of plane motion: components, the velocity along a moving line, instant centres, angles of projection
     VocabularyRow(ids.velocity_component, "v", "velocity", _V, name="velocity component"),
     VocabularyRow(ids.acceleration_component, "a", "acceleration", _A, name="acceleration component"),
@@ -277,7 +275,7 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(ids.application, "x", "length", _FORCES, name="application"),
     VocabularyRow(ids.arm, "h", "segment", _FORCES, "mu.l", name="arm"),
     VocabularyRow(ids.force_scale, "μ", "force scale", _FORCES, name="force scale"),
-    VocabularyRow(ids.force_direction, "α", "angle", _FORCES, around=True, name="direction"),
+    VocabularyRow(ids.force_direction, "α", "direction", _FORCES, around=True, name="direction"),
     VocabularyRow(ids.force_segment, "", "segment", _FORCES, "mu.R{group}", name="segment"),
     # given data of a linkage
     VocabularyRow(ids.frame_coordinate, name="coordinate"),

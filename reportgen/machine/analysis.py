@@ -303,6 +303,11 @@ class Machine:
         return self.count * self.turns
 
     @property
+    def even(self) -> np.ndarray:
+        """Whether each position is one of those evenly spaced over the cycle [count·turns]: lettered ones are not."""
+        return np.array([not self.labels[k].isalpha() if self.labels else True for k in range(self.positions)])
+
+    @property
     def cycle_angles(self) -> np.ndarray:
         """Cycle angles of all positions [count·turns], 0 at position 1, growing with the rotation."""
         step = 2 * np.pi / self.count

@@ -16,13 +16,13 @@ import numpy as np
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding
 from reportgen.base.source import read_source
-from reportgen.base.units import Language, significant_decimals
+from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, gaps, load_words, search_path
 from reportgen.formula import Expression, Number, Symbol, ids, refs, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain import formula
-from reportgen.formula.sheet import Family, is_short
-from reportgen.formula.vocabulary import MAX_DIGITS, Chapter
+from reportgen.formula.sheet import Family
+from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.bands import (
     computed_bands,
     drawn_bands,
@@ -47,7 +47,7 @@ def symbol_text(row: KeyRow, key: Key) -> str:
 
 
 def shown_number(row: KeyRow, value: float) -> Number:
-    """A number of a row as the report prints it: to its decimals, or without the dust of floats."""
+    """A number in a row's place as the report would print it: to its decimals, or without the dust of floats."""
     return Number(value if row.decimals is not None else float(f"{value:.12g}"), row.decimals)
 
 
@@ -57,11 +57,13 @@ def machine_key(case: Calculation) -> Key:
     labels = tuple(str(machine.position(k)) for k in range(1, machine.positions + 1))
     printed = report.all_positions if report.thinned else ()
     span = Span(labels, machine.count, tuple(case.assignment.worked_positions), printed)
-    return make_key(case, case.ledger, span, lambda id: positive_sense(id, report))
+    return make_key(case, case.ledger, case.printed, span, lambda id: positive_sense(id, report))
 
 
-def make_key(case: Opened, ledger: Ledger, span: Span = INSTANT, sense_of: Callable[[str], str] = lambda id: "") -> Key:
-    """The key of an assignment from the ledger that its report prints, over the positions of its `span`.
+def make_key(
+    case: Opened, ledger: Ledger, printed: Ledger, span: Span = INSTANT, sense_of: Callable[[str], str] = lambda id: ""
+) -> Key:
+    """The key of an assignment from its ledger, unrounded and as `printed`, over the positions of its `span`.
 
     `sense_of` a quantity is which sense of it counts as positive, in words; without it all are sizes.
     """
@@ -73,19 +75,13 @@ def make_key(case: Opened, ledger: Ledger, span: Span = INSTANT, sense_of: Calla
     def row(id: str) -> KeyRow:
         family = ledger[id]
         scale = family.how.scale
-        values = np.array([family.at(k + 1).real for k in range(len(family.values))])
+        values, written = _values(ledger, id), _values(printed, id)
         sense = sense_of(id)
-        if family.is_direction:
-            # A vector of no length has none.
-            exists = [ledger[family.of].at(k + 1) != 0 for k in range(len(values))]
-            values = np.where(exists, np.abs(values), np.nan)
-        if family.arm:
-            values = np.abs(values)
         role = _role(ledger, family)
         part = Chapter.data if role is Role.given and len(values) == 1 else family.chapter
         # What is read from a diagram can be worked out on paper, an integral over the cycle cannot.
         integral = family.definition is None or ids.rest(id) in ledger
-        workable = id != "M.difference" and (len(values) > 1 or not integral)
+        workable = not family.residue and (len(values) > 1 or not integral)
         workable = workable and (part is not Chapter.cycle or complete) and is_workable(ledger, id, by_rule)
         asked = (role is Role.scale and not is_round_scale(family)) or (role is Role.asked and workable)
         return KeyRow(
@@ -95,8 +91,9 @@ def make_key(case: Opened, ledger: Ledger, span: Span = INSTANT, sense_of: Calla
             symbol=family.symbol,
             kind=family.kind,
             unit=ledger.units.get(family.how.unit, family.how.unit),
-            decimals=_decimals(ledger.decimals[id], values / scale),
+            decimals=printed.decimals[id],
             values=values / scale,
+            printed=written / scale,
             drawn=on_paper[id] / scale,
             computed=by_rounding[id] / scale,
             positions=_asked_at(values, worked, span.count, family.kind == "force scale") if asked else (),
@@ -132,11 +129,15 @@ def _role(ledger: Ledger, family: Family) -> Role:
     return Role.given if typed else Role.asked
 
 
-def _decimals(of_ledger: int | None, values: np.ndarray) -> int | None:
-    """The ledger's; data of several positions that are exact but endless, such as 129.128571…°, get 6 figures."""
-    if of_ledger is not None or len(values) == 1 or is_short(values):
-        return of_ledger
-    return significant_decimals(float(np.nanmax(np.abs(values))), MAX_DIGITS)
+def _values(ledger: Ledger, id: str) -> np.ndarray:
+    """The values of a quantity (SI) as a key has them: a direction and an arm by their size."""
+    family = ledger[id]
+    values = np.array([family.at(k + 1).real for k in range(len(family.values))])
+    if family.is_direction:
+        # A vector of no length has none.
+        exists = [ledger[family.of].at(k + 1) != 0 for k in range(len(values))]
+        values = np.where(exists, values, np.nan)
+    return np.abs(values) if family.arm or family.is_direction else values
 
 
 def _asked_at(values: np.ndarray, worked: tuple[int, ...], count: int, chosen: bool) -> tuple[int, ...]:

@@ -60,7 +60,7 @@ def band_decimals(width: float) -> int:
 
 
 def key_book(key: Key) -> Book:
-    """The key as a workbook: values, both bands, directions in words, each a page; values are unrounded.
+    """The key as a workbook: values as printed, both bands, directions in words, each a page.
 
     The page of values is laid out as a filled answer sheet.
     """
@@ -82,9 +82,9 @@ def key_book(key: Key) -> Book:
 
 
 def _value_entry(row: KeyRow, index: int) -> Entry:
-    """A number that shows the report's decimals; an empty cell for one that does not exist."""
-    value = float(row.values[index])
-    return Entry(value, format=number_format(row)) if value == value else Entry()
+    """A number as the report prints it; an empty cell for one that does not exist."""
+    value = float(row.printed[index])
+    return Entry(shown_number(row, value).shown, format=number_format(row)) if value == value else Entry()
 
 
 def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
@@ -107,16 +107,16 @@ def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
             band(row, float(row.computed[index])),
         )
         for row in key.rows
-        for index, value in enumerate(row.values)
+        for index, value in enumerate(row.printed)
     )
     return (head, *body)
 
 
 def key_data(key: Key) -> dict[str, Any]:
-    """The key as a JSON object: unrounded values in the units of the report, null for what does not exist.
+    """The key as a JSON object: values in the units of the report, null for what does not exist.
 
-    `values`, `drawn`, `computed` (half widths of the bands) and `sense` have an entry for each of `positions`,
-    or a single one; `asked` are the positions of the answer sheet by label, [""] for a single value.
+    `values` (unrounded), `printed`, `drawn`, `computed` (half widths of the bands) and `sense` have an entry for each
+    of `positions`, or a single one; `asked` are the positions of the answer sheet by label, [""] for a single value.
     """
     return {
         "format": FORMAT,
@@ -139,6 +139,7 @@ def key_data(key: Key) -> dict[str, Any]:
                 "decimals": row.decimals,
                 "asked": [key.label(k) for k in row.positions],
                 "values": _numbers(row.values),
+                "printed": _numbers(row.printed),
                 "drawn": _numbers(row.drawn),
                 "computed": _numbers(row.computed),
                 "sense": list(row.sense),
@@ -231,7 +232,7 @@ def _title(row: KeyRow, with_id: bool) -> Inlines:
 
 def _values(row: KeyRow, index: int, senses: bool) -> tuple[Number | str, ...]:
     """A value, its two bands, and perhaps its direction in words."""
-    value = float(row.values[index])
+    value = float(row.printed[index])
     widths = (float(row.drawn[index]), float(row.computed[index]))
     bands = (_band_number(row, width) if value == value else DASH for width in widths)
     return (shown_number(row, value), *bands, *((row.sense[index],) if senses else ()))

@@ -204,7 +204,7 @@ def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
 
 def _known_number(row: KeyRow, position: int) -> Number:
     """A given number short enough for a column: an angle may be one that follows from lengths."""
-    return Number(float(f"{row.values[row.at(position)]:.{KNOWN_DIGITS}g}"), None)
+    return Number(float(f"{row.printed[row.at(position)]:.{KNOWN_DIGITS}g}"), None)
 
 
 def _split(positions: Sequence[int], most: int) -> Iterator[Sequence[int]]:

@@ -1,7 +1,7 @@
 """The results of an analysis as plain data (format reportgen-results/1), and as tables on a terminal.
 
-The data are in SI units and radians, unrounded; the tables have a row for each position by its label, and
-vectors by their size.
+The data are in SI units and radians, unrounded, and beside them what the report prints, in its units; the tables have a
+row for each position by its label, and vectors by their size.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 from reportgen.base.units import MM, Language, significant_decimals, write
 from reportgen.base.words import word
 from reportgen.formula import ids
+from reportgen.formula.ledger import Ledger
 from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.forces import Load
@@ -30,6 +31,23 @@ def results(case: Opened, positions: list[Any], **more: Any) -> dict[str, Any]:
     """The contract's JSON object of a case: one entry a position, null where it cannot be reached; `more` before it."""
     about = {"format": FORMAT, "kind": case.assignment.kind, "variant": case.assignment.variant, "units": "SI"}
     return {**about, **more, "positions": positions}
+
+
+def printed_values(written: Ledger) -> dict[str, Any]:
+    """By id the unit, the decimals (null: as typed) and the values that a report prints, one or one per position."""
+    return {
+        id: {
+            "unit": family.how.unit,
+            "decimals": written.decimals[id],
+            "values": [_finite(written.quantity(id, k + 1).number.shown) for k in range(len(family.values))],
+        }
+        for id, family in written.families.items()
+        if not (family.hidden or family.is_plane)
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
 
 
 def machine_results(case: Calculation) -> dict[str, Any]:

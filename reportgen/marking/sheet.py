@@ -78,7 +78,7 @@ def given_entry(row: KeyRow, position: int) -> Entry | None:
     """A given value as the sheet shows it filled in; None where there is none."""
     if row.role is not Role.given or not row.has(position):
         return None
-    value = float(row.values[row.at(position)])
+    value = float(row.printed[row.at(position)])
     return Entry(shown_number(row, value).shown, format=number_format(row)) if value == value else None
 
 
@@ -378,6 +378,7 @@ _JOINED = re.compile(r"(?<![A-Za-z])(k?N|kg)(?=[mc]?m)")
 SPELLED = {
     "độ": "deg",
     **dict.fromkeys(("vg/ph", "v/ph", "vg/phút", "vòng/phút", "r/min", "rev/min"), "rpm"),
+    "%": "percent",
     "1/s": "s-1",
     **dict.fromkeys(("1/s2", "1/s²", "1/s^2"), "s-2"),
 }
@@ -466,7 +467,7 @@ def _factor(given: str, unit: str, text: str) -> float:
         factor, dimension = units.scale(spelled)
     except ValueError:
         raise QuantityFault("unknown-unit", given=given, unit=unit) from None
-    wanted_factor, wanted = units.scale(unit)
+    wanted_factor, wanted = units.scale(SPELLED.get(unit, unit))
     if dimension not in (wanted, _without_radian(wanted)):
         raise QuantityFault("wrong-unit", given=given, unit=unit)
     return factor / wanted_factor

@@ -71,7 +71,7 @@ STILL = Track(np.zeros(1, complex))
 
 def film(case: Calculation) -> Film:
     """All that moves on the page of a case."""
-    return _Samples(case.drawn).film()
+    return _Samples(case).film()
 
 
 @dataclass(frozen=True)

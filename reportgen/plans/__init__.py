@@ -1,4 +1,4 @@
-"""Analysis → Ledger: enters everything in the order in which a report derives it, then chooses decimals."""
+"""Analysis → Ledger: enters everything in the order in which a report derives it."""
 
 from __future__ import annotations
 
@@ -7,21 +7,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.units import significant_decimals
 from reportgen.formula import PI, Expression, Number, Ref, Symbol, call, circle_line, ids, sqrt, total
 from reportgen.formula import size as size_of
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import Ledger
+from reportgen.formula.rounding import rounded
 from reportgen.formula.sheet import ZERO, Sheet, is_short
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.machine import Crank, Linkage, flywheel
-from reportgen.machine.analysis import Analysis, no_formulas
-from reportgen.machine.loads import FULL_TURN, TableLaw
-from reportgen.plans.decimals import choose_decimals
+from reportgen.machine.analysis import Analysis, GasState, no_formulas
+from reportgen.machine.gas import CYCLE, StrokeIndicator
+from reportgen.machine.loads import FULL_TURN, Piston, TableLaw
 from reportgen.plans.forces import enter_forces
 from reportgen.plans.groups import enter_kinematics
 from reportgen.plans.loads import Polygon
 
-ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest"), ("M.mean", "M.energy"))
+ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest", "M.difference"), ("M.mean", "M.energy"))
 """Quantities that are one: both torques and the extremes of their curve, the mean by the curve and by the work."""
 TERMS = 4
 """More terms than these are no longer one line of a page."""
@@ -40,12 +42,11 @@ class PlannedLedger:
 
 
 def write_ledger(
-    analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = (), printed: bool = True
+    analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = ()
 ) -> PlannedLedger:
     """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
 
-    The plans of the `worked` positions fill their paper, of all positions if none is named.  For numbers that are
-    drawn and not `printed` no decimals are chosen.
+    The plans of the `worked` positions fill their paper, of all positions if none is named.
     """
     machine = analysis.machine
     q, polygons = enter_plans(analysis, worked, machine.formulas)
@@ -56,19 +57,7 @@ def write_ledger(
             if machine.unevenness is not None:
                 regulated = flywheel.flywheel(machine, machine.unevenness)
                 _flywheel(q, analysis, regulated)
-    checks = {id for id in q.families if any(id in name for name in ids.CENTRES)}
-    decimals: Mapping[str, int | None] = dict.fromkeys(q.families)
-    cancellations: tuple[str, ...] = ()
-    if printed:
-        decimals, cancellations = choose_decimals(q.families, ONE_QUANTITY, checks, worked)
-    ledger = Ledger(
-        families=q.families,
-        decimals=decimals,
-        positions=machine.positions,
-        cancellations=cancellations,
-        units=units or {},
-        lines=q.lines,
-    )
+    ledger = Ledger(q.families, machine.positions, units=units or {}, same=ONE_QUANTITY, lines=q.lines)
     return PlannedLedger(ledger, polygons, regulated)
 
 
@@ -117,8 +106,44 @@ def _gas(q: Sheet, analysis: Analysis) -> None:
             continue
         link, stroke = state.piston.link, state.piston.stroke
         _way(q, machine.linkage, link, state.fraction * stroke, stroke)
-        p = q.give(ids.pressure(link), state.pressure, exact=False)
+        p = q.give(ids.pressure(link), state.pressure, exact=False, written=_between_nodes(q, state))
         q.define(name, p * q["F"])
+
+
+def _between_nodes(q: Sheet, state: GasState) -> Expression:
+    """The pressure between the two points x′, p′ and x″, p″ of the diagram next to each position.
+
+        p = p′ + (p″ − p′)(x − x′)/(x″ − x′)
+
+    x is s/H, or the angle φ of the cycle.
+    """
+    link, diagram = state.piston.link, state.piston.indicator
+    if isinstance(diagram, StrokeIndicator):
+        x, letter, kind = q[ids.displacement(link)] / _stroke(q, state.piston), "x", "ratio"
+        at, nodes, rows = state.fraction, np.array(diagram.fractions), np.array(diagram.rows)[state.stroke]
+    else:
+        at, nodes, letter, kind = np.mod(state.angle, CYCLE), np.array(diagram.angles), "φ", "angle"
+        degrees = np.radians(rounded(np.degrees(at), KINDS[kind].decimals or 0))
+        x = q.give(ids.node("x", link), degrees, Symbol(letter), kind, hidden=True)
+        rows = np.tile(diagram.pressures, (len(at), 1))
+    before = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, len(nodes) - 2)
+    ends = []
+    for mark, index in (("′", before), ("″", before + 1)):
+        pressure = rows[np.arange(len(at)), index]
+        place = q.give(ids.node(f"x{mark}", link), nodes[index], Symbol(letter, sup=mark), kind, hidden=True)
+        ends.append(
+            (place, q.give(ids.node(f"p{mark}", link), pressure, Symbol("p", sup=mark), "pressure", hidden=True))
+        )
+    (x1, p1), (x2, p2) = ends
+    return p1 + (p2 - p1) * (x - x1) / (x2 - x1)
+
+
+def _stroke(q: Sheet, piston: Piston) -> Ref:
+    """The stroke of a piston: H as given, or with five figures as its dead centres are found."""
+    if "H" in q and abs(q.si("H") - piston.stroke) <= ZERO * piston.stroke:
+        return q["H"]
+    found = rounded(np.array([piston.stroke]), significant_decimals(piston.stroke, KINDS["length"].digits))
+    return q.give(ids.stroke(piston.link), found, Symbol("H", str(piston.link)), "length", hidden=True)
 
 
 def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
@@ -169,14 +194,24 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
     letter, kind = ("P", "force") if machine.span else ("M", "torque")
     rate = q[ids.velocity(machine.linkage.driver.pin)] if machine.span else q["omega.1"]
     way = q["span"] if machine.span else 2.0 * machine.turns * PI
-    q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size)
+    q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size, residue=True)
     nothing = abs(float(np.nanmean(q.value("M.eq")))) < ZERO * size
-    mean_of_positions = call("mean", q["M.eq"])
-    q.define("M.mean.positions", mean_of_positions, Symbol(letter, "N"), kind, scale=size if nothing else 0.0)
+    largest = call("highest", call("abs", q["M.eq"]))
+    q.define("M.share", q["M.difference"] / largest, Symbol("δ", letter), "share", scale=1.0, residue=True)
+    even = q.give("even", machine.even, Symbol("even"), "ratio", hidden=True)
+    q.define(
+        "M.mean.positions", call("mean", q["M.eq"], even), Symbol(letter, "N"), kind, scale=size if nothing else 0.0
+    )
     mean = q.give("M.mean", _without_dust(summary.mean_torque, size), Symbol(letter, "m"), kind, exact=False)
     (_, least), (_, greatest) = summary.extremes
-    q.give("M.least", least, Symbol(letter, "min"), kind, exact=False, scale=size)
-    q.give("M.greatest", greatest, Symbol(letter, "max"), kind, exact=False, scale=size)
+    # No extreme lies inside the range of the table.
+    for id, index, extreme, of_two, of_all in (
+        ("M.least", "min", least, "min", "lowest"),
+        ("M.greatest", "max", greatest, "max", "highest"),
+    ):
+        read = q.give(ids.reading(id), extreme, Symbol(letter, index), kind, hidden=True)
+        line = call(of_two, read, call(of_all, q["M.eq"]))
+        q.give(id, extreme, Symbol(letter, index), kind, exact=False, scale=size, written=line)
     work = q.give("W", _without_dust(summary.work, size * machine.way), exact=False)
     q.define("power", size_of(mean) * rate)
     q.define("M.energy", work / way, Symbol(letter, "W"), kind)

@@ -237,9 +237,11 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[st
         q.give(ids.drawn(centre, pin), DRAWN, drawn_length(centre, pin))
     drawn = q[ids.drawn(centre, pin)]
     exact = q.families[drawn.id].exact
-    μ_l = q.define("mu.l", length / drawn)
+    # On paper a scale of the series is what the crank was drawn to, not what comes of its drawn length.
+    chosen_scale = q.find("scale")
+    μ_l = q.define("mu.l", length / drawn, written=chosen_scale)
     # What one length on paper is: the drawn crank says it, whatever is written down for μ_l.
-    q.construct("drawing", length / drawn)
+    q.define("drawing", length / drawn, Symbol("drawing"), "ratio", hidden=True, written=chosen_scale)
     q.construct(ids.place(pin), k.place(centre) + length * cis(φ1))
     further = [place for place in scheme.linkage.points if place.link == DRIVER]
     for place in further:

@@ -26,6 +26,7 @@ from reportgen.drawing.film import Film
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Symbol
 from reportgen.formula.ledger import Ledger
+from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
 from reportgen.formula.vocabulary import Chapter
 from reportgen.report import Document
@@ -74,11 +75,15 @@ class Case(Protocol):
 
     @property
     def ledger(self) -> Ledger:
-        """Every number by its id."""
+        """Every number by its id, unrounded."""
+
+    @property
+    def printed(self) -> Ledger:
+        """Every number by its id as it is written down."""
 
     @property
     def families(self) -> Mapping[str, Family]:
-        """What is worked out at its positions, before decimals are chosen."""
+        """What is worked out at its positions."""
 
     @property
     def positions_of_a_turn(self) -> int:
@@ -209,18 +214,22 @@ class Calculation(Opened):
     @cached_property
     def written(self) -> PlannedLedger:
         """Every number with the force plans, in the symbols and units of the assignment's language."""
-        return self._write(printed=True) if self.found is None else self.found[1]
-
-    def _write(self, printed: bool) -> PlannedLedger:
         from reportgen.plans import write_ledger
 
-        written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions, printed)
+        if self.found is not None:
+            return self.found[1]
+        written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions)
         return replace(written, ledger=written.ledger.in_language(self.words["symbols"]))
 
     @property
     def ledger(self) -> Ledger:
-        """Every number by its id."""
+        """Every number by its id, unrounded."""
         return self.written.ledger
+
+    @cached_property
+    def printed(self) -> Ledger:
+        """Every number by its id as it is written down: all that is printed or drawn comes from here."""
+        return printed(self.ledger)
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:
@@ -231,13 +240,6 @@ class Calculation(Opened):
     def flywheel(self) -> RegulatedCycle | None:
         """The flywheel, if the assignment asks for one."""
         return self.written.flywheel
-
-    @cached_property
-    def drawn(self) -> Self:
-        """The same for drawings alone: sooner there, as no decimals are chosen for its numbers."""
-        if "written" in vars(self):
-            return self
-        return replace(self, found=(self.analysis, self._write(printed=False)))
 
     def redrawn(self, scales: Mapping[str, float | np.ndarray]) -> Self:
         """The same with drawings to other scales (SI, by id), one or [N]."""
@@ -261,11 +263,11 @@ class Role(StrEnum):
 class KeyRow:
     """One quantity over the positions, in its printed unit.
 
-    `values` [N] have the sign that is printed; NaN where the quantity does not exist (the direction of a
-    vector of no length).  A `single` quantity has one value for all positions (N = 1).  `drawn` and
-    `computed` [N] are the half widths of the two bands.  `positions` are the numbers (from 1) at which
-    the answer sheet asks for it, empty if it does not; (0,) for a single quantity.  `sense` [N] says the
-    direction in words where the value has one, else "".
+    `values` [N] are unrounded, with the sign that is printed, and `printed` [N] what the report prints for them; both
+    are NaN where the quantity does not exist (the direction of a vector of no length).  A `single` quantity has one
+    value for all positions (N = 1).  `drawn` and `computed` [N] are the half widths of the two bands.  `positions` are
+    the numbers (from 1) at which the answer sheet asks for it, empty if it does not; (0,) for a single quantity.
+    `sense` [N] says the direction in words where the value has one, else "".
     """
 
     id: str
@@ -276,6 +278,7 @@ class KeyRow:
     unit: str
     decimals: int | None
     values: np.ndarray
+    printed: np.ndarray
     drawn: np.ndarray
     computed: np.ndarray
     positions: tuple[int, ...]

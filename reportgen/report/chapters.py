@@ -62,8 +62,8 @@ def diagram_words(report: Report) -> str:
 
 
 def gas_forces(report: Report) -> list[str]:
-    """The forces of the gas on the pistons."""
-    return report.known(piston.name for piston in report.pistons)
+    """The pressure on each piston and the force of the gas."""
+    return report.known(id for piston in report.pistons for id in (ids.pressure(piston.link), piston.name))
 
 
 def without_mass(report: Report) -> list[str]:

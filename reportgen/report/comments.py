@@ -257,6 +257,11 @@ def balance_senses(report: Report) -> list[Inlines]:
     return [say(report, words[way], where=where(report, there)) for way, there in found.items() if there]
 
 
+def balance_gaps(report: Report) -> list[Peak]:
+    """How far both ways to the balancing torque lie apart at most, and where; nothing if they never do."""
+    return each_peak(report, ("M.difference",), report.all_positions)
+
+
 def balance_mean(report: Report) -> Inlines:
     """What the mean of the balancing torque says of the energy that the machine takes in or gives out."""
     words = report.words["remarks"]["mean"]

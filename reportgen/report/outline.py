@@ -58,6 +58,7 @@ PROPERTIES = (
     "count",
     "cycle_count",
     "even_count",
+    "even_cycle_count",
     "positions",
     "thinned",
     "worked",
@@ -363,6 +364,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "sought": steps.sought,
     "start": steps.start,
     # remarks
+    "balance_gaps": comments.balance_gaps,
     "balance_mean": comments.balance_mean,
     "balance_senses": comments.balance_senses,
     "cause": comments.cause,

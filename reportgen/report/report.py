@@ -71,7 +71,8 @@ class Report:
 
     @property
     def ledger(self) -> Ledger:
-        return self.case.ledger
+        """Every number as it is written down."""
+        return self.case.printed
 
     @property
     def flywheel(self) -> RegulatedCycle | None:
@@ -150,6 +151,11 @@ class Report:
     def even_count(self) -> int:
         """Evenly spaced positions of one turn."""
         return self.assignment.positions.count
+
+    @property
+    def even_cycle_count(self) -> int:
+        """Evenly spaced positions of the cycle."""
+        return int(self.machine.even.sum())
 
     @property
     def thinned(self) -> int:

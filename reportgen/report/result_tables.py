@@ -224,7 +224,7 @@ def lever(report: Report, k: int) -> Iterator[Sequence[object]]:
 
 
 def balance(report: Report) -> list[str]:
-    return ["M.eq", "M.vw", "M.difference"]
+    return ["M.eq", "M.vw", "M.difference", "M.share"]
 
 
 def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
@@ -250,7 +250,7 @@ def checks(report: Report) -> Iterator[Sequence[object]]:
 
 def residuals(report: Report) -> dict[str, tuple[float, str]]:
     """The largest residual of each check and its unit: closure, formulas, reactions, torques, energy."""
-    analysis, values = report.analysis, report.ledger.families
+    analysis, values = report.analysis, report.case.ledger.families
     found = {"closure": (_closure(report), "m")}
     for name, chapter in (("formulas", Chapter.velocity), ("formulas_a", Chapter.acceleration)):
         differences = [
@@ -276,7 +276,7 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
 
 def _closure(report: Report) -> float:
     """How far a distance of two points of one link is from its length at any position (m); 0 where there is none."""
-    motion, families = report.analysis.motion, report.ledger.families
+    motion, families = report.analysis.motion, report.case.ledger.families
     pairs = [(group.P, group.Q) for group in report.groups]
     pairs += [(group.T, group.Q) for group in report.groups if group.kind == "RRR"]
     rods = [(p, q, families[ids.length(p, q)].values) for p, q in pairs if ids.length(p, q) in families]

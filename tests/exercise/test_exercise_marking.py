@@ -99,7 +99,7 @@ def test_the_task_holds_no_answer(drawn: tuple[str, Path]) -> None:
     task, key = api.task_files(file, "typst", "en")["task.pdf"], api.key_files(file, "typst", "en", ("pdf",))["key.pdf"]
     texts = ["".join(page.get_text() for page in pymupdf.open(stream=pdf)) for pdf in (task, key)]
     rows = open_case(file, "en").key().asked
-    shown = [write(abs(float(row.values[0])), row.decimals, "en") for row in rows if row.decimals is not None]
+    shown = [write(abs(float(row.printed[0])), row.decimals, "en") for row in rows if row.decimals is not None]
     telling = [text for text in shown if len(text.replace(".", "").strip("0")) >= 4]
     assert telling
     assert [text for text in telling if text in texts[0]] == []

@@ -46,7 +46,7 @@ def test_every_exercise_builds(path: Path, engine: Any) -> None:
     put_in = all(one.put_in for one in case.exercise.given.symbols.values())
     for asked in case.exercise.asked:
         if asked.what != "centre" and put_in:
-            number = case.ledger.number(asked.id)
+            number = case.printed.number(asked.id)
             assert write(number.value, number.decimals, language) in text
 
 

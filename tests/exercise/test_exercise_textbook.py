@@ -173,9 +173,3 @@ def test_the_written_steps_come_to_the_same(name: str) -> None:
             assert float(values[id][0]) == pytest.approx(size(name, id), abs=1e-9, rel=1e-9), id
             compared += 1
     assert compared >= len([one for one in case(name).exercise.asked if one.what != "centre"])
-
-
-@pytest.mark.parametrize("name", sorted(path.stem for path in FILES))
-def test_printed_lines_recompute(name: str) -> None:
-    """No line is listed as one whose printed numbers do not come to its printed result."""
-    assert case(name).worked.ledger.cancellations == ()

@@ -9,6 +9,7 @@ import numpy as np
 
 from reportgen.base.units import Language
 from reportgen.formula import Symbol
+from reportgen.formula.rounding import rounded
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.sheet import HEAD, answer_book
 from reportgen.report.case import Key, KeyRow, Role
@@ -41,6 +42,7 @@ def row(
         unit,
         decimals,
         numbers,
+        numbers if decimals is None else rounded(numbers, decimals),
         np.full(len(numbers), 0.5),
         np.full(len(numbers), 0.05),
         asked,

@@ -52,7 +52,7 @@ def test_the_workbook_of_a_key_reads_as_a_perfect_sheet(language: Language, tmp_
     path.write_bytes(write_xlsx(key_book(key)))
     submission = read_submission(path, key)
     assert {place: given.value for place, given in submission.values.items()} == {
-        (row.id, k): row.values[row.at(k)] for row in key.asked for k in row.positions
+        (row.id, k): row.printed[row.at(k)] for row in key.asked for k in row.positions
     }
     assert not submission.problems
     book = load_workbook(path)
@@ -82,8 +82,8 @@ def test_the_document_has_every_quantity_at_every_position_on_pages_that_hold_it
     assert all(len(table.rows) == len(key.labels) for table in tables if len(table.head) == 2)
     text = text_of(tree)
     for row in key.rows[:40]:
-        if row.decimals is not None and row.values[0] > 0:
-            assert f"{row.values[0]:.{row.decimals}f}" in text or row.decimals == 0
+        if row.decimals is not None and row.printed[0] > 0:
+            assert f"{row.printed[0]:.{row.decimals}f}" in text or row.decimals == 0
 
 
 def test_of_very_many_positions_the_document_has_some_with_all_that_are_asked_and_the_csv_every_one() -> None:
@@ -101,7 +101,7 @@ def test_of_very_many_positions_the_document_has_some_with_all_that_are_asked_an
     assert every == set(key.labels)
 
 
-def test_an_endless_angle_has_six_figures_and_a_typed_one_all_of_its_own(tmp_path: Path) -> None:
+def test_an_endless_angle_has_hundredths_and_a_typed_number_all_its_figures(tmp_path: Path) -> None:
     """Seven positions from 77.7° on: 360/7 = 51.428571…; the start itself has few digits and stays as it is."""
     text = Path("assignments/engine-twin-05.yaml").read_text(encoding="utf-8").replace("s: 0.35", "s: 0.3512345678")
     text = text.replace("count: 8, direction: anticlockwise", "count: 7, start: 77.7 deg")
@@ -110,5 +110,5 @@ def test_an_endless_angle_has_six_figures_and_a_typed_one_all_of_its_own(tmp_pat
     file.write_text(text, encoding="utf-8")
     _, *rows = key_rows(open_case(file, "en").key())
     shown = {(row[0], row[5]): row[6] for row in rows}
-    assert [shown["phi.1", position] for position in "128"] == [77.7, 129.129, 437.7]
+    assert [shown["phi.1", position] for position in "128"] == [77.7, 129.13, 437.7]
     assert shown["s", ""] == 0.3512345678

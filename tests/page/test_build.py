@@ -39,12 +39,11 @@ def test_the_sample_s_page_is_small_and_the_same_in_every_run() -> None:
 
 
 def test_what_moves_is_the_same_before_and_behind_the_report() -> None:
-    """While a file is watched the moving part is made without a ledger of printed numbers."""
+    """While a file is watched the moving part is made before the report."""
     assignment = built.assignment(SLIDE)
-    with_ledger, without = MachineCase(assignment), MachineCase(assignment)
-    assert with_ledger.ledger.decimals
-    assert moving_part(with_ledger) == moving_part(without)
-    assert "ledger" not in vars(without)
+    behind, before = MachineCase(assignment), MachineCase(assignment)
+    behind.document()
+    assert moving_part(behind) == moving_part(before)
 
 
 @pytest.mark.parametrize("file", [SLIDE, EXERCISE], ids=lambda file: file.stem)

@@ -51,7 +51,7 @@ def direction(request: pytest.FixtureRequest) -> str:
 @pytest.mark.parametrize("name", KINDS)
 def test_formulas_have_the_sign_of_tables_and_curves(name: str, direction: str, tmp_path: Path) -> None:
     report = turning(name, direction, tmp_path)
-    machine, motion, values = report.machine, report.analysis.motion, report.ledger.families
+    machine, motion, values = report.machine, report.analysis.motion, report.case.ledger.families
     assert machine.turn == (1 if direction == "anticlockwise" else -1)
     compared = []
     for plan, formula in machine.compared:
@@ -74,7 +74,7 @@ def test_a_piston_counts_its_way_as_its_velocity(tmp_path: Path) -> None:
     """x grows from the top dead centre on towards the crank, and so v = dx/dt is positive on the way there."""
     report = turning("engine-twin-05", "anticlockwise", tmp_path)
     for pin, link in (("B", 3), ("D", 5)):
-        x, v = (report.ledger[id].values for id in (f"x.{link}", f"f.v.{pin}"))
+        x, v = (report.case.ledger[id].values for id in (f"x.{link}", f"f.v.{pin}"))
         # From top to bottom dead centre the way grows; the positions stand evenly, the dead centres among them.
         falling = np.flatnonzero(np.roll(x, -1) > x + 1e-12)
         assert (v[falling] >= -AGREE).all()

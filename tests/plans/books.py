@@ -11,7 +11,7 @@ from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
 from reportgen.machine.motion import Motion, solve_motion
-from reportgen.plans.decimals import choose_decimals
+from reportgen.plans import ONE_QUANTITY
 from reportgen.plans.forces import enter_forces
 from reportgen.plans.groups import enter_kinematics
 from reportgen.plans.loads import Polygon
@@ -34,8 +34,7 @@ class Book:
     polygons: tuple[Polygon, ...]
 
     def ledger(self) -> Ledger:
-        decimals, cancellations = choose_decimals(self.b.families, (("M.eq", "M.vw"),))
-        return Ledger(self.b.families, decimals, self.b.positions, cancellations)
+        return Ledger(self.b.families, self.b.positions, same=ONE_QUANTITY)
 
 
 def keep(

@@ -15,7 +15,7 @@ MEASURE = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?(?:e-?\d+)?)(?= ?(?:mm|cm|m|kg|g|
 SPREAD = 0.08
 """Share by which a measure differs at most; of more, too many machines could not turn."""
 DIGITS = 3
-TRIES = 60
+TRIES = 200
 
 
 def cases(file: Path, count: int, folder: Path) -> Iterator[MachineCase]:

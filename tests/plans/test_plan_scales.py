@@ -22,6 +22,8 @@ from tests.report import built
 MM = 1e3
 LEAST_MOTION, LEAST_FORCES = 60.0, 100.0
 """Millimetres that a lecturer asks of a worked plan."""
+READ = 0.01
+"""Millimetres to which a length is read: a plan drawn from rounded numbers is so much shorter."""
 FINER = 2.0
 """From one member of the series to the next finer one a drawing grows at most so much."""
 
@@ -53,7 +55,7 @@ def test_worked_force_plans_are_100_mm_long_or_as_long_as_the_page_allows(case: 
             drawn = size(force_plan(report, polygon, k))
             scale = report.ledger.number(f"mu.R{polygon.name}", k).value
             if max(drawn) > 1e-6:
-                assert max(drawn) >= LEAST_FORCES * (1 - 1e-9) or not has_room(drawn, finer(scale), TEXT_BOX), polygon
+                assert max(drawn) >= LEAST_FORCES - READ or not has_room(drawn, finer(scale), TEXT_BOX), polygon
                 assert has_room(drawn, 1.0, TEXT_BOX)
 
 

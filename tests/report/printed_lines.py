@@ -2,91 +2,24 @@
 
 from __future__ import annotations
 
-import ast
 import math
-import operator
 import re
 import unicodedata
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Any
 
 from tests.report import pages
 from tests.report.built import Report
+from tests.report.calculator import RESULT, Line, is_calculation
 from tests.report.pages import Glyph
-from tests.report.recompute import Printed, misfit
 
 WHITE = 6 * pages.MM
 """Between two equations on a line at least; nothing within one stands so far apart."""
-NUMBER = r"\d+(?:\.\d+)?"
-RESULT = re.compile(rf"(?P<sign>-?)(?P<number>{NUMBER})(?P<unit>(?:[^\d.()=+-].*)?)")
-OPERATOR: dict[type[ast.operator], Callable[[float, float], float]] = {
-    ast.Add: operator.add,
-    ast.Sub: operator.sub,
-    ast.Mult: operator.mul,
-    ast.Div: operator.truediv,
-    ast.Pow: operator.pow,
-}
-FUNCTION = {"sin": math.sin, "cos": math.cos, "tan": math.tan, "deg": math.radians, "sqrt": math.sqrt}
 
 
-@dataclass(frozen=True, slots=True)
-class PrintedLine:
-    """The last two parts of a line, as text with decimal points: substitution = result."""
-
-    substitution: str
-    result: str
-    page: int
-
-    def misfit(self, rounded: frozenset[str]) -> float:
-        """How many times the allowed error the line is off; the numbers put in are exact but those `rounded`."""
-        found = [match.group() for match in re.finditer(NUMBER, self.substitution)]
-        tree = ast.parse(_python(self.substitution), mode="eval").body
-        result = RESULT.fullmatch(self.result)
-        assert result is not None
-        sign = -1 if result["sign"] else 1
-        decimals = len(result["number"].partition(".")[2])
-        # Angles come out of a calculation in radians.
-        unit = math.radians(1) if result["unit"] == "°" else 1.0
-        return misfit(
-            lambda values: _value(tree, values),
-            [_printed(text, rounded) for text in found],
-            Printed(sign * float(result["number"]) * unit, 0.5 * 10.0**-decimals * unit),
-            loose=decimals == 0,
-        )
-
-
-def _printed(text: str, rounded: frozenset[str]) -> Printed:
-    decimals = len(text.partition(".")[2])
-    return Printed(float(text), 0.5 * 10.0**-decimals if text in rounded else 0.0)
-
-
-def _python(text: str) -> str:
-    """The substitution as an expression over x[0], x[1], …, the numbers in their order."""
-    count = iter(range(10**6))
-    text = re.sub(NUMBER, lambda _: f"x[{next(count)}]", text)
-    text = re.sub(r"(x\[\d+\])°", r"deg(\1)", text)
-    text = re.sub(r"(sin|cos|tan)((?:deg\()?x\[\d+\]\)?)", r"\1(\2)", text)
-    return text.replace("·", "*").replace("^", "**")
-
-
-def _value(node: ast.AST, values: Sequence[float]) -> float:
-    match node:
-        case ast.BinOp(left, sign, right):
-            return float(OPERATOR[type(sign)](_value(left, values), _value(right, values)))
-        case ast.UnaryOp(ast.USub(), of):
-            return -_value(of, values)
-        case ast.Subscript(ast.Name("x"), ast.Constant(int(index))):
-            return values[index]
-        case ast.Call(ast.Name(name), [argument]) if name in FUNCTION:
-            return FUNCTION[name](_value(argument, values))
-        case _:
-            raise SyntaxError(ast.dump(node))
-
-
-def printed_lines(report: Report) -> Iterator[PrintedLine]:
+def printed_lines(report: Report) -> Iterator[Line]:
     """Every line of the body of a PDF whose last two parts are numbers put in and a number."""
     for page in report.pages:
         found = page.body
@@ -100,20 +33,9 @@ def printed_lines(report: Report) -> Iterator[PrintedLine]:
             text = _read(row, inside, [bar for bar in bars if left < bar.x0 < right])
             text = text.replace("−", "-").replace(",", ".") if report.language == "vi" else text.replace("−", "-")
             *before, substitution, result = ["", "", *text.split("=")]
-            if before[2:] and _is_calculation(substitution) and RESULT.fullmatch(result):
-                yield PrintedLine(substitution, result, page.number + 1)
-
-
-def _is_calculation(text: str) -> bool:
-    if not re.search(r"[-+·/^]", text):
-        return False
-    try:
-        _value(ast.parse(_python(text), mode="eval").body, [1.0] * 100)
-    except SyntaxError:
-        return False
-    except (ValueError, ZeroDivisionError):
-        return True  # a calculation, if not one of ones
-    return True
+            calculated = re.search(r"[-+·/^]", substitution) and is_calculation(substitution)
+            if before[2:] and calculated and RESULT.fullmatch(result):
+                yield Line(before[2], substitution, result)
 
 
 def _rows(found: Sequence[Glyph]) -> Iterator[list[Glyph]]:

@@ -61,7 +61,7 @@ def segment(name: str, plan: str) -> str:
 
 def segments(written: Written, key: str) -> dict[str, list[float]]:
     """Lengths (mm) at the positions of one plan's figure by the vector's name; none for other figures."""
-    ledger = written.case.ledger
+    ledger = written.case.printed
     motion = re.fullmatch(r"fig\.([va])\.(?:stages\.\w+\.)?(\w+)", key)
     forces = re.fullmatch(
         r"fig\.R\.(?:plates\.(\w+)|(?:stages\.)?(\w+)\.(\w+))", key.replace("fig.crank.", f"fig.R.{DRIVER}.")

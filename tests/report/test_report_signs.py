@@ -12,7 +12,6 @@ from reportgen import api
 from reportgen.drawing import Arc, Arrow, Scene
 from reportgen.drawing.forces import COUPLE_RADIUS
 from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, walk
-from reportgen.formula.evaluation import evaluate
 from reportgen.formula.setting import BOUND, MathRow, columns
 from reportgen.formula.vocabulary import vector
 from reportgen.machine import SlidingDriver
@@ -24,8 +23,8 @@ from tests.report.built import Written
 from tests.report.test_rare_groups import SLOTTED, TRANSLATED
 
 RARE = {"slotted": SLOTTED, "translated": TRANSLATED}
-SAME = 1e-9
-"""Of the largest load: two ways of calculation of some hundred operations each."""
+ROUNDED = 5e-3
+"""Of the largest load: what rounding leaves between a force read from a plan and the equations of equilibrium."""
 FURTHER = 4
 """Positions looked at beside the worked ones."""
 
@@ -96,7 +95,7 @@ def off(report: Report, scene: Scene, k: int) -> list[str]:
             along = (item.end - item.start) / abs(item.end - item.start)
             force = true(report, item.name, k)
             largest = max(abs(force), np.nanmax(np.abs(report.analysis.loads[0].force)), 1.0)
-            if abs((force * along.conjugate()).real - value(report, item.name, k)) > 1e3 * SAME * largest:
+            if abs((force * along.conjugate()).real - value(report, item.name, k)) > ROUNDED * largest:
                 wrong.append(f"{item.name} at {k}")
     return wrong
 
@@ -123,7 +122,7 @@ def test_what_balances_the_driver_is_drawn_in_the_sense_assumed(report: Report) 
         if report.driver.centre and not report.is_zero("M.eq", k) and not report.machine.torques:
             (arc,) = arcs
             assert np.sign(arc.stop - arc.start) * report.ledger["M.eq"].at(k) == pytest.approx(
-                report.analysis.torque[k - 1], rel=1e-9
+                report.analysis.torque[k - 1], abs=ROUNDED * np.abs(report.analysis.torque).max()
             )
 
 
@@ -144,20 +143,6 @@ def test_every_reaction_of_the_table_has_a_worked_line(report: Report, blocks: l
     relations = {parts[0] for parts in printed if len(parts) == 2 and parts[0] != parts[1]}
     carried = {vector(report.force_symbol(edge.name)) for polygon in report.case.polygons for edge in polygon.carried}
     assert carried <= relations
-
-
-def test_the_power_recomputes_from_its_line(report: Report, blocks: list[Block]) -> None:
-    (parts,) = [chain.parts for chain in chains(blocks) if chain.parts[0] == report.ledger.symbol("power")]
-    *_, numbers, result = parts
-    assert isinstance(result, Number)
-    factors = [node for node in walk(numbers) if isinstance(node, Number)]
-    if result.shown == 0:
-        return
-    assert len(factors) == 2
-    # Half a unit of the last digit of each printed number, by the product rule.
-    product = float(evaluate(numbers))
-    allowed = result.half_unit + sum(one.half_unit * abs(product / one.shown) for one in factors if one.shown)
-    assert abs(product - result.shown) <= allowed * (1 + 1e-9)
 
 
 def test_no_segment_is_used_before_it_is_measured(blocks: list[Block]) -> None:

@@ -1,0 +1,162 @@
+"""The ledger as a person writes it: each value is worked out from the values written above it and entered rounded.
+
+The same families are evaluated in the same order, each by the formula of its printed line.  So a calculator that is
+fed with the printed numbers of a line comes to the printed result, digit by digit, and a plan is drawn from lengths as
+they are written.  What is chosen (senses, arms, branches) and what is nothing is taken from the unrounded ledger.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from reportgen.base.units import significant_decimals
+from reportgen.formula import Call, Expression, Negative, Ref, ids
+from reportgen.formula.ledger import Ledger, follow, standing_on
+from reportgen.formula.sheet import ZERO, Family, is_short, is_typed
+
+TIE = 1e-9
+"""Units of the last digit by which floats may miss a five that is rounded up."""
+OFF = 0.01
+"""A result that lies further from the unrounded one than this share of its own largest value needs finer operands."""
+FINER = 2
+"""Figures that operands get beyond the usual ones, at most."""
+
+
+def printed(ledger: Ledger) -> Ledger:
+    """The ledger with every value as it is written down, and the decimals that each is written with.
+
+    The operands of a result that a cancellation spoils get one figure more, and with them what they stand on; twice at
+    most.
+    """
+    finer: dict[str, int] = {}
+    for _ in range(FINER):
+        written = _written(ledger, finer)
+        spoilt = [id for id, family in ledger.families.items() if _is_spoilt(family, written[id])]
+        if not spoilt:
+            return written
+        operands = {other for id in spoilt for other in standing_on(ledger, id)}
+        finer |= {id: finer.get(id, 0) + 1 for id in operands}
+    return _written(ledger, finer)
+
+
+def rounded(values: np.ndarray, decimals: int) -> np.ndarray:
+    """Values rounded half up, as by hand; never a negative zero."""
+    step = 10.0**decimals
+    found: np.ndarray = np.copysign(np.floor(np.abs(values) * step + 0.5 + TIE) / step, values) + 0.0
+    return found
+
+
+def _written(ledger: Ledger, finer: Mapping[str, int]) -> Ledger:
+    decimals = _decimals(ledger, finer)
+    lines = {id: replace(family, definition=_line(ledger, family)) for id, family in ledger.families.items()}
+
+    def enter(id: str, values: dict[str, np.ndarray]) -> None:
+        family, again = ledger[id], _named_again(ledger[id])
+        if family.is_plane and id in ids.place:
+            # Where a joint lies is drawn as finely as can be: near a dead point hundredths would become millimetres.
+            values[id] = family.values
+        if family.is_plane or family.hidden:
+            return
+        if again and ledger[again].kind == family.kind:
+            decimals[id] = decimals[again]
+        elif family.definition is not None and len(values[id]) == 1 and is_short(values[id] / family.how.scale):
+            decimals[id] = None
+        values[id] = _entered(family, values[id], decimals[id])
+
+    values = follow(replace(ledger, families=lines), {}, entered=enter)
+    families = {id: replace(family, values=values[id]) for id, family in ledger.families.items()}
+    return replace(ledger, families=families, decimals=decimals)
+
+
+def _line(ledger: Ledger, family: Family) -> Expression | None:
+    """The formula by which a value is written; None for what is given, and for an integral, which is read off."""
+    integral = ids.rule(family.id) in ledger
+    is_read = integral and bool(np.any(np.abs(ledger[ids.rest(family.id)].values) > ZERO * family.scale))
+    return None if is_read else family.line
+
+
+def _entered(family: Family, computed: np.ndarray, decimals: int | None) -> np.ndarray:
+    """Values (SI) as they are written down with so many decimals, or as they are."""
+    exact = np.real(family.values)
+    values = np.real(computed) / family.how.scale
+    values = _without_dust(values) if decimals is None else rounded(values, decimals)
+    if family.is_signed_rotation or family.arm:
+        values = np.copysign(values, exact)
+    if family.how.unit == "°" and family.is_direction:
+        values = np.mod(values, 360.0)
+    if not family.residue:
+        values = np.where(np.abs(exact) <= ZERO * family.scale, 0.0, values)
+    written: np.ndarray = values * family.how.scale
+    return written
+
+
+def _without_dust(values: np.ndarray) -> np.ndarray:
+    return np.array([float(f"{value:.12g}") for value in np.atleast_1d(values)])
+
+
+# --- decimals ---------------------------------------------------------------------------------------
+
+
+def _decimals(ledger: Ledger, finer: Mapping[str, int]) -> dict[str, int | None]:
+    """The decimals of every family, one number for all that prints under one symbol; None for what was typed."""
+    together: dict[object, list[Family]] = {}
+    names = _names(ledger)
+    for id, family in ledger.families.items():
+        together.setdefault(names[id], []).append(family)
+    found = {
+        name: _of_quantity(members, max(finer.get(one.id, 0) for one in members)) for name, members in together.items()
+    }
+    chosen = {id: None if _is_typed(family) else found[names[id]] for id, family in ledger.families.items()}
+    return {**chosen, **ledger.decimals}
+
+
+def _of_quantity(members: Collection[Family], finer: int) -> int:
+    """Decimals that show the largest value of a quantity with the figures of its kind; whole ones whole."""
+    how = next(iter(members)).how
+    if how.decimals is not None:
+        return how.decimals
+    return max(significant_decimals(max(map(_largest, members)), how.digits + finer), 0)
+
+
+def _largest(family: Family) -> float:
+    """Its largest unrounded size in its printed unit; 0 where it is nothing at all positions."""
+    sizes = np.abs(family.values[np.isfinite(family.values)])
+    return float(np.max(sizes, initial=0.0, where=sizes >= ZERO * family.scale)) / family.how.scale
+
+
+def _is_typed(family: Family) -> bool:
+    """Whether a value is printed as it was given."""
+    return family.is_plane or family.hidden or (family.exact and is_typed(family.values / family.how.scale))
+
+
+def _named_again(family: Family) -> str:
+    """The id of the quantity that a line only names again or turns round (l = R, R₂₁ = −R₁₂); "" for any other."""
+    match family.line:
+        case Ref(id) | Negative(Ref(id)) | Call("size", (Ref(id),)):
+            return id
+        case _:
+            return ""
+
+
+def _names(ledger: Ledger) -> dict[str, object]:
+    """What each family is called as a printed quantity: by its symbol, as what it names again or is the same as."""
+    names: dict[str, object] = {id: members[0] for members in ledger.same for id in members}
+    for id, family in ledger.families.items():
+        again = _named_again(family)
+        same = again in names and ledger[again].kind == family.kind
+        names.setdefault(id, names[again] if same else (family.symbol, family.kind))
+    return names
+
+
+# --- what a cancellation spoils ----------------------------------------------------------------------
+
+
+def _is_spoilt(family: Family, written: Family) -> bool:
+    """Whether a computed result lies further from the unrounded one than a small share of its own largest value."""
+    if family.definition is None or family.is_plane or family.hidden or family.constructed:
+        return False
+    largest = _largest(family) * family.how.scale
+    return bool(largest and np.any(np.abs(written.values - family.values) > OFF * largest))
