@@ -193,6 +193,7 @@ def names(case: SolvedExercise) -> Mapping[str, Any]:
         **task_names(case),
         "method": page.method,
         "unfound": page.unfound(alone[0]) if alone else (),
+        "gaps": any(one.missing for one in alone),
         "further": [FurtherView(one.method, one.steps_beside(case.worked), one.unfound(one.worked)) for one in further],
         "comparison": page.comparison if further else (),
         "lengths": page.lengths,

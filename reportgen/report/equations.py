@@ -132,10 +132,10 @@ def force_list(report: Report, group: GroupView, position: int) -> Inlines:
 # --- the sense of forces
 
 
-def assumed(report: Report, group: GroupView, position: int) -> Inlines:
-    """The reactions of a group that are drawn on its links in an assumed sense."""
-    sought = (id for id in group.assumed if not report.is_zero(id, position))
-    return listed(InlineMath(vocabulary.vector(report.ledger.symbol(id))) for id in sought)
+def by_moments(report: Report, group: GroupView, position: int) -> Inlines:
+    """The reactions of a group that moments give, with their signs."""
+    sought = (id for id in group.by_moments if not report.is_zero(id, position))
+    return listed(InlineMath(report.ledger.symbol(id)) for id in sought)
 
 
 def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:

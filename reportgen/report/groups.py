@@ -365,8 +365,8 @@ class GroupView:
         return ids.reaction(self.across, "s")
 
     @property
-    def assumed(self) -> list[str]:
-        """What moments give, each drawn in an assumed sense, so that it has a sign."""
+    def by_moments(self) -> list[str]:
+        """What moments give, each with a sign: its own moment balances those of the other forces."""
         return [*self.tangential, *self.ledger.known([self.by_slot])]
 
     @property

@@ -338,7 +338,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "through_pin": equations.through_pin,
     "velocity_equation": equations.velocity_equation,
     # words
-    "assumed": equations.assumed,
+    "by_moments": equations.by_moments,
     "balance_sign": phrases.balance_sign,
     "centre_state": centres.centre_state,
     "counted": phrases.counted,
