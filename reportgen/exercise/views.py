@@ -161,7 +161,7 @@ class Solution:
         return [one for one in refs(definition) if one in ids.inner_angle] if definition is not None else []
 
     def _heading(self, step: Step) -> str:
-        """Where the velocity or acceleration of the step's point goes, in words; "" for several points or for nothing."""
+        """Where the vector of the step's point goes, in words; "" for several points or a zero vector."""
         motion, layout = self.case.exercise.motion, self.worked.layout
         if step.kind.startswith("acceleration") and step.point in motion.system.points:
             return self._towards(motion.a(step.point))
