@@ -113,7 +113,7 @@ MovingItem = Still | Carried | MovingVector | MovingName
 
 
 @dataclass(frozen=True, slots=True)
-class Scale:
+class BarScale:
     """What a millimetre of a drawing stands for, in SI units, of a kind of quantity; of interest with its `layers`."""
 
     per: float
@@ -139,7 +139,7 @@ class Stage:
     items: tuple[MovingItem, ...]
     low: complex
     high: complex
-    scales: tuple[Scale, ...]
+    scales: tuple[BarScale, ...]
     spots: tuple[Spot, ...] = ()
     finer: Track | None = None
 
@@ -316,7 +316,7 @@ class Fitted:
     """Corners that move, in a panel: their tracks (mm about its middle), their scale, its finer one where in use."""
 
     tracks: Mapping[str, Track]
-    scales: tuple[Scale, ...]
+    scales: tuple[BarScale, ...]
     finer: Track | None
 
 
@@ -336,7 +336,7 @@ def fitted(corners: Mapping[str, np.ndarray], kind: str, turn: int) -> Fitted:
     per = float(needed.max()) or 1.0
     placed = (places - (low + high) / 2) / per
     small = Track((needed < LEAST * per).astype(float))
-    scales = Scale(per, kind), Scale(per / FINER, kind)
+    scales = BarScale(per, kind), BarScale(per / FINER, kind)
     tracks = {name: Track(place[:turn]) for name, place in zip(corners, placed, strict=True)}
     return Fitted(tracks, scales, small) if small.values.any() else Fitted(tracks, scales[:1], None)
 

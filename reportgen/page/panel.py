@@ -28,7 +28,7 @@ from reportgen.drawing.film import (
     Still,
     Track,
 )
-from reportgen.drawing.geometry import frame
+from reportgen.drawing.geometry import POINT, frame
 from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, VISIBLE, decimal
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
@@ -41,6 +41,8 @@ BARS, STRIP, UP = 2, 7.0, 1.5
 """How many scale bars stand side by side, in strips so high (mm), so far above the lower edge of theirs (mm)."""
 TICK = 0.8
 """Half the strokes at the ends of a scale bar (mm)."""
+LINE = 0.42
+"""Half the height of a line of letters, in font sizes."""
 HIT = 4.0
 """How near (mm) a pointer must come to a point."""
 HEADS = ("x (m)", "y (m)", "v_x (m/s)", "v_y (m/s)", "v (m/s)", "a_x (m/s²)", "a_y (m/s²)", "a (m/s²)")
@@ -278,9 +280,9 @@ class _Writer:
         return self.painter.label(Label(0j, content, size=size * self.grown))
 
     def half_size(self, content: Content, size: float) -> list[float]:
-        """Half the width and height of a label (mm)."""
+        """Half the width and height of a label (mm), which is that of a line at least."""
         _, half = frame(Label(0j, content, size=size * self.grown))
-        return [round(half.real, 2), round(half.imag, 2)]
+        return [round(half.real, 2), round(max(half.imag, LINE * size * self.grown * POINT), 2)]
 
     # --- curves
 

@@ -19,6 +19,7 @@ from reportgen.drawing.charts import Plotted
 from reportgen.drawing.film import (
     LAYERS,
     PANEL,
+    BarScale,
     Carried,
     Chart,
     Curve,
@@ -29,7 +30,6 @@ from reportgen.drawing.film import (
     MovingItem,
     MovingName,
     MovingVector,
-    Scale,
     Spot,
     Stage,
     Track,
@@ -192,15 +192,15 @@ class _Samples:
         low, high = extent(items)
         names = self.machine.paths or tuple(n for n in motion.points if n not in linkage.ground)
         items = path_items(linkage, motion, names, scale) + items
-        scales = [Scale(1 / scale, "segment")]
+        scales = [BarScale(1 / scale, "segment")]
         for kind, rate, layer in (("velocity", "v", "velocities"), ("acceleration", "a", "accelerations")):
             arrows, per = self._rates(rate, layer, scale)
             items += arrows
-            scales += [Scale(per, kind, (layer,))] if arrows else []
+            scales += [BarScale(per, kind, (layer,))] if arrows else []
         items += self._centres(scale, low, high)
         forces, per = self._forces(scale)
         items += forces
-        scales += [Scale(per, "force", FORCES)] if forces else []
+        scales += [BarScale(per, "force", FORCES)] if forces else []
         spots = tuple(
             Spot(
                 name,
