@@ -23,8 +23,8 @@ ROUND = 0.002
 """The thousandths of a millimetre that a page writes."""
 MEASURED = 1.0
 """A shorter vector (mm) is not compared with the report's figure."""
-LAST = 0.02
-"""What the report's plans are off by their printed lengths, hundredths of a millimetre, at most (mm)."""
+LAST, FIGURES = 0.02, 2e-3
+"""What the report's plans are off by what is written down: lengths to 0.01 mm, forces to four figures; both add up."""
 COVERED = 0.5
 """What letters may reach into one another by what a screen rounds (px)."""
 BAR = """
@@ -120,7 +120,7 @@ def test_at_numbered_positions_plans_are_the_report_s_figures(page: Made, browse
                 base, expected_start = drawn[seen[0].name][0][0], larger * (vector.start - seen[0].start)
                 way = larger * (vector.end - vector.start)
                 off = min(abs(s - base - expected_start) + abs(e - s - way) for s, e in drawn[vector.name])
-                assert off < 4 * ROUND + LAST * larger, (key, vector.name, k)
+                assert off < 4 * ROUND + (LAST + FIGURES * plan.extent) * larger, (key, vector.name, k)
 
 
 def test_a_bar_says_what_the_arrows_beside_it_stand_for(page: Made, browser: Browser) -> None:

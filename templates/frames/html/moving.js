@@ -83,20 +83,20 @@ const moving = (() => {
   const line = (stage, x1, y1, x2, y2) => stage.lines.push([(x1 + x2) / 2, (y1 + y2) / 2, (x2 - x1) / 2, (y2 - y1) / 2]);
 
   // A label stands where fewest lines run through it, of such places at the first; on no other label, and whole.
-  // Where there is no such place it is left out.  It stays where it was as long as that is no worse.
+  // Where there is no such place it is left out.  It stays where it was as long as that is hardly worse.
   const settle = (stage, { element, places, w, h, item }) => {
     const [left, top, right, bottom] = stage.room;
     let best = null, least = Infinity, number = -1;
-    for (let index = 0; index < places.length; index += 1) {
-      const rank = RANK * index - (index === item.last ? STAYS : 0);
-      if (rank >= least) continue;
+    const attempt = (index, rank) => {
       const [x, y] = places[index];
-      if (x - w < left || x + w > right || y - h < top || y + h > bottom) continue;
-      if (stage.names.some(([a, b, c, d]) => Math.abs(x - a) < w + c + CLEAR && Math.abs(y - b) < h + d + CLEAR)) continue;
+      if (x - w < left || x + w > right || y - h < top || y + h > bottom) return;
+      if (stage.names.some(([a, b, c, d]) => Math.abs(x - a) < w + c + CLEAR && Math.abs(y - b) < h + d + CLEAR)) return;
       let cost = rank;
-      for (const one of stage.lines) if (runsThrough(one, x, y, w, h) && (cost += 1) >= least) break;
+      for (const one of stage.lines) if (runsThrough(one, x, y, w, h) && (cost += 1) >= least) return;
       if (cost < least) { best = places[index]; least = cost; number = index; }
-    }
+    };
+    if (item.last >= 0) attempt(item.last, RANK * item.last - STAYS);
+    for (let index = 0; index < places.length && RANK * index < least; index += 1) attempt(index, RANK * index);
     item.last = number;
     show(element, best !== null);
     if (!best) return;
