@@ -26,8 +26,10 @@ ROOM = 9.0
 """White around what moves, for its labels (mm)."""
 MARGIN = 7.0
 """White around a plan in its panel, for its labels (mm)."""
-GROUND = 4.5j
-"""From a fixed pivot to the lower edge of its support (mm)."""
+FEET = (-2.6 - 5j, 2.6 - 5j)
+"""From a fixed pivot to the feet of its support (mm)."""
+SMALL = 6.0
+"""The name of a point in a block that reaches no farther from it (mm) stands outside."""
 MACHINE = 120 + 110j
 """What a machine takes of a screen, about (mm): letters and arrows of a larger one grow as it shrinks."""
 MOST = 4.0
@@ -242,7 +244,9 @@ def linkage_items(linkage: Linkage, motion: Motion, at: int, scale: float, looks
     further = [name for name in places if name not in {*bones.joints, *looks.centres}]
     items += [Carried((style.point(0j),), places[name]) for name in further]
     items += [
-        MovingName(vocabulary.point(name), place, tuple(_neighbours(name, bones, places)), style.JOINT + 0.5)
+        MovingName(
+            vocabulary.point(name), place, tuple(_neighbours(name, bones, places)), _reach(name, bones, looks) + 0.5
+        )
         for name, place in places.items()
     ]
     return items
@@ -256,10 +260,16 @@ def _crank_circle(linkage: Linkage, bones: Skeleton) -> list[MovingItem]:
     return [Still((Circle(centre, abs(bones.points[driver.pin] - centre), style.THIN),))]
 
 
+def _reach(name: str, bones: Skeleton, looks: Looks) -> float:
+    """How far a point's own sign reaches from it (mm): its joint, or a small block about it."""
+    blocks = (max(looks.block(slide.link)) / 2 for slide in bones.slides if abs(slide.at - bones.points[name]) < 1.0)
+    return max((reach for reach in blocks if reach < SMALL), default=style.JOINT)
+
+
 def _neighbours(name: str, bones: Skeleton, places: dict[str, Track]) -> Iterable[Track]:
     """The points that a point is joined to by bars, and its support, whose side its label keeps off."""
     if name in bones.pivots:
-        yield Track(places[name].values - GROUND)
+        yield from (Track(places[name].values + foot) for foot in FEET)
     for link, joints in bones.bars.items():
         own = [*joints, *(point for point, owner in bones.owners.items() if owner == link and point not in joints)]
         if name in own:
