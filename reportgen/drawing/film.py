@@ -36,7 +36,7 @@ MOST = 4.0
 """They never grow more than so many times."""
 PANEL = 96 + 78j
 """The panel of each plan (mm)."""
-LEAST, FINER = 1 / 8, 5.0
+LEAST, FINER = 1 / 4, 3.0
 """A plan that fills a smaller share of its panel is drawn so many times as large, as long as it does."""
 BAR = 0.3
 """A scale bar takes at least this share of its room."""
